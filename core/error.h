@@ -1,0 +1,38 @@
+#pragma once
+// Errors that a user can cause, and the place where he can mend them.
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace lightwalk {
+
+/// Where something stands in an input file. `line` counts from 1; 0 means "no line" (binary file, option).
+struct SourceLocation {
+    std::string file;
+    std::int32_t line = 0;
+};
+
+/// "file:line: ", or "file: " without a line, or "" without a file.
+[[nodiscard]] inline std::string to_prefix(const SourceLocation& where) {
+    if (where.file.empty()) return {};
+    if (where.line <= 0) return where.file + ": ";
+    return where.file + ":" + std::to_string(where.line) + ": ";
+}
+
+/// Bad input: `what()` is "file:line: what is wrong, what was expected". Programs print it and exit with 1.
+class InputError : public std::runtime_error {
+  public:
+    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    InputError(const SourceLocation& where, const std::string& message)
+        : std::runtime_error(to_prefix(where) + message) {}
+};
+
+/// Receives warnings. Implementations must be callable from many threads at once and should limit repetition.
+class WarningSink {
+  public:
+    virtual ~WarningSink() = default;
+    virtual void warn(const std::string& message) = 0;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,73 @@
+#pragma once
+// Compiled expressions of Radiance's function language: evaluation without name look-ups, allocation or locks.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lightwalk {
+
+/// Inputs of an evaluation. 1..27 are the language's $n; the rest are set by particular materials only.
+enum class Channel : std::uint8_t {
+    Dx = 1, Dy, Dz, Nx, Ny, Nz, Px, Py, Pz, T, Rdot, S, Tx, Ty, Tz, Ix, Iy, Iz, Jx, Jy, Jz, Kx, Ky, Kz, Ts, Lu, Lv,
+    NxP, NyP, NzP, RdotP, CrP, CgP, CbP, DxA, DyA, DzA,
+};
+inline constexpr std::size_t kChannelCount = 38;
+
+using ChannelMask = std::uint64_t;
+[[nodiscard]] constexpr ChannelMask channel_bit(Channel c) { return ChannelMask{1} << static_cast<unsigned>(c); }
+
+using ChannelValues = std::array<double, kChannelCount>;  ///< indexed by Channel; index 0 is unused
+
+/// The language's numeric error flag (domain or range error), see the icalc and "Radiance function files" notes.
+enum class EvalError : std::uint8_t { none, domain, range };
+
+/// Scratch of one evaluation at a time; one per thread, reused without allocation after warming up.
+/// After Program::begin it belongs to that program until the next begin.
+struct EvalState {
+    const ChannelValues* channels = nullptr;
+    EvalError error = EvalError::none;
+    std::vector<double> values;         ///< implementation's registers
+    std::vector<std::uint8_t> flags;    ///< implementation's "already computed" marks
+    std::uint64_t warnings = 0;         ///< numeric errors met
+    void clear_error() { error = EvalError::none; }
+};
+
+/// What a primitive wants to evaluate: an expression in its file's context, or a function called by name with
+/// the values given at evaluation time.
+struct ExpressionRequest {
+    std::string text;      ///< expression, or the function's name
+    int parameters = -1;   ///< -1: expression; n >= 0: call of the named function with exactly n arguments
+};
+
+/// The expressions of one primitive, compiled for its real arguments. Immutable and shareable.
+class Program {
+  public:
+    struct Code;
+    Program() = default;
+    explicit Program(std::shared_ptr<const Code> code) : code_(std::move(code)) {}
+
+    [[nodiscard]] bool empty() const { return !code_; }
+    [[nodiscard]] std::size_t outputs() const;
+    [[nodiscard]] ChannelMask channels() const;  ///< channels that any output may read: fill at least these
+
+    /// Start a tick: forget cached variables. `channels` must stay alive and unchanged until the next begin.
+    void begin(EvalState& state, const ChannelValues& channels) const;
+
+    /// Evaluate output k. Numeric errors set state.error and follow the language's rules (value 0); they are
+    /// sticky or cleared as the language says, so call state.clear_error() where the primitive clears.
+    /// Throws InputError for what the language calls fatal (undefined name met, missing argument).
+    [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const;
+    /// The same for an output with `parameters >= 0`; arguments.size() must equal it.
+    [[nodiscard]] double call(std::size_t output, std::span<const double> arguments, EvalState& state) const;
+
+    /// When output k is the same number whatever the channels: that number.
+    [[nodiscard]] const double* constant(std::size_t output) const;
+
+  private:
+    std::shared_ptr<const Code> code_;
+};
+
+}  // namespace lightwalk

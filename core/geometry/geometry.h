@@ -1,0 +1,116 @@
+#pragma once
+// Ray casting: Embree behind an interface that speaks double precision and Radiance's tie rules.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/geometry/surface.h"
+#include "core/math/transform.h"
+#include "core/scene/ids.h"
+
+namespace lightwalk {
+
+/// Where a ray met the scene. Default: nothing was hit.
+struct Hit {
+    double t = kHuge;            ///< along the ray [m]
+    Vec3 position, normal;       ///< world; normal is unit and NOT turned to the ray
+    double rod = 1;              ///< -direction . normal; > 0 on the front
+    Vec3 perturbation;           ///< smoothed mesh normal minus normal, else zero
+    double u = 0, v = 0;         ///< mesh texture coordinates, else zero
+    SurfaceId surface = kNoSurface;  ///< the inner surface, or the instance whose modifier overrides
+    ModifierId modifier = kVoid;     ///< the direct modifier that shades
+    FrameId frame = kWorld;          ///< placement of the local space that `modifier` lives in
+    [[nodiscard]] bool exists() const { return surface != kNoSurface; }
+};
+
+/// Answer of a shadow query.
+enum class Visibility : std::uint8_t {
+    clear,    ///< nothing but material-less surfaces in between
+    blocked,  ///< an opaque surface lies in between
+    special,  ///< no opaque surface, but at least one ShadowClass::special one
+};
+
+/// A mesh inside a model: triangles whose materials are global modifiers.
+struct MeshPart {
+    const MeshModel* mesh = nullptr;
+    std::vector<ModifierId> materials;    ///< mesh-local material index -> global modifier
+    std::vector<SurfaceTraits> traits;    ///< by mesh-local material index
+    SurfaceTraits void_traits;            ///< of triangles without material
+    SurfaceId surface = kNoSurface;       ///< reported for hits ("M-Tri")
+};
+
+/// A model placed inside another one.
+struct Placement {
+    std::uint32_t model = 0;  ///< into GeometryInput::models
+    Transform transform;
+    SurfaceId surface = kNoSurface;  ///< the instance or mesh primitive
+    bool overrides = false;          ///< its modifier is not void: it shades everything inside
+};
+
+struct ModelGeometry {
+    std::vector<SurfaceId> surfaces;  ///< finite surfaces with a shape
+    std::vector<MeshPart> meshes;     ///< 0 or 1: a compiled mesh as a model of its own
+    std::vector<Placement> placements;
+};
+
+struct GeometryInput {
+    std::span<const Surface> surfaces;   ///< must outlive the Geometry
+    std::vector<ModelGeometry> models;   ///< models[0] is the scene; placements form a DAG
+};
+
+/// Axis-aligned bounds.
+struct Bounds {
+    Vec3 lower{kHuge, kHuge, kHuge}, upper{-kHuge, -kHuge, -kHuge};
+    [[nodiscard]] bool empty() const { return lower.x > upper.x; }
+    void extend(const Vec3& p);
+};
+
+struct RaySegment {
+    Vec3 origin, direction;  ///< direction is unit
+    double t_max = kHuge;    ///< hits beyond it do not count [m]
+};
+
+/// One shadow query of a packet: common origin is usual but not required.
+struct ShadowQuery {
+    RaySegment segment;
+    SurfaceId target = kNoSurface;  ///< surface that does not shadow (the light itself)
+    Visibility result = Visibility::clear;
+};
+
+/// Immutable after building; every method may be called from many threads at once.
+class Geometry {
+  public:
+    /// Throws InputError when nested placements exceed the supported number (flattened instances > 2^26).
+    explicit Geometry(GeometryInput input);
+    ~Geometry();
+    Geometry(Geometry&&) noexcept;
+    Geometry& operator=(Geometry&&) noexcept;
+
+    /// Nearest hit with t > kEpsilon; ties within kEpsilon follow Radiance's rules. Infinite sources are not
+    /// geometry. Returns a Hit with exists() false when there is none (t = kHuge).
+    [[nodiscard]] Hit intersect(const RaySegment& ray) const;
+
+    /// Nearest hit with one given finite surface of the scene itself (not inside an instance).
+    [[nodiscard]] Hit intersect_surface(SurfaceId surface, const RaySegment& ray) const;
+
+    /// Visibility between the origin and t_max.
+    [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target) const;
+
+    /// The same for many queries at once; sets `result` of each.
+    void visibility(std::span<ShadowQuery> queries) const;
+
+    /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
+    void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;
+
+    [[nodiscard]] const Transform& frame(FrameId id) const;  ///< local -> world of an instance path
+    [[nodiscard]] Bounds bounds() const;                     ///< of everything finite, world
+    [[nodiscard]] std::size_t frame_count() const;           ///< flattened instances
+    [[nodiscard]] std::size_t memory_bytes() const;          ///< Embree's and our tables
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lightwalk

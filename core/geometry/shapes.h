@@ -1,0 +1,77 @@
+#pragma once
+// The exact shapes of Radiance's surfaces in double precision, validated from their real arguments.
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/math/vec3.h"
+#include "core/scene/primitive.h"
+
+namespace lightwalk {
+
+struct SphereShape {
+    Vec3 center;
+    double radius = 0;    ///< > 0 [m]
+    bool inward = false;  ///< bubble: the normal points to the centre
+};
+
+struct PolygonShape {
+    std::vector<Vec3> vertices;  ///< closing duplicate dropped
+    Vec3 normal;                 ///< unit, right-hand rule
+    double offset = 0;           ///< normal . p of the plane [m]
+    double area = 0;             ///< [m²]
+    int drop_axis = 2;           ///< coordinate that the inside test ignores
+};
+
+/// Cone, cup, cylinder, tube: an open surface of revolution with its smaller end first.
+struct ConeShape {
+    Vec3 p0, p1;            ///< ends; r0 <= r1
+    double r0 = 0, r1 = 0;  ///< [m]
+    Vec3 axis;              ///< unit, from p0 to p1
+    double length = 0;      ///< [m]
+    bool inward = false;    ///< cup, tube
+};
+
+struct RingShape {
+    Vec3 center, normal;  ///< normal is unit
+    double r0 = 0, r1 = 0;
+};
+
+/// A source at infinity: a cone of directions.
+struct SourceShape {
+    Vec3 direction;         ///< unit, towards the source
+    float solid_angle = 0;  ///< 2π(1 - cos(angle/2)), rounded up where the reference's float is [sr]
+};
+
+using Shape = std::variant<std::monostate, SphereShape, PolygonShape, ConeShape, RingShape, SourceShape>;
+
+/// One crossing of a ray with a shape.
+struct ShapeHit {
+    double t = 0;   ///< [m]
+    Vec3 normal;    ///< unit, as the primitive defines it, not turned to the ray
+    bool front = true;  ///< the sign that the tie rule of coincident surfaces uses
+};
+
+/// Validate the arguments of a finite surface or source. Degenerate input follows Radiance: `type` may change
+/// (sphere <-> bubble, cone -> cylinder, ...), a useless surface becomes monostate; both report by `warning`
+/// (left empty otherwise). Throws InputError for wrong argument counts or non-finite numbers.
+struct ValidatedShape {
+    Shape shape;
+    PrimitiveType type{};
+    std::string warning;
+};
+[[nodiscard]] ValidatedShape make_shape(const Primitive& primitive);
+
+/// Nearest crossing with t in (kEpsilon, t_max], or nothing. Exact: double precision, the inside rules of
+/// Radiance (even-odd with tolerance for polygons, closed intervals for rings and cones).
+[[nodiscard]] std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin, const Vec3& direction,
+                                                double t_max);
+
+/// Whether a direction lies inside a source at infinity: 2π(1 - s·v) <= Ω.
+[[nodiscard]] inline bool contains(const SourceShape& source, const Vec3& direction) {
+    return 2 * kPi * (1 - dot(source.direction, direction)) <= static_cast<double>(source.solid_angle);
+}
+
+}  // namespace lightwalk

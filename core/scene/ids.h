@@ -1,0 +1,20 @@
+#pragma once
+// Ids into a Scene's tables. They index; they own nothing; they are the same on every rank.
+#include <cstdint>
+
+namespace lightwalk {
+
+enum class ModifierId : std::int32_t {};  ///< into Scene modifiers; kVoid is the modifier `void`
+enum class SurfaceId : std::int32_t {};   ///< into Scene surfaces
+enum class FrameId : std::int32_t {};     ///< into Geometry frames: the placement of an instance path
+
+inline constexpr ModifierId kVoid{-1};
+inline constexpr SurfaceId kNoSurface{-1};
+inline constexpr FrameId kWorld{-1};
+
+template <class Id>
+[[nodiscard]] constexpr std::int32_t index(Id id) {
+    return static_cast<std::int32_t>(id);
+}
+
+}  // namespace lightwalk

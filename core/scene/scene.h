@@ -1,0 +1,53 @@
+#pragma once
+// The immutable scene: surfaces, compiled modifiers, ray casting. Built once, then read by every thread.
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/geometry.h"
+#include "core/scene/modifier.h"
+#include "core/scene/resources.h"
+
+namespace lightwalk {
+
+/// The scene's bounding cube, as Radiance's octree has it.
+struct SceneCube {
+    Vec3 origin;
+    double size = 0;  ///< edge [m]; 0 when nothing is finite
+};
+
+class Scene {
+  public:
+    /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in others are
+    /// never reported. Throws InputError for bad surfaces, bad used modifiers, missing files, circular instances.
+    /// `model` and what `resources` hands out are kept alive by the scene.
+    Scene(std::shared_ptr<const Model> model, Resources& resources, WarningSink& warnings);
+    ~Scene();
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    [[nodiscard]] const Geometry& geometry() const;
+    [[nodiscard]] std::span<const Surface> surfaces() const;  ///< all models; the scene's own come first, in order
+    [[nodiscard]] std::size_t own_surfaces() const;           ///< how many of them are the scene's own
+    [[nodiscard]] const Surface& surface(SurfaceId id) const { return surfaces()[static_cast<std::size_t>(index(id))]; }
+    [[nodiscard]] const ModifierRecord& modifier(ModifierId id) const;  ///< id != kVoid
+    [[nodiscard]] std::size_t modifier_count() const;
+    [[nodiscard]] const Model& model() const;
+    [[nodiscard]] SceneCube cube() const;
+
+    /// The material at the end of a modifier's chain: first material or mixture met; nothing when there is none.
+    [[nodiscard]] std::optional<ModifierId> material_of(ModifierId first) const;
+    /// Nominally transparent: trans, trans2, dielectric, interface, glass, mist, aBSDF, a BRTDfunc that transmits.
+    [[nodiscard]] bool is_transparent(ModifierId first) const;
+    /// Last modifier of the scene itself with this name; nothing when unknown.
+    [[nodiscard]] std::optional<ModifierId> find_modifier(std::string_view name) const;
+    /// Whether any antimatter is in use: surfaces can then be cut away.
+    [[nodiscard]] bool has_antimatter() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lightwalk

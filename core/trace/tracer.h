@@ -1,0 +1,132 @@
+#pragma once
+// Radiance along a ray: Radiance's backward ray tracing without state between rays.
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/function/program.h"
+#include "core/math/function_ref.h"
+#include "core/scene/scene.h"
+#include "core/trace/options.h"
+#include "core/trace/ray.h"
+
+namespace lightwalk {
+
+class LightSources;
+class Tracer;
+
+/// Rays traced, by purpose.
+struct RayCounters {
+    std::uint64_t primary = 0, shadow = 0, specular = 0, transmitted = 0, ambient = 0;
+    RayCounters& operator+=(const RayCounters& o);
+    [[nodiscard]] std::uint64_t total() const { return primary + shadow + specular + transmitted + ambient; }
+};
+
+struct ClipSet {
+    std::vector<ModifierId> modifiers;  ///< sorted
+    [[nodiscard]] bool contains(ModifierId m) const;
+};
+
+struct ScatterList {
+    std::vector<std::int32_t> sources;
+};
+
+struct LightScratch;  ///< the direct calculation's buffers (core/light)
+
+/// One thread's working state. Not shared; reusable for any number of rays.
+struct TraceContext {
+    TraceContext(const Tracer& tracer, WarningSink& warnings);
+    ~TraceContext();
+    TraceContext(const TraceContext&) = delete;
+    TraceContext& operator=(const TraceContext&) = delete;
+
+    const Tracer& tracer;
+    WarningSink& warnings;
+    RayCounters counters;
+    EvalState eval;
+    ChannelValues channels{};
+    std::unique_ptr<LightScratch> light;
+    int depth = 0;  ///< nesting of rays, bounded by Tracer::kMaxDepth
+    // Sets made on the way (antimatter, mist); forgotten when a primary ray starts.
+    std::deque<ClipSet> clip_sets;
+    std::deque<ScatterList> scatter_lists;
+};
+
+/// What a surface sends towards the eye per unit radiance of a light in direction `l` (unit, away from the
+/// surface) of solid angle `omega` [sr]: f cosθ ω. Zero when it does not see that side.
+using DirectCoefficient = FunctionRef<Rgb(const Vec3& l, double omega)>;
+
+class Tracer {
+  public:
+    static constexpr int kMaxDepth = 1000;  ///< nested rays; deeper ones return black (the stack is finite)
+
+    /// Prepares light sources (virtual ones included) and their frozen visibility statistics.
+    /// Throws InputError for illegal light sources.
+    Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings);
+    ~Tracer();
+    Tracer(const Tracer&) = delete;
+    Tracer& operator=(const Tracer&) = delete;
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const RenderOptions& options() const { return options_; }
+    [[nodiscard]] const LightSources& lights() const { return *lights_; }
+
+    /// A primary ray with the global medium; `direction` is normalised here.
+    [[nodiscard]] Ray primary(const Vec3& origin, const Vec3& direction, double limit, RandomStream random) const;
+
+    /// Evaluate a ray whose origin and direction are set (primary or spawned): nearest hit or background, shading,
+    /// medium. The result is in the ray. Never throws for numeric trouble; a non-finite result becomes 0 and is
+    /// reported. Calls for ray.aimed rays intersect the target's object only.
+    void trace(Ray& ray, TraceContext& context) const;
+
+    /// The same when the nearest hit is known already (primary packets).
+    void shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const;
+
+    /// Prepare a child of `parent` (whose hit is set); the caller sets child.direction and calls trace. `coef` null:
+    /// none given. False: the ray is not to be traced (limits); most callers then drop the component.
+    [[nodiscard]] bool spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const;
+
+    /// child.value times child.coef is added to parent.value; returns the contribution.
+    static Rgb accumulate(Ray& parent, const Ray& child);
+
+    /// Shade with a modifier chain: textures and patterns act until a modifier produces a value.
+    /// False: there was none.
+    [[nodiscard]] bool shade_chain(Ray& ray, ModifierId first, TraceContext& context) const;
+    /// Shade with a chain, passing through when it has no material.
+    void shade_or_pass(Ray& ray, ModifierId first, TraceContext& context) const;
+    /// Run the textures and patterns below a material (its own modifier chain). A material there is an InputError.
+    void apply_textures(Ray& ray, ModifierId material_next, TraceContext& context) const;
+
+    /// Ignore the surface: the ray goes on, and what it brings back is taken over unchanged.
+    void pass_through(Ray& ray, TraceContext& context) const;
+
+    /// Indirect light times `coef` at the hit about `normal` (the constant -av when there is no ambient calculation).
+    [[nodiscard]] Rgb ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const;
+
+    /// Add direct light of all sources to ray.value.
+    void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const;
+
+    /// Apply the medium to the segment of a finished ray.
+    void apply_medium(Ray& ray, TraceContext& context) const;
+
+  private:
+    const Scene& scene_;
+    RenderOptions options_;
+    std::unique_ptr<LightSources> lights_;
+};
+
+/// The perturbed normal and its cosine with the ray. `normal` and `rod` may have been flipped by the caller.
+struct PerturbedNormal {
+    Vec3 normal;
+    double cosine = 1;  ///< -direction . normal, of the same sign as rod
+};
+/// n' = n + d, normalised; reflected to the ray's side when the perturbation turned it away.
+[[nodiscard]] PerturbedNormal perturb_normal(const Ray& ray);
+
+/// Turn the hit over: negate normal, perturbation and rod.
+void flip_surface(Ray& ray);
+
+}  // namespace lightwalk

@@ -1,0 +1,26 @@
+#pragma once
+// Scenes from the command line: one octree, or scene files; commands by built-in generators.
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/scene/primitive.h"
+#include "io/library_path.h"
+
+namespace lightwalk {
+
+struct SceneReadOptions {
+    LibraryPath library = LibraryPath::from_environment();
+    bool allow_commands = false;  ///< run commands that no generator replaces through the shell
+};
+
+/// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-" is standard
+/// input, "!words" a command. Throws InputError "file:line: what is wrong". Warnings follow Radiance's rules.
+[[nodiscard]] std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
+                                                      const SceneReadOptions& options, WarningSink& warnings);
+
+/// Parse scene text that is in memory, for tests and tools.
+[[nodiscard]] std::shared_ptr<const Model> parse_scene(std::string_view text, const std::string& name,
+                                                       const SceneReadOptions& options, WarningSink& warnings);
+
+}  // namespace lightwalk
