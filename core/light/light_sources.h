@@ -1,11 +1,12 @@
 #pragma once
 // The list of light sources, real and virtual, and the direct calculation.
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "core/light/light_source.h"
 #include "core/scene/scene.h"
 #include "core/trace/options.h"
 #include "core/trace/ray.h"
@@ -13,46 +14,23 @@
 
 namespace lightwalk {
 
-/// A spotlight's cone, or the beam of a virtual distant source.
-struct SpotShape {
-    Vec3 aim;               ///< unit axis of a cone; a point on the axis of a beam
-    float size = 0;         ///< solid angle of the cone [sr]; cross-section of a beam [m²]
-    float focal_length = 0; ///< distance of the cone's apex behind the source [m]
-};
-
-/// One entry of the source list.
-struct LightSource {
-    SurfaceId object = kNoSurface;   ///< the emitting surface, or the relay surface of a virtual source
-    ModifierId material = kVoid;     ///< light, illum, glow or spotlight of the real source
-    PrimitiveType material_type = PrimitiveType::light;
-    PrimitiveType shape = PrimitiveType::sphere;  ///< of the real source
-    Vec3 center;                     ///< or unit direction of a distant source
-    Vec3 u, v, w;                    ///< half axes of the sampling box
-    Vec3 normal;                     ///< flat sources
-    float radius = 0;                ///< effective size
-    float size = 0;                  ///< projected area [m²] or solid angle [sr]
-    float proximity = 0;             ///< glow: radius of influence [m]
-    std::optional<SpotShape> spot;
-    bool distant = false, flat = false, round = false, cylinder = false;
-    bool is_virtual = false, follow = false;
-    bool unusable = false;           ///< visible, but never sampled
-    std::int32_t parent = kNoTarget; ///< virtual: what it relays
-    int branch = 0;                  ///< virtual: projection of the relay (prism2)
-    float hit_rate = 0.5f;           ///< frozen share of shadow tests that get through
-};
-
 class LightSources {
   public:
+    /// The real sources. Throws InputError (see collect_sources).
     LightSources(const Scene& scene, const RenderOptions& options, WarningSink& warnings);
-    ~LightSources();
 
     [[nodiscard]] std::span<const LightSource> all() const { return sources_; }
     [[nodiscard]] const LightSource& operator[](std::int32_t i) const { return sources_[static_cast<std::size_t>(i)]; }
     [[nodiscard]] std::size_t virtual_count() const;
+    /// Indices of the sources that the direct calculation samples, ascending.
+    [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
 
-    /// Discard virtual sources that never get through (-dp), and measure and freeze hit rates (-dt > 0).
-    /// Needs a tracer that uses this list; called once by Tracer's constructor, before any rendering.
+    /// Make the virtual sources, discard those that never get through (-dp), and measure and freeze hit rates
+    /// (-dt > 0). Needs a tracer that uses this list; called once by Tracer's constructor, before any rendering.
+    /// Throws InputError when mirrors relay each other's light too often (see kMaxVirtualSources).
     void prepare(const Tracer& tracer, WarningSink& warnings);
+    static constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
+    static constexpr int kMaxRelays = 64;  ///< larger values of -dr count as this
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;
@@ -60,7 +38,7 @@ class LightSources {
     /// Nearest hit of an aimed ray with its target's own object; false: it misses.
     [[nodiscard]] bool intersect_target(Ray& ray, const Tracer& tracer) const;
 
-    /// Whether source `i` is distant and its direction cone holds `direction`.
+    /// Whether the source sends light to `origin` from `direction` as far as its spotlight cone or relayed beam goes.
     [[nodiscard]] bool inside_spot(const LightSource& source, const Vec3& origin, const Vec3& direction) const;
 
     /// Add direct light to ray.value (source loop, candidates, shadow tests).
@@ -69,13 +47,19 @@ class LightSources {
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;
 
-    /// Index for a mist's source identifier ("name" or "relay>source"); nothing when unknown.
+    /// Index for a mist's source identifier ("name" or "relay>source"): the last match; nothing when unknown.
     [[nodiscard]] std::optional<std::int32_t> find(std::string_view identifier) const;
 
   private:
+    friend class VirtualSourceBuilder;
+    void index_sources();
+    [[nodiscard]] bool answers_to(const LightSource& source, std::string_view identifier) const;
+
     const Scene& scene_;
     RenderOptions options_;
     std::vector<LightSource> sources_;
+    std::vector<std::int32_t> sampled_;
+    std::vector<std::int32_t> distant_;  ///< real sources at infinity
 };
 
 }  // namespace lightwalk

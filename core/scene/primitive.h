@@ -48,10 +48,17 @@ struct Primitive {
     SourceLocation where;
 };
 
+/// The cube an octree file was built with: it holds all its finite surfaces, and may be larger than needed.
+struct ModelCube {
+    double x = 0, y = 0, z = 0;  ///< corner with the smallest coordinates
+    double size = 0;             ///< edge [m]
+};
+
 /// One name space: a scene, or the contents of one octree.
 struct Model {
     std::vector<Primitive> primitives;
     std::vector<std::string> header;  ///< information header lines of an octree, without FORMAT
+    std::optional<ModelCube> cube;    ///< as an octree states it; nothing for scene files
 };
 
 /// A compiled triangle mesh (.rtm): its materials and triangles.

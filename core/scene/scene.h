@@ -44,6 +44,10 @@ class Scene {
     [[nodiscard]] std::optional<ModifierId> find_modifier(std::string_view name) const;
     /// Whether any antimatter is in use: surfaces can then be cut away.
     [[nodiscard]] bool has_antimatter() const;
+    /// White diffuse plastic of reflectance π, which irradiance modes put in place of opaque materials (its
+    /// radiance is then the irradiance), and a surface of it that no ray can hit.
+    [[nodiscard]] ModifierId lambertian() const;
+    [[nodiscard]] SurfaceId lambertian_surface() const;
 
   private:
     struct Impl;

@@ -85,6 +85,10 @@ class Tracer {
     /// The same when the nearest hit is known already (primary packets).
     void shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const;
 
+    /// Irradiance at a sensor point facing `normal` (rtrace -I): the radiance of an ideal white surface there.
+    [[nodiscard]] Ray irradiance(const Vec3& point, const Vec3& normal, RandomStream random,
+                                 TraceContext& context) const;
+
     /// Prepare a child of `parent` (whose hit is set); the caller sets child.direction and calls trace. `coef` null:
     /// none given. False: the ray is not to be traced (limits); most callers then drop the component.
     [[nodiscard]] bool spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const;

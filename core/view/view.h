@@ -1,6 +1,5 @@
 #pragma once
 // Views: image position <-> ray for Radiance's six view types. See the manual page rpict(1), "-vt".
-#include <array>
 #include <optional>
 #include <string>
 
@@ -21,7 +20,9 @@ struct View {
     friend bool operator==(const View&, const View&) = default;
 };
 
-/// A validated view with its derived axes. Image positions (h, v): h to the right, v up, (0,0) lower left.
+/// A validated view with its derived axes. Image positions (h, v): h to the right, v up, (0,0) lower left,
+/// (1,1) upper right. Fore and aft are distances from the view point to planes (types v, l), cylinders (c) or
+/// spheres (h, a, s).
 class Camera {
   public:
     /// The problem, or nothing: ready to use. Texts follow Radiance ("zero view direction", ...).
@@ -29,28 +30,41 @@ class Camera {
     explicit Camera(const View& view);  ///< throws InputError with problem()
 
     struct ViewRay {
-        Vec3 origin, direction;  ///< direction is unit
+        Vec3 origin, direction;  ///< direction is unit; the origin lies on the fore clipping surface
         double limit = 0;        ///< aft clipping distance from origin, 0: none [m]
     };
     /// Nothing outside the view's domain (black pixels).
     [[nodiscard]] std::optional<ViewRay> ray(double h, double v) const;
 
+    /// Where a point appears. A point without an image (the view point itself, a point in a perspective's
+    /// view plane, the axis of a cylinder, the pole of a stereographic view) has in_front false, h = v = -1.
     struct ImagePosition {
-        double h = 0, v = 0, distance = 0;  ///< distance from the fore plane [m]
-        bool in_front = true;
+        double h = 0, v = 0, distance = 0;  ///< distance along the ray of (h, v), from its origin [m]
+        bool in_front = true;               ///< false: before the fore surface; h and v are of the mirrored point
+        bool beyond_aft = false;            ///< clipped by the aft surface
+        /// Whether the picture shows the point, but for what hides it.
+        [[nodiscard]] bool visible() const {
+            return in_front && !beyond_aft && h > 0 && h < 1 && v > 0 && v < 1;
+        }
     };
+    /// The inverse of ray().
     [[nodiscard]] ImagePosition locate(const Vec3& point) const;
 
     [[nodiscard]] const View& view() const { return view_; }
-    [[nodiscard]] double aspect() const;  ///< natural height / width of the image
-    [[nodiscard]] Vec3 right() const { return hvec_; }
-    [[nodiscard]] Vec3 upward() const { return vvec_; }
+    [[nodiscard]] double aspect() const { return height_ / width_; }  ///< natural height / width of the image
+    [[nodiscard]] Vec3 forward() const { return forward_; }           ///< unit
+    [[nodiscard]] Vec3 right() const { return right_; }               ///< unit
+    [[nodiscard]] Vec3 upward() const { return upward_; }             ///< unit, perpendicular to both
 
   private:
     View view_;
-    Vec3 hvec_, vvec_;
-    double hn2_ = 0, vn2_ = 0;
+    Vec3 forward_, right_, upward_;
+    double width_ = 0, height_ = 0;  ///< of the image at unit distance, on the type's image surface
 };
+
+/// The part [h0, h1] x [v0, v1] of a view, as a view of the same type. Nothing when the part is empty or would
+/// need a hemispherical view beyond 180 degrees.
+[[nodiscard]] std::optional<View> crop_view(const View& view, double h0, double v0, double h1, double v1);
 
 /// Width and height so that the picture of aspect `view_aspect` (height / width) has pixels of `pixel_aspect`
 /// (height / width) inside at most x by y; pixel_aspect 0: exactly x by y (then it is set to what results).

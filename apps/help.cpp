@@ -1,0 +1,117 @@
+#include "apps/commands.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr const char* kProgramHelp =
+    R"(lightwalk: physically based pictures of Radiance scenes.
+
+  lightwalk render OPTIONS SCENE...   a picture of a view          (like rpict)
+  lightwalk trace OPTIONS SCENE...    radiance along single rays   (like rtrace)
+  lightwalk info SCENE...             what a scene holds
+  lightwalk help COMMAND              how to use one of them
+
+SCENE is one octree (.oct), or Radiance scene files in order; "-" is standard input. Library files are looked for
+along RAYPATH, then in the library that comes with Lightwalk.
+
+A first picture, of a room with a window:
+  lightwalk render -vp 2 1.6 0.5 -vd 0 0 1 -vu 0 1 0 -vh 60 -vv 45 -o room.png room.rad
+
+Exit status: 0 success, 1 bad input (the message begins with file:line), 2 a command line that was not understood,
+130 ended by Ctrl-C. Nothing is ever half-written.
+)";
+
+constexpr const char* kRenderHelp =
+    R"(lightwalk render OPTIONS SCENE...
+
+Compute a picture. Options are those of Radiance's rpict; a word @FILE or $NAME in place of an option stands for the
+words in the file or environment variable. A switch like -dv toggles; -dv+ and -dv- set it. `-defaults` lists every
+option with its value.
+
+Output
+  -o FILE            .hdr .pic: Radiance picture; .exr: float; .png .jpg: for the screen. Without -o a Radiance
+                     picture goes to standard output. A file of that name is replaced when the new one is whole.
+  -z FILE            distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing there
+  --exposure auto|EV for .png and .jpg: average brightness, or a fixed number of stops
+  --stats FILE.json  seconds to read, build and render, rays by kind, rays per second, memory
+  -t SECONDS         report progress in lines; on a terminal there is a progress bar unless --quiet
+  -e FILE            append messages to FILE
+
+View
+  -vtv|l|c|h|a|s     perspective, parallel, cylindrical, hemispherical, angular, stereographic
+  -vp X Y Z          view point            -vd X Y Z   direction        -vu X Y Z   up
+  -vh H  -vv V       sizes in degrees (parallel: metres)
+  -vo D  -va D       fore and aft clipping distance
+  -vs S  -vl L       shift right and lift up, in picture sizes
+  -vf FILE           read from a view file or a picture
+  -x N  -y N         largest width and height [pixels]; -pa A: pixel aspect, 0: exactly -x by -y
+
+Sampling
+  -ps N              trace every Nth pixel, and those between where neighbours differ; 1: every pixel
+  -pt T              how much they may differ, as a share
+  -pj J              jitter of a ray within its pixel, 0 to 1
+  -pd D  -pm M       lens diameter, for depth of field; share of the frame time the shutter is open (with -S)
+  --seed N           other random numbers; the same seed gives the same bytes with any number of threads
+  -n N               threads; default: all. --executor serial|threads|tbb: what runs them
+  -S N               a picture for each view line on standard input, numbered from N; -o f%03d.hdr names them
+
+Light (the most used; see rpict(1) for the rest)
+  -av R G B          constant ambient radiance
+  -dt -dc -dj -ds -dr -dp -dv    direct light: threshold, certainty, jitter, subdivision, relays, pretest, visibility
+  -ss -st -lr -lw                specular samples and threshold, limits of reflections and weight
+  -i                 irradiance instead of radiance
+
+  --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
+  --quiet            no progress, no warnings; -w- alone: no warnings
+)";
+
+constexpr const char* kTraceHelp =
+    R"(lightwalk trace OPTIONS SCENE...
+
+Trace rays from standard input, one record a ray on standard output, in order. A ray is six numbers: origin and
+direction. Options are those of Radiance's rtrace, as are the defaults (-defaults lists them); @FILE, $NAME and
+switches work as in `lightwalk render`.
+
+  -h                 no header (a bare switch toggles, and it is on)
+  -fXY               formats of input and output: a text, f float, d double, and for output c RGBE; -fX: both
+  -oLETTERS          fields of a record, default v:
+                       o origin   d direction   v radiance   V radiance times coefficient   w W weights
+                       l distance of what is seen   L first distance   p first point   c mesh coordinates
+                       n shading normal   N geometric normal   s surface   m modifier   M material
+                       r mirrored part   x the rest   R X their distances   ~ a tilde
+  -I                 irradiance: rays are points and the normals there
+  -i                 irradiance at the first surface seen
+  -ld                a direction's length limits its ray
+  -x N  -y N         picture size: flush after N rays, stop after N * N; a resolution line goes first
+  -pRGB -pXYZ -pY -pA   colours as RGB, XYZ, luminance, mean
+  -n N               threads; default: all. The output does not depend on it
+  --seed N           other random numbers; equal rays of one run draw different ones
+  --stats FILE.json  time and rays
+  -e FILE            append messages to FILE
+  --allow-commands, --quiet, --executor   as in `lightwalk render`
+
+A zero direction flushes the output. The input ends at its end, or at a word that is no number.
+
+  echo "0 0 1  0 0 -1" | lightwalk trace -h -ovp -av .1 .1 .1 room.rad
+)";
+
+constexpr const char* kInfoHelp =
+    R"(lightwalk info SCENE...
+
+Say what a scene holds: primitives by type, bounds, light sources with the virtual ones that mirrors and prisms make,
+instances, memory, and what Lightwalk does not support.
+
+  -dr N              relays of virtual sources, default 1
+  --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
+)";
+
+}  // namespace
+
+const char* help_text(const std::string& command) {
+    if (command == "render") return kRenderHelp;
+    if (command == "trace") return kTraceHelp;
+    if (command == "info") return kInfoHelp;
+    return kProgramHelp;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,95 @@
+// lightwalk info: what a scene holds.
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "apps/commands.h"
+#include "apps/progress.h"
+#include "apps/scene_session.h"
+#include "apps/warnings.h"
+#include "core/light/light_sources.h"
+#include "core/scene/modifier.h"
+
+namespace lightwalk {
+namespace {
+
+void print_vector(const char* label, const Vec3& v) { std::printf("  %-12s %g %g %g\n", label, v.x, v.y, v.z); }
+
+void print_counts(const Model& model) {
+    std::map<PrimitiveType, std::size_t> counts;
+    for (const Primitive& primitive : model.primitives) ++counts[primitive.type];
+    std::printf("primitives     %zu\n", model.primitives.size());
+    for (const auto& [type, count] : counts) std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
+}
+
+/// Types that are read and then refused when a surface uses them.
+void print_unsupported(const Model& model) {
+    std::map<PrimitiveType, std::size_t> counts;
+    for (const Primitive& primitive : model.primitives) {
+        const PrimitiveType type = primitive.type;
+        const bool known = is_surface(type) || type == PrimitiveType::alias || modifier_factory(type) != nullptr;
+        if (!known) ++counts[type];
+    }
+    std::printf("unsupported    %s\n", counts.empty() ? "nothing" : "");
+    for (const auto& [type, count] : counts) std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
+}
+
+void print_geometry(const Scene& scene) {
+    const Bounds bounds = scene.geometry().bounds();
+    std::printf("bounds [m]%s\n", bounds.empty() ? "     empty" : "");
+    if (!bounds.empty()) {
+        print_vector("lower", bounds.lower);
+        print_vector("upper", bounds.upper);
+        std::printf("  %-12s %g at %g %g %g\n", "cube", scene.cube().size, scene.cube().origin.x,
+                    scene.cube().origin.y, scene.cube().origin.z);
+    }
+    std::printf("surfaces       %zu, %zu with those of instances\n", scene.own_surfaces(), scene.surfaces().size());
+    std::printf("instances      %zu placed\n", scene.geometry().frame_count());
+}
+
+void print_lights(const Scene& scene, const LightSources& lights) {
+    constexpr int kMostLines = 100;
+    std::printf("light sources  %zu real, %zu virtual\n", lights.all().size() - lights.virtual_count(),
+                lights.virtual_count());
+    int lines = 0;
+    for (const LightSource& light : lights.all()) {
+        if (light.is_virtual) continue;
+        if (++lines > kMostLines) {
+            std::puts("  ...");
+            return;
+        }
+        const Surface& surface = scene.surface(light.object);
+        std::printf("  %-12s %s (%s)%s\n", std::string(to_string(light.material_type)).c_str(), surface.name.c_str(),
+                    std::string(to_string(surface.type)).c_str(), light.unusable ? ", not sampled" : "");
+    }
+}
+
+}  // namespace
+
+int run_info(const std::vector<std::string>& line) {
+    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
+    CommonOptions options;
+    OptionWords words(line);
+    while (words.at_option()) {
+        if (parse_common_option(words, options, settings)) continue;
+        if (!parse_render_option(words, LibraryPath::from_environment(), settings)) {
+            refuse_option(words, render_option_names());
+        }
+    }
+    settings.light.shadow_threshold = 0;  // no statistics of shadows: nothing is rendered
+    StderrWarnings warnings("lightwalk info");
+    warnings.enable(settings.warnings && !options.quiet);
+    SceneSession session(options, warnings);
+    print_counts(*session.model);
+    print_unsupported(*session.model);
+    session.build(settings.light);
+    print_geometry(session.scene());
+    print_lights(session.scene(), session.tracer().lights());
+    std::printf("memory         %.1f MB geometry, %.1f MB in all at most\n",
+                1e-6 * static_cast<double>(session.scene().geometry().memory_bytes()),
+                1e-6 * static_cast<double>(peak_memory_bytes()));
+    std::printf("time           %.2f s to read, %.2f s to build\n", session.read_seconds, session.build_seconds);
+    return kSuccessStatus;
+}
+
+}  // namespace lightwalk

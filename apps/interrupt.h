@@ -1,0 +1,21 @@
+#pragma once
+// Ctrl-C: end cleanly, leaving nothing half-written.
+#include "parallel/stop_flag.h"
+
+namespace lightwalk {
+
+inline constexpr int kInterruptedStatus = 130;  ///< what a shell reports for SIGINT
+
+/// What SIGINT does now.
+enum class InterruptPhase {
+    leave,    ///< end the process at once: nothing has been written
+    request,  ///< ask the workers to stop; once more ends the process at once
+    finish,   ///< remember it, and let the output be completed
+};
+
+/// Install the handler, in phase `leave`.
+void handle_interrupts();
+void set_interrupt_phase(InterruptPhase phase);
+[[nodiscard]] const StopFlag& interrupt_flag();
+
+}  // namespace lightwalk

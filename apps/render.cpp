@@ -1,0 +1,210 @@
+// lightwalk render: pictures of a scene, as rpict makes them.
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "apps/commands.h"
+#include "apps/interrupt.h"
+#include "apps/progress.h"
+#include "apps/render_command.h"
+#include "apps/scene_session.h"
+#include "apps/warnings.h"
+#include "io/frame_name.h"
+#include "io/view_text.h"
+#include "parallel/frame.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr const char* kProgram = "lightwalk render";
+constexpr std::array<double, 8> kStandardPrimaries{.64, .33, .29, .6, .15, .06, 1.0 / 3, 1.0 / 3};
+
+std::string formatted(const char* format, double value) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+std::string primaries_line(const RenderCommand& command) {
+    std::string line = "PRIMARIES=";
+    for (const double value : command.primaries.value_or(kStandardPrimaries)) line += formatted(" %.4f", value);
+    return line;
+}
+
+PictureHeader picture_header(const RenderCommand& command, const Model& model, const View& view,
+                             double pixel_aspect, int frame) {
+    PictureHeader header{history_header(model.header, command.history)};
+    if (frame > 0) header.lines.push_back("FRAME=" + std::to_string(frame));
+    header.lines.push_back("VIEW= " + view_text(view));
+    if (pixel_aspect < 0.995 || pixel_aspect > 1.005) {
+        header.lines.push_back("PIXASPECT=" + formatted("%f", pixel_aspect));
+    }
+    for (const std::string& line : date_lines()) header.lines.push_back(line);
+    header.lines.push_back(primaries_line(command));
+    return header;
+}
+
+void write_to_stdout(const std::string& bytes) {
+    const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (!whole || std::fflush(stdout) != 0) throw InputError("cannot write standard output");
+}
+
+std::string read_stdin() {
+    std::string text;
+    std::array<char, 65536> buffer{};
+    for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), stdin)) > 0;) {
+        text.append(buffer.data(), count);
+    }
+    return text;
+}
+
+class RenderRun {
+  public:
+    explicit RenderRun(RenderCommand command) : command_(std::move(command)), warnings_(kProgram) {
+        redirect_messages(command_.common, command_.history);
+        warnings_.enable(command_.settings.warnings && !command_.common.quiet);
+        settle_render_settings(command_.settings, warnings_);
+        settle_spacing();
+        if (command_.first_frame == 0) (void)Camera(command_.view);  // a bad view is told before the scene is read
+        const std::vector<std::string>& files = command_.common.scene_files;
+        if (command_.first_frame > 0 && std::find(files.begin(), files.end(), "-") != files.end()) {
+            throw UsageError("standard input holds the views of the sequence (-S), so the scene cannot be -");
+        }
+        if (command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
+            throw UsageError("standard output is a terminal: name the picture's file with -o");
+        }
+    }
+
+    int run() {
+        handle_interrupts();
+        session_ = std::make_unique<SceneSession>(command_.common, warnings_);
+        session_->build(command_.settings.light);
+        executor_ = make_executor(command_.common.executor, command_.common.workers);
+        statistics_.command = "render";
+        statistics_.read_seconds = session_->read_seconds;
+        statistics_.build_seconds = session_->build_seconds;
+        statistics_.threads = executor_->concurrency();
+        if (!(command_.first_frame > 0 ? render_sequence() : render_picture(command_.view, nullptr, 0))) {
+            return kInterruptedStatus;
+        }
+        if (!command_.common.stats_file.empty()) write_statistics(command_.common.stats_file, statistics_);
+        return kSuccessStatus;
+    }
+
+  private:
+    void settle_spacing() {
+        constexpr int kLargestSpacing = 16;
+        int& spacing = command_.pixels.spacing;
+        if (spacing > kLargestSpacing) {
+            warnings_.warn("-ps reduced to 16");
+            spacing = kLargestSpacing;
+        }
+        if (spacing < 1) spacing = 1;
+    }
+
+    /// False: interrupted.
+    bool render_sequence() {
+        const std::vector<View> views = read_view_sequence(read_stdin(), command_.view);
+        int frame = command_.first_frame;
+        int made = 0;
+        View before = command_.view;
+        for (const View& view : views) {
+            const bool skip = varies_by_frame(command_.output) &&
+                              std::filesystem::exists(frame_name(command_.output, frame));
+            if (!skip) {
+                if (!render_picture(view, frame > 1 ? &before : nullptr, frame)) return false;
+                ++made;
+            }
+            before = view;
+            ++frame;
+        }
+        if (made == 0) warnings_.warn("no output produced");
+        return true;
+    }
+
+    /// False: interrupted.
+    bool render_picture(const View& view, const View* before, int frame_number) {
+        const Camera camera(view);
+        const std::optional<Camera> previous = usable_camera(before);
+        const PictureSize size = fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
+        check_size(size);
+        if (frame_number > 0 && command_.report_interval > 0) {
+            std::fprintf(stderr, "FRAME %d:%s\n", frame_number, view_text(view).c_str());
+        }
+        FrameOptions options{size.width, size.height, command_.pixels, command_.settings.light.seed,
+                             !command_.depth.empty(), previous ? &*previous : nullptr};
+        set_interrupt_phase(InterruptPhase::request);
+        const std::optional<Frame> frame = trace(camera, options);
+        if (!frame) return false;
+        set_interrupt_phase(InterruptPhase::finish);
+        write(*frame, picture_header(command_, *session_->model, view, size.pixel_aspect, frame_number), frame_number);
+        if (interrupt_flag().requested()) return false;
+        set_interrupt_phase(InterruptPhase::leave);
+        return true;
+    }
+
+    static std::optional<Camera> usable_camera(const View* view) {
+        if (view == nullptr || Camera::problem(*view)) return std::nullopt;
+        return Camera(*view);
+    }
+
+    void check_size(const PictureSize& size) {
+        constexpr double kMostPixels = 1 << 28;
+        if (size.width <= 0 || size.height <= 0) warnings_.warn("empty output picture");
+        if (static_cast<double>(size.width) * size.height > kMostPixels) {
+            throw UsageError("options -x and -y: more than " + formatted("%.0f", kMostPixels) + " pixels");
+        }
+    }
+
+    /// Nothing: interrupted.
+    std::optional<Frame> trace(const Camera& camera, const FrameOptions& options) {
+        if (options.width <= 0 || options.height <= 0) return Frame{0, 0, {}, {}, {}, true};
+        const bool bar = !command_.common.quiet && command_.common.error_file.empty() && isatty(STDERR_FILENO) != 0;
+        ProgressMeter meter({bar, command_.report_interval, kProgram});
+        warnings_.use_terminal_line(bar);
+        const Stopwatch watch;
+        Frame frame = render_frame(session_->tracer(), camera, options, *executor_, warnings_, interrupt_flag(),
+                                   [&](const FrameProgress& progress) { meter.update(progress); });
+        statistics_.render_seconds += watch.seconds();
+        meter.finish({frame.complete ? 1.0 : 0.0, frame.rays.total()});
+        warnings_.use_terminal_line(false);
+        statistics_.rays += frame.rays;
+        statistics_.width = options.width;
+        statistics_.height = options.height;
+        ++statistics_.frames;
+        if (!frame.complete) return std::nullopt;
+        return frame;
+    }
+
+    void write(const Frame& frame, const PictureHeader& header, int number) {
+        const Picture picture{frame.width, frame.height, frame.radiance};
+        if (!command_.depth.empty()) {
+            write_depth(frame_name(command_.depth, number), frame.width, frame.height, frame.distance);
+        }
+        if (command_.output.empty()) write_to_stdout(encode_hdr(picture, header));
+        else write_picture(frame_name(command_.output, number), picture, header, command_.tone);
+    }
+
+    RenderCommand command_;
+    StderrWarnings warnings_;
+    std::unique_ptr<SceneSession> session_;
+    std::unique_ptr<Executor> executor_;
+    RunStatistics statistics_;
+};
+
+}  // namespace
+
+int run_render(const std::vector<std::string>& words) {
+    RenderCommand command = parse_render_command(words);
+    if (command.show_defaults) {
+        std::fputs(describe(command).c_str(), stdout);
+        return kSuccessStatus;
+    }
+    return RenderRun(std::move(command)).run();
+}
+
+}  // namespace lightwalk

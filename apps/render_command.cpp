@@ -1,0 +1,151 @@
+#include "apps/render_command.h"
+
+#include "core/scene/transform_args.h"
+#include "io/frame_name.h"
+#include "io/view_text.h"
+
+namespace lightwalk {
+namespace {
+
+const std::vector<std::string> kOwnNames{
+    "-x",  "-y",  "-pa",    "-ps",   "-pt", "-pj", "-pd", "-pm", "-pc", "-pRGB",      "-o",  "-z",  "-S",  "-t",
+    "-vp", "-vd", "-vu",    "-vh",   "-vv", "-vo", "-va", "-vs", "-vl", "-vf",        "-vtv", "-vtl", "-vtc", "-vth",
+    "-vta", "-vts", "-help", "-version", "-features", "--exposure"};
+
+bool parse_view(OptionWords& words, View& view) {
+    const std::vector<std::string> rest = words.rest();
+    std::size_t used = 0;
+    try {
+        used = parse_view_option(rest, view);
+    } catch (const InputError& error) {
+        if (words.option() == "-vf" && rest.size() > 1) throw;  // the file is at fault, not the command line
+        throw UsageError(error.what());
+    }
+    words.skip(used);
+    return used > 0;
+}
+
+ToneMapping tone_mapping(const std::string& word) {
+    ToneMapping tone;
+    if (word == "auto") return tone;
+    tone.automatic = false;
+    if (!parse_real(word, tone.ev)) {
+        throw UsageError("option --exposure: expected auto or a number of stops (EV), found \"" + word + "\"");
+    }
+    return tone;
+}
+
+bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
+    const std::string word = words.option();
+    if (word == "-x") command.x = words.integer();
+    else if (word == "-y") command.y = words.integer();
+    else if (word == "-pa") command.pixel_aspect = words.real();
+    else if (word == "-ps") command.pixels.spacing = words.integer();
+    else if (word == "-pt") command.pixels.threshold = words.real();
+    else if (word == "-pj") command.pixels.jitter = words.real();
+    else if (word == "-pd") command.pixels.aperture = words.real();
+    else if (word == "-pm") command.pixels.motion = words.real();
+    else if (word == "-pRGB") words.skip(1);
+    else if (word == "-pc") {
+        command.primaries.emplace();
+        for (double& value : *command.primaries) value = words.real();
+    } else {
+        return false;
+    }
+    return true;
+}
+
+bool parse_output_option(OptionWords& words, RenderCommand& command) {
+    const std::string word = words.option();
+    if (word == "-o") command.output = words.text();
+    else if (word == "-z") command.depth = words.text();
+    else if (word == "-t") command.report_interval = words.real();
+    else if (word == "--exposure") command.tone = tone_mapping(words.text());
+    else if (word == "-S") {
+        command.first_frame = words.integer();
+        if (command.first_frame < 1) throw UsageError("option -S: expected a frame number of at least 1");
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void refuse_foreign(const std::string& word) {
+    if (word == "-r" || word == "-ro") {
+        throw UsageError("option " + word + ": pictures are written whole or not at all, there is nothing to recover");
+    }
+    if (word == "-P" || word == "-PP") throw UsageError("option " + word + ": persistent processes are not supported");
+    if (word == "-pXYZ") throw UsageError("option -pXYZ: pictures are written in RGB only");
+}
+
+void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand& command) {
+    const std::string& word = words.option();
+    if (word == "-defaults") {
+        command.show_defaults = true;
+        return;
+    }
+    refuse_foreign(word);
+    if (parse_view(words, command.view) || parse_pixel_option(words, command) ||
+        parse_output_option(words, command) || parse_render_option(words, library, command.settings) ||
+        parse_common_option(words, command.common, command.settings)) {
+        return;
+    }
+    std::vector<std::string> names = render_option_names();
+    names.insert(names.end(), kOwnNames.begin(), kOwnNames.end());
+    refuse_option(words, std::move(names));
+}
+
+void check(const RenderCommand& command) {
+    const PixelOptions& p = command.pixels;
+    if (!(p.jitter >= 0) || p.jitter > 1) throw UsageError("option -pj: expected a number from 0 to 1");
+    if (p.threshold < 0 || p.aperture < 0 || p.motion < 0 || command.pixel_aspect < 0 || command.report_interval < 0) {
+        throw UsageError("options -pt, -pd, -pm, -pa and -t take no negative numbers");
+    }
+    (void)frame_name(command.output, 0);
+    (void)frame_name(command.depth, 0);
+}
+
+}  // namespace
+
+RenderCommand parse_render_command(const std::vector<std::string>& line) {
+    RenderCommand command;
+    command.settings = default_render_settings(OptionDefaults::rpict);
+    const LibraryPath library = LibraryPath::from_environment();
+    OptionWords words(line);
+    while (!command.show_defaults && words.at_option()) parse_option(words, library, command);
+    check(command);
+    command.history = command_history("render", words, command.common);
+    return command;
+}
+
+std::string describe(const RenderCommand& c) {
+    const View& v = c.view;
+    const auto vector_text = [](const std::string& name, const Vec3& a) {
+        return option_text(name, a.x) + option_text("", a.y) + option_text("", a.z);
+    };
+    std::string text = option_line(std::string("-vt") + v.type, "view type");
+    text += option_line(vector_text("-vp", v.position), "view point [m]");
+    text += option_line(vector_text("-vd", v.direction), "view direction");
+    text += option_line(vector_text("-vu", v.up), "view up");
+    text += option_line(option_text("-vh", v.horizontal), "view horizontal size");
+    text += option_line(option_text("-vv", v.vertical), "view vertical size");
+    text += option_line(option_text("-vo", v.fore), "view fore clipping [m]");
+    text += option_line(option_text("-va", v.aft), "view aft clipping [m]");
+    text += option_line(option_text("-vs", v.shift), "view shift");
+    text += option_line(option_text("-vl", v.lift), "view lift");
+    text += option_line(option_text("-x", c.x), "largest width [pixels]");
+    text += option_line(option_text("-y", c.y), "largest height [pixels]");
+    text += option_line(option_text("-pa", c.pixel_aspect), "pixel aspect (height / width)");
+    text += option_line(option_text("-pj", c.pixels.jitter), "pixel jitter");
+    text += option_line(option_text("-pm", c.pixels.motion), "pixel motion");
+    text += option_line(option_text("-pd", c.pixels.aperture), "pixel depth of field (lens diameter) [m]");
+    text += option_line(option_text("-ps", c.pixels.spacing), "pixel sample spacing");
+    text += option_line(option_text("-pt", c.pixels.threshold), "pixel threshold");
+    text += option_line(option_text("-t", c.report_interval), "time between reports [s]");
+    text += describe_render_settings(c.settings);
+    text += option_line(option_text("-n", c.common.workers), "threads");
+    text += option_line("--seed " + std::to_string(c.settings.light.seed), "random seed");
+    return text;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,37 @@
+#pragma once
+// What the command line of `lightwalk render` says.
+#include <array>
+#include <optional>
+#include <string>
+
+#include "apps/common_options.h"
+#include "core/view/view.h"
+#include "io/picture/picture.h"
+#include "parallel/pixel_rays.h"
+
+namespace lightwalk {
+
+struct RenderCommand {
+    CommonOptions common;
+    RenderSettings settings;
+    View view;
+    int x = 512, y = 512;           ///< -x -y: largest size [pixels]
+    double pixel_aspect = 1;        ///< -pa: height / width; 0: exactly -x by -y
+    PixelOptions pixels;            ///< -ps -pt -pj -pd -pm
+    std::optional<std::array<double, 8>> primaries;  ///< -pc: what the header says of the channels
+    std::string output;             ///< -o; "" is standard output
+    std::string depth;              ///< -z; "" is none
+    double report_interval = 0;     ///< -t [s]
+    ToneMapping tone;               ///< --exposure
+    int first_frame = 0;            ///< -S: number of the first frame of a sequence; 0: one picture
+    bool show_defaults = false;     ///< -defaults
+    std::string history;            ///< the command line for the picture's header
+};
+
+/// Throws UsageError, and InputError for files that options name.
+[[nodiscard]] RenderCommand parse_render_command(const std::vector<std::string>& words);
+
+/// What -defaults prints: every option with its value.
+[[nodiscard]] std::string describe(const RenderCommand& command);
+
+}  // namespace lightwalk

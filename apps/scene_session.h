@@ -1,0 +1,54 @@
+#pragma once
+// A scene from files to a tracer, with the time each step took.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/common_options.h"
+#include "core/scene/scene.h"
+#include "core/trace/tracer.h"
+#include "io/file_resources.h"
+
+namespace lightwalk {
+
+/// Stopwatch [s].
+class Stopwatch {
+  public:
+    Stopwatch();
+    [[nodiscard]] double seconds() const;
+
+  private:
+    std::int64_t start_ns_;
+};
+
+struct SceneSession {
+    /// Reads the description. Throws InputError; UsageError when no scene is named.
+    SceneSession(const CommonOptions& options, WarningSink& warnings);
+    /// Compiles the scene, then the tracer. Throws InputError.
+    void build(const RenderOptions& options);
+
+    [[nodiscard]] const Scene& scene() const { return *built; }
+    [[nodiscard]] const Tracer& tracer() const { return *made; }
+
+    WarningSink& warnings;
+    LibraryPath library;
+    FileResources resources;
+    std::shared_ptr<const Model> model;
+    std::unique_ptr<const Scene> built;
+    std::unique_ptr<const Tracer> made;
+    double read_seconds = 0, build_seconds = 0;
+};
+
+/// What `--stats` writes.
+struct RunStatistics {
+    std::string command;
+    double read_seconds = 0, build_seconds = 0, render_seconds = 0;
+    RayCounters rays;
+    int threads = 1;
+    int width = 0, height = 0;  ///< of a picture; 0: no picture
+    int frames = 0;
+};
+/// Write as JSON, whole or not at all. Throws InputError.
+void write_statistics(const std::string& path, const RunStatistics& statistics);
+
+}  // namespace lightwalk

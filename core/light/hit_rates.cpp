@@ -1,0 +1,131 @@
+#include "core/light/hit_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/light/direct_calculation.h"
+#include "core/light/light_walk.h"
+#include "core/light/partition.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kShadowRays = 40000;  ///< that the measurement may cost
+constexpr std::size_t kLeastPoints = 64, kMostPoints = 2000;
+constexpr double kPriorShare = 0.02;  ///< weight of what all tests say against what the untested ones say
+constexpr int kFitSteps = 3;
+
+/// Sums of light: what gets through, and what an estimate expects.
+struct Ledger {
+    double visible = 0, expected = 0;
+    [[nodiscard]] float ratio(double fallback) const {
+        return static_cast<float>(std::clamp(expected > 0 ? visible / expected : fallback, 0.0, 1.0));
+    }
+};
+
+/// Share of the light of all tests that gets through, by source.
+std::vector<Ledger> count_all(const std::vector<MeasuredPoint>& points, std::size_t sources) {
+    std::vector<Ledger> all(sources);
+    for (const MeasuredPoint& point : points) {
+        for (const MeasuredCandidate& c : point) {
+            Ledger& ledger = all[static_cast<std::size_t>(c.source)];
+            ledger.expected += static_cast<double>(c.brightness);
+            if (c.visible) ledger.visible += static_cast<double>(c.brightness);
+        }
+    }
+    return all;
+}
+
+std::vector<float> tails_of(const MeasuredPoint& point) {
+    std::vector<float> tails(point.size() + 1, 0.0f);
+    for (std::size_t i = point.size(); i-- > 0;) tails[i] = tails[i + 1] + point[i].brightness;
+    return tails;
+}
+
+/// What the direct calculation would leave untested at a point, entered by source.
+void count_untested(const MeasuredPoint& point, const std::vector<float>& rates, double certainty,
+                    double threshold, std::vector<Ledger>& untested) {
+    const std::vector<float> tails = tails_of(point);
+    ShadowTally tally;
+    const auto test = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            tally.hits += point[i].visible ? 1 : 0;
+            tally.expected += static_cast<double>(rates[static_cast<std::size_t>(point[i].source)]);
+            if (point[i].visible) tally.brightness += point[i].brightness;
+        }
+    };
+    const std::size_t tested = test_brightest(tails, certainty, threshold, tally, test);
+    for (std::size_t i = tested; i < point.size(); ++i) {
+        const auto source = static_cast<std::size_t>(point[i].source);
+        const auto share = static_cast<double>(point[i].brightness);
+        const double rate = std::max(1e-3, static_cast<double>(rates[source]));
+        untested[source].expected += share * std::min(1 / rate, tally.factor());
+        if (point[i].visible) untested[source].visible += share;
+    }
+}
+
+/// The candidates of a diffuse surface at the hit, all tested.
+MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomStream& random,
+                      TraceContext& context) {
+    Ray ray = context.tracer.primary(hit.position + hit.normal, -hit.normal, 0, random);
+    ray.hit = hit;
+    ray.hit.t = ray.hit.rod = 1;
+    DirectCalculation direct(lights, ray, context);
+    direct.gather([&hit](const Vec3& l, double omega) {
+        const double cosine = dot(hit.normal, l);
+        return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
+    });
+    direct.sort();
+    direct.test(0, direct.count());
+    MeasuredPoint point;
+    const float total = direct.tails()[0];
+    for (const LightCandidate& c : direct.candidates()) point.push_back({c.source, c.brightness / total, c.visible});
+    return point;
+}
+
+/// The most candidates that one point can have.
+std::size_t most_candidates(const LightSources& lights, const RenderOptions& options) {
+    std::size_t count = 0;
+    for (const std::int32_t i : lights.sampled()) {
+        const bool divided = options.source_subdivision > kEpsilon && (lights[i].flat || lights[i].cylinder);
+        count += divided ? kMaxParts : 1;
+    }
+    return count;
+}
+
+}  // namespace
+
+std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::size_t sources, double certainty,
+                                 double threshold) {
+    const std::vector<Ledger> all = count_all(points, sources);
+    std::vector<float> overall(sources);
+    for (std::size_t i = 0; i < sources; ++i) overall[i] = all[i].ratio(0.5);
+    std::vector<float> rates = overall;
+    for (int step = 0; step < kFitSteps; ++step) {
+        std::vector<Ledger> untested(sources);
+        for (const MeasuredPoint& point : points) count_untested(point, rates, certainty, threshold, untested);
+        for (std::size_t i = 0; i < sources; ++i) {
+            const double prior = kPriorShare * all[i].expected;
+            untested[i].visible += prior * static_cast<double>(overall[i]);
+            untested[i].expected += prior;
+            rates[i] = untested[i].ratio(0.5);
+        }
+    }
+    return rates;
+}
+
+std::vector<float> measure_hit_rates(const LightSources& lights, TraceContext& context) {
+    const RenderOptions& options = context.tracer.options();
+    if (most_candidates(lights, options) <= kFirstBlock) return {};
+    const std::vector<Hit> places = walk_light(lights, context.tracer, kMostPoints);
+    std::vector<MeasuredPoint> points;
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < places.size() && (rays < kShadowRays || i < kLeastPoints); ++i) {
+        const RandomStream random(mix_bits(options.seed ^ mix_bits(i)));
+        points.push_back(measure(lights, places[i], random, context));
+        rays += points.back().size();
+    }
+    return fit_hit_rates(points, lights.all().size(), options.shadow_certainty, options.shadow_threshold);
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,63 @@
+#include "core/light/light_sources.h"
+
+#include <algorithm>
+
+#include "core/light/hit_rates.h"
+#include "core/light/source_setup.h"
+#include "core/light/spot.h"
+#include "core/light/virtual_sources.h"
+
+namespace lightwalk {
+
+LightSources::LightSources(const Scene& scene, const RenderOptions& options, WarningSink& warnings)
+    : scene_(scene), options_(options), sources_(collect_sources(scene, warnings)) {
+    index_sources();
+}
+
+void LightSources::index_sources() {
+    sampled_.clear();
+    distant_.clear();
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+        const LightSource& source = sources_[i];
+        if (!source.unusable) sampled_.push_back(static_cast<std::int32_t>(i));
+        if (source.distant && !source.is_virtual) distant_.push_back(static_cast<std::int32_t>(i));
+    }
+}
+
+void LightSources::prepare(const Tracer& tracer, WarningSink& warnings) {
+    VirtualSourceBuilder(*this, tracer, warnings).build();
+    index_sources();
+    if (options_.shadow_threshold > 0) {
+        TraceContext context(tracer, warnings);
+        const std::vector<float> rates = measure_hit_rates(*this, context);
+        for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
+    }
+}
+
+std::size_t LightSources::virtual_count() const {
+    return static_cast<std::size_t>(
+        std::count_if(sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
+}
+
+bool LightSources::inside_spot(const LightSource& source, const Vec3& origin, const Vec3& direction) const {
+    return !source.spot || !outside_spot(*source.spot, origin, direction);
+}
+
+bool LightSources::answers_to(const LightSource& source, std::string_view identifier) const {
+    const LightSource* at = &source;
+    for (;; at = &(*this)[at->parent]) {
+        const std::string_view name = scene_.surface(at->object).name;
+        if (!at->is_virtual) return identifier == name;
+        if (!identifier.starts_with(name) || !identifier.substr(name.size()).starts_with('>')) return false;
+        identifier.remove_prefix(name.size() + 1);
+    }
+}
+
+std::optional<std::int32_t> LightSources::find(std::string_view identifier) const {
+    for (std::size_t i = sources_.size(); i-- > 0;) {
+        if (answers_to(sources_[i], identifier)) return static_cast<std::int32_t>(i);
+    }
+    return std::nullopt;
+}
+
+}  // namespace lightwalk

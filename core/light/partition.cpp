@@ -1,0 +1,189 @@
+#include "core/light/partition.h"
+
+#include <cmath>
+
+#include "core/light/spot.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr SourcePart kWholeBox{{0, 0, 0}, {1, 1, 1}};
+constexpr double kSquareToDisk = 1.12837917;   ///< 2/√π: half width of the disk around a square of equal area
+constexpr double kCubeOfSphere = 0.7236;       ///< half width of a sphere's sampling box over its radius
+constexpr double kLeastFormFactor = 1e-4;      ///< of a local source's part: less is grazing
+constexpr double kCylinderBox = 1.365;         ///< squared radius of a cylinder over that of its box
+constexpr double kFullJitter = 0.7;            ///< above it single samples fill round sources, too
+
+/// Flat sources: halve the longer side until both are short for their distance.
+class FlatPartition {
+  public:
+    FlatPartition(const LightSource& source, const Vec3& point, double size_over_distance, SourceParts& parts)
+        : to_center_(point - source.center), u_(source.u), v_(source.v), parts_(parts) {
+        const double scale = 2 / size_over_distance;
+        split(kWholeBox, scale * length(u_), scale * length(v_), kMaxParts);
+    }
+
+  private:
+    void split(const SourcePart& part, double u_reach, double v_reach, int budget) {
+        const Vec3 away = to_center_ - u_ * part.center.x - v_ * part.center.y;
+        const double longest = std::max(u_reach, v_reach);
+        if (budget < 2 || length_squared(away) >= longest * longest) {
+            parts_.part[static_cast<std::size_t>(parts_.count++)] = part;
+            return;
+        }
+        const std::size_t axis = u_reach > v_reach ? 0 : 1;
+        SourcePart half = part;
+        half.size[axis] *= 0.5;
+        (axis == 0 ? u_reach : v_reach) *= 0.5;
+        half.center[axis] = part.center[axis] - half.size[axis];
+        split(half, u_reach, v_reach, budget / 2);
+        half.center[axis] = part.center[axis] + half.size[axis];
+        split(half, u_reach, v_reach, budget / 2);
+    }
+
+    Vec3 to_center_, u_, v_;
+    SourceParts& parts_;
+};
+
+/// Cylinders: halve along the axis.
+class CylinderPartition {
+  public:
+    CylinderPartition(const LightSource& source, const Vec3& point, double size_over_distance, SourceParts& parts)
+        : to_center_(point - source.center), u_(source.u), parts_(parts) {
+        const Vec3 axis = normalize(u_);
+        const double along = dot(to_center_, axis), distance_squared = length_squared(to_center_);
+        const double axis_distance_squared = distance_squared - along * along;
+        const double radius_squared = kCylinderBox * length_squared(source.v);
+        if (axis_distance_squared <= radius_squared) return;
+        const double reach = 2 * length(u_) / size_over_distance;
+        if (axis_distance_squared <= 4 * radius_squared || distance_squared >= reach * reach) {
+            parts_.part[0] = kWholeBox;
+            parts_.count = 1;
+            return;
+        }
+        split(kWholeBox, reach, kMaxParts);
+    }
+
+  private:
+    void split(const SourcePart& part, double reach, int budget) {
+        const Vec3 away = to_center_ - u_ * part.center.x;
+        if (budget < 2 || length_squared(away) >= reach * reach) {
+            parts_.part[static_cast<std::size_t>(parts_.count++)] = part;
+            return;
+        }
+        SourcePart half = part;
+        half.size.x *= 0.5;
+        half.center.x = part.center.x - half.size.x;
+        split(half, 0.5 * reach, budget / 2);
+        half.center.x = part.center.x + half.size.x;
+        split(half, 0.5 * reach, budget / 2);
+    }
+
+    Vec3 to_center_, u_;
+    SourceParts& parts_;
+};
+
+/// Squeeze a position in the sampling box of a round source to its circle or sphere.
+Vec3 squeeze(const LightSource& source, const Vec3& a) {
+    if (source.flat || source.distant) {
+        return {a.x * kSquareToDisk * std::sqrt(1 - 0.5 * a.y * a.y),
+                a.y * kSquareToDisk * std::sqrt(1 - 0.5 * a.x * a.x), 0};
+    }
+    const double squared = length_squared(a);
+    if (squared <= 0) return {};
+    const double longest = std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
+    return a * (longest / (kCubeOfSphere * std::sqrt(squared)));
+}
+
+Vec3 position_in_box(const LightSource& source, const SourcePart& part, int parts, double jitter,
+                     RandomStream& random) {
+    Vec3 a = part.center;
+    if (jitter > 0) {
+        const std::size_t axes = source.flat || source.distant ? 2 : 3;
+        for (std::size_t i = 0; i < axes; ++i) a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
+    }
+    return source.round && (parts > 1 || jitter > kFullJitter) ? squeeze(source, a) : a;
+}
+
+/// Share of the source's projected area that the part shows in a direction.
+double form_factor(const LightSource& source, const SourcePart& part, const Vec3& direction) {
+    if (source.flat) return -dot(source.normal, direction) * part.size.x * part.size.y;
+    if (source.cylinder) {
+        const double along = dot(direction, normalize(source.u));
+        return std::sqrt(std::max(0.0, 1 - along * along)) * part.size.x;
+    }
+    return part.size.x * part.size.y * part.size.z;
+}
+
+}  // namespace
+
+bool out_of_reach(const LightSource& source, const Vec3& point) {
+    if (source.distant || source.material_type != PrimitiveType::glow) return false;
+    const double reach = static_cast<double>(source.proximity) + static_cast<double>(source.radius);
+    return length_squared(point - source.center) > reach * reach;
+}
+
+void partition(const LightSource& source, const Vec3& point, double subdivision, double weight, SourceParts& parts) {
+    parts.count = 0;
+    if (subdivision > kEpsilon && weight > 0) {
+        if (source.flat) {
+            if (dot(point - source.center, source.normal) > 0) {
+                FlatPartition(source, point, subdivision / weight, parts);
+            }
+            return;
+        }
+        if (source.cylinder) {
+            CylinderPartition(source, point, subdivision / weight, parts);
+            return;
+        }
+    }
+    parts.part[0] = kWholeBox;
+    parts.count = 1;
+}
+
+std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part, int parts,
+                                        const Vec3& point, double jitter, RandomStream& random) {
+    const Vec3 a = position_in_box(source, part, parts, jitter, random);
+    const Vec3 target = source.center + source.u * a.x + source.v * a.y + source.w * a.z;
+    SourceSample sample;
+    const Vec3 towards = source.distant ? target : target - point;
+    const double distance = length(towards);
+    if (distance <= 0) return std::nullopt;
+    sample.direction = towards / distance;
+    const double s = form_factor(source, part, sample.direction);
+    if (source.distant) {
+        if (source.spot && outside_spot(*source.spot, point, sample.direction)) return std::nullopt;
+        sample.solid_angle = s * static_cast<double>(source.size);
+        return sample;
+    }
+    if (s <= kLeastFormFactor) return std::nullopt;
+    if (source.material_type == PrimitiveType::glow && distance > static_cast<double>(source.proximity)) {
+        return std::nullopt;
+    }
+    sample.distance = distance;
+    double apex_distance = distance;
+    if (source.spot) {
+        if (outside_spot(*source.spot, point, sample.direction)) return std::nullopt;
+        apex_distance += static_cast<double>(source.spot->focal_length);
+    }
+    sample.solid_angle = s * static_cast<double>(source.size) / (apex_distance * apex_distance);
+    return sample;
+}
+
+std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point, double jitter,
+                                         RandomStream& random) {
+    return sample_part(source, kWholeBox, 1, point, jitter, random);
+}
+
+void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling, double weight,
+                   RandomStream& random, std::vector<SourceSample>& samples) {
+    SourceParts parts;
+    partition(source, point, sampling.subdivision, weight, parts);
+    for (int i = 0; i < parts.count; ++i) {
+        const SourcePart& part = parts.part[static_cast<std::size_t>(i)];
+        const auto sample = sample_part(source, part, parts.count, point, sampling.jitter, random);
+        if (sample) samples.push_back(*sample);
+    }
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,61 @@
+#pragma once
+// Where a source is sampled from a point: its parts, and one direction with its solid angle for each.
+// Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering 1991; the -ds and
+// -dj options of rpict(1).
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/light/light_source.h"
+#include "core/math/random.h"
+
+namespace lightwalk {
+
+inline constexpr int kMaxParts = 64;  ///< of one source
+
+/// A share of a source's sampling box, in units of its half axes.
+struct SourcePart {
+    Vec3 center;  ///< the whole box: 0
+    Vec3 size;    ///< half widths; the whole box: 1
+};
+
+struct SourceParts {
+    std::array<SourcePart, kMaxParts> part;
+    int count = 0;
+};
+
+/// How sources are cut up and where in a part the sample lies.
+struct SourceSampling {
+    double subdivision = 0;  ///< -ds: largest size of a part over its distance; 0: one part a source
+    double jitter = 0;       ///< -dj: share of a part's width that a sample may move in
+};
+
+/// One sample of a source: unit direction, distance of the sampled point and solid angle it stands for.
+struct SourceSample {
+    Vec3 direction;
+    double distance = kHuge;  ///< to the sampled point, not to the source's surface [m]; kHuge: at infinity
+    double solid_angle = 0;   ///< [sr]
+};
+
+/// Whether the point is beyond a local glow's radius of influence.
+[[nodiscard]] bool out_of_reach(const LightSource& source, const Vec3& point);
+
+/// Cut a source into parts no larger than `subdivision` / `weight` times their distance from `point`. No parts
+/// when the source turns away (flat sources) or the point is in it (cylinders).
+void partition(const LightSource& source, const Vec3& point, double subdivision, double weight, SourceParts& parts);
+
+/// Sample one of `parts` parts. Nothing when the part turns away, is out of reach, or is seen from outside
+/// the source's spot.
+[[nodiscard]] std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part, int parts,
+                                                      const Vec3& point, double jitter, RandomStream& random);
+
+/// Sample the whole source as one part.
+[[nodiscard]] std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point, double jitter,
+                                                       RandomStream& random);
+
+/// Append the samples of all parts.
+/// @param weight  of the ray that is shaded: faint rays get coarser parts
+void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling, double weight,
+                   RandomStream& random, std::vector<SourceSample>& samples);
+
+}  // namespace lightwalk

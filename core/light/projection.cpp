@@ -1,0 +1,141 @@
+#include "core/light/projection.h"
+
+#include <cmath>
+
+#include "core/light/spot.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr double kSquareToDisk = 1.12837917;  ///< half width of a disk around a square of equal area
+constexpr double kSphereToBox = 1 / 0.7236;   ///< radius of a sphere over half the width of its box
+
+/// How far a round source reaches beyond its sampling box.
+double overhang(const LightSource& source) {
+    if (!source.round) return 1;
+    return source.flat || source.distant ? kSquareToDisk : kSphereToBox;
+}
+
+RelayedSpot impossible() { return {false, std::nullopt, {}}; }
+
+/// Sunlight: a beam through the disk, and through the parent's beam.
+RelayedSpot relay_beam(const LightSource& parent, const LightSource& projected, const Projection& projection,
+                       const RelayDisk& disk) {
+    SpotShape beam;
+    beam.beam = true;
+    beam.aim = disk.center;
+    beam.size = static_cast<float>(kPi * disk.radius * disk.radius);
+    if (!parent.spot || !parent.spot->beam) return {true, beam, disk};
+    SpotShape before = *parent.spot;
+    before.aim = projection.point(before.aim);
+    const double spread = static_cast<double>(parent.radius) * length(beam.aim - before.aim);
+    const double radius = std::sqrt(static_cast<double>(before.size) / kPi) + spread;
+    before.size = static_cast<float>(kPi * radius * radius);
+    const auto common = intersect_beams(beam, before, projected.center);
+    if (!common) return impossible();
+    return {true, common, disk};
+}
+
+/// The cone around a disk from a local source; nothing when the source is too near for a bound.
+std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk& disk, double distance) {
+    const double sine = (disk.radius + static_cast<double>(source.radius)) / distance;
+    if (sine >= 1 - kEpsilon) return std::nullopt;
+    SpotShape cone;
+    cone.aim = (disk.center - source.center) / distance;
+    cone.size = static_cast<float>(cone_solid_angle(std::sqrt(1 - sine * sine)));
+    return cone;
+}
+
+RelayedSpot relay_cone(const LightSource& parent, const LightSource& projected, const Projection& projection,
+                       const RelayDisk& disk) {
+    const double distance = length(disk.center - projected.center);
+    if (distance <= 0) return impossible();
+    if (projected.material_type == PrimitiveType::glow && distance > static_cast<double>(projected.proximity)) {
+        return impossible();
+    }
+    RelayedSpot relayed{true, cone_around(projected, disk, distance), disk};
+    if (parent.spot) {
+        SpotShape before = *parent.spot;
+        before.aim = normalize(projection.vector(before.aim));
+        if (relayed.spot) {
+            const auto common = intersect_cones(*relayed.spot, before);
+            if (!common) return impossible();
+            if (common->size < relayed.spot->size) {
+                const double cosine = 1 - static_cast<double>(common->size) / (2 * kPi);
+                const double tangent = std::sqrt(std::max(0.0, 1 / (cosine * cosine) - 1));
+                relayed.disk.radius = std::min(disk.radius, distance * tangent);
+                relayed.disk.center = projected.center + common->aim * distance;
+            }
+            relayed.spot = common;
+        } else {
+            relayed.spot = before;
+        }
+    }
+    if (projected.flat && relayed.spot && !spot_faces(*relayed.spot, projected.normal)) return impossible();
+    return relayed;
+}
+
+}  // namespace
+
+std::optional<Plane> plane_of(const Shape& shape) {
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) return Plane{polygon->normal, polygon->offset};
+    if (const auto* ring = std::get_if<RingShape>(&shape)) return Plane{ring->normal, dot(ring->normal, ring->center)};
+    return std::nullopt;
+}
+
+bool Projection::is_identity() const {
+    for (std::size_t column = 0; column < 3; ++column) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            if (std::abs(plane_.normal[row] * shear_[column]) > kEpsilon) return false;
+        }
+        if (std::abs(plane_.offset * shear_[column]) > kEpsilon) return false;
+    }
+    return true;
+}
+
+std::optional<Projection> Projection::bend(const Plane& plane, const Vec3& from, const Vec3& to) {
+    const double a = dot(from, plane.normal), b = dot(to, plane.normal);
+    if (std::abs(a) <= kEpsilon || std::abs(b) <= kEpsilon) return std::nullopt;
+    Vec3 shear = to / b - from / a;
+    if ((a > 0) != (b > 0)) shear -= plane.normal * 2.0;
+    const Projection projection{plane, shear};
+    if (projection.is_identity()) return std::nullopt;
+    return projection;
+}
+
+std::optional<RelayDisk> relay_disk(const Shape& shape) {
+    if (const auto* ring = std::get_if<RingShape>(&shape)) return RelayDisk{ring->center, ring->r1};
+    const auto* polygon = std::get_if<PolygonShape>(&shape);
+    if (!polygon) return std::nullopt;
+    RelayDisk disk;
+    for (const Vec3& p : polygon->vertices) disk.center += p;
+    disk.center = disk.center / static_cast<double>(polygon->vertices.size());
+    disk.center += polygon->normal * (polygon->offset - dot(polygon->normal, disk.center));
+    for (const Vec3& p : polygon->vertices) disk.radius = std::max(disk.radius, length(p - disk.center));
+    return disk;
+}
+
+bool is_before_mirror(const LightSource& source, const Plane& plane) {
+    const double height = source.distant ? dot(plane.normal, source.center) : plane.height(source.center);
+    double reach = std::abs(dot(plane.normal, source.u)) + std::abs(dot(plane.normal, source.v));
+    if (!source.flat) reach += std::abs(dot(plane.normal, source.w));
+    return height + overhang(source) * reach > kEpsilon;
+}
+
+LightSource project(const LightSource& source, const Projection& projection) {
+    LightSource projected = source;
+    projected.center = source.distant ? normalize(projection.vector(source.center)) : projection.point(source.center);
+    projected.u = projection.vector(source.u);
+    projected.v = projection.vector(source.v);
+    projected.w = projection.vector(source.w);
+    if (source.flat) projected.normal = normalize(projection.vector(source.normal));
+    return projected;
+}
+
+RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected, const Projection& projection,
+                       const RelayDisk& disk) {
+    return projected.distant ? relay_beam(parent, projected, projection, disk)
+                             : relay_cone(parent, projected, projection, disk);
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,67 @@
+#pragma once
+// Where a mirror or prism makes a light source appear: planes, projections, and the disk that light passes.
+#include <optional>
+
+#include "core/geometry/surface.h"
+#include "core/light/light_source.h"
+
+namespace lightwalk {
+
+struct Plane {
+    Vec3 normal;        ///< unit
+    double offset = 0;  ///< normal . x of its points [m]
+    [[nodiscard]] double height(const Vec3& point) const { return dot(normal, point) - offset; }
+};
+
+/// The plane of a polygon or ring; nothing for other shapes.
+[[nodiscard]] std::optional<Plane> plane_of(const Shape& shape);
+
+/// Affine map that leaves a plane's points where they are: x -> x + height(x) k.
+class Projection {
+  public:
+    /// Reflection in the plane.
+    static Projection mirror(const Plane& plane) { return {plane, plane.normal * -2.0}; }
+    /// What makes light that travels along `from` look as if it had always travelled along `to` (any lengths).
+    /// Nothing when either runs along the plane or nothing would change.
+    static std::optional<Projection> bend(const Plane& plane, const Vec3& from, const Vec3& to);
+
+    [[nodiscard]] Vec3 point(const Vec3& x) const { return x + shear_ * plane_.height(x); }
+    [[nodiscard]] Vec3 vector(const Vec3& x) const { return x + shear_ * dot(plane_.normal, x); }
+
+  private:
+    Projection(const Plane& plane, const Vec3& shear) : plane_(plane), shear_(shear) {}
+    [[nodiscard]] bool is_identity() const;
+    Plane plane_;
+    Vec3 shear_;  ///< k
+};
+
+/// Disk around a flat relay, in its plane.
+struct RelayDisk {
+    Vec3 center;
+    double radius = 0;  ///< [m]
+};
+
+/// The disk of a polygon (around its vertices' average) or ring; nothing for other shapes.
+[[nodiscard]] std::optional<RelayDisk> relay_disk(const Shape& shape);
+
+/// Whether any part of the source's sampling box is in front of a mirror's plane.
+[[nodiscard]] bool is_before_mirror(const LightSource& source, const Plane& plane);
+
+/// The source as it appears through the relay: box, normal and direction projected; the rest copied.
+[[nodiscard]] LightSource project(const LightSource& source, const Projection& projection);
+
+/// What a relay's outline leaves of a source that was projected through it.
+struct RelayedSpot {
+    bool possible = true;            ///< false: no light gets through
+    std::optional<SpotShape> spot;   ///< cone or beam; nothing: no bound
+    RelayDisk disk;                  ///< the relay's disk, smaller when the spot shrank
+};
+
+/// @param parent     the source that is relayed
+/// @param projected  the same seen through the relay
+/// @param projection how it was projected
+/// @param disk       of the relay
+[[nodiscard]] RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected,
+                                     const Projection& projection, const RelayDisk& disk);
+
+}  // namespace lightwalk

@@ -1,0 +1,129 @@
+#include "core/light/virtual_sources.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwalk {
+namespace {
+
+bool relays_light(PrimitiveType type) {
+    return type == PrimitiveType::mirror || type == PrimitiveType::prism1 || type == PrimitiveType::prism2;
+}
+
+/// The mirror or prism that a surface is made of, directly or as the alternate of an illum.
+std::optional<ModifierId> relay_material(const Scene& scene, const Surface& surface) {
+    auto id = scene.material_of(surface.modifier);
+    if (id && scene.modifier(*id).type == PrimitiveType::illum) {
+        const std::vector<ModifierId>& alternate = scene.modifier(*id).references;
+        if (alternate.empty() || alternate[0] == kVoid) return std::nullopt;
+        id = scene.material_of(alternate[0]);
+    }
+    if (!id || !relays_light(scene.modifier(*id).type)) return std::nullopt;
+    return id;
+}
+
+}  // namespace
+
+VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings)
+    : lights_(lights), tracer_(tracer), context_(tracer, warnings) {
+    if (tracer.options().relays > 0 && !lights.all().empty()) collect_relays(warnings);
+}
+
+void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
+    const Scene& scene = tracer_.scene();
+    for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
+        const SurfaceId id{static_cast<std::int32_t>(i)};
+        const Surface& surface = scene.surface(id);
+        const auto material = relay_material(scene, surface);
+        if (!material || surface.type == PrimitiveType::instance || surface.type == PrimitiveType::mesh) continue;
+        if (std::holds_alternative<std::monostate>(surface.shape)) continue;
+        const auto plane = plane_of(surface.shape);
+        const auto disk = relay_disk(surface.shape);
+        if (!plane || !disk) {
+            warnings.warn(to_prefix(surface.where) + std::string(to_string(surface.type)) + " \"" + surface.name +
+                          "\": only flat surfaces relay light to others");
+            continue;
+        }
+        if (disk->radius * disk->radius <= kEpsilon) continue;
+        Relay relay{id, *plane, *disk, nullptr, 1};
+        const ModifierRecord& record = scene.modifier(*material);
+        if (record.type != PrimitiveType::mirror) {
+            relay.prism = dynamic_cast<const RelayModifier*>(record.node.get());
+            if (!relay.prism) continue;
+            relay.branches = relay.prism->branches();
+        }
+        relays_.push_back(relay);
+    }
+}
+
+void VirtualSourceBuilder::build() {
+    if (relays_.empty()) return;
+    const int depth = std::min(tracer_.options().relays, LightSources::kMaxRelays);
+    for (auto i = static_cast<std::int32_t>(lights_.all().size()); i-- > 0;) {
+        if (!lights_[i].unusable) relay(i, depth);
+    }
+}
+
+void VirtualSourceBuilder::relay(std::int32_t parent, int depth) {
+    for (const Relay& next : relays_) {
+        if (next.surface == lights_[parent].object) continue;
+        for (int branch = 0; branch < next.branches; ++branch) try_relay(parent, next, branch, depth);
+    }
+}
+
+void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& next, int branch, int depth) {
+    const LightSource parent = lights_[parent_index];
+    if (!lights_disk(parent, next)) return;
+    const auto projected_by = projection(parent, next, branch);
+    if (!projected_by) return;
+    LightSource made = project(parent, *projected_by);
+    const RelayedSpot relayed = relay_spot(parent, made, *projected_by, next.disk);
+    if (!relayed.possible) return;
+    made.spot = relayed.spot;
+    made.object = next.surface;
+    made.is_virtual = made.follow = true;
+    made.parent = parent_index;
+    made.branch = branch;
+    if (tracer_.options().relay_pretest > 0) {
+        const Pretest outcome = pretest(parent_index, next, relayed.disk);
+        if (outcome == Pretest::discard) return;
+        made.follow = outcome == Pretest::follow;
+    }
+    const std::size_t count = lights_.sources_.size();
+    if (count >= LightSources::kMaxVirtualSources) {
+        throw InputError("mirrors and prisms make more than " +
+                         std::to_string(LightSources::kMaxVirtualSources) +
+                         " virtual light sources; lower the number of relays (-dr)");
+    }
+    lights_.sources_.push_back(made);
+    if (depth > 1) relay(static_cast<std::int32_t>(count), depth - 1);
+}
+
+/// Light of a virtual source exists only beyond its own relay: whether this relay's disk reaches there.
+bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Relay& next) const {
+    if (!source.is_virtual) return true;
+    const auto plane = plane_of(tracer_.scene().surface(source.object).shape);
+    if (!plane) return true;
+    const double source_height = source.distant ? dot(plane->normal, source.center) : plane->height(source.center);
+    const double disk_height = plane->height(next.disk.center);
+    if ((source_height > 0) != (disk_height > 0)) return true;
+    const double cosine = dot(plane->normal, next.plane.normal);
+    const double reach_squared = next.disk.radius * next.disk.radius * (1 - cosine * cosine);
+    return disk_height * disk_height < reach_squared;
+}
+
+std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& source, const Relay& next, int branch) {
+    if (!next.prism) {
+        if (!is_before_mirror(source, next.plane)) return std::nullopt;
+        return Projection::mirror(next.plane);
+    }
+    const Vec3 origin = source.distant ? next.disk.center + source.center : source.center;
+    Ray test = tracer_.primary(origin, next.disk.center - origin, 0, RandomStream(tracer_.options().seed));
+    test.hit = tracer_.scene().geometry().intersect_surface(next.surface, {test.origin, test.direction, kHuge});
+    if (!test.hit.exists()) return std::nullopt;
+    const auto bent = next.prism->relay(branch, test, context_);
+    if (!bent || bent->coefficient <= kEpsilon) return std::nullopt;
+    return Projection::bend(next.plane, test.direction, bent->direction);
+}
+
+}  // namespace lightwalk

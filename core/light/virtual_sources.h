@@ -1,0 +1,47 @@
+#pragma once
+// Virtual sources: where lights appear in flat mirrors and through prisms, so that their light can be sampled.
+// Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994, section 3.2 ("virtual
+// light sources"); the -dr and -dp options of rpict(1).
+#include <vector>
+
+#include "core/light/light_sources.h"
+#include "core/light/projection.h"
+#include "core/light/relay.h"
+
+namespace lightwalk {
+
+/// Appends to the list, for every source and every flat relay, what the relay makes of it; relays of relays too.
+class VirtualSourceBuilder {
+  public:
+    VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);
+
+    /// Throws InputError when more than LightSources::kMaxVirtualSources would be made.
+    void build();
+
+  private:
+    /// A mirror, or a prism with its material.
+    struct Relay {
+        SurfaceId surface = kNoSurface;
+        Plane plane;
+        RelayDisk disk;
+        const RelayModifier* prism = nullptr;  ///< null: mirror
+        int branches = 1;
+    };
+    void collect_relays(WarningSink& warnings);
+    void relay(std::int32_t parent, int depth);
+    void try_relay(std::int32_t parent, const Relay& relay, int branch, int depth);
+    [[nodiscard]] std::optional<Projection> projection(const LightSource& source, const Relay& relay, int branch);
+    [[nodiscard]] bool lights_disk(const LightSource& source, const Relay& relay) const;
+
+    enum class Pretest { discard, follow, direct };
+    [[nodiscard]] Pretest pretest(std::int32_t parent, const Relay& relay, const RelayDisk& disk);
+    [[nodiscard]] int pretest_samples(const LightSource& parent, const RelayDisk& disk) const;
+    [[nodiscard]] float light_at(const Vec3& point, const Vec3& direction, std::int32_t source, bool alone);
+
+    LightSources& lights_;
+    const Tracer& tracer_;
+    TraceContext context_;
+    std::vector<Relay> relays_;
+};
+
+}  // namespace lightwalk

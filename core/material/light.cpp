@@ -1,0 +1,113 @@
+// light, illum, glow, spotlight: what a ray sees that hits a light source. Light that the direct
+// calculation brings must not be counted again by paths that find the source by chance. Source:
+// Radiance's manual "The Radiance 6.x Scene Description Language".
+#include "core/light/light_sources.h"
+#include "core/material/argument_checks.h"
+#include "core/material/factories.h"
+#include "core/material/surface_side.h"
+
+namespace lightwalk {
+namespace {
+
+class Light final : public Modifier {
+  public:
+    explicit Light(const ModifierBuild& build);
+    [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+
+  private:
+    void set_spot(const Primitive& primitive);
+    [[nodiscard]] bool far_glow(double distance) const;
+    [[nodiscard]] bool misses(const Ray& ray, const LightSource* target) const;
+    [[nodiscard]] bool outside_cone(const Vec3& v) const;
+    [[nodiscard]] bool shade_alternate(Ray& ray, TraceContext& context) const;
+
+    PrimitiveType type_;
+    ModifierId next_;
+    Rgb color_;
+    double influence_ = 0;          ///< glow: radius of influence [m]
+    ModifierId alternate_ = kVoid;  ///< illum: what the eye sees instead
+    Vec3 spot_aim_;                 ///< spotlight: unit axis
+    float spot_size_ = 0;           ///< spotlight: solid angle of its cone [sr]
+};
+
+Light::Light(const ModifierBuild& build) : type_(build.primitive.type), next_(build.next) {
+    const Primitive& primitive = build.primitive;
+    const bool spot = type_ == PrimitiveType::spotlight;
+    require_exact_reals(primitive, spot ? 7 : type_ == PrimitiveType::glow ? 4 : 3);
+    color_ = color_argument(primitive);
+    if (type_ == PrimitiveType::glow) influence_ = primitive.reals[3];
+    if (type_ == PrimitiveType::illum && !primitive.strings.empty() && !build.undefined(0)) {
+        alternate_ = build.reference(0);
+    }
+    if (spot) set_spot(primitive);
+}
+
+void Light::set_spot(const Primitive& primitive) {
+    const auto refuse = [&](const char* problem) {
+        return InputError(primitive.where, "spotlight \"" + primitive.name + "\": " + problem);
+    };
+    const double angle = primitive.reals[3];  // full, in degrees
+    if (!(angle > kEpsilon)) throw refuse("zero angle");
+    spot_aim_ = normalize({primitive.reals[4], primitive.reals[5], primitive.reals[6]});
+    if (spot_aim_ == Vec3{}) throw refuse("zero direction");
+    spot_size_ = static_cast<float>(2 * kPi * (1 - std::cos(angle * kPi / 360)));
+}
+
+/// A glow that does not light what is so far away; it is seen by every ray instead.
+bool Light::far_glow(double distance) const {
+    return type_ == PrimitiveType::glow && influence_ >= -kEpsilon && distance > influence_;
+}
+
+/// Whether a shadow ray that is on its way to another source ends here.
+bool Light::misses(const Ray& ray, const LightSource* target) const {
+    if (!target || target->object == ray.hit.surface) return false;
+    if (type_ != PrimitiveType::illum) return true;
+    return !target->is_virtual && ray.hit.rod > 0 &&
+           (target->material_type == PrimitiveType::illum ||
+            target->material_type == PrimitiveType::glow);
+}
+
+bool Light::outside_cone(const Vec3& v) const {
+    return static_cast<double>(spot_size_) < 2 * kPi * (1 + dot(spot_aim_, v));
+}
+
+bool Light::shade_alternate(Ray& ray, TraceContext& context) const {
+    if (alternate_ != kVoid) return context.tracer.shade_chain(ray, alternate_, context);
+    context.tracer.pass_through(ray, context);
+    return true;
+}
+
+bool Light::shade(Ray& ray, TraceContext& context) const {
+    const Tracer& tracer = context.tracer;
+    const LightSource* target = ray.target == kNoTarget ? nullptr : &tracer.lights()[ray.target];
+    const bool by_chance = ray.in(kAmbient | kSpecular) && !ray.in(kShadow) && ray.hit.rod >= 0;
+    if ((by_chance && !far_glow(ray.hit.t)) || misses(ray, target)) {
+        ray.coef = {};
+        return true;
+    }
+    if (type_ == PrimitiveType::illum &&
+        (!target || target->object != ray.hit.surface || target->is_virtual)) {
+        return shade_alternate(ray, context);
+    }
+    if (!tracer.options().sources_visible && !ray.in(kShadow) &&
+        !far_glow(ray.path_length + ray.hit.t)) {
+        ray.coef = {};
+        return true;
+    }
+    if (ray.hit.rod < 0) {
+        if (!tracer.options().back_faces_visible) tracer.pass_through(ray, context);
+        return true;
+    }
+    if (type_ == PrimitiveType::spotlight && outside_cone(ray.direction)) return true;
+    tracer.apply_textures(ray, next_, context);
+    ray.value = color_ * ray.pattern;
+    return true;
+}
+
+}  // namespace
+
+std::unique_ptr<const Modifier> make_light(const ModifierBuild& build) {
+    return std::make_unique<Light>(build);
+}
+
+}  // namespace lightwalk

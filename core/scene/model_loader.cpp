@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include "core/scene/scene_tables.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kMaxNesting = 64;  ///< instances inside instances
+
+bool is_placement(const Primitive& primitive) {
+    return primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh;
+}
+
+}  // namespace
+
+ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources) : resources_(resources) {
+    LoadedModel root;
+    root.model = std::move(scene);
+    models.push_back(std::move(root));
+    load_children(0, 0);
+    std::int32_t modifiers = 0, surfaces = 0;
+    for (LoadedModel& m : models) {
+        m.modifier_base = modifiers;
+        m.surface_base = surfaces;
+        modifiers += static_cast<std::int32_t>(m.contents().primitives.size());
+        surfaces += m.mesh ? 1
+                           : static_cast<std::int32_t>(std::count_if(
+                                 m.model->primitives.begin(), m.model->primitives.end(),
+                                 [](const Primitive& p) { return is_surface(p.type); }));
+    }
+}
+
+std::uint32_t ModelLoader::load(const Primitive& placement, std::size_t depth) {
+    const std::string type(to_string(placement.type));
+    if (placement.strings.empty()) {
+        throw InputError(placement.where, type + " \"" + placement.name + "\": bad number of arguments: "
+                                              "the name of a file is missing");
+    }
+    const std::string key = type + " " + placement.strings[0];
+    if (std::find(open_.begin(), open_.end(), key) != open_.end()) {
+        throw InputError(placement.where, key + ": contains itself");
+    }
+    if (depth > kMaxNesting) throw InputError(placement.where, key + ": instances nested too deeply");
+    if (const auto known = loaded_.find(key); known != loaded_.end()) return known->second;
+
+    LoadedModel loaded;
+    try {
+        if (placement.type == PrimitiveType::mesh) {
+            loaded.mesh = resources_.mesh(placement.strings[0]);
+        } else {
+            loaded.model = resources_.octree(placement.strings[0]);
+        }
+    } catch (const InputError& error) {
+        throw InputError(placement.where, type + " \"" + placement.name + "\": " + error.what());
+    }
+    const auto id = static_cast<std::uint32_t>(models.size());
+    models.push_back(std::move(loaded));
+    loaded_.emplace(key, id);
+    open_.push_back(key);
+    load_children(id, depth);
+    open_.pop_back();
+    return id;
+}
+
+void ModelLoader::load_children(std::uint32_t model, std::size_t depth) {
+    if (models[model].mesh) return;
+    const std::shared_ptr<const Model> contents = models[model].model;  // `models` grows below
+    for (const Primitive& primitive : contents->primitives) {
+        if (!is_placement(primitive)) continue;
+        const std::uint32_t child = load(primitive, depth + 1);
+        models[model].children.push_back(child);
+    }
+}
+
+}  // namespace lightwalk

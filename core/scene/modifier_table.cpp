@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <array>
+
+#include "core/scene/scene_tables.h"
+
+namespace lightwalk {
+namespace {
+
+using enum PrimitiveType;
+
+/// The primitive an alias stands for, at the end of the trail.
+const Primitive& alias_target(const Model& model, const Primitive& primitive) {
+    const Primitive* p = &primitive;
+    while (p->type == alias) {
+        if (p->references.empty() || p->references[0] < 0) {
+            throw InputError(p->where, "alias \"" + p->name + "\": bad reference");
+        }
+        p = &model.primitives[static_cast<std::size_t>(p->references[0])];  // always an earlier one
+    }
+    return *p;
+}
+
+/// A BRTDfunc transmits unless its three transmitted-specular expressions are all "0".
+bool transmits(const Primitive& primitive) {
+    for (std::size_t i = 3; i < 6 && i < primitive.strings.size(); ++i) {
+        if (primitive.strings[i] != "0") return true;
+    }
+    return false;
+}
+
+ModifierId global(std::int32_t base, std::int32_t local) {
+    return local < 0 ? kVoid : ModifierId{base + local};
+}
+
+}  // namespace
+
+ModifierTable::ModifierTable(const std::vector<LoadedModel>& models) {
+    for (const LoadedModel& loaded : models) {
+        const Model& model = loaded.contents();
+        for (const Primitive& primitive : model.primitives) {
+            ModifierRecord record;
+            record.type = primitive.type;
+            record.name = primitive.name;
+            record.named_phong = primitive.name == "Phong";
+            record.next = global(loaded.modifier_base, primitive.modifier);
+            record.primitive = &primitive;
+            if (!is_surface(primitive.type)) {
+                const Primitive& acts_as = alias_target(model, primitive);
+                record.type = acts_as.type;
+                record.primitive = &acts_as;
+                for (const std::int32_t r : acts_as.references) {
+                    record.references.push_back(global(loaded.modifier_base, r));
+                }
+            }
+            records_.push_back(std::move(record));
+        }
+    }
+    used_.assign(records_.size(), false);
+}
+
+void ModifierTable::use(ModifierId id) {
+    std::vector<ModifierId> todo{id};
+    while (!todo.empty()) {
+        const ModifierId next = todo.back();
+        todo.pop_back();
+        if (next == kVoid || used_[static_cast<std::size_t>(index(next))]) continue;
+        used_[static_cast<std::size_t>(index(next))] = true;
+        const ModifierRecord& record = (*this)[next];
+        todo.push_back(record.next);
+        if (record.type == antimatter) {
+            has_antimatter_ = true;
+            if (!record.references.empty()) todo.push_back(record.references[0]);
+        } else {
+            todo.insert(todo.end(), record.references.begin(), record.references.end());
+        }
+    }
+}
+
+void ModifierTable::compile(const std::vector<LoadedModel>& models, Resources& resources,
+                            WarningSink& warnings) {
+    for (const LoadedModel& loaded : models) {
+        const auto count = static_cast<std::int32_t>(loaded.contents().primitives.size());
+        for (std::int32_t i = loaded.modifier_base; i < loaded.modifier_base + count; ++i) {
+            ModifierRecord& record = records_[static_cast<std::size_t>(i)];
+            if (!used_[static_cast<std::size_t>(i)]) continue;
+            const Primitive& primitive = *record.primitive;
+            const ModifierFactory factory = modifier_factory(record.type);
+            if (!factory) {
+                throw InputError(primitive.where, std::string(to_string(record.type)) + " \"" + primitive.name +
+                                                      "\": this type is recognised but not supported yet");
+            }
+            const ModifierBuild build{
+                primitive, ModifierId{i}, record.next, resources, functions_, warnings,
+                [&record](std::size_t k) { return k < record.references.size() ? record.references[k] : kVoid; },
+                [&primitive](std::size_t k) {
+                    return k >= primitive.references.size() || primitive.references[k] == kUndefinedIndex;
+                },
+                [this](ModifierId m) { return is_transparent(m); }};
+            record.node = factory(build);
+        }
+    }
+}
+
+std::optional<ModifierId> ModifierTable::material_of(ModifierId first) const {
+    for (ModifierId m = first; m != kVoid; m = (*this)[m].next) {
+        if (is_material((*this)[m].type) || is_mixture((*this)[m].type)) return m;
+    }
+    return std::nullopt;
+}
+
+bool ModifierTable::is_transparent(ModifierId first) const {
+    const auto material = material_of(first);
+    if (!material) return false;
+    const ModifierRecord& record = (*this)[*material];
+    constexpr std::array kTransparent{trans, trans2, dielectric, interface, glass, mist, absdf};
+    if (record.type == brtdfunc) return transmits(*record.primitive);
+    return std::find(kTransparent.begin(), kTransparent.end(), record.type) != kTransparent.end();
+}
+
+SurfaceTraits ModifierTable::traits(ModifierId first) const {
+    const auto material = material_of(first);
+    if (!material) return {};
+    SurfaceTraits traits{true, is_transparent(first), ShadowClass::special};
+    const ModifierRecord& record = (*this)[*material];
+    const Primitive& primitive = *record.primitive;
+    constexpr std::array kOpaque{plastic, metal,    plastic2, metal2,    trans2,  ashik2, plasfunc,  metfunc,
+                                 transfunc, plasdata, metdata,  transdata, light, glow,   spotlight, prism1,
+                                 prism2};
+    bool blocks = std::find(kOpaque.begin(), kOpaque.end(), record.type) != kOpaque.end();
+    if (record.type == trans && primitive.reals.size() > 4) {
+        blocks = primitive.reals[4] * primitive.reals[4] > kEpsilon;  // rough: passes no light straight on
+    }
+    if (record.type == brtdfunc) blocks = !transmits(primitive);
+    if (record.type == mirror) blocks = primitive.strings.empty();
+    // Antimatter can cut any surface away.
+    if (blocks && !has_antimatter_) traits.shadow = ShadowClass::blocks;
+    return traits;
+}
+
+ModifierId ModifierTable::add(ModifierRecord record) {
+    records_.push_back(std::move(record));
+    used_.push_back(true);
+    return ModifierId{static_cast<std::int32_t>(records_.size()) - 1};
+}
+
+}  // namespace lightwalk

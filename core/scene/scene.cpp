@@ -1,0 +1,198 @@
+#include "core/scene/scene.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/material/factories.h"
+#include "core/scene/scene_tables.h"
+#include "core/scene/transform_args.h"
+
+namespace lightwalk {
+
+struct Scene::Impl {
+    std::vector<LoadedModel> models;
+    ModifierTable modifiers;
+    std::vector<Surface> surfaces;
+    std::size_t own_surfaces = 0;
+    std::unique_ptr<Primitive> lambertian;  ///< what irradiance modes put in place of every opaque material
+    ModifierId lambertian_modifier = kVoid;
+    SurfaceId lambertian_surface = kNoSurface;
+    std::unique_ptr<Geometry> geometry;
+
+    Impl(std::shared_ptr<const Model> model, Resources& resources)
+        : models(std::move(ModelLoader(std::move(model), resources).models)), modifiers(models) {}
+
+    void collect_surfaces(WarningSink& warnings);
+    void use_modifiers();
+    void add_lambertian(Resources& resources, WarningSink& warnings);
+    [[nodiscard]] ModelGeometry model_geometry(const LoadedModel& loaded) const;
+    void build_geometry();
+};
+
+namespace {
+
+Surface make_surface(const Primitive& primitive, std::int32_t modifier_base, WarningSink& warnings) {
+    Surface surface;
+    surface.type = primitive.type;
+    surface.modifier = primitive.modifier < 0 ? kVoid : ModifierId{modifier_base + primitive.modifier};
+    surface.name = primitive.name;
+    surface.where = primitive.where;
+    if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh) return surface;
+    ValidatedShape shape = make_shape(primitive);
+    if (!shape.warning.empty()) {
+        warnings.warn(to_prefix(primitive.where) + std::string(to_string(primitive.type)) + " \"" +
+                      primitive.name + "\": " + shape.warning);
+    }
+    surface.type = shape.type;
+    surface.shape = std::move(shape.shape);
+    return surface;
+}
+
+Transform placement_transform(const Primitive& primitive) {
+    const auto words = std::span(primitive.strings).subspan(1);
+    const ParsedTransform parsed = parse_transform(words);
+    if (parsed.words != words.size()) {
+        throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" + primitive.name +
+                                              "\": bad transform at \"" + words[parsed.words] + "\"");
+    }
+    return parsed.transform;
+}
+
+}  // namespace
+
+void Scene::Impl::collect_surfaces(WarningSink& warnings) {
+    for (const LoadedModel& loaded : models) {
+        if (loaded.mesh) {
+            Surface triangles;
+            triangles.type = PrimitiveType::mesh;
+            triangles.name = "M-Tri";
+            surfaces.push_back(std::move(triangles));
+            continue;
+        }
+        for (const Primitive& primitive : loaded.model->primitives) {
+            if (is_surface(primitive.type)) {
+                surfaces.push_back(make_surface(primitive, loaded.modifier_base, warnings));
+            }
+        }
+        if (&loaded == models.data()) own_surfaces = surfaces.size();
+    }
+}
+
+void Scene::Impl::use_modifiers() {
+    for (const Surface& surface : surfaces) modifiers.use(surface.modifier);
+    for (const LoadedModel& loaded : models) {
+        if (!loaded.mesh) continue;
+        for (const MeshModel::Triangle& triangle : loaded.mesh->triangles) {
+            if (triangle.material >= 0) modifiers.use(ModifierId{loaded.modifier_base + triangle.material});
+        }
+    }
+}
+
+void Scene::Impl::add_lambertian(Resources& resources, WarningSink& warnings) {
+    lambertian = std::make_unique<Primitive>();
+    lambertian->type = PrimitiveType::plastic;
+    lambertian->name = "irradiance";
+    lambertian->reals = {kPi, kPi, kPi, 0, 0};
+    FunctionEnvironment functions;
+    const ModifierBuild build{*lambertian, kVoid, kVoid, resources, functions, warnings,
+                              [](std::size_t) { return kVoid; }, [](std::size_t) { return true; },
+                              [](ModifierId) { return false; }};
+    ModifierRecord record;
+    record.type = lambertian->type;
+    record.name = lambertian->name;
+    record.primitive = lambertian.get();
+    record.node = make_plastic(build);
+    lambertian_modifier = modifiers.add(std::move(record));
+    Surface surface;
+    surface.type = PrimitiveType::sphere;  // not flat, and not in the geometry
+    surface.modifier = lambertian_modifier;
+    surface.traits = modifiers.traits(lambertian_modifier);
+    surface.name = lambertian->name;
+    surfaces.push_back(std::move(surface));
+    lambertian_surface = SurfaceId{static_cast<std::int32_t>(surfaces.size()) - 1};
+}
+
+ModelGeometry Scene::Impl::model_geometry(const LoadedModel& loaded) const {
+    ModelGeometry geometry_of;
+    if (loaded.mesh) {
+        MeshPart part;
+        part.mesh = loaded.mesh.get();
+        part.surface = SurfaceId{loaded.surface_base};
+        for (std::size_t i = 0; i < loaded.mesh->materials.primitives.size(); ++i) {
+            part.materials.push_back(ModifierId{loaded.modifier_base + static_cast<std::int32_t>(i)});
+            part.traits.push_back(modifiers.traits(part.materials.back()));
+        }
+        geometry_of.meshes.push_back(std::move(part));
+        return geometry_of;
+    }
+    std::int32_t next = loaded.surface_base;
+    std::size_t placement = 0;
+    for (const Primitive& primitive : loaded.model->primitives) {
+        if (!is_surface(primitive.type)) continue;
+        const SurfaceId id{next++};
+        const Surface& surface = surfaces[static_cast<std::size_t>(index(id))];
+        if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh) {
+            geometry_of.placements.push_back({loaded.children[placement++], placement_transform(primitive), id,
+                                              surface.modifier != kVoid});
+        } else if (!std::holds_alternative<std::monostate>(surface.shape) &&
+                   !std::holds_alternative<SourceShape>(surface.shape)) {
+            geometry_of.surfaces.push_back(id);
+        }
+    }
+    return geometry_of;
+}
+
+void Scene::Impl::build_geometry() {
+    GeometryInput input;
+    input.surfaces = surfaces;
+    for (const LoadedModel& loaded : models) input.models.push_back(model_geometry(loaded));
+    geometry = std::make_unique<Geometry>(std::move(input));
+}
+
+Scene::Scene(std::shared_ptr<const Model> model, Resources& resources, WarningSink& warnings)
+    : impl_(std::make_unique<Impl>(std::move(model), resources)) {
+    impl_->collect_surfaces(warnings);
+    impl_->use_modifiers();
+    impl_->modifiers.compile(impl_->models, resources, warnings);
+    impl_->add_lambertian(resources, warnings);
+    for (Surface& surface : impl_->surfaces) surface.traits = impl_->modifiers.traits(surface.modifier);
+    impl_->build_geometry();
+}
+
+Scene::~Scene() = default;
+
+const Geometry& Scene::geometry() const { return *impl_->geometry; }
+std::span<const Surface> Scene::surfaces() const { return impl_->surfaces; }
+std::size_t Scene::own_surfaces() const { return impl_->own_surfaces; }
+const ModifierRecord& Scene::modifier(ModifierId id) const { return impl_->modifiers[id]; }
+std::size_t Scene::modifier_count() const { return impl_->modifiers.size(); }
+const Model& Scene::model() const { return *impl_->models[0].model; }
+std::optional<ModifierId> Scene::material_of(ModifierId first) const {
+    return impl_->modifiers.material_of(first);
+}
+bool Scene::is_transparent(ModifierId first) const { return impl_->modifiers.is_transparent(first); }
+bool Scene::has_antimatter() const { return impl_->modifiers.has_antimatter(); }
+ModifierId Scene::lambertian() const { return impl_->lambertian_modifier; }
+SurfaceId Scene::lambertian_surface() const { return impl_->lambertian_surface; }
+
+SceneCube Scene::cube() const {
+    const Bounds bounds = impl_->geometry->bounds();
+    if (bounds.empty()) return {};
+    constexpr double kMargin = 1e-5;  // [m], on each side
+    const Vec3 size = bounds.upper - bounds.lower;
+    const double edge = std::max({size.x, size.y, size.z}) + 2 * kMargin;
+    const Vec3 middle = (bounds.lower + bounds.upper) * 0.5;
+    return {middle - Vec3{edge, edge, edge} * 0.5, edge};
+}
+
+std::optional<ModifierId> Scene::find_modifier(std::string_view name) const {
+    const std::vector<Primitive>& primitives = model().primitives;
+    for (std::size_t i = primitives.size(); i-- > 0;) {
+        if (!is_surface(primitives[i].type) && primitives[i].name == name) {
+            return ModifierId{static_cast<std::int32_t>(i)};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,56 @@
+// Walking modifier chains.
+#include "core/trace/tracer.h"
+
+namespace lightwalk {
+namespace {
+
+bool is_light(PrimitiveType type) {
+    return type == PrimitiveType::light || type == PrimitiveType::illum || type == PrimitiveType::glow ||
+           type == PrimitiveType::spotlight;
+}
+
+/// Irradiance mode (-i) concerns what the eye sees directly or straight through something.
+bool wants_irradiance(const Ray& ray, const RenderOptions& options) {
+    return options.irradiance && (ray.history & ~(kPrimary | kTransferred)) == 0;
+}
+
+}  // namespace
+
+bool Tracer::shade_chain(Ray& ray, ModifierId first, TraceContext& context) const {
+    const bool irradiance = wants_irradiance(ray, options_);
+    for (ModifierId m = first; m != kVoid;) {
+        const ModifierRecord& record = scene_.modifier(m);
+        if (irradiance && m != scene_.lambertian() && record.type != PrimitiveType::antimatter &&
+            (is_material(record.type) || is_mixture(record.type))) {
+            if (scene_.is_transparent(m)) {
+                pass_through(ray, context);
+                return true;
+            }
+            if (!is_light(record.type) && is_material(record.type)) {
+                ray.pattern = {1, 1, 1};
+                return scene_.modifier(scene_.lambertian()).node->shade(ray, context);
+            }
+        }
+        if (record.node && record.node->shade(ray, context)) return true;
+        m = record.next;
+    }
+    return false;
+}
+
+void Tracer::shade_or_pass(Ray& ray, ModifierId first, TraceContext& context) const {
+    if (!shade_chain(ray, first, context)) pass_through(ray, context);
+}
+
+void Tracer::apply_textures(Ray& ray, ModifierId material_next, TraceContext& context) const {
+    for (ModifierId m = material_next; m != kVoid;) {
+        const ModifierRecord& record = scene_.modifier(m);
+        if (record.node && record.node->shade(ray, context)) {
+            throw InputError(record.primitive->where,
+                             std::string(to_string(record.type)) + " \"" + record.name +
+                                 "\": conflicting material: it modifies a surface that has one already");
+        }
+        m = record.next;
+    }
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,112 @@
+#include "io/scene/binary_objects.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/scene/transform_args.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kLargestLeaf = 511;
+constexpr std::size_t kTypeNumbers = 128;  ///< a type is a signed byte, and negative means the end
+
+struct TypeTable {
+    std::vector<std::string> words;
+    std::vector<std::optional<PrimitiveType>> types;
+};
+
+TypeTable read_type_table(BinaryReader& reader) {
+    TypeTable table;
+    for (std::string word = reader.string(); !word.empty(); word = reader.string()) {
+        if (table.words.size() == kTypeNumbers) continue;  // no object can name what follows
+        table.types.push_back(primitive_type(word));
+        table.words.push_back(std::move(word));
+    }
+    return table;
+}
+
+PrimitiveType type_of(BinaryReader& reader, const TypeTable& table, std::int64_t number) {
+    const auto at = static_cast<std::size_t>(number);
+    if (number < 0 || at >= table.types.size()) {
+        reader.fail("reference to unknown type number " + std::to_string(number));
+    }
+    if (!table.types[at]) reader.fail("reference to unknown type \"" + table.words[at] + "\"");
+    return *table.types[at];
+}
+
+Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type,
+                      const std::vector<std::int32_t>& numbers) {
+    Primitive object;
+    object.type = type;
+    object.where = {reader.name(), 0};
+    const std::int64_t modifier = reader.integer(id_size);
+    if (modifier < -1 || modifier >= static_cast<std::int64_t>(numbers.size())) {
+        reader.fail("object " + std::to_string(numbers.size()) + " has modifier number " +
+                    std::to_string(modifier) + ", expected that of an earlier object");
+    }
+    if (modifier >= 0) object.modifier = numbers[static_cast<std::size_t>(modifier)];
+    object.name = reader.string();
+    const std::uint64_t strings = reader.unsigned_integer(2);
+    reader.expect(strings, 1);
+    object.strings.reserve(strings);
+    for (std::uint64_t i = 0; i < strings; ++i) object.strings.push_back(reader.string());
+    const std::uint64_t reals = reader.unsigned_integer(2);
+    reader.expect(reals, 5);
+    object.reals.reserve(reals);
+    for (std::uint64_t i = 0; i < reals; ++i) object.reals.push_back(reader.real());
+    return object;
+}
+
+/// An alias without a string renames its modifier; with one it is an alias of the scene language.
+std::int32_t add_object(ModelBuilder& builder, Primitive object) {
+    if (object.type != PrimitiveType::alias) return builder.add(std::move(object));
+    if (object.strings.empty()) return builder.rename(object.name, object.modifier, object.where);
+    const std::int32_t target = builder.alias_target(object.strings[0], object.where);
+    return builder.add_alias(object.modifier, object.name, target, object.where);
+}
+
+}  // namespace
+
+ModelCube read_cube(BinaryReader& reader) {
+    double values[4] = {};
+    for (double& value : values) {
+        const std::string text = reader.string();
+        if (!parse_real(text, value)) reader.fail("bad bounding cube: \"" + text + "\" is no number");
+    }
+    return {values[0], values[1], values[2], values[3]};
+}
+
+std::uint64_t skip_tree(BinaryReader& reader, int id_size) {
+    std::uint64_t nodes = 0;
+    for (std::uint64_t open = 1; open > 0; ++nodes) {
+        switch (reader.unsigned_integer(1)) {
+            case 0: --open; break;
+            case 1: {
+                const std::int64_t count = reader.integer(id_size);
+                if (count < 1 || count > kLargestLeaf) {
+                    reader.fail("damaged tree: a leaf of " + std::to_string(count) + " objects");
+                }
+                reader.skip(static_cast<std::uint64_t>(count * id_size));
+                --open;
+                break;
+            }
+            case 2: open += 7; break;
+            default: reader.fail("damaged tree: unknown node tag");
+        }
+    }
+    return nodes;
+}
+
+std::vector<std::int32_t> read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder) {
+    const TypeTable table = read_type_table(reader);
+    std::vector<std::int32_t> numbers;
+    for (std::int64_t type = reader.integer(1); type != -1; type = reader.integer(1)) {
+        Primitive object = read_object(reader, id_size, type_of(reader, table, type), numbers);
+        numbers.push_back(add_object(builder, std::move(object)));
+    }
+    return numbers;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,171 @@
+#include "io/scene/command_runner.h"
+
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace lightwalk {
+namespace {
+
+constexpr int kMaxDepth = 64;
+/// A scene's commands together, nested ones included.
+constexpr std::size_t kMaxCommands = std::size_t{1} << 20;
+constexpr std::size_t kMaxBytes = 8 * kMaxGeneratedBytes;
+constexpr std::size_t kLongestInMessage = 60;
+
+std::string_view without_mark(const std::string& command) {
+    std::string_view text = command;
+    if (!text.empty() && text[0] == '!') text.remove_prefix(1);
+    return text;
+}
+
+/// cat(1): its files, or its input, one after the other.
+std::string run_cat(std::span<const std::string> args, GeneratorContext& context) {
+    if (args.size() < 2) return context.input;
+    std::string output;
+    for (const std::string& name : args.subspan(1)) {
+        if (name.size() > 1 && name[0] == '-') throw InputError("usage: cat [file ...]");
+        if (name == "-") {
+            output += context.input;
+        } else {
+            output += read_file(path_from(context.directory, name), kMaxGeneratedBytes);
+        }
+        if (output.size() > kMaxGeneratedBytes) throw InputError("cat: too much output");
+    }
+    return output;
+}
+
+Generator find_program(const std::string& name) {
+    return name == "cat" ? &run_cat : find_generator(name);
+}
+
+/// The first program that is not built in; nothing when all are.
+std::optional<std::string> unknown_program(const std::vector<Pipeline>& pipelines) {
+    for (const Pipeline& pipeline : pipelines) {
+        for (const SimpleCommand& command : pipeline) {
+            if (find_program(command[0].text) == nullptr) return command[0].text;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string shell_quoted(const std::string& word) {
+    std::string result = "'";
+    for (const char c : word) {
+        if (c == '\'') result += "'\\''";
+        else result.push_back(c);
+    }
+    return result + "'";
+}
+
+struct DepthGuard {
+    explicit DepthGuard(int& value) : depth(value) { ++depth; }
+    ~DepthGuard() { --depth; }
+    DepthGuard(const DepthGuard&) = delete;
+    DepthGuard& operator=(const DepthGuard&) = delete;
+    int& depth;
+};
+
+}  // namespace
+
+std::string abbreviate_command(const std::string& command) {
+    std::string text(without_mark(command).substr(0, kLongestInMessage));
+    const std::size_t end = text.find_first_of("\r\n");
+    const bool cut = end != std::string::npos || command.size() > kLongestInMessage + 1;
+    if (end != std::string::npos) text.resize(end);
+    return "!" + text + (cut ? "..." : "");
+}
+
+void CommandRunner::charge(std::size_t bytes, const SourceLocation& where) {
+    if (bytes > kMaxBytes - bytes_) throw CommandError(where, "the scene's commands write too much");
+    bytes_ += bytes;
+}
+
+std::string CommandRunner::run(const std::string& command, const std::string& directory,
+                               const SourceLocation& where) {
+    const DepthGuard guard(depth_);
+    if (depth_ > kMaxDepth) {
+        throw CommandError(where, "commands nest more than " + std::to_string(kMaxDepth) +
+                                      " levels deep at \"" + abbreviate_command(command) +
+                                      "\": does a file read itself?");
+    }
+    if (++commands_ > kMaxCommands) throw CommandError(where, "the scene has too many commands");
+    const std::optional<std::vector<Pipeline>> pipelines = split_command(without_mark(command));
+    std::string output;
+    if (pipelines && !unknown_program(*pipelines)) {
+        output = run_pipelines(*pipelines, command, directory, where);
+    } else if (allow_commands_) {
+        output = run_shell(std::string(without_mark(command)), directory, where);
+    } else if (pipelines) {
+        throw CommandError(where, "command \"" + *unknown_program(*pipelines) +
+                                      "\" is not built in; --allow-commands runs it through the shell");
+    } else {
+        throw CommandError(where, "\"" + abbreviate_command(command) +
+                                      "\" needs a shell; --allow-commands runs it through one");
+    }
+    charge(output.size(), where);
+    return output;
+}
+
+std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
+                                         const std::string& command, const std::string& directory,
+                                         const SourceLocation& where) {
+    const LibraryPath library = library_.relative_to(directory);
+    std::string output;
+    for (const Pipeline& pipeline : pipelines) {
+        GeneratorContext context{library, directory, {}, false, warnings_, {}};
+        context.run_command = [this, &where](const std::string& nested, const std::string& from) {
+            return run(nested, from, where);
+        };
+        for (const SimpleCommand& words : pipeline) {
+            std::string written;
+            try {
+                written = run_program(words, context);
+            } catch (const CommandError&) {
+                throw;
+            } catch (const InputError& error) {
+                warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
+                               "\": " + error.what());
+            }
+            charge(written.size(), where);
+            context.input = std::move(written);
+            context.has_input = true;
+        }
+        output += context.input;
+    }
+    return output;
+}
+
+std::string CommandRunner::run_program(const SimpleCommand& words, GeneratorContext& context) {
+    const std::vector<std::string> args = expand_patterns(words, context.directory);
+    return find_program(args[0])(args, context);
+}
+
+std::string CommandRunner::run_shell(const std::string& command, const std::string& directory,
+                                     const SourceLocation& where) {
+    std::string script = "exec </dev/null\n";
+    if (!directory.empty()) script += "cd -- " + shell_quoted(directory) + " || exit 1\n";
+    script += command;
+    std::FILE* const pipe = popen(script.c_str(), "r");  // NOLINT(cert-env33-c): only when allowed
+    if (pipe == nullptr) throw CommandError(where, "cannot start the shell");
+    std::string output;
+    std::array<char, 65536> chunk{};
+    std::size_t got = 0;
+    while (output.size() <= kMaxGeneratedBytes &&
+           (got = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0) {
+        output.append(chunk.data(), got);
+    }
+    const int status = pclose(pipe);
+    if (output.size() > kMaxGeneratedBytes) {
+        throw CommandError(where, "\"" + abbreviate_command(command) + "\" writes too much");
+    }
+    if (status != 0) {
+        warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) + "\"");
+    }
+    return output;
+}
+
+}  // namespace lightwalk

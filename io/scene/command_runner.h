@@ -1,0 +1,52 @@
+#pragma once
+// Runs the `!` commands of scenes: by built-in generators, or through the shell where that is allowed.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "io/generators/generator.h"
+#include "io/library_path.h"
+#include "io/scene/command_line.h"
+
+namespace lightwalk {
+
+/// A command that cannot be run at all, or runs away; unlike a command that fails, it ends the reading.
+class CommandError : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// One for each scene that is read: it bounds what all its commands together may do.
+class CommandRunner {
+  public:
+    CommandRunner(LibraryPath library, bool allow_commands, WarningSink& warnings)
+        : library_(std::move(library)), allow_commands_(allow_commands), warnings_(warnings) {}
+
+    /// Output of `command`, which may begin with '!', run in `directory` ("" is the process's) with an empty
+    /// standard input. A command that fails gives the warning "bad status from ..."; what it wrote is kept.
+    /// Throws CommandError for programs that are not built in (unless commands are allowed), and for commands
+    /// that nest without end or write too much.
+    [[nodiscard]] std::string run(const std::string& command, const std::string& directory,
+                                  const SourceLocation& where);
+
+  private:
+    [[nodiscard]] std::string run_pipelines(const std::vector<Pipeline>& pipelines,
+                                            const std::string& command, const std::string& directory,
+                                            const SourceLocation& where);
+    [[nodiscard]] std::string run_program(const SimpleCommand& words, GeneratorContext& context);
+    [[nodiscard]] std::string run_shell(const std::string& command, const std::string& directory,
+                                        const SourceLocation& where);
+    void charge(std::size_t bytes, const SourceLocation& where);
+
+    LibraryPath library_;
+    bool allow_commands_;
+    WarningSink& warnings_;
+    int depth_ = 0;
+    std::size_t commands_ = 0, bytes_ = 0;
+};
+
+/// The command for messages: its first line, shortened, with the '!'.
+[[nodiscard]] std::string abbreviate_command(const std::string& command);
+
+}  // namespace lightwalk

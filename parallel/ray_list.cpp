@@ -1,0 +1,58 @@
+#include "parallel/ray_list.h"
+
+#include <algorithm>
+
+namespace lightwalk {
+namespace {
+
+/// What a ray without direction, or one that meets nothing, reports as its hit.
+void set_missed(Ray& ray) {
+    ray.hit = Hit{};
+    ray.hit.position = ray.limit > 0 ? ray.origin + ray.limit * ray.direction : ray.origin;
+}
+
+void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random, const RayListOptions& options,
+               TraceContext& context, std::size_t index, TakeRay take) {
+    const double size = length(query.direction);
+    if (!(size > 0)) {
+        Ray ray = tracer.primary(query.origin, query.direction, 0, random);
+        set_missed(ray);
+        return take(index, ray, ray.hit);
+    }
+    if (options.sensor) {
+        const Ray ray = tracer.irradiance(query.origin, query.direction, random, context);
+        return take(index, ray, ray.hit);
+    }
+    Ray ray = tracer.primary(query.origin, query.direction, options.limit_by_length ? size : 0, random);
+    const double farthest = ray.limit > kEpsilon ? ray.limit : kHuge;
+    const Hit first = tracer.scene().geometry().intersect({ray.origin, ray.direction, farthest});
+    if (options.shade) {
+        context.clip_sets.clear();
+        context.scatter_lists.clear();
+        tracer.shade_hit(ray, first, context);
+    } else {
+        ray.hit = first;
+        ++context.counters.primary;
+    }
+    if (!ray.hit.exists()) set_missed(ray);
+    take(index, ray, first);
+}
+
+}  // namespace
+
+void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts, std::span<const RayQuery> queries,
+                    std::uint64_t first_index, const RayListOptions& options, Executor& executor, TakeRay take) {
+    const std::size_t tasks = (queries.size() + kRaysPerTask - 1) / kRaysPerTask;
+    executor.for_each(tasks, [&](std::size_t task, int worker) {
+        const std::size_t end = std::min((task + 1) * kRaysPerTask, queries.size());
+        for (std::size_t i = task * kRaysPerTask; i < end; ++i) {
+            const std::uint64_t number = first_index + i;
+            const RandomStream random =
+                RandomStream::of_pixel(options.seed, static_cast<std::uint32_t>(number),
+                                       static_cast<std::uint32_t>(number >> 32), 0);
+            trace_one(tracer, queries[i], random, options, contexts[worker], i, take);
+        }
+    });
+}
+
+}  // namespace lightwalk

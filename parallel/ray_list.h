@@ -1,0 +1,36 @@
+#pragma once
+// Many separate rays by all workers of an executor, as rtrace takes them.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/math/function_ref.h"
+#include "core/trace/tracer.h"
+#include "parallel/executor.h"
+#include "parallel/worker_contexts.h"
+
+namespace lightwalk {
+
+/// A ray to trace; a zero direction is answered like a ray that hits nothing.
+struct RayQuery {
+    Vec3 origin, direction;  ///< direction of any length
+};
+
+struct RayListOptions {
+    bool shade = true;              ///< false: nearest hits only
+    bool sensor = false;            ///< irradiance at the origin facing the direction (rtrace -I)
+    bool limit_by_length = false;   ///< the direction's length limits the ray (rtrace -ld)
+    std::uint64_t seed = 0;
+};
+
+/// Rays with the same index / kRaysPerTask are traced by one thread, in order.
+inline constexpr std::size_t kRaysPerTask = 64;
+
+/// Takes a finished ray and its nearest hit before shading.
+using TakeRay = FunctionRef<void(std::size_t index, const Ray& ray, const Hit& first)>;
+
+/// Trace `queries`; ray i has the random numbers of ray `first_index` + i of the whole input, whatever the workers.
+void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts, std::span<const RayQuery> queries,
+                    std::uint64_t first_index, const RayListOptions& options, Executor& executor, TakeRay take);
+
+}  // namespace lightwalk

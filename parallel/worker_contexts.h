@@ -1,0 +1,38 @@
+#pragma once
+// One TraceContext for each worker of an executor.
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/trace/tracer.h"
+
+namespace lightwalk {
+
+/// Contexts are made when a worker asks first; worker w may only be asked for by the thread that is worker w.
+class WorkerContexts {
+  public:
+    WorkerContexts(const Tracer& tracer, WarningSink& warnings, int workers)
+        : tracer_(tracer), warnings_(warnings), contexts_(static_cast<std::size_t>(workers)) {}
+
+    [[nodiscard]] TraceContext& operator[](int worker) {
+        std::unique_ptr<TraceContext>& context = contexts_[static_cast<std::size_t>(worker)];
+        if (!context) context = std::make_unique<TraceContext>(tracer_, warnings_);
+        return *context;
+    }
+
+    /// Rays traced by all workers so far; only while no task runs.
+    [[nodiscard]] RayCounters rays() const {
+        RayCounters sum;
+        for (const auto& context : contexts_) {
+            if (context) sum += context->counters;
+        }
+        return sum;
+    }
+
+  private:
+    const Tracer& tracer_;
+    WarningSink& warnings_;
+    std::vector<std::unique_ptr<TraceContext>> contexts_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,123 @@
+// Small sound inputs that touch most of what each reader knows.
+#include <string>
+#include <vector>
+
+#include "io/picture/picture.h"
+#include "tests/fuzz/targets.h"
+
+namespace lightwalk::test {
+namespace {
+
+const std::string kScene = R"(# a room with a bit of everything
+void plastic white 0 0 5 .7 .7 .7 .05 .02
+void light bulb 0 0 3 100 90 80
+void glow sky 0 0 4 1 1 1 0
+void glass pane 0 0 3 .9 .9 .9
+void mirror silver 0 0 3 .8 .8 .8
+void dielectric ball 0 0 5 .9 .9 .9 1.5 0
+void brightfunc grain 2 if(noise3(Px,Py,Pz),.8,.5) . 0 0
+grain plastic wood 0 0 5 .5 .3 .1 0 0
+void texfunc bumps 4 .1*noise3x(Px,Py,Pz) 0 0 . 0 1 3
+bumps metal brass 0 0 5 .8 .6 .2 .9 .1
+void mixfunc dots 4 wood brass frac(Px)-.5 . 0 0
+inherit alias floor_mat white
+void plastic2 brushed 4 1 0 0 . 0 6 .5 .5 .5 .1 .05 .2
+bulb sphere lamp 0 0 4 0 0 3 .1
+sky source up 0 0 4 0 0 1 180
+floor_mat polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0
+white ring plate 0 0 8 0 1 1 0 -1 0 0 .5
+dots cylinder post 0 0 7 1 1 0 1 1 2 .1
+brushed cone hat 0 0 8 1 1 2 1 1 2.5 .3 0
+ball sphere crystal 0 0 4 0 .5 1 .3
+pane polygon window 0 0 12 -1 -1 1 1 -1 1 1 -1 2 -1 -1 2
+silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
+!genbox white box .5 .4 .3 | xform -t .2 .3 0 -rz 30
+!xform -n a -a 3 -t .2 0 0 -
+!genworm white w "cos(t)" "sin(t)" t .1 5
+!gensky 6 21 12 +s
+)";
+
+const std::string kFunctions = R"({ comments { nest } }
+a = if(Px - .5, noise3(Px,Py,Pz)*k, sqrt(max(0, Dz)));
+k : 3*PI/2;
+b = select(2, a, fac(5), frac(7.25)) + A1*A2/arg(3);
+fac(n) : if(n-1.5, n*fac(n-1), 1);
+c = turbulence(Px/4, Py/4, Pz/4, .25)^2 - fnoise3(Px,Py,Pz) + min(1,2,Rdot);
+f(x,y) = g(x) + g(y); g(x) = 1/(1 + x*x) - Exp(-x) + atan2(x, 1);
+)";
+
+const std::string kData1 = "# comment\n2\n0 1 3\n0 0 4 1 2 4 8\n1 2 3 4\n5 6 7 8\n9 10 11 12\n";
+const std::string kFont = "32 0\n65 4 40 30 200 30 200 220 40 220\n66 3 20 20 240 20 130 240\n";
+
+/// Big-endian integer of n bytes.
+std::string integer(std::int64_t value, int n) {
+    std::string bytes;
+    for (int i = n - 1; i >= 0; --i) bytes += static_cast<char>((value >> (8 * i)) & 255);
+    return bytes;
+}
+std::string text(const std::string& s) { return s + '\0'; }
+/// The number `quarters`/4 as a portable float: mantissa over 2^31 - 1 and exponent.
+std::string portable(int quarters) { return integer(std::int64_t{quarters} << 20, 4) + integer(9, 1); }
+
+std::string object(int type, int modifier, const std::string& name, const std::vector<int>& quarters) {
+    std::string bytes = integer(type, 1) + integer(modifier, 4) + text(name) + integer(0, 2) +
+                        integer(static_cast<int>(quarters.size()), 2);
+    for (const int q : quarters) bytes += portable(q);
+    return bytes;
+}
+
+std::string type_table() { return text("polygon") + text("sphere") + text("plastic") + text("light") + text(""); }
+
+std::string frozen_octree() {
+    std::string bytes = "#?RADIANCE\noconv -f room.rad\nFORMAT=Radiance_octree\n\n" + integer(287, 2);
+    bytes += text("-2") + text("-2") + text("-2") + text("4") + text("") + integer(4, 4);
+    bytes += integer(2, 1) + integer(1, 1) + integer(2, 4) + integer(1, 4) + integer(3, 4);
+    for (int i = 0; i < 7; ++i) bytes += integer(0, 1);
+    bytes += type_table();
+    bytes += object(2, -1, "white", {2, 2, 2, 0, 0});
+    bytes += object(0, 0, "floor", {-4, -4, 0, 4, -4, 0, 4, 4, 0, -4, 4, 0});
+    bytes += object(3, -1, "bulb", {40, 40, 40});
+    bytes += object(1, 2, "lamp", {0, 0, 4, 1});
+    return bytes + integer(-1, 1);
+}
+
+std::string mesh() {
+    std::string bytes = "#?RADIANCE\nobj2mesh\nFORMAT=Radiance_tmesh\n\n" + integer(323, 2);
+    bytes += text("0") + text("0") + text("0") + text("1");
+    for (const int uv : {0, 4, 0, 4}) bytes += portable(uv);
+    bytes += integer(1, 1) + integer(1, 4) + integer(0, 4);
+    bytes += type_table() + object(2, -1, "white", {2, 2, 2, 0, 0}) + integer(-1, 1);
+    bytes += integer(1, 4) + integer(7, 1) + integer(3, 2);
+    for (int i = 0; i < 9; ++i) bytes += integer(0x10000000LL * (i * 5 % 13), 4);
+    for (int i = 0; i < 3; ++i) bytes += integer(8, 4);
+    for (int i = 0; i < 6; ++i) bytes += integer(0x20000000LL * (i + 1), 4);
+    bytes += integer(1, 2) + integer(0, 1) + integer(1, 1) + integer(2, 1);
+    return bytes + integer(1, 2) + integer(0, 2) + integer(0, 2) + integer(0, 2);
+}
+
+Picture gradient() {
+    Picture picture{24, 5, {}};
+    for (int i = 0; i < picture.width * picture.height; ++i) {
+        picture.pixels.push_back({0.1f * static_cast<float>(i % 7), i < 40 ? 0.5f : 2.0f, 1.0f});
+    }
+    return picture;
+}
+
+}  // namespace
+
+std::span<const std::string> seeds_of(FuzzTarget target) {
+    static const std::vector<std::string> scenes{kScene};
+    static const std::vector<std::string> octrees{frozen_octree()};
+    static const std::vector<std::string> functions{kFunctions};
+    static const std::vector<std::string> pictures{
+        encode_hdr(gradient(), {{"VIEW= -vtv -vp 0 0 0", "EXPOSURE=2"}}),
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n\n+X 2 -Y 3\n" + std::string("abcdabcdabcd\1\1\1\2abcd")};
+    static const std::vector<std::string> data{kData1, kFont, mesh()};
+    if (target == read_scene_text) return scenes;
+    if (target == read_octree) return octrees;
+    if (target == read_function_file) return functions;
+    if (target == read_picture) return pictures;
+    return data;
+}
+
+}  // namespace lightwalk::test

@@ -1,0 +1,104 @@
+#include "tests/fuzz/targets.h"
+
+#include <array>
+#include <memory>
+
+#include "core/function/environment.h"
+#include "core/scene/scene.h"
+#include "core/texture/interpolate.h"
+#include "core/trace/tracer.h"
+#include "io/formats/decode.h"
+#include "io/picture/picture.h"
+#include "io/scene/binary_models.h"
+#include "io/scene/scene_reader.h"
+#include "tests/test_scene.h"
+
+namespace lightwalk::test {
+namespace {
+
+/// Build the scene and look at it from a few directions.
+void trace_some(std::shared_ptr<const Model> model) {
+    MemoryResources resources;
+    Silence silence;
+    const Scene scene(std::move(model), resources, silence);
+    RenderOptions options;
+    options.relay_pretest = 0;
+    options.shadow_threshold = 0;
+    options.reflection_limit = 3;
+    const Tracer tracer(scene, options, silence);
+    TraceContext context(tracer, silence);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const Vec3 direction{0.3 * i - 0.5, 1, 0.1 - 0.2 * i};
+        Ray ray = tracer.primary({0.5, -3, 0.5}, direction, 0, RandomStream::of_pixel(1, i, 0, 0));
+        tracer.trace(ray, context);
+    }
+}
+
+template <class Read>
+bool accepts(const Read& read) {
+    try {
+        read();
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+bool read_scene_text(std::string_view bytes) {
+    return accepts([&] {
+        Silence silence;
+        SceneReadOptions options;
+        options.library = LibraryPath(std::vector<std::string>{});
+        trace_some(parse_scene(bytes, "mutant.rad", options, silence));
+    });
+}
+
+bool read_octree(std::string_view bytes) {
+    return accepts([&] {
+        const OctreeContents contents = decode_octree(bytes, "mutant.oct");
+        if (contents.model) trace_some(contents.model);
+    });
+}
+
+bool read_function_file(std::string_view bytes) {
+    return accepts([&] {
+        FunctionEnvironment environment;
+        environment.load("mutant.cal", bytes);
+        const std::array<double, 3> reals{1, 2, 3};
+        for (const char* name : {"a", "b", "c", "f(Px,Py)"}) {
+            (void)accepts([&] {
+                const std::array<ExpressionRequest, 1> request{ExpressionRequest{name, -1}};
+                const Program program = environment.compile("mutant.cal", request, reals, 0, {"mutant.rad", 1});
+                ChannelValues channels{};
+                channels.fill(0.5);
+                EvalState state;
+                program.begin(state, channels);
+                (void)program.evaluate(0, state);
+            });
+        }
+    });
+}
+
+bool read_picture(std::string_view bytes) {
+    const bool pattern = accepts([&] {
+        const PictureData data = decode_picture(bytes, "mutant.hdr");
+        (void)interpolate(data, 0.4, 0.7);
+    });
+    const bool picture = accepts([&] { (void)read_hdr(bytes, "mutant.hdr"); });
+    return pattern || picture;
+}
+
+bool read_data_file(std::string_view bytes) {
+    const bool data = accepts([&] {
+        const DataArray array = decode_data(bytes, "mutant.dat");
+        const std::array<double, 6> point{0.3, 1.7, 0.1, 0.2, 0.3, 0.4};
+        (void)interpolate(array, std::span(point).first(array.axes.size()));
+    });
+    const bool font = accepts([&] { (void)decode_font(bytes, "mutant.fnt"); });
+    const bool mesh = accepts([&] { (void)decode_mesh(bytes, "mutant.rtm"); });
+    return data || font || mesh;
+}
+
+}  // namespace lightwalk::test

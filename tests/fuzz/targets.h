@@ -1,0 +1,33 @@
+#pragma once
+// What the mutation test and the fuzzers feed with damaged input, and the sound inputs they start from.
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lightwalk::test {
+
+/// Reads `bytes` the way a render would; InputError is the right answer to nonsense and is swallowed.
+/// Returns whether the input was accepted. Anything else that is thrown is a defect.
+using FuzzTarget = bool (*)(std::string_view bytes);
+
+bool read_scene_text(std::string_view bytes);     ///< parse, compile, trace a few rays
+bool read_octree(std::string_view bytes);         ///< the same for an octree
+bool read_function_file(std::string_view bytes);  ///< load, compile and evaluate its variables
+bool read_picture(std::string_view bytes);        ///< as a pattern and as a picture
+bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
+
+/// Sound inputs of each target; made here, so that the tests need no other files.
+[[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
+
+struct NamedTarget {
+    const char* name;
+    FuzzTarget run;
+};
+inline constexpr NamedTarget kFuzzTargets[] = {{"scene", read_scene_text},
+                                               {"octree", read_octree},
+                                               {"function", read_function_file},
+                                               {"picture", read_picture},
+                                               {"data", read_data_file}};
+
+}  // namespace lightwalk::test
