@@ -20,15 +20,18 @@ int worker_count(OptionWords& words) {
     constexpr int kMost = 4096;
     const int count = words.integer();
     if (count < 1 || count > kMost) {
-        throw UsageError("option -n: expected 1 to " + std::to_string(kMost) + " threads, found " + std::to_string(count));
+        throw UsageError("option -n: expected 1 to " + std::to_string(kMost) + " threads, found " +
+                         std::to_string(count));
     }
     return count;
 }
 
 std::string error_file(OptionWords& words) {
-    const std::string file = words.text();
+    std::string file = words.text();
     if (file.find_first_of("=:") != std::string::npos) {
-        throw UsageError("option -e: global definitions are not supported, only the name of a file for messages");
+        throw UsageError(
+            "option -e: global definitions are not supported, only the name of a file for "
+            "messages");
     }
     return file;
 }
@@ -79,13 +82,16 @@ void refuse_option(const OptionWords& words, std::vector<std::string> names) {
 }
 
 std::vector<std::string> common_option_names() {
-    return {"-n", "-e", "--executor", "--seed", "--stats", "--quiet", "--allow-commands", "--help", "--version", "-defaults"};
+    return {"-n",     "-e",        "--executor", "--seed", "--stats", "--quiet", "--allow-commands",
+            "--help", "--version", "-defaults"};
 }
 
 void settle_render_settings(RenderSettings& settings, WarningSink& warnings) {
     check_render_settings(settings);
     if (settings.light.ambient_bounces <= 0) return;
-    warnings.warn("indirect light (-ab) is not computed yet; the constant ambient value (-av) stands in for it");
+    warnings.warn(
+        "indirect light (-ab) is not computed yet; the constant ambient value (-av) stands in for "
+        "it");
     settings.light.ambient_bounces = 0;
 }
 
@@ -94,10 +100,12 @@ void redirect_messages(const CommonOptions& options, const std::string& history)
     if (std::freopen(options.error_file.c_str(), "a", stderr) == nullptr) {
         throw InputError({options.error_file, 0}, "cannot open the error file");
     }
-    std::fprintf(stderr, "**************\n*** PID %ld: %s\n", static_cast<long>(getpid()), history.c_str());
+    std::fprintf(stderr, "**************\n*** PID %ld: %s\n", static_cast<long>(getpid()),
+                 history.c_str());
 }
 
-std::string command_history(const std::string& command, const OptionWords& words, const CommonOptions& options) {
+std::string command_history(const std::string& command, const OptionWords& words,
+                            const CommonOptions& options) {
     std::vector<std::string> all = words.expanded();
     for (auto at = options.scene_positions.rbegin(); at != options.scene_positions.rend(); ++at) {
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(*at));

@@ -13,27 +13,29 @@
 namespace lightwalk {
 
 struct CommonOptions {
-    int workers = hardware_threads();            ///< -n
-    ExecutorKind executor = ExecutorKind::tbb;   ///< --executor
-    bool allow_commands = false;                 ///< --allow-commands
-    bool quiet = false;                          ///< --quiet
-    std::string stats_file;                      ///< --stats
-    std::string error_file;                      ///< -e: where messages go, "" for standard error
-    std::vector<std::string> scene_files;        ///< words that are no options, in order
-    std::vector<std::size_t> scene_positions;    ///< where they stand among the expanded words
+    int workers = hardware_threads();          ///< -n
+    ExecutorKind executor = kDefaultExecutor;  ///< --executor
+    bool allow_commands = false;               ///< --allow-commands
+    bool quiet = false;                        ///< --quiet
+    std::string stats_file;                    ///< --stats
+    std::string error_file;                    ///< -e: where messages go, "" for standard error
+    std::vector<std::string> scene_files;      ///< words that are no options, in order
+    std::vector<std::size_t> scene_positions;  ///< where they stand among the expanded words
 };
 
 /// Take one of these options, or a scene's name; false when the word is something else.
-[[nodiscard]] bool parse_common_option(OptionWords& words, CommonOptions& options, RenderSettings& settings);
+[[nodiscard]] bool parse_common_option(OptionWords& words, CommonOptions& options,
+                                       RenderSettings& settings);
 
-/// The word in option position is none that the command knows: throws UsageError with the nearest of `names`.
+/// The word in option position is none that the command knows: throws UsageError with the nearest
+/// of `names`.
 [[noreturn]] void refuse_option(const OptionWords& words, std::vector<std::string> names);
 
 /// Names of the options above, for suggestions.
 [[nodiscard]] std::vector<std::string> common_option_names();
 
-/// -ab and its relatives are understood; says once that they have no effect yet. Throws UsageError for settings
-/// that contradict each other.
+/// -ab and its relatives are understood; says once that they have no effect yet. Throws UsageError
+/// for settings that contradict each other.
 void settle_render_settings(RenderSettings& settings, WarningSink& warnings);
 
 /// Append messages to the file that -e names, from here on. Throws InputError.

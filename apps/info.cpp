@@ -13,13 +13,16 @@
 namespace lightwalk {
 namespace {
 
-void print_vector(const char* label, const Vec3& v) { std::printf("  %-12s %g %g %g\n", label, v.x, v.y, v.z); }
+void print_vector(const char* label, const Vec3& v) {
+    std::printf("  %-12s %g %g %g\n", label, v.x, v.y, v.z);
+}
 
 void print_counts(const Model& model) {
     std::map<PrimitiveType, std::size_t> counts;
     for (const Primitive& primitive : model.primitives) ++counts[primitive.type];
     std::printf("primitives     %zu\n", model.primitives.size());
-    for (const auto& [type, count] : counts) std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
+    for (const auto& [type, count] : counts)
+        std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
 }
 
 /// Types that are read and then refused when a surface uses them.
@@ -27,11 +30,13 @@ void print_unsupported(const Model& model) {
     std::map<PrimitiveType, std::size_t> counts;
     for (const Primitive& primitive : model.primitives) {
         const PrimitiveType type = primitive.type;
-        const bool known = is_surface(type) || type == PrimitiveType::alias || modifier_factory(type) != nullptr;
+        const bool known =
+            is_surface(type) || type == PrimitiveType::alias || modifier_factory(type) != nullptr;
         if (!known) ++counts[type];
     }
     std::printf("unsupported    %s\n", counts.empty() ? "nothing" : "");
-    for (const auto& [type, count] : counts) std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
+    for (const auto& [type, count] : counts)
+        std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
 }
 
 void print_geometry(const Scene& scene) {
@@ -43,14 +48,17 @@ void print_geometry(const Scene& scene) {
         std::printf("  %-12s %g at %g %g %g\n", "cube", scene.cube().size, scene.cube().origin.x,
                     scene.cube().origin.y, scene.cube().origin.z);
     }
-    std::printf("surfaces       %zu, %zu with those of instances\n", scene.own_surfaces(), scene.surfaces().size());
+    const std::size_t own = scene.own_surfaces();
+    const std::size_t all =
+        scene.surfaces().size() - 1;  // without the one that stands for a sensor
+    std::printf("surfaces       %zu, and %zu inside instances\n", own, all - own);
     std::printf("instances      %zu placed\n", scene.geometry().frame_count());
 }
 
 void print_lights(const Scene& scene, const LightSources& lights) {
     constexpr int kMostLines = 100;
-    std::printf("light sources  %zu real, %zu virtual\n", lights.all().size() - lights.virtual_count(),
-                lights.virtual_count());
+    std::printf("light sources  %zu real, %zu virtual\n",
+                lights.all().size() - lights.virtual_count(), lights.virtual_count());
     int lines = 0;
     for (const LightSource& light : lights.all()) {
         if (light.is_virtual) continue;
@@ -59,8 +67,9 @@ void print_lights(const Scene& scene, const LightSources& lights) {
             return;
         }
         const Surface& surface = scene.surface(light.object);
-        std::printf("  %-12s %s (%s)%s\n", std::string(to_string(light.material_type)).c_str(), surface.name.c_str(),
-                    std::string(to_string(surface.type)).c_str(), light.unusable ? ", not sampled" : "");
+        std::printf("  %-12s %s (%s)%s\n", std::string(to_string(light.material_type)).c_str(),
+                    surface.name.c_str(), std::string(to_string(surface.type)).c_str(),
+                    light.unusable ? ", not sampled" : "");
     }
 }
 
@@ -88,7 +97,8 @@ int run_info(const std::vector<std::string>& line) {
     std::printf("memory         %.1f MB geometry, %.1f MB in all at most\n",
                 1e-6 * static_cast<double>(session.scene().geometry().memory_bytes()),
                 1e-6 * static_cast<double>(peak_memory_bytes()));
-    std::printf("time           %.2f s to read, %.2f s to build\n", session.read_seconds, session.build_seconds);
+    std::printf("time           %.2f s to read, %.2f s to build\n", session.read_seconds,
+                session.build_seconds);
     return kSuccessStatus;
 }
 

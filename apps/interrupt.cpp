@@ -1,5 +1,6 @@
 #include "apps/interrupt.h"
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -8,28 +9,46 @@ namespace lightwalk {
 namespace {
 
 // A signal handler has no other way to reach its process.
-StopFlag stop_flag;                                       // NOLINT
+StopFlag stop_flag;                                        // NOLINT
 std::atomic<InterruptPhase> phase{InterruptPhase::leave};  // NOLINT
 static_assert(std::atomic<InterruptPhase>::is_always_lock_free);
+
+/// A worker may be deep in one pixel; as nothing has been written, the process need not wait for
+/// it.
+void on_patience_end(int /*signal*/) {
+    if (phase.load() == InterruptPhase::request) _exit(kInterruptedStatus);
+}
 
 void on_interrupt(int /*signal*/) {
     const InterruptPhase now = phase.load();
     const bool again = now == InterruptPhase::request && stop_flag.requested();
     if (now == InterruptPhase::leave || again) _exit(kInterruptedStatus);
     stop_flag.request();
+    itimerval patience{};
+    patience.it_value.tv_usec = 700000;
+    setitimer(ITIMER_REAL, &patience, nullptr);
+}
+
+void install(int signal, void (*handler)(int)) {
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 void handle_interrupts() {
-    struct sigaction action = {};
-    action.sa_handler = on_interrupt;
-    sigemptyset(&action.sa_mask);
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGINT, &action, nullptr);
+    install(SIGALRM, on_patience_end);
+    install(SIGINT, on_interrupt);
 }
 
-void set_interrupt_phase(InterruptPhase next) { phase.store(next); }
-const StopFlag& interrupt_flag() { return stop_flag; }
+void set_interrupt_phase(InterruptPhase next) {
+    phase.store(next);
+}
+const StopFlag& interrupt_flag() {
+    return stop_flag;
+}
 
 }  // namespace lightwalk

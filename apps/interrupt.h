@@ -9,7 +9,7 @@ inline constexpr int kInterruptedStatus = 130;  ///< what a shell reports for SI
 /// What SIGINT does now.
 enum class InterruptPhase {
     leave,    ///< end the process at once: nothing has been written
-    request,  ///< ask the workers to stop; once more ends the process at once
+    request,  ///< ask the workers to stop; after 0.7 s, or once more, ends the process
     finish,   ///< remember it, and let the output be completed
 };
 

@@ -68,7 +68,8 @@ int run(const std::vector<std::string>& words) {
     try {
         return dispatch(words);
     } catch (const UsageError& error) {
-        std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", program.c_str(), error.what(), program.c_str());
+        std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", program.c_str(), error.what(),
+                     program.c_str());
         return kUsageStatus;
     } catch (const InputError& error) {
         std::fprintf(stderr, "%s\n", error.what());
@@ -84,5 +85,6 @@ int run(const std::vector<std::string>& words) {
 }  // namespace lightwalk
 
 int main(int argc, char** argv) {
-    return lightwalk::run(argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : std::vector<std::string>());
+    return lightwalk::run(argc > 1 ? std::vector<std::string>(argv + 1, argv + argc)
+                                   : std::vector<std::string>());
 }

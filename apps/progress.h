@@ -8,8 +8,8 @@
 namespace lightwalk {
 
 struct ProgressOptions {
-    bool bar = false;             ///< a line that is overwritten, on a terminal
-    double report_interval = 0;   ///< > 0: seconds between report lines (-t)
+    bool bar = false;            ///< a line that is overwritten, on a terminal
+    double report_interval = 0;  ///< > 0: seconds between report lines (-t)
     std::string program;
 };
 

@@ -31,7 +31,8 @@ std::string formatted(const char* format, double value) {
 
 std::string primaries_line(const RenderCommand& command) {
     std::string line = "PRIMARIES=";
-    for (const double value : command.primaries.value_or(kStandardPrimaries)) line += formatted(" %.4f", value);
+    for (const double value : command.primaries.value_or(kStandardPrimaries))
+        line += formatted(" %.4f", value);
     return line;
 }
 
@@ -69,10 +70,12 @@ class RenderRun {
         warnings_.enable(command_.settings.warnings && !command_.common.quiet);
         settle_render_settings(command_.settings, warnings_);
         settle_spacing();
-        if (command_.first_frame == 0) (void)Camera(command_.view);  // a bad view is told before the scene is read
+        if (command_.first_frame == 0)
+            (void)Camera(command_.view);  // a bad view is told before the scene is read
         const std::vector<std::string>& files = command_.common.scene_files;
         if (command_.first_frame > 0 && std::find(files.begin(), files.end(), "-") != files.end()) {
-            throw UsageError("standard input holds the views of the sequence (-S), so the scene cannot be -");
+            throw UsageError(
+                "standard input holds the views of the sequence (-S), so the scene cannot be -");
         }
         if (command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
@@ -88,10 +91,12 @@ class RenderRun {
         statistics_.read_seconds = session_->read_seconds;
         statistics_.build_seconds = session_->build_seconds;
         statistics_.threads = executor_->concurrency();
-        if (!(command_.first_frame > 0 ? render_sequence() : render_picture(command_.view, nullptr, 0))) {
+        if (!(command_.first_frame > 0 ? render_sequence()
+                                       : render_picture(command_.view, nullptr, 0))) {
             return kInterruptedStatus;
         }
-        if (!command_.common.stats_file.empty()) write_statistics(command_.common.stats_file, statistics_);
+        if (!command_.common.stats_file.empty())
+            write_statistics(command_.common.stats_file, statistics_);
         return kSuccessStatus;
     }
 
@@ -130,18 +135,25 @@ class RenderRun {
     bool render_picture(const View& view, const View* before, int frame_number) {
         const Camera camera(view);
         const std::optional<Camera> previous = usable_camera(before);
-        const PictureSize size = fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
+        const PictureSize size =
+            fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
         check_size(size);
         if (frame_number > 0 && command_.report_interval > 0) {
             std::fprintf(stderr, "FRAME %d:%s\n", frame_number, view_text(view).c_str());
         }
-        FrameOptions options{size.width, size.height, command_.pixels, command_.settings.light.seed,
-                             !command_.depth.empty(), previous ? &*previous : nullptr};
+        FrameOptions options{size.width,
+                             size.height,
+                             command_.pixels,
+                             command_.settings.light.seed,
+                             !command_.depth.empty(),
+                             previous ? &*previous : nullptr};
         set_interrupt_phase(InterruptPhase::request);
         const std::optional<Frame> frame = trace(camera, options);
         if (!frame) return false;
         set_interrupt_phase(InterruptPhase::finish);
-        write(*frame, picture_header(command_, *session_->model, view, size.pixel_aspect, frame_number), frame_number);
+        write(*frame,
+              picture_header(command_, *session_->model, view, size.pixel_aspect, frame_number),
+              frame_number);
         if (interrupt_flag().requested()) return false;
         set_interrupt_phase(InterruptPhase::leave);
         return true;
@@ -156,18 +168,21 @@ class RenderRun {
         constexpr double kMostPixels = 1 << 28;
         if (size.width <= 0 || size.height <= 0) warnings_.warn("empty output picture");
         if (static_cast<double>(size.width) * size.height > kMostPixels) {
-            throw UsageError("options -x and -y: more than " + formatted("%.0f", kMostPixels) + " pixels");
+            throw UsageError("options -x and -y: more than " + formatted("%.0f", kMostPixels) +
+                             " pixels");
         }
     }
 
     /// Nothing: interrupted.
     std::optional<Frame> trace(const Camera& camera, const FrameOptions& options) {
         if (options.width <= 0 || options.height <= 0) return Frame{0, 0, {}, {}, {}, true};
-        const bool bar = !command_.common.quiet && command_.common.error_file.empty() && isatty(STDERR_FILENO) != 0;
+        const bool bar = !command_.common.quiet && command_.common.error_file.empty() &&
+                         isatty(STDERR_FILENO) != 0;
         ProgressMeter meter({bar, command_.report_interval, kProgram});
         warnings_.use_terminal_line(bar);
         const Stopwatch watch;
-        Frame frame = render_frame(session_->tracer(), camera, options, *executor_, warnings_, interrupt_flag(),
+        Frame frame = render_frame(session_->tracer(), camera, options, *executor_, warnings_,
+                                   interrupt_flag(),
                                    [&](const FrameProgress& progress) { meter.update(progress); });
         statistics_.render_seconds += watch.seconds();
         meter.finish({frame.complete ? 1.0 : 0.0, frame.rays.total()});
@@ -183,10 +198,13 @@ class RenderRun {
     void write(const Frame& frame, const PictureHeader& header, int number) {
         const Picture picture{frame.width, frame.height, frame.radiance};
         if (!command_.depth.empty()) {
-            write_depth(frame_name(command_.depth, number), frame.width, frame.height, frame.distance);
+            write_depth(frame_name(command_.depth, number), frame.width, frame.height,
+                        frame.distance);
         }
-        if (command_.output.empty()) write_to_stdout(encode_hdr(picture, header));
-        else write_picture(frame_name(command_.output, number), picture, header, command_.tone);
+        if (command_.output.empty())
+            write_to_stdout(encode_hdr(picture, header));
+        else
+            write_picture(frame_name(command_.output, number), picture, header, command_.tone);
     }
 
     RenderCommand command_;

@@ -8,9 +8,10 @@ namespace lightwalk {
 namespace {
 
 const std::vector<std::string> kOwnNames{
-    "-x",  "-y",  "-pa",    "-ps",   "-pt", "-pj", "-pd", "-pm", "-pc", "-pRGB",      "-o",  "-z",  "-S",  "-t",
-    "-vp", "-vd", "-vu",    "-vh",   "-vv", "-vo", "-va", "-vs", "-vl", "-vf",        "-vtv", "-vtl", "-vtc", "-vth",
-    "-vta", "-vts", "-help", "-version", "-features", "--exposure"};
+    "-x",    "-y",   "-pa",  "-ps",   "-pt",      "-pj",       "-pd",       "-pm",  "-pc",
+    "-pRGB", "-o",   "-z",   "-S",    "-t",       "-vp",       "-vd",       "-vu",  "-vh",
+    "-vv",   "-vo",  "-va",  "-vs",   "-vl",      "-vf",       "-vtv",      "-vtl", "-vtc",
+    "-vth",  "-vta", "-vts", "-help", "-version", "-features", "--exposure"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -18,7 +19,8 @@ bool parse_view(OptionWords& words, View& view) {
     try {
         used = parse_view_option(rest, view);
     } catch (const InputError& error) {
-        if (words.option() == "-vf" && rest.size() > 1) throw;  // the file is at fault, not the command line
+        if (words.option() == "-vf" && rest.size() > 1)
+            throw;  // the file is at fault, not the command line
         throw UsageError(error.what());
     }
     words.skip(used);
@@ -30,22 +32,32 @@ ToneMapping tone_mapping(const std::string& word) {
     if (word == "auto") return tone;
     tone.automatic = false;
     if (!parse_real(word, tone.ev)) {
-        throw UsageError("option --exposure: expected auto or a number of stops (EV), found \"" + word + "\"");
+        throw UsageError("option --exposure: expected auto or a number of stops (EV), found \"" +
+                         word + "\"");
     }
     return tone;
 }
 
 bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
     const std::string word = words.option();
-    if (word == "-x") command.x = words.integer();
-    else if (word == "-y") command.y = words.integer();
-    else if (word == "-pa") command.pixel_aspect = words.real();
-    else if (word == "-ps") command.pixels.spacing = words.integer();
-    else if (word == "-pt") command.pixels.threshold = words.real();
-    else if (word == "-pj") command.pixels.jitter = words.real();
-    else if (word == "-pd") command.pixels.aperture = words.real();
-    else if (word == "-pm") command.pixels.motion = words.real();
-    else if (word == "-pRGB") words.skip(1);
+    if (word == "-x")
+        command.x = words.integer();
+    else if (word == "-y")
+        command.y = words.integer();
+    else if (word == "-pa")
+        command.pixel_aspect = words.real();
+    else if (word == "-ps")
+        command.pixels.spacing = words.integer();
+    else if (word == "-pt")
+        command.pixels.threshold = words.real();
+    else if (word == "-pj")
+        command.pixels.jitter = words.real();
+    else if (word == "-pd")
+        command.pixels.aperture = words.real();
+    else if (word == "-pm")
+        command.pixels.motion = words.real();
+    else if (word == "-pRGB")
+        words.skip(1);
     else if (word == "-pc") {
         command.primaries.emplace();
         for (double& value : *command.primaries) value = words.real();
@@ -57,13 +69,18 @@ bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
 
 bool parse_output_option(OptionWords& words, RenderCommand& command) {
     const std::string word = words.option();
-    if (word == "-o") command.output = words.text();
-    else if (word == "-z") command.depth = words.text();
-    else if (word == "-t") command.report_interval = words.real();
-    else if (word == "--exposure") command.tone = tone_mapping(words.text());
+    if (word == "-o")
+        command.output = words.text();
+    else if (word == "-z")
+        command.depth = words.text();
+    else if (word == "-t")
+        command.report_interval = words.real();
+    else if (word == "--exposure")
+        command.tone = tone_mapping(words.text());
     else if (word == "-S") {
         command.first_frame = words.integer();
-        if (command.first_frame < 1) throw UsageError("option -S: expected a frame number of at least 1");
+        if (command.first_frame < 1)
+            throw UsageError("option -S: expected a frame number of at least 1");
     } else {
         return false;
     }
@@ -72,9 +89,11 @@ bool parse_output_option(OptionWords& words, RenderCommand& command) {
 
 void refuse_foreign(const std::string& word) {
     if (word == "-r" || word == "-ro") {
-        throw UsageError("option " + word + ": pictures are written whole or not at all, there is nothing to recover");
+        throw UsageError("option " + word +
+                         ": pictures are written whole or not at all, there is nothing to recover");
     }
-    if (word == "-P" || word == "-PP") throw UsageError("option " + word + ": persistent processes are not supported");
+    if (word == "-P" || word == "-PP")
+        throw UsageError("option " + word + ": persistent processes are not supported");
     if (word == "-pXYZ") throw UsageError("option -pXYZ: pictures are written in RGB only");
 }
 
@@ -86,7 +105,8 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
     }
     refuse_foreign(word);
     if (parse_view(words, command.view) || parse_pixel_option(words, command) ||
-        parse_output_option(words, command) || parse_render_option(words, library, command.settings) ||
+        parse_output_option(words, command) ||
+        parse_render_option(words, library, command.settings) ||
         parse_common_option(words, command.common, command.settings)) {
         return;
     }
@@ -97,8 +117,10 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
 
 void check(const RenderCommand& command) {
     const PixelOptions& p = command.pixels;
-    if (!(p.jitter >= 0) || p.jitter > 1) throw UsageError("option -pj: expected a number from 0 to 1");
-    if (p.threshold < 0 || p.aperture < 0 || p.motion < 0 || command.pixel_aspect < 0 || command.report_interval < 0) {
+    if (!(p.jitter >= 0) || p.jitter > 1)
+        throw UsageError("option -pj: expected a number from 0 to 1");
+    if (p.threshold < 0 || p.aperture < 0 || p.motion < 0 || command.pixel_aspect < 0 ||
+        command.report_interval < 0) {
         throw UsageError("options -pt, -pd, -pm, -pa and -t take no negative numbers");
     }
     (void)frame_name(command.output, 0);
@@ -138,7 +160,8 @@ std::string describe(const RenderCommand& c) {
     text += option_line(option_text("-pa", c.pixel_aspect), "pixel aspect (height / width)");
     text += option_line(option_text("-pj", c.pixels.jitter), "pixel jitter");
     text += option_line(option_text("-pm", c.pixels.motion), "pixel motion");
-    text += option_line(option_text("-pd", c.pixels.aperture), "pixel depth of field (lens diameter) [m]");
+    text += option_line(option_text("-pd", c.pixels.aperture),
+                        "pixel depth of field (lens diameter) [m]");
     text += option_line(option_text("-ps", c.pixels.spacing), "pixel sample spacing");
     text += option_line(option_text("-pt", c.pixels.threshold), "pixel threshold");
     text += option_line(option_text("-t", c.report_interval), "time between reports [s]");

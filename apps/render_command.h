@@ -15,17 +15,17 @@ struct RenderCommand {
     CommonOptions common;
     RenderSettings settings;
     View view;
-    int x = 512, y = 512;           ///< -x -y: largest size [pixels]
-    double pixel_aspect = 1;        ///< -pa: height / width; 0: exactly -x by -y
-    PixelOptions pixels;            ///< -ps -pt -pj -pd -pm
+    int x = 512, y = 512;                            ///< -x -y: largest size [pixels]
+    double pixel_aspect = 1;                         ///< -pa: height / width; 0: exactly -x by -y
+    PixelOptions pixels;                             ///< -ps -pt -pj -pd -pm
     std::optional<std::array<double, 8>> primaries;  ///< -pc: what the header says of the channels
-    std::string output;             ///< -o; "" is standard output
-    std::string depth;              ///< -z; "" is none
-    double report_interval = 0;     ///< -t [s]
-    ToneMapping tone;               ///< --exposure
-    int first_frame = 0;            ///< -S: number of the first frame of a sequence; 0: one picture
-    bool show_defaults = false;     ///< -defaults
-    std::string history;            ///< the command line for the picture's header
+    std::string output;                              ///< -o; "" is standard output
+    std::string depth;                               ///< -z; "" is none
+    double report_interval = 0;                      ///< -t [s]
+    ToneMapping tone;                                ///< --exposure
+    int first_frame = 0;         ///< -S: number of the first frame of a sequence; 0: one picture
+    bool show_defaults = false;  ///< -defaults
+    std::string history;         ///< the command line for the picture's header
 };
 
 /// Throws UsageError, and InputError for files that options name.

@@ -20,10 +20,14 @@ std::int64_t now_ns() {
 }  // namespace
 
 Stopwatch::Stopwatch() : start_ns_(now_ns()) {}
-double Stopwatch::seconds() const { return 1e-9 * static_cast<double>(now_ns() - start_ns_); }
+double Stopwatch::seconds() const {
+    return 1e-9 * static_cast<double>(now_ns() - start_ns_);
+}
 
 SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink)
-    : warnings(sink), library(LibraryPath::from_environment()), resources(library, options.allow_commands, sink) {
+    : warnings(sink),
+      library(LibraryPath::from_environment()),
+      resources(library, options.allow_commands, sink) {
     if (options.scene_files.empty()) throw UsageError("no scene: name an octree or scene files");
     const Stopwatch watch;
     model = read_scene(options.scene_files, {library, options.allow_commands}, warnings);
@@ -42,11 +46,15 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
     json["version"] = LIGHTWALK_VERSION;
     json["command"] = s.command;
     json["threads"] = s.threads;
-    if (s.width > 0) json["picture"] = {{"width", s.width}, {"height", s.height}, {"frames", s.frames}};
-    json["seconds"] = {{"read", s.read_seconds}, {"build", s.build_seconds}, {"render", s.render_seconds}};
-    json["rays"] = {{"primary", s.rays.primary},         {"shadow", s.rays.shadow},   {"specular", s.rays.specular},
-                    {"transmitted", s.rays.transmitted}, {"ambient", s.rays.ambient}, {"total", s.rays.total()}};
-    json["rays_per_second"] = static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);
+    if (s.width > 0)
+        json["picture"] = {{"width", s.width}, {"height", s.height}, {"frames", s.frames}};
+    json["seconds"] = {
+        {"read", s.read_seconds}, {"build", s.build_seconds}, {"render", s.render_seconds}};
+    json["rays"] = {{"primary", s.rays.primary},   {"shadow", s.rays.shadow},
+                    {"specular", s.rays.specular}, {"transmitted", s.rays.transmitted},
+                    {"ambient", s.rays.ambient},   {"total", s.rays.total()}};
+    json["rays_per_second"] =
+        static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);
     json["peak_memory_bytes"] = peak_memory_bytes();
     write_file_atomically(path, json.dump(2) + "\n");
 }

@@ -22,23 +22,24 @@ constexpr std::size_t kBatch = 16384;  ///< rays read ahead when nobody asks for
 struct TraceCommand {
     CommonOptions common;
     RenderSettings settings = default_render_settings(OptionDefaults::rtrace);
-    bool header = true;              ///< -h
-    RayFormats formats;              ///< -f
-    std::string letters = "v";       ///< -o
+    bool header = true;         ///< -h
+    RayFormats formats;         ///< -f
+    std::string letters = "v";  ///< -o
     ColorOutput color = ColorOutput::rgb;
-    bool sensor = false;             ///< -I
-    bool limit_by_length = false;    ///< -ld
-    int x = 0, y = 0;                ///< -x -y
+    bool sensor = false;           ///< -I
+    bool limit_by_length = false;  ///< -ld
+    int x = 0, y = 0;              ///< -x -y
     bool show_defaults = false;
     std::string history;
 };
 
-const std::vector<std::string> kOwnNames{"-h", "-I", "-ld", "-x", "-y", "-fa", "-ff", "-fd", "-fac", "-ov",
-                                         "-pRGB", "-pXYZ", "-pY", "-pA"};
+const std::vector<std::string> kOwnNames{"-h",  "-I",   "-ld", "-x",    "-y",    "-fa", "-ff",
+                                         "-fd", "-fac", "-ov", "-pRGB", "-pXYZ", "-pY", "-pA"};
 
 bool parse_switch(OptionWords& words, TraceCommand& command) {
-    for (const auto& [name, place] : {std::pair{"-h", &command.header}, std::pair{"-I", &command.sensor},
-                                      std::pair{"-ld", &command.limit_by_length}}) {
+    for (const auto& [name, place] :
+         {std::pair{"-h", &command.header}, std::pair{"-I", &command.sensor},
+          std::pair{"-ld", &command.limit_by_length}}) {
         if (const std::optional<bool> value = words.toggle(name, *place)) {
             *place = *value;
             return true;
@@ -53,16 +54,20 @@ std::optional<ColorOutput> color_output(const std::string& word) {
     if (word == "-pY") return ColorOutput::luminance;
     if (word == "-pA") return ColorOutput::mean;
     if (word == "-pc" || word == "-pS" || word == "-pM") {
-        throw UsageError("option " + word + ": not supported; the choices are -pRGB, -pXYZ, -pY and -pA");
+        throw UsageError("option " + word +
+                         ": not supported; the choices are -pRGB, -pXYZ, -pY and -pA");
     }
     return std::nullopt;
 }
 
 bool parse_own_option(OptionWords& words, TraceCommand& command) {
     const std::string word = words.option();
-    if (word == "-x") command.x = words.integer();
-    else if (word == "-y") command.y = words.integer();
-    else if (const auto formats = word.starts_with("-f") ? parse_ray_formats(word.substr(2)) : std::nullopt) {
+    if (word == "-x")
+        command.x = words.integer();
+    else if (word == "-y")
+        command.y = words.integer();
+    else if (const auto formats =
+                 word.starts_with("-f") ? parse_ray_formats(word.substr(2)) : std::nullopt) {
         command.formats = *formats;
         words.skip(1);
     } else if (word.starts_with("-o")) {
@@ -87,9 +92,11 @@ TraceCommand parse_trace_command(const std::vector<std::string>& line) {
             return command;
         }
         if (words.option() == "-P" || words.option() == "-PP") {
-            throw UsageError("option " + words.option() + ": persistent processes are not supported");
+            throw UsageError("option " + words.option() +
+                             ": persistent processes are not supported");
         }
-        if (parse_own_option(words, command) || parse_render_option(words, library, command.settings) ||
+        if (parse_own_option(words, command) ||
+            parse_render_option(words, library, command.settings) ||
             parse_common_option(words, command.common, command.settings)) {
             continue;
         }
@@ -105,7 +112,8 @@ std::string describe(const TraceCommand& c) {
     std::string text = option_line("-o" + c.letters, "output fields");
     text += option_line(option_text("-h", c.header), "output header");
     text += option_line(option_text("-I", c.sensor), "rays are points and normals: irradiance");
-    text += option_line(option_text("-ld", c.limit_by_length), "a direction's length limits its ray");
+    text +=
+        option_line(option_text("-ld", c.limit_by_length), "a direction's length limits its ray");
     text += option_line(option_text("-x", c.x), "flush interval");
     text += option_line(option_text("-y", c.y), "rows");
     text += describe_render_settings(c.settings);
@@ -117,7 +125,8 @@ std::string describe(const TraceCommand& c) {
 class TraceRun {
   public:
     explicit TraceRun(TraceCommand command)
-        : command_(std::move(command)), warnings_(kProgram),
+        : command_(std::move(command)),
+          warnings_(kProgram),
           records_(command_.letters, command_.formats.output, command_.color),
           reader_(STDIN_FILENO, command_.formats.input) {
         redirect_messages(command_.common, command_.history);
@@ -136,7 +145,8 @@ class TraceRun {
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
         session_->build(command_.settings.light);
         executor_ = make_executor(command_.common.executor, command_.common.workers);
-        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_, executor_->concurrency());
+        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
+                                                     executor_->concurrency());
         const Stopwatch watch;
         put_header();
         while (read_batch()) answer_batch();
@@ -153,19 +163,24 @@ class TraceRun {
             throw UsageError("standard input holds the rays, so the scene cannot be -");
         }
         const bool irradiance = command_.sensor || command_.settings.light.irradiance;
-        if (irradiance && !records_.shades()) throw UsageError("-I+ and -i+ options require some value output");
-        if (irradiance && records_.splits()) warnings_.warn("-or -oR -ox -oX say nothing with -i or -I");
+        if (irradiance && !records_.shades())
+            throw UsageError("-I+ and -i+ options require some value output");
+        if (irradiance && records_.splits())
+            warnings_.warn("-or -oR -ox -oX say nothing with -i or -I");
         if (records_.asks_for_coefficients()) warnings_.warn("-oVW options require trace mode");
         if (command_.y > 0) {
-            expected_ = static_cast<std::uint64_t>(command_.y) *
-                        (command_.x > 1 && command_.y > 1 ? static_cast<std::uint64_t>(command_.x) : 1);
+            expected_ =
+                static_cast<std::uint64_t>(command_.y) *
+                (command_.x > 1 && command_.y > 1 ? static_cast<std::uint64_t>(command_.x) : 1);
         }
     }
 
     void put_header() {
         if (command_.header) {
             std::string text = "#?RADIANCE\n";
-            for (const std::string& line : history_header(session_->model->header, command_.history)) text += line + '\n';
+            for (const std::string& line :
+                 history_header(session_->model->header, command_.history))
+                text += line + '\n';
             for (const std::string& line : date_lines()) text += line + '\n';
             output_ += text + records_.header_end(text.size());
         }
@@ -188,7 +203,8 @@ class TraceRun {
             ++read_;
             const bool row_ends = command_.x > 0 && ++in_row_ >= command_.x;
             if (row_ends) in_row_ = 0;
-            // Who sends rays through a pipe and waits for answers does so at a row's end or with a zero direction.
+            // Who sends rays through a pipe and waits for answers does so at a row's end or with a
+            // zero direction.
             flush_due_ = (ray->is_flush() || row_ends) && reader_.drained();
         }
         return !queries_.empty();
@@ -197,9 +213,10 @@ class TraceRun {
     void answer_batch() {
         texts_.assign((queries_.size() + kRaysPerTask - 1) / kRaysPerTask, {});
         const Scene& scene = session_->scene();
-        trace_ray_list(session_->tracer(), *contexts_, queries_, read_ - queries_.size(), options_, *executor_,
-                       [&](std::size_t i, const Ray& ray, const Hit& first) {
-                           const bool sensor = options_.sensor && length_squared(queries_[i].direction) > 0;
+        trace_ray_list(session_->tracer(), *contexts_, queries_, read_ - queries_.size(), options_,
+                       *executor_, [&](std::size_t i, const Ray& ray, const Hit& first) {
+                           const bool sensor =
+                               options_.sensor && length_squared(queries_[i].direction) > 0;
                            records_.append({ray, first, sensor}, scene, texts_[i / kRaysPerTask]);
                        });
         for (const std::string& text : texts_) output_ += text;

@@ -12,9 +12,12 @@ constexpr std::size_t kMostDistinct = 200;  ///< messages; the rest is only coun
 StderrWarnings::~StderrWarnings() {
     if (!enabled_) return;
     for (const auto& [message, count] : counts_) {
-        if (count > 1) std::fprintf(stderr, "%s: warning - (%ld times) %s\n", program_.c_str(), count, message.c_str());
+        if (count > 1)
+            std::fprintf(stderr, "%s: warning - (%ld times) %s\n", program_.c_str(), count,
+                         message.c_str());
     }
-    if (suppressed_ > 0) std::fprintf(stderr, "%s: warning - %ld more warnings\n", program_.c_str(), suppressed_);
+    if (suppressed_ > 0)
+        std::fprintf(stderr, "%s: warning - %ld more warnings\n", program_.c_str(), suppressed_);
 }
 
 void StderrWarnings::warn(const std::string& message) {
@@ -27,7 +30,8 @@ void StderrWarnings::warn(const std::string& message) {
         ++suppressed_;
     } else {
         counts_.emplace(message, 1);
-        std::fprintf(stderr, "%s%s: warning - %s\n", clear_line_ ? "\r\033[K" : "", program_.c_str(), message.c_str());
+        std::fprintf(stderr, "%s%s: warning - %s\n", clear_line_ ? "\r\033[K" : "",
+                     program_.c_str(), message.c_str());
     }
 }
 

@@ -8,7 +8,8 @@
 
 namespace lightwalk {
 
-/// Prints each message once, and at the end how often the repeated ones came. Callable from many threads.
+/// Prints each message once, and at the end how often the repeated ones came. Callable from many
+/// threads.
 class StderrWarnings final : public WarningSink {
   public:
     explicit StderrWarnings(std::string program) : program_(std::move(program)) {}

@@ -16,19 +16,22 @@ struct Conversion {
 
 Conversion conversion_at(const std::string& pattern, std::size_t at) {
     std::size_t end = at + 1;
-    while (end < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[end])) != 0) ++end;
+    while (end < pattern.size() && std::isdigit(static_cast<unsigned char>(pattern[end])) != 0)
+        ++end;
     const std::string digits = pattern.substr(at + 1, end - at - 1);
     if (end == pattern.size() || pattern[end] != 'd' || digits.size() > 3) {
-        throw UsageError("file name \"" + pattern + "\": expected one %d for the frame number and no other %");
+        throw UsageError("file name \"" + pattern +
+                         "\": expected one %d for the frame number and no other %");
     }
     const bool zeros = !digits.empty() && digits.front() == '0';
     const std::size_t width = digits.empty() ? 0 : static_cast<std::size_t>(std::stoi(digits));
-    if (width > 99) throw UsageError("file name \"" + pattern + "\": frame number wider than 99 digits");
+    if (width > 99)
+        throw UsageError("file name \"" + pattern + "\": frame number wider than 99 digits");
     return {width, zeros, end + 1 - at};
 }
 
 std::string padded(int number, const Conversion& conversion) {
-    const std::string digits = std::to_string(number);
+    std::string digits = std::to_string(number);
     if (digits.size() >= conversion.width) return digits;
     const std::size_t missing = conversion.width - digits.size();
     if (!conversion.zeros) return std::string(missing, ' ') + digits;
@@ -49,7 +52,8 @@ std::string frame_name(const std::string& pattern, int number) {
             at += 2;
         } else {
             const Conversion conversion = conversion_at(pattern, at);
-            if (filled) throw UsageError("file name \"" + pattern + "\": more than one frame number");
+            if (filled)
+                throw UsageError("file name \"" + pattern + "\": more than one frame number");
             name += padded(number, conversion);
             filled = true;
             at += conversion.size;
@@ -58,6 +62,8 @@ std::string frame_name(const std::string& pattern, int number) {
     return name;
 }
 
-bool varies_by_frame(const std::string& pattern) { return frame_name(pattern, 0) != frame_name(pattern, 1); }
+bool varies_by_frame(const std::string& pattern) {
+    return frame_name(pattern, 0) != frame_name(pattern, 1);
+}
 
 }  // namespace lightwalk

@@ -19,7 +19,8 @@ namespace lightwalk {
 namespace {
 
 std::string environment(const char* name) {
-    const char* const value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing calls setenv
+    const char* const value =
+        std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing calls setenv
     return value == nullptr ? std::string() : std::string(value);
 }
 
@@ -41,14 +42,8 @@ std::optional<std::string> home_directory(const std::string& user) {
     return std::string(entry.pw_dir);
 }
 
-bool is_readable_file(const std::string& path) {
-    struct stat status {};
-    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
-           access(path.c_str(), R_OK) == 0;
-}
-
-/// Where this program's own library files lie: beside the executable's installation, where it was installed
-/// to at build time, or in the source tree; nothing when none of these folders exists.
+/// Where this program's own library files lie: beside the executable's installation, where it was
+/// installed to at build time, or in the source tree; nothing when none of these folders exists.
 std::optional<std::string> own_library() {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -96,6 +91,12 @@ std::string directory_of(const std::string& path) {
     const std::size_t slash = path.rfind('/');
     if (slash == std::string::npos) return {};
     return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool is_readable_file(const std::string& path) {
+    struct stat status {};
+    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+           access(path.c_str(), R_OK) == 0;
 }
 
 LibraryPath::LibraryPath(std::vector<std::string> directories)

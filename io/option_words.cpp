@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kMaxWordsOfExpansion = 4095;
 constexpr std::size_t kMaxWordLength = 4095;
-constexpr std::size_t kMaxWords = 65536;  ///< of a whole command line: files that name files may multiply
+constexpr std::size_t kMaxWords =
+    65536;  ///< of a whole command line: files that name files may multiply
 constexpr std::string_view kBlanks = " \t\n\v\f\r";
 
 std::vector<std::string> split(std::string_view text) {
@@ -30,8 +31,10 @@ std::vector<std::string> split(std::string_view text) {
 std::vector<std::string> words_behind(const std::string& word) {
     const std::string name = word.substr(1);
     if (word.front() == '$') {
-        const char* value = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe): before any thread
-        if (value == nullptr) throw UsageError("cannot expand '" + word + "': no such environment variable");
+        const char* value =
+            std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe): before any thread
+        if (value == nullptr)
+            throw UsageError("cannot expand '" + word + "': no such environment variable");
         return split(value);
     }
     try {
@@ -42,7 +45,8 @@ std::vector<std::string> words_behind(const std::string& word) {
 }
 
 /// Number of single-letter edits (with exchanges of neighbours) from a to b.
-/// Source: F. Damerau, "A technique for computer detection and correction of spelling errors", CACM 7 (1964).
+/// Source: F. Damerau, "A technique for computer detection and correction of spelling errors", CACM
+/// 7 (1964).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -67,15 +71,17 @@ OptionWords::OptionWords(std::vector<std::string> words) {
 
 void OptionWords::expand() {
     const Word word = words_[at_];
-    for (int source = word.source; source >= 0; source = sources_[static_cast<std::size_t>(source)].parent) {
+    for (int source = word.source; source >= 0;
+         source = sources_[static_cast<std::size_t>(source)].parent) {
         if (sources_[static_cast<std::size_t>(source)].name == word.text) {
             throw UsageError("cannot expand '" + word.text + "': it includes itself");
         }
     }
     const std::vector<std::string> inner = words_behind(word.text);
-    const bool too_long = std::any_of(inner.begin(), inner.end(),
-                                      [](const std::string& w) { return w.size() > kMaxWordLength; });
-    if (too_long || inner.size() > kMaxWordsOfExpansion || words_.size() + inner.size() > kMaxWords) {
+    const bool too_long = std::any_of(
+        inner.begin(), inner.end(), [](const std::string& w) { return w.size() > kMaxWordLength; });
+    if (too_long || inner.size() > kMaxWordsOfExpansion ||
+        words_.size() + inner.size() > kMaxWords) {
         throw UsageError("cannot expand '" + word.text + "': too many words, or too long ones");
     }
     sources_.push_back({word.text, word.source});
@@ -111,12 +117,15 @@ void OptionWords::skip(std::size_t count) {
 std::string OptionWords::argument(std::string_view expected) {
     if (current_.empty()) current_ = words_[at_++].text;
     if (at_ >= words_.size()) {
-        throw UsageError("option " + current_ + ": expected " + std::string(expected) + ", found nothing");
+        throw UsageError("option " + current_ + ": expected " + std::string(expected) +
+                         ", found nothing");
     }
     return words_[at_++].text;
 }
 
-std::string OptionWords::text() { return argument("an argument"); }
+std::string OptionWords::text() {
+    return argument("an argument");
+}
 
 double OptionWords::real() {
     const std::string word = argument("a number");
@@ -147,7 +156,8 @@ std::uint64_t OptionWords::unsigned_integer() {
         if (good) value = value * 10 + digit;
     }
     if (!good) {
-        throw UsageError("option " + current_ + ": expected a non-negative integer, found \"" + word + "\"");
+        throw UsageError("option " + current_ + ": expected a non-negative integer, found \"" +
+                         word + "\"");
     }
     return value;
 }
@@ -198,8 +208,9 @@ std::string history_line(std::span<const std::string> words) {
     std::string line;
     for (const std::string& word : words) {
         if (!line.empty()) line += ' ';
-        const std::string_view inside =
-            word.size() > 2 ? std::string_view(word).substr(1, word.size() - 2) : std::string_view();
+        const std::string_view inside = word.size() > 2
+                                            ? std::string_view(word).substr(1, word.size() - 2)
+                                            : std::string_view();
         const bool blank = word.empty() || word.find_first_of(kBlanks) != std::string::npos;
         if (!blank && inside.find_first_of("\"'") == std::string_view::npos) {
             line += word;

@@ -18,15 +18,16 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Walks over the words. A word in option position is expanded first: `@file` stands for the white-space
-/// separated words of the file, `$NAME` for those of the environment variable, again and again until the word
-/// begins with neither. There are no quotes and no comments. Source: Radiance manual page rtrace(1).
+/// Walks over the words. A word in option position is expanded first: `@file` stands for the
+/// white-space separated words of the file, `$NAME` for those of the environment variable, again
+/// and again until the word begins with neither. There are no quotes and no comments. Source:
+/// Radiance manual page rtrace(1).
 class OptionWords {
   public:
     explicit OptionWords(std::vector<std::string> words);
 
-    /// Expand the word in option position; false at the end. Throws UsageError for a file or variable that is
-    /// missing, too long (4095 words), or that includes itself.
+    /// Expand the word in option position; false at the end. Throws UsageError for a file or
+    /// variable that is missing, too long (4095 words), or that includes itself.
     [[nodiscard]] bool at_option();
     /// The word in option position; only after at_option() said true.
     [[nodiscard]] const std::string& option() const { return words_[at_].text; }
@@ -35,16 +36,16 @@ class OptionWords {
     /// Step over `count` words.
     void skip(std::size_t count);
 
-    // The option's arguments, one after the other. The first call steps over the option itself. All throw
-    // UsageError naming the option, what was found and what was expected.
+    // The option's arguments, one after the other. The first call steps over the option itself. All
+    // throw UsageError naming the option, what was found and what was expected.
     [[nodiscard]] std::string text();
     [[nodiscard]] double real();
     [[nodiscard]] int integer();
     [[nodiscard]] std::uint64_t unsigned_integer();
     [[nodiscard]] Rgb rgb();  ///< three reals
 
-    /// Value of the switch `name` that stands in option position: bare toggles `current`, + or 1 attached is
-    /// on, - or 0 is off. Nothing when the word is another option. Steps over it.
+    /// Value of the switch `name` that stands in option position: bare toggles `current`, + or 1
+    /// attached is on, - or 0 is off. Nothing when the word is another option. Steps over it.
     [[nodiscard]] std::optional<bool> toggle(std::string_view name, bool current);
 
     /// Position of the next word, and all words so far with their expansions, for history lines.
@@ -70,10 +71,11 @@ class OptionWords {
 };
 
 /// The entry of `names` that `word` is probably a misspelling of; nothing when none is near.
-[[nodiscard]] std::optional<std::string> nearest_name(std::string_view word, std::span<const std::string> names);
+[[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
+                                                      std::span<const std::string> names);
 
-/// The words as one history line of an information header: words that are empty or hold blanks or quotes inside
-/// are quoted.
+/// The words as one history line of an information header: words that are empty or hold blanks or
+/// quotes inside are quoted.
 [[nodiscard]] std::string history_line(std::span<const std::string> words);
 
 }  // namespace lightwalk

@@ -15,15 +15,22 @@ namespace {
 constexpr std::size_t kBufferBytes = 65536;
 constexpr std::size_t kLongestNumber = 31;
 
-bool is_blank(int c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_blank(int c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 std::optional<NumberFormat> format_of(char letter) {
     switch (letter) {
-        case 'a': return NumberFormat::text;
-        case 'f': return NumberFormat::real32;
-        case 'd': return NumberFormat::real64;
-        case 'c': return NumberFormat::rgbe;
-        default: return std::nullopt;
+        case 'a':
+            return NumberFormat::text;
+        case 'f':
+            return NumberFormat::real32;
+        case 'd':
+            return NumberFormat::real64;
+        case 'c':
+            return NumberFormat::rgbe;
+        default:
+            return std::nullopt;
     }
 }
 

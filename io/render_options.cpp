@@ -68,8 +68,10 @@ std::string formatted(const char* format, const Rgb& c) {
 
 std::string text_of(const Entry& entry, const RenderOptions& options) {
     const std::string name = entry.name;
-    if (const auto* flag = std::get_if<bool O::*>(&entry.place)) return option_text(name, options.**flag);
-    if (const auto* count = std::get_if<int O::*>(&entry.place)) return option_text(name, options.**count);
+    if (const auto* flag = std::get_if<bool O::*>(&entry.place))
+        return option_text(name, options.**flag);
+    if (const auto* count = std::get_if<int O::*>(&entry.place))
+        return option_text(name, options.**count);
     if (const auto* color = std::get_if<Rgb O::*>(&entry.place)) {
         return name + ' ' + formatted(entry.scientific ? "%.2e" : "%f", options.**color);
     }
@@ -80,21 +82,26 @@ std::string text_of(const Entry& entry, const RenderOptions& options) {
 bool parse_entry(const Entry& entry, OptionWords& words, RenderOptions& options) {
     if (const auto* flag = std::get_if<bool O::*>(&entry.place)) {
         const std::optional<bool> value = words.toggle(entry.name, options.**flag);
-        if (value) options.**flag = *value;
+        if (value) options.** flag = *value;
         return value.has_value();
     }
     if (words.option() != entry.name) return false;
-    if (const auto* count = std::get_if<int O::*>(&entry.place)) options.**count = words.integer();
-    else if (const auto* color = std::get_if<Rgb O::*>(&entry.place)) options.**color = words.rgb();
-    else options.*std::get<double O::*>(entry.place) = entry.whole ? words.integer() : words.real();
+    if (const auto* count = std::get_if<int O::*>(&entry.place))
+        options.** count = words.integer();
+    else if (const auto* color = std::get_if<Rgb O::*>(&entry.place))
+        options.** color = words.rgb();
+    else
+        options.*std::get<double O::*>(entry.place) = entry.whole ? words.integer() : words.real();
     return true;
 }
 
-void select(AmbientSelection& selection, AmbientSelection::Kind kind, const std::vector<std::string>& names) {
+void select(AmbientSelection& selection, AmbientSelection::Kind kind,
+            const std::vector<std::string>& names) {
     if (selection.kind != kind) selection = {kind, {}};
     selection.modifiers.insert(selection.modifiers.end(), names.begin(), names.end());
     if (selection.modifiers.size() > kMaxModifiers) {
-        throw UsageError("more than " + std::to_string(kMaxModifiers) + " modifiers in ambient lists");
+        throw UsageError("more than " + std::to_string(kMaxModifiers) +
+                         " modifiers in ambient lists");
     }
 }
 
@@ -105,13 +112,15 @@ std::vector<std::string> names_in_file(const std::string& name, const LibraryPat
     return names;
 }
 
-bool parse_ambient_selection(OptionWords& words, const LibraryPath& library, AmbientSelection& selection) {
+bool parse_ambient_selection(OptionWords& words, const LibraryPath& library,
+                             AmbientSelection& selection) {
     const std::string option = words.option();
     using Kind = AmbientSelection::Kind;
     if (option == "-ae" || option == "-ai") {
         select(selection, option == "-ae" ? Kind::exclude : Kind::include, {words.text()});
     } else if (option == "-aE" || option == "-aI") {
-        select(selection, option == "-aE" ? Kind::exclude : Kind::include, names_in_file(words.text(), library));
+        select(selection, option == "-aE" ? Kind::exclude : Kind::include,
+               names_in_file(words.text(), library));
     } else {
         return false;
     }
@@ -122,13 +131,17 @@ bool parse_ambient_selection(OptionWords& words, const LibraryPath& library, Amb
 void refuse_foreign(const OptionWords& words) {
     const std::string& option = words.option();
     for (const char* photon : {"-ap", "-am", "-ac", "-aC"}) {
-        if (option == photon) throw UsageError("option " + option + ": photon maps are not supported");
+        if (option == photon)
+            throw UsageError("option " + option + ": photon maps are not supported");
     }
-    if (option == "-cs" || option == "-cw" || option == "-co" || option == "-co+" || option == "-co-") {
-        throw UsageError("option " + option + ": only three channels (red, green, blue) are supported");
+    if (option == "-cs" || option == "-cw" || option == "-co" || option == "-co+" ||
+        option == "-co-") {
+        throw UsageError("option " + option +
+                         ": only three channels (red, green, blue) are supported");
     }
     if (option == "-f") {
-        throw UsageError("option -f: global function files are not supported; name the file in the scene");
+        throw UsageError(
+            "option -f: global function files are not supported; name the file in the scene");
     }
     if (option == "-sj") throw UsageError("option -sj: gone since Radiance 4, use -ss");
 }
@@ -174,7 +187,8 @@ bool parse_render_option(OptionWords& words, const LibraryPath& library, RenderS
 
 void check_render_settings(const RenderSettings& settings) {
     if (settings.light.reflection_limit <= 0 && settings.light.weight_limit <= 0) {
-        throw UsageError("option -lw: must be positive when -lr is zero or negative (Russian roulette)");
+        throw UsageError(
+            "option -lw: must be positive when -lr is zero or negative (Russian roulette)");
     }
 }
 
@@ -182,21 +196,33 @@ std::string option_line(const std::string& left, const std::string& description)
     constexpr std::size_t kColumn = 32;
     constexpr std::size_t kTab = 8;
     std::string line = left;
-    for (std::size_t column = left.size() / kTab * kTab; column < kColumn; column += kTab) line += '\t';
+    for (std::size_t column = left.size() / kTab * kTab; column < kColumn; column += kTab)
+        line += '\t';
     if (left.size() >= kColumn) line += '\t';
     return line + "# " + description + '\n';
 }
 
-std::string option_text(const std::string& name, bool value) { return name + (value ? '+' : '-'); }
-std::string option_text(const std::string& name, int value) { return name + ' ' + std::to_string(value); }
-std::string option_text(const std::string& name, double value) { return name + ' ' + formatted("%f", value); }
-std::string option_text(const std::string& name, const Rgb& value) { return name + ' ' + formatted("%f", value); }
+std::string option_text(const std::string& name, bool value) {
+    return name + (value ? '+' : '-');
+}
+std::string option_text(const std::string& name, int value) {
+    return name + ' ' + std::to_string(value);
+}
+std::string option_text(const std::string& name, double value) {
+    return name + ' ' + formatted("%f", value);
+}
+std::string option_text(const std::string& name, const Rgb& value) {
+    return name + ' ' + formatted("%f", value);
+}
 
 std::string describe_render_settings(const RenderSettings& settings) {
-    std::string text = option_line(option_text("-u", settings.uncorrelated), "uncorrelated sampling");
+    std::string text =
+        option_line(option_text("-u", settings.uncorrelated), "uncorrelated sampling");
     text += option_line(option_text("-w", settings.warnings), "warning messages");
-    for (const Entry& entry : kEntries) text += option_line(text_of(entry, settings.light), entry.description);
-    if (!settings.ambient_file.empty()) text += option_line("-af " + settings.ambient_file, "ambient file");
+    for (const Entry& entry : kEntries)
+        text += option_line(text_of(entry, settings.light), entry.description);
+    if (!settings.ambient_file.empty())
+        text += option_line("-af " + settings.ambient_file, "ambient file");
     const AmbientSelection& selection = settings.ambient_surfaces;
     for (const std::string& name : selection.modifiers) {
         const bool include = selection.kind == AmbientSelection::Kind::include;

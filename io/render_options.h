@@ -1,5 +1,6 @@
 #pragma once
-// Radiance's rendering options: how light is followed, as rpict and rtrace take it from the command line.
+// Radiance's rendering options: how light is followed, as rpict and rtrace take it from the command
+// line.
 #include <string>
 #include <vector>
 
@@ -19,21 +20,23 @@ struct AmbientSelection {
 
 /// All that these options set.
 struct RenderSettings {
-    RenderOptions light;              ///< what the core needs
+    RenderOptions light;                ///< what the core needs
     AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
-    std::string ambient_file;         ///< -af, "" for none
-    bool uncorrelated = false;        ///< -u; every sample is independent anyway, so it changes nothing
-    bool warnings = true;             ///< -w
+    std::string ambient_file;           ///< -af, "" for none
+    bool uncorrelated = false;  ///< -u; every sample is independent anyway, so it changes nothing
+    bool warnings = true;       ///< -w
 };
 
 /// Whose defaults: they differ. Source: the manual pages rpict(1) and rtrace(1).
 enum class OptionDefaults { rpict, rtrace };
 [[nodiscard]] RenderSettings default_render_settings(OptionDefaults program);
 
-/// Take the option that stands in option position, with its arguments, if it is a rendering option; false leaves
-/// `words` as it is. Throws UsageError for wrong arguments and for options that Lightwalk does not offer (photon
-/// maps, spectra, global function definitions), InputError when a modifier list (-aE, -aI) cannot be read.
-[[nodiscard]] bool parse_render_option(OptionWords& words, const LibraryPath& library, RenderSettings& settings);
+/// Take the option that stands in option position, with its arguments, if it is a rendering option;
+/// false leaves `words` as it is. Throws UsageError for wrong arguments and for options that
+/// Lightwalk does not offer (photon maps, spectra, global function definitions), InputError when a
+/// modifier list (-aE, -aI) cannot be read.
+[[nodiscard]] bool parse_render_option(OptionWords& words, const LibraryPath& library,
+                                       RenderSettings& settings);
 
 /// What can only be told when all options are known: throws UsageError for -lr <= 0 with -lw <= 0.
 void check_render_settings(const RenderSettings& settings);

@@ -24,21 +24,31 @@ struct Target {
 
 Target target_of(char letter, View& view) {
     switch (letter) {
-        case 'p': return {nullptr, &view.position};
-        case 'd': return {nullptr, &view.direction};
-        case 'u': return {nullptr, &view.up};
-        case 'h': return {&view.horizontal, nullptr};
-        case 'v': return {&view.vertical, nullptr};
-        case 'o': return {&view.fore, nullptr};
-        case 'a': return {&view.aft, nullptr};
-        case 's': return {&view.shift, nullptr};
-        case 'l': return {&view.lift, nullptr};
-        default: return {};
+        case 'p':
+            return {nullptr, &view.position};
+        case 'd':
+            return {nullptr, &view.direction};
+        case 'u':
+            return {nullptr, &view.up};
+        case 'h':
+            return {&view.horizontal, nullptr};
+        case 'v':
+            return {&view.vertical, nullptr};
+        case 'o':
+            return {&view.fore, nullptr};
+        case 'a':
+            return {&view.aft, nullptr};
+        case 's':
+            return {&view.shift, nullptr};
+        case 'l':
+            return {&view.lift, nullptr};
+        default:
+            return {};
     }
 }
 
-/// Words that a view option takes after itself, or nothing when the word is none. -vt has its argument attached;
-/// -vf is not among them.
+/// Words that a view option takes after itself, or nothing when the word is none. -vt has its
+/// argument attached; -vf is not among them.
 std::optional<std::size_t> argument_count(std::string_view word) {
     if (!word.starts_with("-v") || word.size() < 3) return std::nullopt;
     if (word[2] == 't') return word.size() <= 4 ? std::optional<std::size_t>(0) : std::nullopt;
@@ -50,7 +60,8 @@ std::optional<std::size_t> argument_count(std::string_view word) {
     return std::nullopt;
 }
 
-/// Apply an option that argument_count knows; false, and nothing changed, when an argument is no number.
+/// Apply an option that argument_count knows; false, and nothing changed, when an argument is no
+/// number.
 bool apply(std::string_view option, std::span<const std::string_view> arguments, View& view) {
     if (option[2] == 't') {
         if (option.size() != 4) return false;
@@ -62,14 +73,17 @@ bool apply(std::string_view option, std::span<const std::string_view> arguments,
         if (!parse_real(arguments[i], value[i])) return false;
     }
     const Target target = target_of(option[2], view);
-    if (target.vector != nullptr) *target.vector = {value[0], value[1], value[2]};
-    else *target.number = value[0];
+    if (target.vector != nullptr)
+        *target.vector = {value[0], value[1], value[2]};
+    else
+        *target.number = value[0];
     return true;
 }
 
-/// Whether a program's name or variable at the line's beginning announces a view; what follows is returned.
+/// Whether a program's name or variable at the line's beginning announces a view; what follows is
+/// returned.
 std::optional<std::string_view> after_view_word(std::string_view line) {
-    constexpr std::array<std::string_view, 8> kWords{"VIEW=", "rpict",   "rview",   "rvu",
+    constexpr std::array<std::string_view, 8> kWords{"VIEW=",  "rpict",   "rview",   "rvu",
                                                      "rpiece", "rxpiece", "pinterp", "lightwalk"};
     const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
     std::string_view word = line.substr(0, end);
@@ -101,11 +115,12 @@ std::string read_beginning(const std::string& name) {
 std::string view_text(const View& view) {
     std::array<char, 512> text{};
     const Vec3 &p = view.position, &d = view.direction, &u = view.up;
-    (void)std::snprintf(text.data(), text.size(),
-                        "-vt%c -vp %.7g %.7g %.7g -vd %.7g %.7g %.7g -vu %.5g %.5g %.5g -vh %.5g -vv %.5g "
-                        "-vo %.5g -va %.5g -vs %.5g -vl %.5g",
-                        view.type, p.x, p.y, p.z, d.x, d.y, d.z, u.x, u.y, u.z, view.horizontal, view.vertical,
-                        view.fore, view.aft, view.shift, view.lift);
+    (void)std::snprintf(
+        text.data(), text.size(),
+        "-vt%c -vp %.7g %.7g %.7g -vd %.7g %.7g %.7g -vu %.5g %.5g %.5g -vh %.5g -vv %.5g "
+        "-vo %.5g -va %.5g -vs %.5g -vl %.5g",
+        view.type, p.x, p.y, p.z, d.x, d.y, d.z, u.x, u.y, u.z, view.horizontal, view.vertical,
+        view.fore, view.aft, view.shift, view.lift);
     return text.data();
 }
 

@@ -20,11 +20,12 @@ int block_side(int width, int height, int workers, int alignment) {
 
 std::vector<Block> make_blocks(int width, int height, int side) {
     if (width <= 0 || height <= 0) return {};
-    const std::size_t columns = static_cast<std::size_t>((width - 1) / side + 1);
-    const std::size_t rows = static_cast<std::size_t>((height - 1) / side + 1);
+    const std::size_t columns = static_cast<std::size_t>((width - 1) / side) + 1;
+    const std::size_t rows = static_cast<std::size_t>((height - 1) / side) + 1;
     const std::size_t count = columns * rows;
     // Multiples of the golden ratio spread evenly (Knuth, TAOCP vol. 3, section 6.4).
-    std::size_t stride = std::max<std::size_t>(1, static_cast<std::size_t>(0.6180339887 * static_cast<double>(count)));
+    std::size_t stride = std::max<std::size_t>(
+        1, static_cast<std::size_t>(0.6180339887 * static_cast<double>(count)));
     while (std::gcd(stride, count) != 1) ++stride;
     std::vector<Block> blocks;
     blocks.reserve(count);

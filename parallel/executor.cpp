@@ -22,13 +22,18 @@ class SerialExecutor final : public Executor {
 std::unique_ptr<Executor> make_executor(ExecutorKind kind, int workers) {
     workers = std::max(workers, 1);
     switch (kind) {
-        case ExecutorKind::serial: break;
-        case ExecutorKind::threads: return make_thread_pool(workers);
-        case ExecutorKind::tbb: return make_tbb_arena(workers);
+        case ExecutorKind::serial:
+            break;
+        case ExecutorKind::threads:
+            return make_thread_pool(workers);
+        case ExecutorKind::tbb:
+            return make_tbb_arena(workers);
     }
     return std::make_unique<SerialExecutor>();
 }
 
-int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int hardware_threads() {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 }  // namespace lightwalk

@@ -8,17 +8,18 @@
 
 namespace lightwalk {
 
-/// One call of a task: which one, and by whom. No two tasks run with the same worker at the same time, so
-/// workers index scratch memory.
+/// One call of a task: which one, and by whom. No two tasks run with the same worker at the same
+/// time, so workers index scratch memory.
 using Task = FunctionRef<void(std::size_t task, int worker)>;
 
 class Executor {
   public:
     virtual ~Executor() = default;
 
-    /// Run tasks 0 ... count-1, each once, handed out in about this order; return when all are done. No new task
-    /// starts once `stop` is requested. The first exception of a task ends the others the same way and is thrown
-    /// again here. Not to be called from within a task, nor from two threads at once.
+    /// Run tasks 0 ... count-1, each once, handed out in about this order; return when all are
+    /// done. No new task starts once `stop` is requested. The first exception of a task ends the
+    /// others the same way and is thrown again here. Not to be called from within a task, nor from
+    /// two threads at once.
     virtual void for_each(std::size_t count, Task task, const StopFlag& stop) = 0;
     void for_each(std::size_t count, Task task) { for_each(count, task, never_); }
 
@@ -34,6 +35,14 @@ enum class ExecutorKind {
     threads,  ///< std::thread, which ThreadSanitizer understands
     tbb,      ///< a TBB arena
 };
+
+/// What to use when nobody asks for another: TBB, or std::thread where ThreadSanitizer watches, for
+/// it takes what the packaged libtbb does for races.
+#if defined(__SANITIZE_THREAD__)
+inline constexpr ExecutorKind kDefaultExecutor = ExecutorKind::threads;
+#else
+inline constexpr ExecutorKind kDefaultExecutor = ExecutorKind::tbb;
+#endif
 
 /// `workers` >= 1, the calling thread included; `serial` has one whatever is asked for.
 [[nodiscard]] std::unique_ptr<Executor> make_executor(ExecutorKind kind, int workers);

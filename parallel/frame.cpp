@@ -5,8 +5,11 @@
 #include <atomic>
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <utility>
 
+#include "core/light/small_sources.h"
 #include "parallel/blocks.h"
 #include "parallel/refine.h"
 #include "parallel/worker_contexts.h"
@@ -19,7 +22,8 @@ constexpr int kPacketSide = 8;  ///< pixels traced together when every pixel is 
 /// Traces pixels in packets: nearest hits at once, then shading one by one. Scratch of one worker.
 class PixelTracer {
   public:
-    PixelTracer(const Tracer& tracer, const PixelRays& rays, TraceContext& context, const StopFlag& stop)
+    PixelTracer(const Tracer& tracer, const PixelRays& rays, TraceContext& context,
+                const StopFlag& stop)
         : tracer_(tracer), pixel_rays_(rays), context_(context), stop_(stop) {}
 
     /// Pixels outside the view's domain are black at distance 0.
@@ -32,8 +36,10 @@ class PixelTracer {
             const PixelRay pixel = pixel_rays_(places[i].x, places[i].y);
             if (!pixel.ray) continue;
             const double limit = pixel.ray->limit;
-            rays_.push_back(tracer_.primary(pixel.ray->origin, pixel.ray->direction, limit, pixel.random));
-            segments_.push_back({rays_.back().origin, rays_.back().direction, limit > kEpsilon ? limit : kHuge});
+            rays_.push_back(
+                tracer_.primary(pixel.ray->origin, pixel.ray->direction, limit, pixel.random));
+            segments_.push_back(
+                {rays_.back().origin, rays_.back().direction, limit > kEpsilon ? limit : kHuge});
             targets_.push_back(i);
         }
         hits_.assign(rays_.size(), Hit{});
@@ -42,7 +48,8 @@ class PixelTracer {
             context_.clip_sets.clear();
             context_.scatter_lists.clear();
             tracer_.shade_hit(rays_[k], hits_[k], context_);
-            values[targets_[k]] = {rays_[k].value, static_cast<float>(rays_[k].effective_distance())};
+            values[targets_[k]] = {rays_[k].value,
+                                   static_cast<float>(rays_[k].effective_distance())};
         }
     }
 
@@ -59,11 +66,21 @@ class PixelTracer {
 
 class FrameRenderer {
   public:
-    FrameRenderer(const Tracer& tracer, const PixelRays& rays, const FrameOptions& options, Executor& executor,
-                  WarningSink& warnings, const StopFlag& stop)
-        : tracer_(tracer), rays_(rays), options_(options), executor_(executor), stop_(stop),
-          contexts_(tracer, warnings, executor.concurrency()), counted_(static_cast<std::size_t>(executor.concurrency())) {
-        const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    FrameRenderer(const Tracer& tracer, const Camera& camera, const PixelRays& rays,
+                  const FrameOptions& options, Executor& executor, WarningSink& warnings,
+                  const StopFlag& stop)
+        : tracer_(tracer),
+          rays_(rays),
+          options_(options),
+          executor_(executor),
+          stop_(stop),
+          contexts_(tracer, warnings, executor.concurrency()),
+          counted_(static_cast<std::size_t>(executor.concurrency())) {
+        if (rays.pinhole())
+            small_sources_.emplace(tracer, camera, options.width, options.height,
+                                   options.pixels.spacing);
+        const std::size_t pixels =
+            static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
         frame_.width = options.width;
         frame_.height = options.height;
         frame_.radiance.resize(pixels);
@@ -88,7 +105,8 @@ class FrameRenderer {
 
   private:
     [[nodiscard]] int tile_side() const {
-        return options_.pixels.spacing > 1 ? refine_tile_side(options_.pixels.spacing) : kPacketSide;
+        return options_.pixels.spacing > 1 ? refine_tile_side(options_.pixels.spacing)
+                                           : kPacketSide;
     }
 
     void render_block(const Block& block, int tile, int worker) {
@@ -96,10 +114,23 @@ class FrameRenderer {
         for (int y = block.y0; y < block.y1; y += tile) {
             for (int x = block.x0; x < block.x1; x += tile) {
                 const Block part{x, y, std::min(x + tile, block.x1), std::min(y + tile, block.y1)};
-                if (options_.pixels.spacing > 1) refine(part, trace);
-                else trace_all(part, trace);
+                if (options_.pixels.spacing > 1)
+                    refine(part, trace);
+                else
+                    trace_all(part, trace);
             }
         }
+        if (small_sources_ && !stop_.requested()) draw_small_sources(block, worker);
+    }
+
+    void draw_small_sources(const Block& block, int worker) {
+        small_sources_->draw({block.x0, block.y0, block.x1, block.y1}, contexts_[worker],
+                             [&](const SourcePixel& pixel) {
+                                 const std::size_t i = position({pixel.x, pixel.y});
+                                 blend_source(
+                                     pixel, frame_.radiance[i],
+                                     options_.use_distances ? &frame_.distance[i] : nullptr);
+                             });
     }
 
     void trace_all(const Block& tile, PixelTracer& trace) {
@@ -114,15 +145,21 @@ class FrameRenderer {
     }
 
     void refine(const Block& tile, PixelTracer& trace) {
-        const RefineOptions options{options_.pixels.spacing, options_.pixels.threshold, options_.refine_by_distance};
-        refine_tile(tile, options_.width, options_.height, options, trace,
-                    [this](const PixelPlace& place, const PixelValue& value) { store(place, value); });
+        const RefineOptions options{options_.pixels.spacing, options_.pixels.threshold,
+                                    options_.use_distances};
+        refine_tile(
+            tile, options_.width, options_.height, options, trace,
+            [this](const PixelPlace& place, const PixelValue& value) { store(place, value); });
+    }
+
+    [[nodiscard]] std::size_t position(const PixelPlace& place) const {
+        const std::size_t row = static_cast<std::size_t>(options_.height - 1 - place.y);
+        return row * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(place.x);
     }
 
     /// Each pixel is stored by one task only.
     void store(const PixelPlace& place, const PixelValue& value) {
-        const std::size_t row = static_cast<std::size_t>(options_.height - 1 - place.y);
-        const std::size_t i = row * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(place.x);
+        const std::size_t i = position(place);
         frame_.radiance[i] = value.radiance;
         frame_.distance[i] = value.distance;
     }
@@ -135,7 +172,8 @@ class FrameRenderer {
         pixels_done_ += block.pixels();
         const std::unique_lock lock(progress_mutex_, std::try_to_lock);
         if (!lock) return;  // the next one will tell
-        const double done = static_cast<double>(pixels_done_) / static_cast<double>(frame_.radiance.size());
+        const double done =
+            static_cast<double>(pixels_done_) / static_cast<double>(frame_.radiance.size());
         progress({done, rays_done_});
     }
 
@@ -146,7 +184,8 @@ class FrameRenderer {
     const StopFlag& stop_;
     WorkerContexts contexts_;
     Frame frame_;
-    std::vector<std::uint64_t> counted_;  ///< rays reported so far, by worker
+    std::optional<SmallSources> small_sources_;  ///< nothing when the picture is blurred
+    std::vector<std::uint64_t> counted_;         ///< rays reported so far, by worker
     std::atomic<std::uint64_t> rays_done_{0};
     std::atomic<std::size_t> pixels_done_{0};
     std::mutex progress_mutex_;
@@ -154,11 +193,12 @@ class FrameRenderer {
 
 }  // namespace
 
-Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOptions& options, Executor& executor,
-                   WarningSink& warnings, const StopFlag& stop,
+Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                   Executor& executor, WarningSink& warnings, const StopFlag& stop,
                    FunctionRef<void(const FrameProgress&)> progress) {
-    const PixelRays rays(camera, options.previous, options.width, options.height, options.pixels, options.seed);
-    return FrameRenderer(tracer, rays, options, executor, warnings, stop).run(progress);
+    const PixelRays rays(camera, options.previous, options.width, options.height, options.pixels,
+                         options.seed);
+    return FrameRenderer(tracer, camera, rays, options, executor, warnings, stop).run(progress);
 }
 
 }  // namespace lightwalk

@@ -6,8 +6,8 @@
 namespace lightwalk {
 namespace {
 
-/// Length of the vector that a view's ray direction was made from, per unit of direction: positions at the same
-/// multiple of it lie in one plane (perspective), cylinder or sphere.
+/// Length of the vector that a view's ray direction was made from, per unit of direction: positions
+/// at the same multiple of it lie in one plane (perspective), cylinder or sphere.
 double slant(const Camera& camera, const Vec3& direction) {
     if (camera.view().type == 'v') return 1 / dot(direction, camera.forward());
     if (camera.view().type == 'c') {
@@ -21,15 +21,20 @@ double slant(const Camera& camera, const Vec3& direction) {
 
 PixelRays::PixelRays(const Camera& camera, const Camera* previous, int width, int height,
                      const PixelOptions& options, std::uint64_t seed)
-    : camera_(camera), previous_(previous), width_(width), height_(height), options_(options), seed_(seed) {}
+    : camera_(camera),
+      previous_(previous),
+      width_(width),
+      height_(height),
+      options_(options),
+      seed_(seed) {}
 
 bool PixelRays::pinhole() const {
     return options_.aperture <= kEpsilon && (previous_ == nullptr || options_.motion <= kEpsilon);
 }
 
 PixelRay PixelRays::operator()(int x, int y) const {
-    PixelRay pixel{std::nullopt,
-                   RandomStream::of_pixel(seed_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0)};
+    PixelRay pixel{std::nullopt, RandomStream::of_pixel(seed_, static_cast<std::uint32_t>(x),
+                                                        static_cast<std::uint32_t>(y), 0)};
     double j1 = 0.5;
     double j2 = 0.5;
     if (options_.jitter > 0) {
@@ -40,12 +45,14 @@ PixelRay PixelRays::operator()(int x, int y) const {
     const double v = (y + j2) / height_;
     pixel.ray = camera_.ray(h, v);
     if (!pixel.ray) return pixel;
-    if (previous_ != nullptr && options_.motion > kEpsilon) pixel.ray = blur_motion(*pixel.ray, h, v, pixel.random);
+    if (previous_ != nullptr && options_.motion > kEpsilon)
+        pixel.ray = blur_motion(*pixel.ray, h, v, pixel.random);
     if (options_.aperture > kEpsilon) pixel.ray = through_lens(*pixel.ray, pixel.random);
     return pixel;
 }
 
-Camera::ViewRay PixelRays::blur_motion(const Camera::ViewRay& now, double h, double v, RandomStream& random) const {
+Camera::ViewRay PixelRays::blur_motion(const Camera::ViewRay& now, double h, double v,
+                                       RandomStream& random) const {
     const double back = options_.motion * (0.5 - random.next());
     const std::optional<Camera::ViewRay> before = previous_->ray(h, v);
     if (!before) return now;
@@ -66,12 +73,15 @@ Camera::ViewRay PixelRays::through_lens(const Camera::ViewRay& ray, RandomStream
     const bool parallel = view.type == 'l';
     const bool flat = parallel || view.type == 'v';
     const Vec3 centre = parallel ? ray.origin - view.fore * forward : view.position;
-    Vec3 lens = centre + radius * (std::cos(angle) * camera_.right() + std::sin(angle) * camera_.upward());
+    Vec3 lens =
+        centre + radius * (std::cos(angle) * camera_.right() + std::sin(angle) * camera_.upward());
     if (!flat) lens += kPi / 4 * options_.aperture * (0.5 - random.next()) * forward;
-    const Vec3 target = centre + focus * (view.type == 'v' ? slant(camera_, ray.direction) : 1.0) * ray.direction;
+    const Vec3 target =
+        centre + focus * (view.type == 'v' ? slant(camera_, ray.direction) : 1.0) * ray.direction;
     Camera::ViewRay bent{lens, normalize(target - lens), ray.limit};
     if (view.fore > kEpsilon) {
-        const double along = view.type == 'v' ? view.fore / dot(bent.direction, forward) : view.fore;
+        const double along =
+            view.type == 'v' ? view.fore / dot(bent.direction, forward) : view.fore;
         bent.origin += along * bent.direction;
     }
     return bent;

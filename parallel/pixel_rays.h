@@ -10,11 +10,12 @@ namespace lightwalk {
 
 /// How a picture is sampled; names and defaults of rpict.
 struct PixelOptions {
-    int spacing = 4;          ///< -ps: distance of the pixels that are traced in any case, 1 ... 16
-    double threshold = 0.05;  ///< -pt: relative difference beyond which pixels in between are traced
-    double jitter = 0.67;     ///< -pj: share of the pixel over which its ray is spread
-    double aperture = 0;      ///< -pd: diameter of the lens [m]
-    double motion = 0;        ///< -pm: share of the time between two frames that the shutter is open
+    int spacing = 4;  ///< -ps: distance of the pixels that are traced in any case, 1 ... 16
+    double threshold =
+        0.05;              ///< -pt: relative difference beyond which pixels in between are traced
+    double jitter = 0.67;  ///< -pj: share of the pixel over which its ray is spread
+    double aperture = 0;   ///< -pd: diameter of the lens [m]
+    double motion = 0;     ///< -pm: share of the time between two frames that the shutter is open
 };
 
 /// A pixel's ray, and the random numbers that it goes on with.
@@ -28,21 +29,22 @@ class PixelRays {
   public:
     /// @param previous  the view of the frame before, for motion blur; null: none
     /// The cameras must outlive this.
-    PixelRays(const Camera& camera, const Camera* previous, int width, int height, const PixelOptions& options,
-              std::uint64_t seed);
+    PixelRays(const Camera& camera, const Camera* previous, int width, int height,
+              const PixelOptions& options, std::uint64_t seed);
 
-    /// Pixel (x, y), y from the bottom, goes through ((x + j1) / width, (y + j2) / height), j uniform in
-    /// ½ ± jitter / 2. Source: Radiance manual page rpict(1), -pj, -pd and -pm.
+    /// Pixel (x, y), y from the bottom, goes through ((x + j1) / width, (y + j2) / height), j
+    /// uniform in ½ ± jitter / 2. Source: Radiance manual page rpict(1), -pj, -pd and -pm.
     [[nodiscard]] PixelRay operator()(int x, int y) const;
 
-    /// Whether rays start in one point or plane and go through their pixel's place exactly when not jittered:
-    /// neither lens nor motion moves them.
+    /// Whether rays start in one point or plane and go through their pixel's place exactly when not
+    /// jittered: neither lens nor motion moves them.
     [[nodiscard]] bool pinhole() const;
 
   private:
     [[nodiscard]] Camera::ViewRay blur_motion(const Camera::ViewRay& now, double h, double v,
                                               RandomStream& random) const;
-    [[nodiscard]] Camera::ViewRay through_lens(const Camera::ViewRay& ray, RandomStream& random) const;
+    [[nodiscard]] Camera::ViewRay through_lens(const Camera::ViewRay& ray,
+                                               RandomStream& random) const;
 
     const Camera& camera_;
     const Camera* previous_;

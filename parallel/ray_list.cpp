@@ -11,8 +11,9 @@ void set_missed(Ray& ray) {
     ray.hit.position = ray.limit > 0 ? ray.origin + ray.limit * ray.direction : ray.origin;
 }
 
-void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random, const RayListOptions& options,
-               TraceContext& context, std::size_t index, TakeRay take) {
+void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random,
+               const RayListOptions& options, TraceContext& context, std::size_t index,
+               TakeRay take) {
     const double size = length(query.direction);
     if (!(size > 0)) {
         Ray ray = tracer.primary(query.origin, query.direction, 0, random);
@@ -23,7 +24,8 @@ void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random,
         const Ray ray = tracer.irradiance(query.origin, query.direction, random, context);
         return take(index, ray, ray.hit);
     }
-    Ray ray = tracer.primary(query.origin, query.direction, options.limit_by_length ? size : 0, random);
+    Ray ray =
+        tracer.primary(query.origin, query.direction, options.limit_by_length ? size : 0, random);
     const double farthest = ray.limit > kEpsilon ? ray.limit : kHuge;
     const Hit first = tracer.scene().geometry().intersect({ray.origin, ray.direction, farthest});
     if (options.shade) {
@@ -40,8 +42,9 @@ void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random,
 
 }  // namespace
 
-void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts, std::span<const RayQuery> queries,
-                    std::uint64_t first_index, const RayListOptions& options, Executor& executor, TakeRay take) {
+void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts,
+                    std::span<const RayQuery> queries, std::uint64_t first_index,
+                    const RayListOptions& options, Executor& executor, TakeRay take) {
     const std::size_t tasks = (queries.size() + kRaysPerTask - 1) / kRaysPerTask;
     executor.for_each(tasks, [&](std::size_t task, int worker) {
         const std::size_t end = std::min((task + 1) * kRaysPerTask, queries.size());

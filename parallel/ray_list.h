@@ -17,9 +17,9 @@ struct RayQuery {
 };
 
 struct RayListOptions {
-    bool shade = true;              ///< false: nearest hits only
-    bool sensor = false;            ///< irradiance at the origin facing the direction (rtrace -I)
-    bool limit_by_length = false;   ///< the direction's length limits the ray (rtrace -ld)
+    bool shade = true;             ///< false: nearest hits only
+    bool sensor = false;           ///< irradiance at the origin facing the direction (rtrace -I)
+    bool limit_by_length = false;  ///< the direction's length limits the ray (rtrace -ld)
     std::uint64_t seed = 0;
 };
 
@@ -29,8 +29,10 @@ inline constexpr std::size_t kRaysPerTask = 64;
 /// Takes a finished ray and its nearest hit before shading.
 using TakeRay = FunctionRef<void(std::size_t index, const Ray& ray, const Hit& first)>;
 
-/// Trace `queries`; ray i has the random numbers of ray `first_index` + i of the whole input, whatever the workers.
-void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts, std::span<const RayQuery> queries,
-                    std::uint64_t first_index, const RayListOptions& options, Executor& executor, TakeRay take);
+/// Trace `queries`; ray i has the random numbers of ray `first_index` + i of the whole input,
+/// whatever the workers.
+void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts,
+                    std::span<const RayQuery> queries, std::uint64_t first_index,
+                    const RayListOptions& options, Executor& executor, TakeRay take);
 
 }  // namespace lightwalk

@@ -19,11 +19,16 @@ PixelValue mix(const PixelValue& a, const PixelValue& b, float t) {
 
 class TileRefiner {
   public:
-    TileRefiner(const Block& tile, int width, int height, const RefineOptions& options, TracePixels trace,
-                StorePixel store)
-        : tile_(tile), width_(width), height_(height), options_(options), trace_(trace), store_(store),
-          columns_(tile.width() + 1), values_(static_cast<std::size_t>(columns_) *
-                                              static_cast<std::size_t>(tile.height() + 1)),
+    TileRefiner(const Block& tile, int width, int height, const RefineOptions& options,
+                TracePixels trace, StorePixel store)
+        : tile_(tile),
+          width_(width),
+          height_(height),
+          options_(options),
+          trace_(trace),
+          store_(store),
+          columns_(tile.width() + 1),
+          values_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(tile.height() + 1)),
           wanted_(values_.size(), false) {}
 
     void run() {
@@ -32,8 +37,10 @@ class TileRefiner {
             trace_wanted();
             std::vector<Square> smaller;
             for (const Square& square : squares) {
-                if (is_split(square)) split(square, smaller);
-                else interpolate(square);
+                if (is_split(square))
+                    split(square, smaller);
+                else
+                    interpolate(square);
             }
             squares = std::move(smaller);
         }
@@ -45,7 +52,8 @@ class TileRefiner {
                static_cast<std::size_t>(x - tile_.x0);
     }
     [[nodiscard]] std::array<PixelValue, 4> corners(const Square& q) const {
-        return {values_[at(q.x0, q.y0)], values_[at(q.x1, q.y0)], values_[at(q.x0, q.y1)], values_[at(q.x1, q.y1)]};
+        return {values_[at(q.x0, q.y0)], values_[at(q.x1, q.y0)], values_[at(q.x0, q.y1)],
+                values_[at(q.x1, q.y1)]};
     }
 
     std::vector<Square> first_squares() {
@@ -74,7 +82,8 @@ class TileRefiner {
     void trace_wanted() {
         traced_.assign(places_.size(), PixelValue{});
         trace_(places_, traced_);
-        for (std::size_t i = 0; i < places_.size(); ++i) values_[at(places_[i].x, places_[i].y)] = traced_[i];
+        for (std::size_t i = 0; i < places_.size(); ++i)
+            values_[at(places_[i].x, places_[i].y)] = traced_[i];
         places_.clear();
     }
 
@@ -95,8 +104,8 @@ class TileRefiner {
         for (std::size_t i = first; i < parts.size(); ++i) want_corners(parts[i]);
     }
 
-    /// One beyond the last pixel that a square from `first` to `last` owns: the edge at `last` is the next square's,
-    /// unless the picture ends there before the next square begins.
+    /// One beyond the last pixel that a square from `first` to `last` owns: the edge at `last` is
+    /// the next square's, unless the picture ends there before the next square begins.
     [[nodiscard]] int end_of(int first, int last, int end_of_picture) const {
         const bool cut_off = last == end_of_picture && end_of_picture % options_.spacing != 0;
         return first == last || cut_off ? last + 1 : last;
@@ -108,11 +117,14 @@ class TileRefiner {
         const int x_end = end_of(q.x0, q.x1, width_ - 1);
         const int y_end = end_of(q.y0, q.y1, height_ - 1);
         for (int y = q.y0; y < y_end; ++y) {
-            const float v = y == q.y0 ? 0.0f : static_cast<float>(y - q.y0) / static_cast<float>(q.y1 - q.y0);
+            const float v =
+                y == q.y0 ? 0.0f : static_cast<float>(y - q.y0) / static_cast<float>(q.y1 - q.y0);
             const PixelValue left = mix(c[0], c[2], v);
             const PixelValue right = mix(c[1], c[3], v);
             for (int x = q.x0; x < x_end; ++x) {
-                const float u = x == q.x0 ? 0.0f : static_cast<float>(x - q.x0) / static_cast<float>(q.x1 - q.x0);
+                const float u =
+                    x == q.x0 ? 0.0f
+                              : static_cast<float>(x - q.x0) / static_cast<float>(q.x1 - q.x0);
                 store_({x, y}, mix(left, right, u));
             }
         }
@@ -133,7 +145,8 @@ class TileRefiner {
 }  // namespace
 
 int refine_tile_side(int spacing) {
-    constexpr int kAbout = 32;  // corners beyond the upper and right edge cost the less the larger a tile is
+    constexpr int kAbout =
+        32;  // corners beyond the upper and right edge cost the less the larger a tile is
     return spacing * std::max(1, kAbout / spacing);
 }
 
@@ -149,14 +162,15 @@ bool differ(std::span<const PixelValue> values, const RefineOptions& options) {
     }
     if (!options.by_distance) return false;
     const auto [nearest, farthest] = std::minmax_element(
-        values.begin(), values.end(), [](const PixelValue& a, const PixelValue& b) { return a.distance < b.distance; });
+        values.begin(), values.end(),
+        [](const PixelValue& a, const PixelValue& b) { return a.distance < b.distance; });
     const double near = static_cast<double>(nearest->distance);
     const double far = static_cast<double>(farthest->distance);
     return 2 * (far - near) > options.threshold * (far + near);
 }
 
-void refine_tile(const Block& tile, int width, int height, const RefineOptions& options, TracePixels trace,
-                 StorePixel store) {
+void refine_tile(const Block& tile, int width, int height, const RefineOptions& options,
+                 TracePixels trace, StorePixel store) {
     TileRefiner(tile, width, height, options, trace, store).run();
 }
 

@@ -9,7 +9,9 @@ class StopFlag {
   public:
     void request() noexcept { requested_.store(true, std::memory_order_relaxed); }
     void clear() noexcept { requested_.store(false, std::memory_order_relaxed); }
-    [[nodiscard]] bool requested() const noexcept { return requested_.load(std::memory_order_relaxed); }
+    [[nodiscard]] bool requested() const noexcept {
+        return requested_.load(std::memory_order_relaxed);
+    }
 
   private:
     std::atomic<bool> requested_{false};

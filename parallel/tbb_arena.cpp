@@ -23,15 +23,16 @@ class TbbArena final : public Executor {
           threads_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(workers)),
           arena_(workers) {}
 
-    /// Ranges are split down to single calls, but each call takes the next number from a counter: TBB balances
-    /// the load, and the tasks still begin in their order.
+    /// Ranges are split down to single calls, but each call takes the next number from a counter:
+    /// TBB balances the load, and the tasks still begin in their order.
     void for_each(std::size_t count, Task task, const StopFlag& stop) override {
         std::atomic<std::size_t> next{0};
         arena_.execute([&] {
             tbb::parallel_for(
                 tbb::blocked_range<std::size_t>(0, count),
                 [&](const tbb::blocked_range<std::size_t>& range) {
-                    for (std::size_t i = range.begin(); i != range.end() && !stop.requested(); ++i) {
+                    for (std::size_t i = range.begin(); i != range.end() && !stop.requested();
+                         ++i) {
                         task(next.fetch_add(1, std::memory_order_relaxed),
                              tbb::this_task_arena::current_thread_index());
                     }
@@ -49,6 +50,8 @@ class TbbArena final : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> make_tbb_arena(int workers) { return std::make_unique<TbbArena>(workers); }
+std::unique_ptr<Executor> make_tbb_arena(int workers) {
+    return std::make_unique<TbbArena>(workers);
+}
 
 }  // namespace lightwalk

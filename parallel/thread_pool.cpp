@@ -12,7 +12,8 @@
 namespace lightwalk {
 namespace {
 
-/// One call of for_each. Workers take the next number until there is none, or until somebody ends the job.
+/// One call of for_each. Workers take the next number until there is none, or until somebody ends
+/// the job.
 struct Job {
     Task task;
     std::size_t count;
@@ -111,6 +112,8 @@ class ThreadPool final : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> make_thread_pool(int workers) { return std::make_unique<ThreadPool>(workers); }
+std::unique_ptr<Executor> make_thread_pool(int workers) {
+    return std::make_unique<ThreadPool>(workers);
+}
 
 }  // namespace lightwalk

@@ -8,7 +8,8 @@
 
 namespace lightwalk {
 
-/// Contexts are made when a worker asks first; worker w may only be asked for by the thread that is worker w.
+/// Contexts are made when a worker asks first; worker w may only be asked for by the thread that is
+/// worker w.
 class WorkerContexts {
   public:
     WorkerContexts(const Tracer& tracer, WarningSink& warnings, int workers)

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/function/noise.h"
+
 namespace lightwalk {
 
 /// Inputs of an evaluation. 1..27 are the language's $n; the rest are set by particular materials only.
@@ -33,6 +35,16 @@ struct EvalState {
     std::vector<std::uint8_t> flags;    ///< implementation's "already computed" marks
     std::uint64_t warnings = 0;         ///< numeric errors met
     void clear_error() { error = EvalError::none; }
+
+    struct Return {                     ///< where a call of the implementation goes on
+        std::uint32_t instruction = 0, frame = 0, cell = 0;
+    };
+    std::vector<Return> returns;
+    std::uint64_t operations = 0;       ///< done by calls in this tick; bounded
+    function::NoiseMemory noise;
+    function::FractalMemory fractal;
+    std::vector<double> prism;          ///< rays of fprism_val: direction and energy each
+    bool prism_traced = false;          ///< whether `prism` belongs to this tick
 };
 
 /// What a primitive wants to evaluate: an expression in its file's context, or a function called by name with
@@ -56,7 +68,8 @@ class Program {
     /// Start a tick: forget cached variables. `channels` must stay alive and unchanged until the next begin.
     void begin(EvalState& state, const ChannelValues& channels) const;
 
-    /// Evaluate output k. Numeric errors set state.error and follow the language's rules (value 0); they are
+    /// Evaluate output k, once a tick: variables that no other output needs are computed anew each time.
+    /// Numeric errors set state.error and follow the language's rules (value 0); they are
     /// sticky or cleared as the language says, so call state.clear_error() where the primitive clears.
     /// Throws InputError for what the language calls fatal (undefined name met, missing argument).
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const;

@@ -2,6 +2,7 @@
 // Ray casting: Embree behind an interface that speaks double precision and Radiance's tie rules.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,13 @@ enum class Visibility : std::uint8_t {
     special,  ///< no opaque surface, but at least one ShadowClass::special one
 };
 
+/// Axis-aligned bounds.
+struct Bounds {
+    Vec3 lower{kHuge, kHuge, kHuge}, upper{-kHuge, -kHuge, -kHuge};
+    [[nodiscard]] bool empty() const { return lower.x > upper.x; }
+    void extend(const Vec3& p);
+};
+
 /// A mesh inside a model: triangles whose materials are global modifiers.
 struct MeshPart {
     const MeshModel* mesh = nullptr;
@@ -52,18 +60,12 @@ struct ModelGeometry {
     std::vector<SurfaceId> surfaces;  ///< finite surfaces with a shape
     std::vector<MeshPart> meshes;     ///< 0 or 1: a compiled mesh as a model of its own
     std::vector<Placement> placements;
+    std::optional<Bounds> cube;       ///< as the octree states it; else the smallest one is derived
 };
 
 struct GeometryInput {
     std::span<const Surface> surfaces;   ///< must outlive the Geometry
     std::vector<ModelGeometry> models;   ///< models[0] is the scene; placements form a DAG
-};
-
-/// Axis-aligned bounds.
-struct Bounds {
-    Vec3 lower{kHuge, kHuge, kHuge}, upper{-kHuge, -kHuge, -kHuge};
-    [[nodiscard]] bool empty() const { return lower.x > upper.x; }
-    void extend(const Vec3& p);
 };
 
 struct RaySegment {

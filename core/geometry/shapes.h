@@ -11,6 +11,9 @@
 
 namespace lightwalk {
 
+/// Coordinates and radii beyond this could overflow in products of eight of them [m].
+inline constexpr double kLargestCoordinate = 1e30;
+
 struct SphereShape {
     Vec3 center;
     double radius = 0;    ///< > 0 [m]
@@ -56,7 +59,8 @@ struct ShapeHit {
 
 /// Validate the arguments of a finite surface or source. Degenerate input follows Radiance: `type` may change
 /// (sphere <-> bubble, cone -> cylinder, ...), a useless surface becomes monostate; both report by `warning`
-/// (left empty otherwise). Throws InputError for wrong argument counts or non-finite numbers.
+/// (left empty otherwise). Throws InputError for wrong argument counts or numbers that are
+/// not finite or beyond kLargestCoordinate.
 struct ValidatedShape {
     Shape shape;
     PrimitiveType type{};

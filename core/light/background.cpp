@@ -13,7 +13,8 @@ bool contains(const LightSource& source, const Vec3& direction) {
 std::optional<SurfaceId> LightSources::background(const Ray& ray) const {
     if (ray.target != kNoTarget) {
         const LightSource& source = (*this)[ray.target];
-        if (!source.distant || source.is_virtual || !contains(source, ray.direction)) return std::nullopt;
+        if (!source.distant || source.is_virtual || !contains(source, ray.direction))
+            return std::nullopt;
         return source.object;
     }
     std::optional<SurfaceId> glow;
@@ -40,7 +41,8 @@ bool LightSources::intersect_target(Ray& ray, const Tracer& tracer) const {
     if (ray.target == kNoTarget) return false;
     const LightSource& source = (*this)[ray.target];
     if (!source.distant || source.is_virtual) {
-        ray.hit = tracer.scene().geometry().intersect_surface(source.object, {ray.origin, ray.direction, kHuge});
+        ray.hit = tracer.scene().geometry().intersect_surface(source.object,
+                                                              {ray.origin, ray.direction, kHuge});
         return ray.hit.exists();
     }
     if (!contains(source, ray.direction)) return false;

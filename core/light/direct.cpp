@@ -7,9 +7,15 @@
 namespace lightwalk {
 
 DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, TraceContext& context)
-    : lights_(lights), tracer_(context.tracer), ray_(ray), context_(context), scratch_(*context.light),
-      first_sample_(scratch_.samples.size()), first_candidate_(scratch_.candidates.size()),
-      first_query_(scratch_.queries.size()), first_tail_(scratch_.tails.size()) {
+    : lights_(lights),
+      tracer_(context.tracer),
+      ray_(ray),
+      context_(context),
+      scratch_(*context.light),
+      first_sample_(scratch_.samples.size()),
+      first_candidate_(scratch_.candidates.size()),
+      first_query_(scratch_.queries.size()),
+      first_tail_(scratch_.tails.size()) {
     (void)tracer_.spawn(aimed_, kShadow, ray, nullptr);
     aimed_.aimed = true;
 }
@@ -32,8 +38,8 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
     const LightSource& source = lights_[index];
     const RenderOptions& options = tracer_.options();
     const bool constant = is_constant(source);
-    sample_source(source, ray_.hit.position, {options.source_subdivision, options.source_jitter}, aimed_.weight,
-                  aimed_.random, scratch_.samples);
+    sample_source(source, ray_.hit.position, {options.source_subdivision, options.source_jitter},
+                  aimed_.weight, aimed_.random, scratch_.parts, scratch_.samples);
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
         const SourceSample sample = scratch_.samples[i];
         const Rgb k = coefficient(sample.direction, sample.solid_angle);
@@ -44,7 +50,8 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
         const float b = brightness(v);
         if (!(b > 0) || !std::isfinite(b)) continue;
         const auto order = static_cast<std::uint32_t>(count());
-        scratch_.candidates.push_back({index, order, sample.direction, emitted.distance, k, v, b, false});
+        scratch_.candidates.push_back(
+            {index, order, sample.direction, emitted.distance, k, v, b, false});
     }
     scratch_.samples.resize(first_sample_);
 }
@@ -53,21 +60,24 @@ bool DirectCalculation::is_constant(const LightSource& source) const {
     return source.uniform && !source.is_virtual && max_component(ray_.medium.extinction) <= 1e-10f;
 }
 
-/// The radiance of a source without patterns in clear air: its material's colour where the ray meets its front.
+/// The radiance of a source without patterns in clear air: its material's colour where the ray
+/// meets its front.
 DirectCalculation::Emission DirectCalculation::constant_emission(const LightSource& source,
                                                                  const Vec3& direction) const {
     if (source.distant) {
-        const bool inside = 2 * kPi * (1 - dot(source.center, direction)) <= static_cast<double>(source.size);
+        const bool inside =
+            2 * kPi * (1 - dot(source.center, direction)) <= static_cast<double>(source.size);
         return inside ? Emission{source.radiance, kHuge} : Emission{};
     }
     const Surface& surface = tracer_.scene().surface(source.object);
     const auto hit = intersect(surface.shape, ray_.hit.position, direction, kHuge);
-    if (!hit || dot(hit->normal, direction) >= 0) return {};
+    if (!hit || dot(hit->normal, direction) > 0) return {};
     return {source.radiance, hit->t};
 }
 
 /// The radiance that arrives from a source when nothing else is in the scene.
-DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t source, const Vec3& direction) const {
+DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t source,
+                                                               const Vec3& direction) const {
     Ray to_source = aimed_;
     to_source.direction = direction;
     to_source.target = source;
@@ -77,14 +87,15 @@ DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t sour
 
 void DirectCalculation::sort() {
     const auto first = scratch_.candidates.begin() + static_cast<std::ptrdiff_t>(first_candidate_);
-    std::sort(first, scratch_.candidates.end(), [](const LightCandidate& a, const LightCandidate& b) {
-        return a.brightness != b.brightness ? a.brightness > b.brightness : a.order < b.order;
-    });
+    std::sort(
+        first, scratch_.candidates.end(), [](const LightCandidate& a, const LightCandidate& b) {
+            return a.brightness != b.brightness ? a.brightness > b.brightness : a.order < b.order;
+        });
     scratch_.tails.resize(first_tail_);
     scratch_.tails.resize(first_tail_ + count() + 1, 0.0f);
     for (std::size_t i = count(); i-- > 0;) {
-        scratch_.tails[first_tail_ + i] =
-            scratch_.tails[first_tail_ + i + 1] + scratch_.candidates[first_candidate_ + i].brightness;
+        scratch_.tails[first_tail_ + i] = scratch_.tails[first_tail_ + i + 1] +
+                                          scratch_.candidates[first_candidate_ + i].brightness;
     }
 }
 
@@ -101,10 +112,12 @@ ShadowQuery DirectCalculation::query(const LightCandidate& candidate) const {
     const LightSource& source = lights_[candidate.source];
     const bool local = !source.distant || source.is_virtual;
     ShadowQuery query;
-    query.segment = {ray_.hit.position, candidate.direction, local ? candidate.distance - kEpsilon : kHuge};
+    query.segment = {ray_.hit.position, candidate.direction,
+                     local ? candidate.distance - kEpsilon : kHuge};
     query.target = local ? source.object : kNoSurface;
     // Rays through the surface keep what is left to the aft clipping plane.
-    if (ray_.limit > kEpsilon && ray_.limit - ray_.hit.t > kEpsilon && goes_through(candidate.direction)) {
+    if (ray_.limit > kEpsilon && ray_.limit - ray_.hit.t > kEpsilon &&
+        goes_through(candidate.direction)) {
         query.segment.t_max = std::min(query.segment.t_max, ray_.limit - ray_.hit.t);
     }
     return query;
@@ -147,12 +160,14 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
 void DirectCalculation::trace_shadow(std::size_t i) {
     const Vec3 direction = scratch_.candidates[i].direction;
     Ray shadow;
-    (void)tracer_.spawn(shadow, goes_through(direction) ? kShadowThrough : kShadowSame, ray_, nullptr);
+    (void)tracer_.spawn(shadow, goes_through(direction) ? kShadowThrough : kShadowSame, ray_,
+                        nullptr);
     shadow.direction = direction;
     shadow.target = scratch_.candidates[i].source;
     tracer_.trace(shadow, context_);
     LightCandidate& candidate = scratch_.candidates[i];
-    if (!shadow.hit.exists()) {  // it reached the aft clipping plane: what lies beyond does not shadow
+    if (!shadow.hit
+             .exists()) {  // it reached the aft clipping plane: what lies beyond does not shadow
         candidate.visible = true;
         return;
     }
@@ -160,13 +175,15 @@ void DirectCalculation::trace_shadow(std::size_t i) {
     if (candidate.visible) candidate.contribution = candidate.coefficient * shadow.value;
 }
 
-void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const {
+void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient,
+                              TraceContext& context) const {
     if (sampled_.empty()) return;
     DirectCalculation direct(*this, ray, context);
     direct.gather(coefficient);
     if (options_.shadow_threshold <= 0) {
         direct.test(0, direct.count());
-        for (const LightCandidate& candidate : direct.candidates()) ray.value += candidate.contribution;
+        for (const LightCandidate& candidate : direct.candidates())
+            ray.value += candidate.contribution;
         return;
     }
     direct.sort();
@@ -181,11 +198,13 @@ void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceCont
         }
         tally.brightness = brightness(ray.value);
     };
-    const std::size_t tested = test_brightest(direct.tails(), options_.shadow_certainty,
-                                              options_.shadow_threshold / ray.weight, tally, test_block);
+    const std::size_t tested =
+        test_brightest(direct.tails(), options_.shadow_certainty,
+                       options_.shadow_threshold / ray.weight, tally, test_block);
     const auto factor = static_cast<float>(tally.factor());
     for (const LightCandidate& candidate : direct.candidates().subspan(tested)) {
-        ray.value += candidate.contribution * std::min(1.0f, factor * (*this)[candidate.source].hit_rate);
+        ray.value +=
+            candidate.contribution * std::min(1.0f, factor * (*this)[candidate.source].hit_rate);
     }
 }
 

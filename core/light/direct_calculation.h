@@ -1,5 +1,6 @@
 #pragma once
-// The direct calculation for one shaded point, step by step: gather candidates, order them, test them.
+// The direct calculation for one shaded point, step by step: gather candidates, order them, test
+// them.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,33 +12,39 @@ namespace lightwalk {
 
 /// What the shadow tests of a point have found so far.
 struct ShadowTally {
-    double hits = 0;      ///< candidates that got through
-    double expected = 0;  ///< sum of their sources' hit rates, tested ones only
-    float brightness = 0; ///< of the point's radiance, growing
+    double hits = 0;       ///< candidates that got through
+    double expected = 0;   ///< sum of their sources' hit rates, tested ones only
+    float brightness = 0;  ///< of the point's radiance, growing
 
     /// Visibility of this point relative to what its tested sources usually have.
     [[nodiscard]] double factor() const { return expected > kEpsilon ? hits / expected : 0.5; }
 };
 
-inline constexpr std::size_t kFirstBlock = 4;   ///< candidates that are always tested (one small packet)
+inline constexpr std::size_t kFirstBlock =
+    4;  ///< candidates that are always tested (one small packet)
 inline constexpr std::size_t kNextBlocks = 16;  ///< candidates per later packet
 
 /// Test candidates, brightest first and block by block, until the next ones cannot matter.
 /// @param tails      brightness[i] + brightness[i+1] + ... for each candidate, then 0
 /// @param certainty  -dc: exponent of the count of candidates that are looked at ahead
-/// @param threshold  -dt over the ray's weight: ignore what is less than this share of the radiance so far
-/// @param test       test(first, last): tests the candidates [first, last) and brings the tally up to date
+/// @param threshold  -dt over the ray's weight: ignore what is less than this share of the radiance
+/// so far
+/// @param test       test(first, last): tests the candidates [first, last) and brings the tally up
+/// to date
 /// @return           how many were tested
-/// Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering 1991.
+/// Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering
+/// 1991.
 template <class Test>
 std::size_t test_brightest(std::span<const float> tails, double certainty, double threshold,
                            const ShadowTally& tally, Test&& test) {
     const std::size_t n = tails.size() - 1;
     const auto all = static_cast<double>(n);
-    const auto ahead = static_cast<std::size_t>(std::min(all, std::floor(std::pow(all, certainty) + 0.5)));
+    const auto ahead =
+        static_cast<std::size_t>(std::min(all, std::floor(std::pow(all, certainty) + 0.5)));
     for (std::size_t i = 0; i < n;) {
         const float rest = i + ahead >= n ? tails[i] : tails[i] - tails[i + ahead];
-        if (i > 0 && static_cast<double>(rest) < threshold * static_cast<double>(tally.brightness)) return i;
+        if (i > 0 && static_cast<double>(rest) < threshold * static_cast<double>(tally.brightness))
+            return i;
         const std::size_t last = std::min(n, i + (i == 0 ? kFirstBlock : kNextBlocks));
         test(i, last);
         i = last;
@@ -62,12 +69,16 @@ class DirectCalculation {
     /// Test visibility of the candidates [first, last), in packets where a packet query can tell.
     void test(std::size_t first, std::size_t last);
 
-    [[nodiscard]] std::size_t count() const { return scratch_.candidates.size() - first_candidate_; }
+    [[nodiscard]] std::size_t count() const {
+        return scratch_.candidates.size() - first_candidate_;
+    }
     /// Valid until the next call of a non-const method.
     [[nodiscard]] std::span<const LightCandidate> candidates() const {
         return std::span(scratch_.candidates).subspan(first_candidate_);
     }
-    [[nodiscard]] std::span<const float> tails() const { return std::span(scratch_.tails).subspan(first_tail_); }
+    [[nodiscard]] std::span<const float> tails() const {
+        return std::span(scratch_.tails).subspan(first_tail_);
+    }
 
   private:
     struct Emission {
@@ -76,7 +87,8 @@ class DirectCalculation {
     };
     void gather(std::int32_t source, DirectCoefficient coefficient);
     [[nodiscard]] bool is_constant(const LightSource& source) const;
-    [[nodiscard]] Emission constant_emission(const LightSource& source, const Vec3& direction) const;
+    [[nodiscard]] Emission constant_emission(const LightSource& source,
+                                             const Vec3& direction) const;
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
     [[nodiscard]] bool needs_tracing(const LightCandidate& candidate) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;

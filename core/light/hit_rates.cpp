@@ -12,14 +12,16 @@ namespace {
 
 constexpr std::size_t kShadowRays = 40000;  ///< that the measurement may cost
 constexpr std::size_t kLeastPoints = 64, kMostPoints = 2000;
-constexpr double kPriorShare = 0.02;  ///< weight of what all tests say against what the untested ones say
+constexpr double kPriorShare =
+    0.02;  ///< weight of what all tests say against what the untested ones say
 constexpr int kFitSteps = 3;
 
 /// Sums of light: what gets through, and what an estimate expects.
 struct Ledger {
     double visible = 0, expected = 0;
     [[nodiscard]] float ratio(double fallback) const {
-        return static_cast<float>(std::clamp(expected > 0 ? visible / expected : fallback, 0.0, 1.0));
+        return static_cast<float>(
+            std::clamp(expected > 0 ? visible / expected : fallback, 0.0, 1.0));
     }
 };
 
@@ -30,7 +32,7 @@ std::vector<Ledger> count_all(const std::vector<MeasuredPoint>& points, std::siz
         for (const MeasuredCandidate& c : point) {
             Ledger& ledger = all[static_cast<std::size_t>(c.source)];
             ledger.expected += static_cast<double>(c.brightness);
-            if (c.visible) ledger.visible += static_cast<double>(c.brightness);
+            ledger.visible += static_cast<double>(c.arriving);
         }
     }
     return all;
@@ -49,9 +51,9 @@ void count_untested(const MeasuredPoint& point, const std::vector<float>& rates,
     ShadowTally tally;
     const auto test = [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            tally.hits += point[i].visible ? 1 : 0;
+            tally.hits += point[i].arriving > 0 ? 1 : 0;
             tally.expected += static_cast<double>(rates[static_cast<std::size_t>(point[i].source)]);
-            if (point[i].visible) tally.brightness += point[i].brightness;
+            tally.brightness += point[i].arriving;
         }
     };
     const std::size_t tested = test_brightest(tails, certainty, threshold, tally, test);
@@ -60,7 +62,7 @@ void count_untested(const MeasuredPoint& point, const std::vector<float>& rates,
         const auto share = static_cast<double>(point[i].brightness);
         const double rate = std::max(1e-3, static_cast<double>(rates[source]));
         untested[source].expected += share * std::min(1 / rate, tally.factor());
-        if (point[i].visible) untested[source].visible += share;
+        untested[source].visible += static_cast<double>(point[i].arriving);
     }
 }
 
@@ -79,7 +81,9 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
     direct.test(0, direct.count());
     MeasuredPoint point;
     const float total = direct.tails()[0];
-    for (const LightCandidate& c : direct.candidates()) point.push_back({c.source, c.brightness / total, c.visible});
+    for (const LightCandidate& c : direct.candidates()) {
+        point.push_back({c.source, c.brightness / total, brightness(c.contribution) / total});
+    }
     return point;
 }
 
@@ -87,7 +91,8 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
 std::size_t most_candidates(const LightSources& lights, const RenderOptions& options) {
     std::size_t count = 0;
     for (const std::int32_t i : lights.sampled()) {
-        const bool divided = options.source_subdivision > kEpsilon && (lights[i].flat || lights[i].cylinder);
+        const bool divided =
+            options.source_subdivision > kEpsilon && (lights[i].flat || lights[i].cylinder);
         count += divided ? kMaxParts : 1;
     }
     return count;
@@ -95,15 +100,16 @@ std::size_t most_candidates(const LightSources& lights, const RenderOptions& opt
 
 }  // namespace
 
-std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::size_t sources, double certainty,
-                                 double threshold) {
+std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::size_t sources,
+                                 double certainty, double threshold) {
     const std::vector<Ledger> all = count_all(points, sources);
     std::vector<float> overall(sources);
     for (std::size_t i = 0; i < sources; ++i) overall[i] = all[i].ratio(0.5);
     std::vector<float> rates = overall;
     for (int step = 0; step < kFitSteps; ++step) {
         std::vector<Ledger> untested(sources);
-        for (const MeasuredPoint& point : points) count_untested(point, rates, certainty, threshold, untested);
+        for (const MeasuredPoint& point : points)
+            count_untested(point, rates, certainty, threshold, untested);
         for (std::size_t i = 0; i < sources; ++i) {
             const double prior = kPriorShare * all[i].expected;
             untested[i].visible += prior * static_cast<double>(overall[i]);
@@ -125,7 +131,8 @@ std::vector<float> measure_hit_rates(const LightSources& lights, TraceContext& c
         points.push_back(measure(lights, places[i], random, context));
         rays += points.back().size();
     }
-    return fit_hit_rates(points, lights.all().size(), options.shadow_certainty, options.shadow_threshold);
+    return fit_hit_rates(points, lights.all().size(), options.shadow_certainty,
+                         options.shadow_threshold);
 }
 
 }  // namespace lightwalk

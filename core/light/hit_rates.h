@@ -1,6 +1,6 @@
 #pragma once
-// How often each source's shadow tests get through, measured once and frozen, so that a point's direct light
-// does not depend on which points were computed before.
+// How often each source's shadow tests get through, measured once and frozen, so that a point's
+// direct light does not depend on which points were computed before.
 #include <vector>
 
 #include "core/light/light_sources.h"
@@ -10,22 +10,26 @@ namespace lightwalk {
 /// One candidate of a measured point.
 struct MeasuredCandidate {
     std::int32_t source = 0;
-    float brightness = 0;  ///< of its unshadowed contribution, as a share of the point's unshadowed direct light
-    bool visible = false;
+    float brightness =
+        0;  ///< of its unshadowed contribution, as a share of the point's unshadowed direct light
+    float arriving = 0;  ///< what shadows and transparent surfaces leave of that
 };
 
 /// All candidates of one point, brightest first.
 using MeasuredPoint = std::vector<MeasuredCandidate>;
 
-/// The hit rate of each source for which the shares of light that -dt leaves untested come out right in the mean
-/// over the points: the visible share of what would be left untested over what the estimate makes of it.
+/// The hit rate of each source for which the shares of light that -dt leaves untested come out
+/// right in the mean over the points: the visible share of what would be left untested over what
+/// the estimate makes of it.
 /// @param certainty, threshold  -dc, -dt
-[[nodiscard]] std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::size_t sources,
-                                               double certainty, double threshold);
+[[nodiscard]] std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points,
+                                               std::size_t sources, double certainty,
+                                               double threshold);
 
-/// Points where light arrives, found by following light from the sources over a few diffuse bounces with seeded
-/// random numbers; every source is tested from each. A bounded number of rays, some ten thousand.
-/// Empty when -dt never leaves anything untested: then the rates do not matter.
-[[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights, TraceContext& context);
+/// Points where light arrives, found by following light from the sources over a few diffuse bounces
+/// with seeded random numbers; every source is tested from each. A bounded number of rays, some ten
+/// thousand. Empty when -dt never leaves anything untested: then the rates do not matter.
+[[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights,
+                                                   TraceContext& context);
 
 }  // namespace lightwalk

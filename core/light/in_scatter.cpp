@@ -1,5 +1,5 @@
-// Single scattering of listed light sources along a ray. Source: the mist material of "The Radiance 6.x Scene
-// Description Language"; phase function of Henyey & Greenstein (1941).
+// Single scattering of listed light sources along a ray. Source: the mist material of "The
+// Radiance 6.x Scene Description Language"; phase function of Henyey & Greenstein (1941).
 #include <cmath>
 
 #include "core/light/light_sources.h"
@@ -12,7 +12,8 @@ constexpr int kMaxSteps = 16;
 
 int steps_along(double length, double step) {
     if (step <= kEpsilon) return 1;
-    return static_cast<int>(std::clamp(std::floor(length / step + 0.5), 1.0, static_cast<double>(kMaxSteps)));
+    return static_cast<int>(
+        std::clamp(std::floor(length / step + 0.5), 1.0, static_cast<double>(kMaxSteps)));
 }
 
 /// Henyey-Greenstein phase function times 4π.
@@ -37,7 +38,8 @@ void LightSources::add_in_scatter(Ray& ray, TraceContext& context) const {
             at_step.hit.t = step * (j + ray.random.next());
             at_step.hit.position = ray.origin + ray.direction * at_step.hit.t;
             if (out_of_reach(source, at_step.hit.position)) continue;
-            const auto sample = sample_whole(source, at_step.hit.position, options_.source_jitter, ray.random);
+            const auto sample =
+                sample_whole(source, at_step.hit.position, options_.source_jitter, ray.random);
             if (!sample) continue;
             Ray to_light;
             (void)context.tracer.spawn(to_light, kShadow, at_step, nullptr);
@@ -49,8 +51,9 @@ void LightSources::add_in_scatter(Ray& ray, TraceContext& context) const {
                                   phase(g, dot(ray.direction, sample->direction)) * step;
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto extinction = static_cast<double>(medium.extinction[c]);
-                ray.value[c] += to_light.value[c] * medium.albedo[c] *
-                                static_cast<float>(weight * extinction * std::exp(-at_step.hit.t * extinction));
+                ray.value[c] +=
+                    to_light.value[c] * medium.albedo[c] *
+                    static_cast<float>(weight * extinction * std::exp(-at_step.hit.t * extinction));
             }
         }
     }

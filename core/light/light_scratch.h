@@ -1,5 +1,6 @@
 #pragma once
-// The direct calculation's buffers: one set per thread, used as a stack, so that they allocate only while growing.
+// The direct calculation's buffers: one set per thread, used as a stack, so that they allocate only
+// while growing.
 #include <cstdint>
 #include <vector>
 
@@ -11,23 +12,25 @@ namespace lightwalk {
 
 /// A sample of a source that could light the point: what it brings when nothing is in the way.
 struct LightCandidate {
-    std::int32_t source = 0;   ///< into LightSources
-    std::uint32_t order = 0;   ///< in which it was gathered
-    Vec3 direction;            ///< unit, from the point
-    double distance = kHuge;   ///< to the source's own surface [m]
-    Rgb coefficient;           ///< K = f cosθ ω
-    Rgb contribution;          ///< V = K E; once tested, 0 when blocked
-    float brightness = 0;      ///< of the untested contribution
-    bool visible = false;      ///< once tested
+    std::int32_t source = 0;  ///< into LightSources
+    std::uint32_t order = 0;  ///< in which it was gathered
+    Vec3 direction;           ///< unit, from the point
+    double distance = kHuge;  ///< to the source's own surface [m]
+    Rgb coefficient;          ///< K = f cosθ ω
+    Rgb contribution;         ///< V = K E; once tested, 0 when blocked
+    float brightness = 0;     ///< of the untested contribution
+    bool visible = false;     ///< once tested
 };
 
-/// Each calculation uses what lies above the sizes that it found, and truncates to them when it ends.
+/// Each calculation uses what lies above the sizes that it found, and truncates to them when it
+/// ends.
 struct LightScratch {
-    std::vector<SourceSample> samples;       ///< of the source being looked at
+    SourceParts parts;                  ///< of the source being sampled
+    std::vector<SourceSample> samples;  ///< of the source being looked at
     std::vector<LightCandidate> candidates;
-    std::vector<ShadowQuery> queries;        ///< the packet being tested
-    std::vector<std::uint32_t> queried;      ///< candidate of each query
-    std::vector<float> tails;                ///< brightness still untested, by candidate
+    std::vector<ShadowQuery> queries;    ///< the packet being tested
+    std::vector<std::uint32_t> queried;  ///< candidate of each query
+    std::vector<float> tails;            ///< brightness still untested, by candidate
 };
 
 }  // namespace lightwalk

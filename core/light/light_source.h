@@ -12,34 +12,35 @@ namespace lightwalk {
 
 /// A spotlight's cone, or the beam of a virtual distant source.
 struct SpotShape {
-    Vec3 aim;               ///< unit axis of a cone; a point on the axis of a beam
-    float size = 0;         ///< solid angle of the cone [sr]; cross-section of a beam [m²]
-    float focal_length = 0; ///< distance of the cone's apex behind the source [m]
+    Vec3 aim;                ///< unit axis of a cone; a point on the axis of a beam
+    float size = 0;          ///< solid angle of the cone [sr]; cross-section of a beam [m²]
+    float focal_length = 0;  ///< distance of the cone's apex behind the source [m]
     bool beam = false;
 };
 
 /// One entry of the source list.
 struct LightSource {
-    SurfaceId object = kNoSurface;   ///< the emitting surface, or the relay surface of a virtual source
-    ModifierId material = kVoid;     ///< light, illum, glow or spotlight of the real source
+    SurfaceId object =
+        kNoSurface;  ///< the emitting surface, or the relay surface of a virtual source
+    ModifierId material = kVoid;  ///< light, illum, glow or spotlight of the real source
     PrimitiveType material_type = PrimitiveType::light;
     PrimitiveType shape = PrimitiveType::sphere;  ///< of the real source
-    Vec3 center;                     ///< or unit direction of a distant source
-    Vec3 u, v, w;                    ///< half axes of the sampling box
-    Vec3 normal;                     ///< flat sources
-    float radius = 0;                ///< effective size
-    float size = 0;                  ///< projected area [m²] or solid angle [sr]
-    float proximity = 0;             ///< glow: radius of influence [m]
+    Vec3 center;                                  ///< or unit direction of a distant source
+    Vec3 u, v, w;                                 ///< half axes of the sampling box
+    Vec3 normal;                                  ///< flat sources
+    float radius = 0;                             ///< effective size
+    float size = 0;                               ///< projected area [m²] or solid angle [sr]
+    float proximity = 0;                          ///< glow: radius of influence [m]
     std::optional<SpotShape> spot;
-    Rgb radiance;                    ///< of the material without its patterns [W/(m² sr)]
-    bool uniform = false;            ///< no modifier between surface and material, or below it: a constant
+    Rgb radiance;          ///< of the material without its patterns [W/(m² sr)]
+    bool uniform = false;  ///< no modifier between surface and material, or below it: a constant
     bool transparent_illum = false;  ///< illum that shows nothing of its own
     bool distant = false, flat = false, round = false, cylinder = false;
     bool is_virtual = false, follow = false;
-    bool unusable = false;           ///< visible, but never sampled
-    std::int32_t parent = -1;        ///< virtual: what it relays
-    int branch = 0;                  ///< virtual: projection of the relay (prism2)
-    float hit_rate = 0.5f;           ///< frozen share of shadow tests that get through
+    bool unusable = false;     ///< visible, but never sampled
+    std::int32_t parent = -1;  ///< virtual: what it relays
+    int branch = 0;            ///< virtual: projection of the relay (prism2)
+    float hit_rate = 0.5f;     ///< frozen share of shadow tests that get through
 };
 
 }  // namespace lightwalk

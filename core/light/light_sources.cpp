@@ -35,11 +35,12 @@ void LightSources::prepare(const Tracer& tracer, WarningSink& warnings) {
 }
 
 std::size_t LightSources::virtual_count() const {
-    return static_cast<std::size_t>(
-        std::count_if(sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
+    return static_cast<std::size_t>(std::count_if(
+        sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
-bool LightSources::inside_spot(const LightSource& source, const Vec3& origin, const Vec3& direction) const {
+bool LightSources::inside_spot(const LightSource& source, const Vec3& origin,
+                               const Vec3& direction) const {
     return !source.spot || !outside_spot(*source.spot, origin, direction);
 }
 
@@ -48,7 +49,8 @@ bool LightSources::answers_to(const LightSource& source, std::string_view identi
     for (;; at = &(*this)[at->parent]) {
         const std::string_view name = scene_.surface(at->object).name;
         if (!at->is_virtual) return identifier == name;
-        if (!identifier.starts_with(name) || !identifier.substr(name.size()).starts_with('>')) return false;
+        if (!identifier.starts_with(name) || !identifier.substr(name.size()).starts_with('>'))
+            return false;
         identifier.remove_prefix(name.size() + 1);
     }
 }

@@ -20,14 +20,18 @@ class LightSources {
     LightSources(const Scene& scene, const RenderOptions& options, WarningSink& warnings);
 
     [[nodiscard]] std::span<const LightSource> all() const { return sources_; }
-    [[nodiscard]] const LightSource& operator[](std::int32_t i) const { return sources_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] const LightSource& operator[](std::int32_t i) const {
+        return sources_[static_cast<std::size_t>(i)];
+    }
     [[nodiscard]] std::size_t virtual_count() const;
     /// Indices of the sources that the direct calculation samples, ascending.
     [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
 
-    /// Make the virtual sources, discard those that never get through (-dp), and measure and freeze hit rates
-    /// (-dt > 0). Needs a tracer that uses this list; called once by Tracer's constructor, before any rendering.
-    /// Throws InputError when mirrors relay each other's light too often (see kMaxVirtualSources).
+    /// Make the virtual sources, discard those that never get through (-dp), and measure and freeze
+    /// hit rates
+    /// (-dt > 0). Needs a tracer that uses this list; called once by Tracer's constructor, before
+    /// any rendering. Throws InputError when mirrors relay each other's light too often (see
+    /// kMaxVirtualSources).
     void prepare(const Tracer& tracer, WarningSink& warnings);
     static constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
     static constexpr int kMaxRelays = 64;  ///< larger values of -dr count as this
@@ -38,8 +42,10 @@ class LightSources {
     /// Nearest hit of an aimed ray with its target's own object; false: it misses.
     [[nodiscard]] bool intersect_target(Ray& ray, const Tracer& tracer) const;
 
-    /// Whether the source sends light to `origin` from `direction` as far as its spotlight cone or relayed beam goes.
-    [[nodiscard]] bool inside_spot(const LightSource& source, const Vec3& origin, const Vec3& direction) const;
+    /// Whether the source sends light to `origin` from `direction` as far as its spotlight cone or
+    /// relayed beam goes.
+    [[nodiscard]] bool inside_spot(const LightSource& source, const Vec3& origin,
+                                   const Vec3& direction) const;
 
     /// Add direct light to ray.value (source loop, candidates, shadow tests).
     void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const;
@@ -47,7 +53,8 @@ class LightSources {
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;
 
-    /// Index for a mist's source identifier ("name" or "relay>source"): the last match; nothing when unknown.
+    /// Index for a mist's source identifier ("name" or "relay>source"): the last match; nothing
+    /// when unknown.
     [[nodiscard]] std::optional<std::int32_t> find(std::string_view identifier) const;
 
   private:

@@ -13,7 +13,9 @@ constexpr int kMaxCrossings = 16;  ///< of transparent surfaces, between two bou
 class LightWalk {
   public:
     explicit LightWalk(const Tracer& tracer)
-        : scene_(tracer.scene()), seed_(tracer.options().seed), bounds_(scene_.geometry().bounds()) {}
+        : scene_(tracer.scene()),
+          seed_(tracer.options().seed),
+          bounds_(scene_.geometry().bounds()) {}
 
     void walk(std::uint64_t number, const LightSource& source, std::vector<Hit>& places) {
         random_ = RandomStream(mix_bits(seed_ + 0x77616c6bULL) ^ mix_bits(number));
@@ -34,7 +36,8 @@ class LightWalk {
     /// A random unit vector at an angle of this cosine to the axis.
     Vec3 about(const Vec3& axis, double cosine) {
         const Vec3 u = perpendicular(axis), v = cross(axis, u);
-        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)), azimuth = 2 * kPi * random_.next();
+        const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine)),
+                     azimuth = 2 * kPi * random_.next();
         return axis * cosine + (u * std::cos(azimuth) + v * std::sin(azimuth)) * sine;
     }
 
@@ -46,7 +49,8 @@ class LightWalk {
             const Vec3 across = about(source.center, 0) * (radius * std::sqrt(random_.next()));
             return {center + across + source.center * (2 * radius), -source.center, kHuge};
         }
-        const Vec3 start = source.center + source.u * (1 - 2 * random_.next()) + source.v * (1 - 2 * random_.next());
+        const Vec3 start = source.center + source.u * (1 - 2 * random_.next()) +
+                           source.v * (1 - 2 * random_.next());
         if (source.flat) return {start, about(source.normal, std::sqrt(1 - random_.next())), kHuge};
         return {start, about({0, 0, 1}, 1 - 2 * random_.next()), kHuge};
     }

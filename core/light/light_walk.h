@@ -1,15 +1,18 @@
 #pragma once
-// Places in a scene that matter for its lighting: where light falls, directly and after diffuse reflections.
+// Places in a scene that matter for its lighting: where light falls, directly and after diffuse
+// reflections.
 #include <vector>
 
 #include "core/light/light_sources.h"
 
 namespace lightwalk {
 
-/// Follow light from the real sources to surfaces and on from there in cosine-distributed directions, through
-/// whatever is transparent or a light. Seeded; at most a few thousand rays.
+/// Follow light from the real sources to surfaces and on from there in cosine-distributed
+/// directions, through whatever is transparent or a light. Seeded; at most a few thousand rays.
 /// @param wanted  how many places; fewer are returned when light mostly leaves the scene
-/// @return        hits with unit normals turned to the side that the light reached; sources take turns
-[[nodiscard]] std::vector<Hit> walk_light(const LightSources& lights, const Tracer& tracer, std::size_t wanted);
+/// @return        hits with unit normals turned to the side that the light reached; sources take
+/// turns
+[[nodiscard]] std::vector<Hit> walk_light(const LightSources& lights, const Tracer& tracer,
+                                          std::size_t wanted);
 
 }  // namespace lightwalk

@@ -8,16 +8,18 @@ namespace lightwalk {
 namespace {
 
 constexpr SourcePart kWholeBox{{0, 0, 0}, {1, 1, 1}};
-constexpr double kSquareToDisk = 1.12837917;   ///< 2/√π: half width of the disk around a square of equal area
-constexpr double kCubeOfSphere = 0.7236;       ///< half width of a sphere's sampling box over its radius
-constexpr double kLeastFormFactor = 1e-4;      ///< of a local source's part: less is grazing
-constexpr double kCylinderBox = 1.365;         ///< squared radius of a cylinder over that of its box
-constexpr double kFullJitter = 0.7;            ///< above it single samples fill round sources, too
+constexpr double kSquareToDisk =
+    1.12837917;  ///< 2/√π: half width of the disk around a square of equal area
+constexpr double kCubeOfSphere = 0.7236;  ///< half width of a sphere's sampling box over its radius
+constexpr double kLeastFormFactor = 1e-4;  ///< of a local source's part: less is grazing
+constexpr double kCylinderBox = 1.365;     ///< squared radius of a cylinder over that of its box
+constexpr double kFullJitter = 0.7;        ///< above it single samples fill round sources, too
 
 /// Flat sources: halve the longer side until both are short for their distance.
 class FlatPartition {
   public:
-    FlatPartition(const LightSource& source, const Vec3& point, double size_over_distance, SourceParts& parts)
+    FlatPartition(const LightSource& source, const Vec3& point, double size_over_distance,
+                  SourceParts& parts)
         : to_center_(point - source.center), u_(source.u), v_(source.v), parts_(parts) {
         const double scale = 2 / size_over_distance;
         split(kWholeBox, scale * length(u_), scale * length(v_), kMaxParts);
@@ -48,7 +50,8 @@ class FlatPartition {
 /// Cylinders: halve along the axis.
 class CylinderPartition {
   public:
-    CylinderPartition(const LightSource& source, const Vec3& point, double size_over_distance, SourceParts& parts)
+    CylinderPartition(const LightSource& source, const Vec3& point, double size_over_distance,
+                      SourceParts& parts)
         : to_center_(point - source.center), u_(source.u), parts_(parts) {
         const Vec3 axis = normalize(u_);
         const double along = dot(to_center_, axis), distance_squared = length_squared(to_center_);
@@ -100,7 +103,8 @@ Vec3 position_in_box(const LightSource& source, const SourcePart& part, int part
     Vec3 a = part.center;
     if (jitter > 0) {
         const std::size_t axes = source.flat || source.distant ? 2 : 3;
-        for (std::size_t i = 0; i < axes; ++i) a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
+        for (std::size_t i = 0; i < axes; ++i)
+            a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
     }
     return source.round && (parts > 1 || jitter > kFullJitter) ? squeeze(source, a) : a;
 }
@@ -123,7 +127,8 @@ bool out_of_reach(const LightSource& source, const Vec3& point) {
     return length_squared(point - source.center) > reach * reach;
 }
 
-void partition(const LightSource& source, const Vec3& point, double subdivision, double weight, SourceParts& parts) {
+void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,
+               SourceParts& parts) {
     parts.count = 0;
     if (subdivision > kEpsilon && weight > 0) {
         if (source.flat) {
@@ -141,8 +146,9 @@ void partition(const LightSource& source, const Vec3& point, double subdivision,
     parts.count = 1;
 }
 
-std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part, int parts,
-                                        const Vec3& point, double jitter, RandomStream& random) {
+std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part,
+                                        int parts, const Vec3& point, double jitter,
+                                        RandomStream& random) {
     const Vec3 a = position_in_box(source, part, parts, jitter, random);
     const Vec3 target = source.center + source.u * a.x + source.v * a.y + source.w * a.z;
     SourceSample sample;
@@ -157,7 +163,8 @@ std::optional<SourceSample> sample_part(const LightSource& source, const SourceP
         return sample;
     }
     if (s <= kLeastFormFactor) return std::nullopt;
-    if (source.material_type == PrimitiveType::glow && distance > static_cast<double>(source.proximity)) {
+    if (source.material_type == PrimitiveType::glow &&
+        distance > static_cast<double>(source.proximity)) {
         return std::nullopt;
     }
     sample.distance = distance;
@@ -170,14 +177,14 @@ std::optional<SourceSample> sample_part(const LightSource& source, const SourceP
     return sample;
 }
 
-std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point, double jitter,
-                                         RandomStream& random) {
+std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,
+                                         double jitter, RandomStream& random) {
     return sample_part(source, kWholeBox, 1, point, jitter, random);
 }
 
-void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling, double weight,
-                   RandomStream& random, std::vector<SourceSample>& samples) {
-    SourceParts parts;
+void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling,
+                   double weight, RandomStream& random, SourceParts& parts,
+                   std::vector<SourceSample>& samples) {
     partition(source, point, sampling.subdivision, weight, parts);
     for (int i = 0; i < parts.count; ++i) {
         const SourcePart& part = parts.part[static_cast<std::size_t>(i)];

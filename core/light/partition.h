@@ -1,7 +1,7 @@
 #pragma once
-// Where a source is sampled from a point: its parts, and one direction with its solid angle for each.
-// Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering 1991; the -ds and
-// -dj options of rpict(1).
+// Where a source is sampled from a point: its parts, and one direction with its solid angle for
+// each. Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering
+// 1991; the -ds and -dj options of rpict(1).
 #include <array>
 #include <optional>
 #include <vector>
@@ -26,36 +26,44 @@ struct SourceParts {
 
 /// How sources are cut up and where in a part the sample lies.
 struct SourceSampling {
-    double subdivision = 0;  ///< -ds: largest size of a part over its distance; 0: one part a source
-    double jitter = 0;       ///< -dj: share of a part's width that a sample may move in
+    double subdivision =
+        0;              ///< -ds: largest size of a part over its distance; 0: one part a source
+    double jitter = 0;  ///< -dj: share of a part's width that a sample may move in
 };
 
-/// One sample of a source: unit direction, distance of the sampled point and solid angle it stands for.
+/// One sample of a source: unit direction, distance of the sampled point and solid angle it stands
+/// for.
 struct SourceSample {
     Vec3 direction;
-    double distance = kHuge;  ///< to the sampled point, not to the source's surface [m]; kHuge: at infinity
-    double solid_angle = 0;   ///< [sr]
+    double distance =
+        kHuge;  ///< to the sampled point, not to the source's surface [m]; kHuge: at infinity
+    double solid_angle = 0;  ///< [sr]
 };
 
 /// Whether the point is beyond a local glow's radius of influence.
 [[nodiscard]] bool out_of_reach(const LightSource& source, const Vec3& point);
 
-/// Cut a source into parts no larger than `subdivision` / `weight` times their distance from `point`. No parts
-/// when the source turns away (flat sources) or the point is in it (cylinders).
-void partition(const LightSource& source, const Vec3& point, double subdivision, double weight, SourceParts& parts);
+/// Cut a source into parts no larger than `subdivision` / `weight` times their distance from
+/// `point`. No parts when the source turns away (flat sources) or the point is in it (cylinders).
+void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,
+               SourceParts& parts);
 
-/// Sample one of `parts` parts. Nothing when the part turns away, is out of reach, or is seen from outside
-/// the source's spot.
-[[nodiscard]] std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part, int parts,
-                                                      const Vec3& point, double jitter, RandomStream& random);
+/// Sample one of `parts` parts. Nothing when the part turns away, is out of reach, or is seen from
+/// outside the source's spot.
+[[nodiscard]] std::optional<SourceSample> sample_part(const LightSource& source,
+                                                      const SourcePart& part, int parts,
+                                                      const Vec3& point, double jitter,
+                                                      RandomStream& random);
 
 /// Sample the whole source as one part.
-[[nodiscard]] std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point, double jitter,
-                                                       RandomStream& random);
+[[nodiscard]] std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,
+                                                       double jitter, RandomStream& random);
 
 /// Append the samples of all parts.
 /// @param weight  of the ray that is shaded: faint rays get coarser parts
-void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling, double weight,
-                   RandomStream& random, std::vector<SourceSample>& samples);
+/// @param parts   scratch memory
+void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling,
+                   double weight, RandomStream& random, SourceParts& parts,
+                   std::vector<SourceSample>& samples);
 
 }  // namespace lightwalk

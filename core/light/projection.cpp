@@ -7,8 +7,9 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kSquareToDisk = 1.12837917;  ///< half width of a disk around a square of equal area
-constexpr double kSphereToBox = 1 / 0.7236;   ///< radius of a sphere over half the width of its box
+constexpr double kSquareToDisk =
+    1.12837917;                              ///< half width of a disk around a square of equal area
+constexpr double kSphereToBox = 1 / 0.7236;  ///< radius of a sphere over half the width of its box
 
 /// How far a round source reaches beyond its sampling box.
 double overhang(const LightSource& source) {
@@ -16,11 +17,13 @@ double overhang(const LightSource& source) {
     return source.flat || source.distant ? kSquareToDisk : kSphereToBox;
 }
 
-RelayedSpot impossible() { return {false, std::nullopt, {}}; }
+RelayedSpot impossible() {
+    return {false, std::nullopt, {}};
+}
 
 /// Sunlight: a beam through the disk, and through the parent's beam.
-RelayedSpot relay_beam(const LightSource& parent, const LightSource& projected, const Projection& projection,
-                       const RelayDisk& disk) {
+RelayedSpot relay_beam(const LightSource& parent, const LightSource& projected,
+                       const Projection& projection, const RelayDisk& disk) {
     SpotShape beam;
     beam.beam = true;
     beam.aim = disk.center;
@@ -37,7 +40,8 @@ RelayedSpot relay_beam(const LightSource& parent, const LightSource& projected, 
 }
 
 /// The cone around a disk from a local source; nothing when the source is too near for a bound.
-std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk& disk, double distance) {
+std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk& disk,
+                                     double distance) {
     const double sine = (disk.radius + static_cast<double>(source.radius)) / distance;
     if (sine >= 1 - kEpsilon) return std::nullopt;
     SpotShape cone;
@@ -46,11 +50,12 @@ std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk&
     return cone;
 }
 
-RelayedSpot relay_cone(const LightSource& parent, const LightSource& projected, const Projection& projection,
-                       const RelayDisk& disk) {
+RelayedSpot relay_cone(const LightSource& parent, const LightSource& projected,
+                       const Projection& projection, const RelayDisk& disk) {
     const double distance = length(disk.center - projected.center);
     if (distance <= 0) return impossible();
-    if (projected.material_type == PrimitiveType::glow && distance > static_cast<double>(projected.proximity)) {
+    if (projected.material_type == PrimitiveType::glow &&
+        distance > static_cast<double>(projected.proximity)) {
         return impossible();
     }
     RelayedSpot relayed{true, cone_around(projected, disk, distance), disk};
@@ -71,15 +76,18 @@ RelayedSpot relay_cone(const LightSource& parent, const LightSource& projected, 
             relayed.spot = before;
         }
     }
-    if (projected.flat && relayed.spot && !spot_faces(*relayed.spot, projected.normal)) return impossible();
+    if (projected.flat && relayed.spot && !spot_faces(*relayed.spot, projected.normal))
+        return impossible();
     return relayed;
 }
 
 }  // namespace
 
 std::optional<Plane> plane_of(const Shape& shape) {
-    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) return Plane{polygon->normal, polygon->offset};
-    if (const auto* ring = std::get_if<RingShape>(&shape)) return Plane{ring->normal, dot(ring->normal, ring->center)};
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape))
+        return Plane{polygon->normal, polygon->offset};
+    if (const auto* ring = std::get_if<RingShape>(&shape))
+        return Plane{ring->normal, dot(ring->normal, ring->center)};
     return std::nullopt;
 }
 
@@ -111,12 +119,14 @@ std::optional<RelayDisk> relay_disk(const Shape& shape) {
     for (const Vec3& p : polygon->vertices) disk.center += p;
     disk.center = disk.center / static_cast<double>(polygon->vertices.size());
     disk.center += polygon->normal * (polygon->offset - dot(polygon->normal, disk.center));
-    for (const Vec3& p : polygon->vertices) disk.radius = std::max(disk.radius, length(p - disk.center));
+    for (const Vec3& p : polygon->vertices)
+        disk.radius = std::max(disk.radius, length(p - disk.center));
     return disk;
 }
 
 bool is_before_mirror(const LightSource& source, const Plane& plane) {
-    const double height = source.distant ? dot(plane.normal, source.center) : plane.height(source.center);
+    const double height =
+        source.distant ? dot(plane.normal, source.center) : plane.height(source.center);
     double reach = std::abs(dot(plane.normal, source.u)) + std::abs(dot(plane.normal, source.v));
     if (!source.flat) reach += std::abs(dot(plane.normal, source.w));
     return height + overhang(source) * reach > kEpsilon;
@@ -124,7 +134,8 @@ bool is_before_mirror(const LightSource& source, const Plane& plane) {
 
 LightSource project(const LightSource& source, const Projection& projection) {
     LightSource projected = source;
-    projected.center = source.distant ? normalize(projection.vector(source.center)) : projection.point(source.center);
+    projected.center = source.distant ? normalize(projection.vector(source.center))
+                                      : projection.point(source.center);
     projected.u = projection.vector(source.u);
     projected.v = projection.vector(source.v);
     projected.w = projection.vector(source.w);
@@ -132,8 +143,8 @@ LightSource project(const LightSource& source, const Projection& projection) {
     return projected;
 }
 
-RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected, const Projection& projection,
-                       const RelayDisk& disk) {
+RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected,
+                       const Projection& projection, const RelayDisk& disk) {
     return projected.distant ? relay_beam(parent, projected, projection, disk)
                              : relay_cone(parent, projected, projection, disk);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Where a mirror or prism makes a light source appear: planes, projections, and the disk that light passes.
+// Where a mirror or prism makes a light source appear: planes, projections, and the disk that light
+// passes.
 #include <optional>
 
 #include "core/geometry/surface.h"
@@ -21,8 +22,8 @@ class Projection {
   public:
     /// Reflection in the plane.
     static Projection mirror(const Plane& plane) { return {plane, plane.normal * -2.0}; }
-    /// What makes light that travels along `from` look as if it had always travelled along `to` (any lengths).
-    /// Nothing when either runs along the plane or nothing would change.
+    /// What makes light that travels along `from` look as if it had always travelled along `to`
+    /// (any lengths). Nothing when either runs along the plane or nothing would change.
     static std::optional<Projection> bend(const Plane& plane, const Vec3& from, const Vec3& to);
 
     [[nodiscard]] Vec3 point(const Vec3& x) const { return x + shear_ * plane_.height(x); }
@@ -47,14 +48,15 @@ struct RelayDisk {
 /// Whether any part of the source's sampling box is in front of a mirror's plane.
 [[nodiscard]] bool is_before_mirror(const LightSource& source, const Plane& plane);
 
-/// The source as it appears through the relay: box, normal and direction projected; the rest copied.
+/// The source as it appears through the relay: box, normal and direction projected; the rest
+/// copied.
 [[nodiscard]] LightSource project(const LightSource& source, const Projection& projection);
 
 /// What a relay's outline leaves of a source that was projected through it.
 struct RelayedSpot {
-    bool possible = true;            ///< false: no light gets through
-    std::optional<SpotShape> spot;   ///< cone or beam; nothing: no bound
-    RelayDisk disk;                  ///< the relay's disk, smaller when the spot shrank
+    bool possible = true;           ///< false: no light gets through
+    std::optional<SpotShape> spot;  ///< cone or beam; nothing: no bound
+    RelayDisk disk;                 ///< the relay's disk, smaller when the spot shrank
 };
 
 /// @param parent     the source that is relayed

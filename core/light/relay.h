@@ -1,5 +1,6 @@
 #pragma once
-// What the light source list asks of a material that sends light on in a new direction (prism1, prism2).
+// What the light source list asks of a material that sends light on in a new direction (prism1,
+// prism2).
 #include <optional>
 
 #include "core/math/vec3.h"
@@ -15,8 +16,9 @@ struct RelayDirection {
     Vec3 direction;          ///< world space, as the expressions give it: not normalised
 };
 
-/// A modifier node that also relays light: the source list makes virtual sources of what it answers.
-/// Implemented by the prisms beside Modifier (found by dynamic_cast); mirrors need no evaluation.
+/// A modifier node that also relays light: the source list makes virtual sources of what it
+/// answers. Implemented by the prisms beside Modifier (found by dynamic_cast); mirrors need no
+/// evaluation.
 class RelayModifier {
   public:
     virtual ~RelayModifier() = default;
@@ -24,9 +26,9 @@ class RelayModifier {
     /// How many projections there are (prism1: 1, prism2: 2).
     [[nodiscard]] virtual int branches() const = 0;
 
-    /// Evaluate one projection for a ray that hit the relay surface, without a source to aim at (DxA, DyA and DzA
-    /// are 0). The transform of the material applies; relay surfaces are never inside an instance.
-    /// Nothing when an expression failed.
+    /// Evaluate one projection for a ray that hit the relay surface, without a source to aim at
+    /// (DxA, DyA and DzA are 0). The transform of the material applies; relay surfaces are never
+    /// inside an instance. Nothing when an expression failed.
     [[nodiscard]] virtual std::optional<RelayDirection> relay(int branch, const Ray& hit_ray,
                                                               TraceContext& context) const = 0;
 };

@@ -1,4 +1,5 @@
-// Which virtual sources can be reached at all, and which never need their relayed path to be followed.
+// Which virtual sources can be reached at all, and which never need their relayed path to be
+// followed.
 #include <cmath>
 
 #include "core/light/partition.h"
@@ -20,16 +21,19 @@ Vec3 point_in_disk(const RelayDisk& disk, const Vec3& normal, RandomStream& rand
 
 }  // namespace
 
-/// Samples per solid angle that the relay fills as the parent sees it (-dp); for the sun, of the whole scene.
+/// Samples per solid angle that the relay fills as the parent sees it (-dp); for the sun, of the
+/// whole scene.
 int VirtualSourceBuilder::pretest_samples(const LightSource& parent, const RelayDisk& disk) const {
-    const double density = tracer_.options().relay_pretest, radius_squared = disk.radius * disk.radius;
+    const double density = tracer_.options().relay_pretest,
+                 radius_squared = disk.radius * disk.radius;
     double samples = 0;
     if (parent.distant) {
         const double size = tracer_.scene().cube().size;
         samples = size > 0 ? 32 * radius_squared / (size * size) * density : 0;
     } else {
         const double distance_squared = length_squared(disk.center - parent.center);
-        const double cosine = distance_squared > 0 ? std::sqrt(1 / (1 + radius_squared / distance_squared)) : 0;
+        const double cosine =
+            distance_squared > 0 ? std::sqrt(1 / (1 + radius_squared / distance_squared)) : 0;
         samples = 2 * kPi * (1 - cosine) * density;
     }
     return static_cast<int>(std::clamp(samples + 0.5, static_cast<double>(kLeastSamples),
@@ -37,7 +41,8 @@ int VirtualSourceBuilder::pretest_samples(const LightSource& parent, const Relay
 }
 
 /// Brightness that a source sends to a point, through the scene or with nothing else there.
-float VirtualSourceBuilder::light_at(const Vec3& point, const Vec3& direction, std::int32_t source, bool alone) {
+float VirtualSourceBuilder::light_at(const Vec3& point, const Vec3& direction, std::int32_t source,
+                                     bool alone) {
     Ray at_point = tracer_.primary(point, direction, 0, RandomStream(tracer_.options().seed));
     at_point.hit.t = 0;
     at_point.hit.position = point;
@@ -50,7 +55,8 @@ float VirtualSourceBuilder::light_at(const Vec3& point, const Vec3& direction, s
     return brightness(to_source.value);
 }
 
-VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_index, const Relay& next,
+VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_index,
+                                                            const Relay& next,
                                                             const RelayDisk& disk) {
     const LightSource parent = lights_[parent_index];
     const RenderOptions& options = tracer_.options();
@@ -63,7 +69,10 @@ VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_
         // Any ray onto the relay will do to find out whether the point is within its outline.
         const Vec3 above = point_in_disk(disk, next.plane.normal, random) + next.plane.normal;
         const Vec3 point = above - next.plane.normal * next.plane.height(above);
-        if (!tracer_.scene().geometry().intersect_surface(next.surface, {above, -next.plane.normal, kHuge}).exists()) {
+        if (!tracer_.scene()
+                 .geometry()
+                 .intersect_surface(next.surface, {above, -next.plane.normal, kHuge})
+                 .exists()) {
             continue;
         }
         ++found;

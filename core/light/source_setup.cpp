@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kSphereBox = 0.7236;    ///< half width of a sphere's sampling box over its radius
 constexpr double kCylinderBox = 0.8559;  ///< the same across a cylinder
-constexpr double kSlimTriangle = 0.08;   ///< least squared distance of centre and edge over the area
-constexpr double kSlimCylinder = 0.2;    ///< largest radius over length
+constexpr double kSlimTriangle = 0.08;  ///< least squared distance of centre and edge over the area
+constexpr double kSlimCylinder = 0.2;   ///< largest radius over length
 
 /// The surface and material that a source is made from, and how to complain about them.
 struct Emitter {
@@ -22,7 +22,9 @@ struct Emitter {
     [[nodiscard]] std::string described(const std::string& problem) const {
         return std::string(to_string(surface.type)) + " \"" + surface.name + "\": " + problem;
     }
-    [[noreturn]] void fail(const std::string& problem) const { throw InputError(surface.where, described(problem)); }
+    [[noreturn]] void fail(const std::string& problem) const {
+        throw InputError(surface.where, described(problem));
+    }
     void warn(WarningSink& warnings, const std::string& problem) const {
         warnings.warn(to_prefix(surface.where) + described(problem));
     }
@@ -35,8 +37,8 @@ std::size_t argument_count(PrimitiveType type) {
 }
 
 [[noreturn]] void fail_material(const ModifierRecord& material, const std::string& problem) {
-    throw InputError(material.primitive->where,
-                     std::string(to_string(material.type)) + " \"" + material.name + "\": " + problem);
+    throw InputError(material.primitive->where, std::string(to_string(material.type)) + " \"" +
+                                                    material.name + "\": " + problem);
 }
 
 Vec3 vertex_average(const PolygonShape& polygon) {
@@ -52,7 +54,8 @@ void set_square(LightSource& source, const Vec3& normal, double area) {
 }
 
 /// A triangle is sampled in the square that touches the edge nearest to its centre.
-void set_triangle(LightSource& source, const PolygonShape& polygon, const Emitter& emitter, WarningSink& warnings) {
+void set_triangle(LightSource& source, const PolygonShape& polygon, const Emitter& emitter,
+                  WarningSink& warnings) {
     Vec3 nearest_edge;
     double nearest_squared = 0;
     for (const std::size_t i : {std::size_t{2}, std::size_t{0}, std::size_t{1}}) {
@@ -67,10 +70,12 @@ void set_triangle(LightSource& source, const PolygonShape& polygon, const Emitte
     }
     source.u = nearest_edge * std::sqrt(std::max(0.0, nearest_squared));
     source.v = cross(source.normal, source.u);
-    if (nearest_squared < kSlimTriangle * polygon.area) emitter.warn(warnings, "source aspect too small");
+    if (nearest_squared < kSlimTriangle * polygon.area)
+        emitter.warn(warnings, "source aspect too small");
 }
 
-void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& emitter, WarningSink& warnings) {
+void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& emitter,
+               WarningSink& warnings) {
     if (polygon.area <= 0) emitter.fail("zero area");
     source.flat = true;
     source.center = vertex_average(polygon);
@@ -80,7 +85,8 @@ void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& 
         emitter.fail("cannot hit source center");
     }
     double farthest = 0;
-    for (const Vec3& p : polygon.vertices) farthest = std::max(farthest, length_squared(p - source.center));
+    for (const Vec3& p : polygon.vertices)
+        farthest = std::max(farthest, length_squared(p - source.center));
     source.radius = static_cast<float>(std::sqrt(farthest));
     if (polygon.vertices.size() == 4) {
         source.u = (polygon.vertices[1] - polygon.vertices[0]) * 0.5;
@@ -93,7 +99,8 @@ void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& 
 }
 
 void set_shape(LightSource& source, const RingShape& ring, const Emitter& emitter, WarningSink&) {
-    if (ring.r0 > 0) emitter.fail("cannot hit source center: a ring that emits light must not have a hole");
+    if (ring.r0 > 0)
+        emitter.fail("cannot hit source center: a ring that emits light must not have a hole");
     if (ring.r1 <= 0) emitter.fail("zero size");
     source.flat = source.round = true;
     source.center = ring.center;
@@ -104,7 +111,8 @@ void set_shape(LightSource& source, const RingShape& ring, const Emitter& emitte
     set_square(source, ring.normal, area);
 }
 
-void set_shape(LightSource& source, const SphereShape& sphere, const Emitter& emitter, WarningSink&) {
+void set_shape(LightSource& source, const SphereShape& sphere, const Emitter& emitter,
+               WarningSink&) {
     if (sphere.radius <= 0) emitter.fail("zero size");
     source.round = true;
     source.center = sphere.center;
@@ -115,7 +123,8 @@ void set_shape(LightSource& source, const SphereShape& sphere, const Emitter& em
     source.size = static_cast<float>(kPi * sphere.radius * sphere.radius);
 }
 
-void set_shape(LightSource& source, const ConeShape& cylinder, const Emitter& emitter, WarningSink& warnings) {
+void set_shape(LightSource& source, const ConeShape& cylinder, const Emitter& emitter,
+               WarningSink& warnings) {
     const double radius = cylinder.r0;
     if (radius <= 0 || cylinder.length <= 0) emitter.fail("zero size");
     source.cylinder = true;
@@ -128,7 +137,8 @@ void set_shape(LightSource& source, const ConeShape& cylinder, const Emitter& em
     if (radius > kSlimCylinder * cylinder.length) emitter.warn(warnings, "source aspect too small");
 }
 
-void set_shape(LightSource& source, const SourceShape& at_infinity, const Emitter& emitter, WarningSink&) {
+void set_shape(LightSource& source, const SourceShape& at_infinity, const Emitter& emitter,
+               WarningSink&) {
     const auto solid_angle = static_cast<double>(at_infinity.solid_angle);
     if (length_squared(at_infinity.direction) <= 0) emitter.fail("zero direction");
     if (solid_angle <= cone_solid_angle(std::cos(kEpsilon))) emitter.fail("zero size");
@@ -162,10 +172,12 @@ void set_spot(LightSource& source, const Emitter& emitter, WarningSink& warnings
     }
 }
 
-/// Light, illum, glow or spotlight at the end of the chain, when its colour is not black and it may light others.
+/// Light, illum, glow or spotlight at the end of the chain, when its colour is not black and it may
+/// light others.
 std::optional<ModifierId> light_material(const Scene& scene, const Surface& surface) {
     if (surface.modifier == kVoid) return std::nullopt;
-    if (surface.type == PrimitiveType::instance || surface.type == PrimitiveType::mesh) return std::nullopt;
+    if (surface.type == PrimitiveType::instance || surface.type == PrimitiveType::mesh)
+        return std::nullopt;
     const auto id = scene.material_of(surface.modifier);
     if (!id) return std::nullopt;
     const ModifierRecord& material = scene.modifier(*id);
@@ -173,11 +185,12 @@ std::optional<ModifierId> light_material(const Scene& scene, const Surface& surf
     const std::vector<double>& reals = material.primitive->reals;
     const std::size_t expected = argument_count(material.type);
     if (reals.size() != expected) {
-        fail_material(material, "bad # arguments: " + std::to_string(reals.size()) + " real arguments, expected " +
-                                    std::to_string(expected));
+        fail_material(material, "bad # arguments: " + std::to_string(reals.size()) +
+                                    " real arguments, expected " + std::to_string(expected));
     }
     if (reals[0] <= kEpsilon && reals[1] <= kEpsilon && reals[2] <= kEpsilon) return std::nullopt;
-    if (material.type == PrimitiveType::glow && reals[3] <= kEpsilon && surface.type != PrimitiveType::source) {
+    if (material.type == PrimitiveType::glow && reals[3] <= kEpsilon &&
+        surface.type != PrimitiveType::source) {
         return std::nullopt;
     }
     return id;
@@ -197,9 +210,11 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
     source.material = material;
     source.material_type = emitter.material.type;
     source.shape = emitter.surface.type;
-    std::visit([&](const auto& shape) { set_shape(source, shape, emitter, warnings); }, emitter.surface.shape);
+    std::visit([&](const auto& shape) { set_shape(source, shape, emitter, warnings); },
+               emitter.surface.shape);
     const std::vector<double>& reals = emitter.reals();
-    source.radiance = {static_cast<float>(reals[0]), static_cast<float>(reals[1]), static_cast<float>(reals[2])};
+    source.radiance = {static_cast<float>(reals[0]), static_cast<float>(reals[1]),
+                       static_cast<float>(reals[2])};
     source.uniform = emitter.surface.modifier == material && emitter.material.next == kVoid;
     if (source.material_type == PrimitiveType::glow) {
         source.proximity = static_cast<float>(reals[3]);
@@ -216,8 +231,8 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
 }  // namespace
 
 bool is_light_material(PrimitiveType type) {
-    return type == PrimitiveType::light || type == PrimitiveType::illum || type == PrimitiveType::glow ||
-           type == PrimitiveType::spotlight;
+    return type == PrimitiveType::light || type == PrimitiveType::illum ||
+           type == PrimitiveType::glow || type == PrimitiveType::spotlight;
 }
 
 std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnings) {
@@ -228,7 +243,8 @@ std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnin
         const auto material = light_material(scene, surface);
         if (!material) continue;
         const bool degenerate = std::holds_alternative<std::monostate>(surface.shape);
-        const bool fatal = surface.type == PrimitiveType::source || surface.type == PrimitiveType::polygon;
+        const bool fatal =
+            surface.type == PrimitiveType::source || surface.type == PrimitiveType::polygon;
         if (degenerate && !fatal) continue;  // ignored; the scene has warned of it
         const Emitter emitter{surface, scene.modifier(*material)};
         sources.push_back(make_source(emitter, *material, warnings));

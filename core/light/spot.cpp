@@ -5,7 +5,9 @@
 namespace lightwalk {
 namespace {
 
-double cosine(const SpotShape& cone) { return 1 - static_cast<double>(cone.size) / (2 * kPi); }
+double cosine(const SpotShape& cone) {
+    return 1 - static_cast<double>(cone.size) / (2 * kPi);
+}
 
 /// Squared radius of a cone's cut through the plane that touches the unit sphere at its axis.
 double tangent_squared(const SpotShape& cone) {
@@ -16,7 +18,8 @@ double tangent_squared(const SpotShape& cone) {
 /// Whether the axes are closer than the sum of the half angles.
 bool cones_overlap(const SpotShape& a, const SpotShape& b) {
     const double ca = cosine(a), cb = cosine(b);
-    const double sa = std::sqrt(std::max(0.0, 1 - ca * ca)), sb = std::sqrt(std::max(0.0, 1 - cb * cb));
+    const double sa = std::sqrt(std::max(0.0, 1 - ca * ca)),
+                 sb = std::sqrt(std::max(0.0, 1 - cb * cb));
     return dot(a.aim, b.aim) >= ca * cb - sa * sb;
 }
 
@@ -32,7 +35,7 @@ bool outside_spot(const SpotShape& spot, const Vec3& origin, const Vec3& directi
 
 bool spot_faces(const SpotShape& spot, const Vec3& normal) {
     const double a = dot(spot.aim, normal), c = cosine(spot);
-    return a > kEpsilon || 1 - kEpsilon - a * a < c * c;
+    return a > kEpsilon || c < 0 || -a < std::sqrt(1 - c * c) - kEpsilon;
 }
 
 std::optional<Disk> intersect_disks(const Disk& a, const Disk& b, const Vec3& separation) {
@@ -46,7 +49,8 @@ std::optional<Disk> intersect_disks(const Disk& a, const Disk& b, const Vec3& se
     return Disk{a.center + separation * std::sqrt(std::max(0.0, ra - chord) / apart), chord};
 }
 
-std::optional<SpotShape> intersect_beams(const SpotShape& a, const SpotShape& b, const Vec3& direction) {
+std::optional<SpotShape> intersect_beams(const SpotShape& a, const SpotShape& b,
+                                         const Vec3& direction) {
     const Vec3 between = b.aim - a.aim;
     const Vec3 across = between - direction * dot(between, direction);
     const auto overlap = intersect_disks({a.aim, static_cast<double>(a.size) / kPi},
@@ -65,8 +69,8 @@ std::optional<SpotShape> intersect_cones(const SpotShape& narrow, const SpotShap
         if (!cones_overlap(narrow, wide)) return std::nullopt;
         return common;
     }
-    const auto overlap = intersect_disks({narrow.aim, tangent_squared(narrow)}, {wide.aim, tangent_squared(wide)},
-                                         wide.aim - narrow.aim);
+    const auto overlap = intersect_disks({narrow.aim, tangent_squared(narrow)},
+                                         {wide.aim, tangent_squared(wide)}, wide.aim - narrow.aim);
     if (!overlap) return std::nullopt;
     common.aim = normalize(overlap->center);
     common.size = static_cast<float>(cone_solid_angle(1 / std::sqrt(1 + overlap->radius_squared)));

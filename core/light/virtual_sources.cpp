@@ -7,7 +7,8 @@ namespace lightwalk {
 namespace {
 
 bool relays_light(PrimitiveType type) {
-    return type == PrimitiveType::mirror || type == PrimitiveType::prism1 || type == PrimitiveType::prism2;
+    return type == PrimitiveType::mirror || type == PrimitiveType::prism1 ||
+           type == PrimitiveType::prism2;
 }
 
 /// The mirror or prism that a surface is made of, directly or as the alternate of an illum.
@@ -24,7 +25,8 @@ std::optional<ModifierId> relay_material(const Scene& scene, const Surface& surf
 
 }  // namespace
 
-VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings)
+VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& tracer,
+                                           WarningSink& warnings)
     : lights_(lights), tracer_(tracer), context_(tracer, warnings) {
     if (tracer.options().relays > 0 && !lights.all().empty()) collect_relays(warnings);
 }
@@ -35,13 +37,15 @@ void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
         const SurfaceId id{static_cast<std::int32_t>(i)};
         const Surface& surface = scene.surface(id);
         const auto material = relay_material(scene, surface);
-        if (!material || surface.type == PrimitiveType::instance || surface.type == PrimitiveType::mesh) continue;
+        if (!material || surface.type == PrimitiveType::instance ||
+            surface.type == PrimitiveType::mesh)
+            continue;
         if (std::holds_alternative<std::monostate>(surface.shape)) continue;
         const auto plane = plane_of(surface.shape);
         const auto disk = relay_disk(surface.shape);
         if (!plane || !disk) {
-            warnings.warn(to_prefix(surface.where) + std::string(to_string(surface.type)) + " \"" + surface.name +
-                          "\": only flat surfaces relay light to others");
+            warnings.warn(to_prefix(surface.where) + std::string(to_string(surface.type)) + " \"" +
+                          surface.name + "\": only flat surfaces relay light to others");
             continue;
         }
         if (disk->radius * disk->radius <= kEpsilon) continue;
@@ -67,11 +71,13 @@ void VirtualSourceBuilder::build() {
 void VirtualSourceBuilder::relay(std::int32_t parent, int depth) {
     for (const Relay& next : relays_) {
         if (next.surface == lights_[parent].object) continue;
-        for (int branch = 0; branch < next.branches; ++branch) try_relay(parent, next, branch, depth);
+        for (int branch = 0; branch < next.branches; ++branch)
+            try_relay(parent, next, branch, depth);
     }
 }
 
-void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& next, int branch, int depth) {
+void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& next, int branch,
+                                     int depth) {
     const LightSource parent = lights_[parent_index];
     if (!lights_disk(parent, next)) return;
     const auto projected_by = projection(parent, next, branch);
@@ -99,12 +105,14 @@ void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& nex
     if (depth > 1) relay(static_cast<std::int32_t>(count), depth - 1);
 }
 
-/// Light of a virtual source exists only beyond its own relay: whether this relay's disk reaches there.
+/// Light of a virtual source exists only beyond its own relay: whether this relay's disk reaches
+/// there.
 bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Relay& next) const {
     if (!source.is_virtual) return true;
     const auto plane = plane_of(tracer_.scene().surface(source.object).shape);
     if (!plane) return true;
-    const double source_height = source.distant ? dot(plane->normal, source.center) : plane->height(source.center);
+    const double source_height =
+        source.distant ? dot(plane->normal, source.center) : plane->height(source.center);
     const double disk_height = plane->height(next.disk.center);
     if ((source_height > 0) != (disk_height > 0)) return true;
     const double cosine = dot(plane->normal, next.plane.normal);
@@ -112,14 +120,17 @@ bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Relay& n
     return disk_height * disk_height < reach_squared;
 }
 
-std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& source, const Relay& next, int branch) {
+std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& source,
+                                                           const Relay& next, int branch) {
     if (!next.prism) {
         if (!is_before_mirror(source, next.plane)) return std::nullopt;
         return Projection::mirror(next.plane);
     }
     const Vec3 origin = source.distant ? next.disk.center + source.center : source.center;
-    Ray test = tracer_.primary(origin, next.disk.center - origin, 0, RandomStream(tracer_.options().seed));
-    test.hit = tracer_.scene().geometry().intersect_surface(next.surface, {test.origin, test.direction, kHuge});
+    Ray test =
+        tracer_.primary(origin, next.disk.center - origin, 0, RandomStream(tracer_.options().seed));
+    test.hit = tracer_.scene().geometry().intersect_surface(next.surface,
+                                                            {test.origin, test.direction, kHuge});
     if (!test.hit.exists()) return std::nullopt;
     const auto bent = next.prism->relay(branch, test, context_);
     if (!bent || bent->coefficient <= kEpsilon) return std::nullopt;

@@ -1,7 +1,7 @@
 #pragma once
-// Virtual sources: where lights appear in flat mirrors and through prisms, so that their light can be sampled.
-// Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994, section 3.2 ("virtual
-// light sources"); the -dr and -dp options of rpict(1).
+// Virtual sources: where lights appear in flat mirrors and through prisms, so that their light can
+// be sampled. Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994,
+// section 3.2 ("virtual light sources"); the -dr and -dp options of rpict(1).
 #include <vector>
 
 #include "core/light/light_sources.h"
@@ -10,7 +10,8 @@
 
 namespace lightwalk {
 
-/// Appends to the list, for every source and every flat relay, what the relay makes of it; relays of relays too.
+/// Appends to the list, for every source and every flat relay, what the relay makes of it; relays
+/// of relays too.
 class VirtualSourceBuilder {
   public:
     VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);
@@ -30,13 +31,15 @@ class VirtualSourceBuilder {
     void collect_relays(WarningSink& warnings);
     void relay(std::int32_t parent, int depth);
     void try_relay(std::int32_t parent, const Relay& relay, int branch, int depth);
-    [[nodiscard]] std::optional<Projection> projection(const LightSource& source, const Relay& relay, int branch);
+    [[nodiscard]] std::optional<Projection> projection(const LightSource& source,
+                                                       const Relay& relay, int branch);
     [[nodiscard]] bool lights_disk(const LightSource& source, const Relay& relay) const;
 
     enum class Pretest { discard, follow, direct };
     [[nodiscard]] Pretest pretest(std::int32_t parent, const Relay& relay, const RelayDisk& disk);
     [[nodiscard]] int pretest_samples(const LightSource& parent, const RelayDisk& disk) const;
-    [[nodiscard]] float light_at(const Vec3& point, const Vec3& direction, std::int32_t source, bool alone);
+    [[nodiscard]] float light_at(const Vec3& point, const Vec3& direction, std::int32_t source,
+                                 bool alone);
 
     LightSources& lights_;
     const Tracer& tracer_;

@@ -180,7 +180,7 @@ Rgb BrtdFunction::direct(const Ray& ray, const Shading& s, const Vec3& l, double
     if (std::fabs(k) <= kEpsilon) return {};
     const double projected = std::fabs(k) * omega;
     Rgb sum = (k > 0 ? s.reflected : s.transmitted) * static_cast<float>(projected / kPi);
-    if (has_directional_)
+    if (any(directional_))
         sum += directional(ray, s, l, omega, context) * static_cast<float>(projected);
     return sum;
 }

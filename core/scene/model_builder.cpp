@@ -8,11 +8,13 @@
 namespace lightwalk {
 namespace {
 
-/// Comparing definitions follows modifiers; beyond this many pairs two definitions count as different.
+/// Comparing definitions follows modifiers; beyond this many pairs two definitions count as
+/// different.
 constexpr std::size_t kMaxComparedPairs = 4096;
 constexpr std::size_t kLongestSuggestion = 64;
 
-/// Edit distance (Levenshtein 1966): fewest insertions, deletions and substitutions between two words.
+/// Edit distance (Levenshtein 1966): fewest insertions, deletions and substitutions between two
+/// words.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -39,10 +41,13 @@ std::size_t count_references(const Primitive& primitive) {
     switch (primitive.type) {
         case PrimitiveType::illum:
         case PrimitiveType::mirror:
-        case PrimitiveType::alias: return std::min<std::size_t>(primitive.strings.size(), 1);
-        case PrimitiveType::antimatter: return primitive.strings.size();
+        case PrimitiveType::alias:
+            return std::min<std::size_t>(primitive.strings.size(), 1);
+        case PrimitiveType::antimatter:
+            return primitive.strings.size();
         default:
-            return is_mixture(primitive.type) ? std::min<std::size_t>(primitive.strings.size(), 2) : 0;
+            return is_mixture(primitive.type) ? std::min<std::size_t>(primitive.strings.size(), 2)
+                                              : 0;
     }
 }
 
@@ -98,11 +103,12 @@ std::int32_t ModelBuilder::modifier(const std::string& name, const SourceLocatio
     throw InputError(where, "undefined modifier \"" + name + "\"" + suggestion(name));
 }
 
-std::int32_t ModelBuilder::alias_target(const std::string& name, const SourceLocation& where) const {
+std::int32_t ModelBuilder::alias_target(const std::string& name,
+                                        const SourceLocation& where) const {
     const auto found = names_.find(name);
     if (found != names_.end()) return found->second;
-    throw InputError(where, "bad reference \"" + name + "\": no modifier has this name" +
-                                suggestion(name));
+    throw InputError(
+        where, "bad reference \"" + name + "\": no modifier has this name" + suggestion(name));
 }
 
 std::int32_t ModelBuilder::reference(const std::string& name) const {
@@ -121,7 +127,8 @@ void ModelBuilder::check_modifier(std::int32_t modifier, const SourceLocation& w
     const std::vector<Primitive>& known = model_->primitives;
     if (modifier == kVoidIndex) return;
     if (modifier < 0 || static_cast<std::size_t>(modifier) >= known.size()) {
-        throw InputError(where, "modifier number " + std::to_string(modifier) + " is not defined yet");
+        throw InputError(where,
+                         "modifier number " + std::to_string(modifier) + " is not defined yet");
     }
     const Primitive& named = known[static_cast<std::size_t>(modifier)];
     if (is_surface(named.type)) {
@@ -159,29 +166,19 @@ std::int32_t ModelBuilder::add(Primitive primitive) {
     if (primitive.references.empty()) primitive.references = references(primitive);
     const auto index = static_cast<std::int32_t>(model_->primitives.size());
     model_->primitives.push_back(std::move(primitive));
-    ++definitions_;
     if (!names_modifier) return index;
     const auto [entry, is_new] = names_.try_emplace(model_->primitives.back().name, index);
     if (!is_new && !equal(index, entry->second)) entry->second = index;
     return index;
 }
 
-std::int32_t ModelBuilder::rename(const std::string& name, std::int32_t target,
-                                  const SourceLocation& where) {
-    check_name(name, true, where);
-    check_modifier(target, where);
-    if (target == kVoidIndex) throw InputError(where, "bad reference \"void\" in alias \"" + name + "\"");
-    names_[name] = target;
-    ++definitions_;
-    return target;
-}
-
 std::int32_t ModelBuilder::add_alias(std::int32_t modifier, const std::string& name,
                                      std::int32_t target, const SourceLocation& where) {
     check_modifier(target, where);
-    if (target == kVoidIndex) throw InputError(where, "bad reference \"void\" in alias \"" + name + "\"");
+    if (target == kVoidIndex) {
+        throw InputError(where, "bad reference \"void\" in alias \"" + name + "\"");
+    }
     const Primitive& named = model_->primitives[static_cast<std::size_t>(target)];
-    if (named.modifier == modifier) return rename(name, target, where);
     Primitive alias;
     alias.type = PrimitiveType::alias;
     alias.modifier = modifier;
@@ -192,10 +189,18 @@ std::int32_t ModelBuilder::add_alias(std::int32_t modifier, const std::string& n
     return add(std::move(alias));
 }
 
+std::int32_t ModelBuilder::rename(const std::string& name, std::int32_t target,
+                                  const SourceLocation& where) {
+    check_modifier(target, where);
+    const std::int32_t own = target == kVoidIndex
+                                 ? kVoidIndex
+                                 : model_->primitives[static_cast<std::size_t>(target)].modifier;
+    return add_alias(own, name, target, where);
+}
+
 std::shared_ptr<Model> ModelBuilder::take() {
     std::shared_ptr<Model> result = std::exchange(model_, std::make_shared<Model>());
     names_.clear();
-    definitions_ = 0;
     return result;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The name space of a scene while it is read: definitions, and what names mean at each point of the file.
-#include <cstddef>
+// The name space of a scene while it is read: definitions, and what names mean at each point of the
+// file.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,34 +14,36 @@
 namespace lightwalk {
 
 /// Collects primitives in order of definition and resolves the names they use, as Radiance does:
-/// a name means the latest definition so far; a later one changes nothing that was read before. Surfaces
-/// have no entry in the name space. Source: "The Radiance 6.x Scene Description Language" (ray.pdf).
+/// a name means the latest definition so far; a later one changes nothing that was read before.
+/// Surfaces have no entry in the name space. Source: "The Radiance 6.x Scene Description Language"
+/// (ray.pdf).
 class ModelBuilder {
   public:
     /// What `name` means as a modifier: an index, or kVoidIndex for `void`. Throws InputError
     /// "undefined modifier ..., did you mean ..." for a name that nothing has defined.
     [[nodiscard]] std::int32_t modifier(const std::string& name, const SourceLocation& where) const;
 
-    /// Add a primitive whose `modifier` is an index into this model (or void) and whose `references` are still
-    /// empty; returns its index. Throws InputError for an illegal name, and for a modifier that is none.
-    /// A modifier that equals the current one of its name is added, but the name keeps its older meaning.
-    /// An alias goes through add_alias.
+    /// Add a primitive whose `modifier` is an index into this model (or void) and whose
+    /// `references` are still empty; returns its index. Throws InputError for an illegal name, and
+    /// for a modifier that is none. A modifier that equals the current one of its name is added,
+    /// but the name keeps its older meaning. An alias goes through add_alias.
     std::int32_t add(Primitive primitive);
 
-    /// Add `modifier alias name`, standing for the modifier with index `target`: its type and arguments with
-    /// `modifier` in place of its own modifier. Where both modifiers are the same the alias adds no primitive.
-    /// Returns what the name now means. The alias's reference is never itself an alias.
+    /// Add `modifier alias name`, standing for the modifier with index `target`: its type and
+    /// arguments with `modifier` in place of its own modifier; returns its index. The alias is a
+    /// modifier of its own, and is what messages and rtrace call a surface's modifier. Its
+    /// reference is never itself an alias.
     std::int32_t add_alias(std::int32_t modifier, const std::string& name, std::int32_t target,
                            const SourceLocation& where);
 
-    /// Let `name` mean the modifier `target`: `inherit alias NAME TARGET`.
+    /// Add `inherit alias name`: all of the modifier with index `target` under another name.
     std::int32_t rename(const std::string& name, std::int32_t target, const SourceLocation& where);
 
-    /// The modifier an alias names, latest definition; throws InputError "bad reference ..." when there is none.
-    [[nodiscard]] std::int32_t alias_target(const std::string& name, const SourceLocation& where) const;
+    /// The modifier an alias names, latest definition; throws InputError "bad reference ..." when
+    /// there is none.
+    [[nodiscard]] std::int32_t alias_target(const std::string& name,
+                                            const SourceLocation& where) const;
 
-    /// Primitives and aliases so far, aliases that added no primitive included: Radiance's object count.
-    [[nodiscard]] std::size_t definitions() const { return definitions_; }
     [[nodiscard]] const std::vector<Primitive>& primitives() const { return model_->primitives; }
 
     /// The model; the builder is empty afterwards.
@@ -56,10 +58,10 @@ class ModelBuilder {
 
     std::shared_ptr<Model> model_ = std::make_shared<Model>();
     std::unordered_map<std::string, std::int32_t> names_;
-    std::size_t definitions_ = 0;
 };
 
 /// ", did you mean "X"?" for the nearest of `known`, or "" when nothing is near.
-[[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& known);
+[[nodiscard]] std::string did_you_mean(std::string_view name,
+                                       const std::vector<std::string_view>& known);
 
 }  // namespace lightwalk

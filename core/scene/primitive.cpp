@@ -36,7 +36,9 @@ std::optional<PrimitiveType> primitive_type(std::string_view word) {
     return static_cast<PrimitiveType>(found - kTypeNames.begin());
 }
 
-bool is_surface(PrimitiveType type) { return type <= PrimitiveType::mesh; }
+bool is_surface(PrimitiveType type) {
+    return type <= PrimitiveType::mesh;
+}
 
 bool is_material(PrimitiveType type) {
     return type >= PrimitiveType::light && type <= PrimitiveType::antimatter;

@@ -9,7 +9,9 @@
 namespace lightwalk {
 namespace {
 
-constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
 
 /// The word without leading white space and without a leading '+' (which std::from_chars refuses).
 std::string_view trim_front(std::string_view word) {

@@ -20,9 +20,11 @@ struct Neighbours {
 std::size_t segment_of(const std::vector<float>& points, double t) {
     const auto first = points.begin() + 1, last = points.end() - 1;
     const bool ascending = points.front() < points.back();
-    const auto next = ascending
-                          ? std::upper_bound(first, last, t, [](double x, float p) { return x < static_cast<double>(p); })
-                          : std::upper_bound(first, last, t, [](double x, float p) { return x > static_cast<double>(p); });
+    const auto next =
+        ascending ? std::upper_bound(first, last, t,
+                                     [](double x, float p) { return x < static_cast<double>(p); })
+                  : std::upper_bound(first, last, t,
+                                     [](double x, float p) { return x > static_cast<double>(p); });
     return static_cast<std::size_t>(next - first);
 }
 
@@ -61,7 +63,9 @@ Neighbours neighbours(const DataArray::Axis& axis, double t) {
 }
 
 /// Outer neighbours that count this little are left out.
-bool negligible(double weight) { return weight <= 1e-6 && weight >= -1e-6; }
+bool negligible(double weight) {
+    return weight <= 1e-6 && weight >= -1e-6;
+}
 
 struct Lookup {
     const float* values = nullptr;
@@ -89,7 +93,8 @@ double value_at(const Lookup& lookup, std::size_t axis, std::size_t offset, doub
 }  // namespace
 
 double interpolate(const DataArray& table, std::span<const double> point) {
-    assert(!table.axes.empty() && table.axes.size() <= kMaxAxes && point.size() >= table.axes.size());
+    assert(!table.axes.empty() && table.axes.size() <= kMaxAxes &&
+           point.size() >= table.axes.size());
     Lookup lookup;
     lookup.values = table.values.data();
     lookup.axes = table.axes.size();

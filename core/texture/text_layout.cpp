@@ -12,7 +12,9 @@ namespace {
 constexpr int kCell = 255;  // grid units a character cell
 using Spacings = std::vector<std::int64_t>;
 
-const Font::Glyph& glyph_of(const Font& font, char c) { return font.glyphs[static_cast<unsigned char>(c)]; }
+const Font::Glyph& glyph_of(const Font& font, char c) {
+    return font.glyphs[static_cast<unsigned char>(c)];
+}
 bool is_blank(const Font& font, char c) {
     return glyph_of(font, c).defined && glyph_of(font, c).vertices.empty();
 }
@@ -50,8 +52,8 @@ Spacings squeezed_spacings(const Font& font, const std::string& text, std::int64
     return spacings;
 }
 
-/// A stretch of a line that keeps the width its characters have in a font of equal widths: up to a character
-/// that three or more blanks follow.
+/// A stretch of a line that keeps the width its characters have in a font of equal widths: up to a
+/// character that three or more blanks follow.
 struct Group {
     std::size_t end = 0;     ///< first character after the group
     std::int64_t cells = 0;  ///< known characters
@@ -86,11 +88,13 @@ Spacings proportional_spacings(const Font& font, const std::string& text, std::i
     return spacings;
 }
 
-/// Whether the closed polygon of a glyph holds (x, y), by crossings of the ray along +x. Vertices are compared
-/// with the middle of the grid unit that holds the point, so that none lies on the ray.
+/// Whether the closed polygon of a glyph holds (x, y), by crossings of the ray along +x. Vertices
+/// are compared with the middle of the grid unit that holds the point, so that none lies on the
+/// ray.
 bool glyph_holds(const Font::Glyph& glyph, double x, double y) {
     const int column = static_cast<int>(x), row = static_cast<int>(y);
-    if (column < glyph.left || column >= glyph.right || row < glyph.bottom || row >= glyph.top) return false;
+    if (column < glyph.left || column >= glyph.right || row < glyph.bottom || row >= glyph.top)
+        return false;
     bool inside = false;
     std::array<std::uint8_t, 2> p = glyph.vertices.back();
     for (const std::array<std::uint8_t, 2>& q : glyph.vertices) {
@@ -125,7 +129,8 @@ TextLayout::TextLayout(const std::vector<std::string>& lines, std::shared_ptr<co
     if (spacing) cell_ = font_->mean_width + kCell * std::abs(*spacing);
 
     // Beyond a million cells nothing changes but the range of the integers.
-    const auto gap = static_cast<std::int64_t>(std::clamp(kCell * spacing.value_or(0), -2.5e8, 2.5e8));
+    const auto gap =
+        static_cast<std::int64_t>(std::clamp(kCell * spacing.value_or(0), -2.5e8, 2.5e8));
     for (const std::string& text : lines) {
         const Spacings spacings = gap == 0  ? uniform_spacings(*font_, text)
                                   : gap < 0 ? squeezed_spacings(*font_, text, -gap)
@@ -135,7 +140,8 @@ TextLayout::TextLayout(const std::vector<std::string>& lines, std::shared_ptr<co
         for (std::size_t i = 0; i < text.size(); ++i) {
             line.width += spacings[i];
             line.pen.push_back(line.width);
-            line.farthest.push_back(i == 0 ? line.width : std::max(line.width, line.farthest.back()));
+            line.farthest.push_back(i == 0 ? line.width
+                                           : std::max(line.width, line.farthest.back()));
         }
         line.width += spacings.back();
         lines_.push_back(std::move(line));
@@ -153,7 +159,8 @@ bool TextLayout::inside(const Vec3& point) const {
     if (column >= line.width) return false;
     const double fraction = x - static_cast<double>(column);
     const double height = (static_cast<double>(row + 1) - y) * kCell;
-    // Characters are drawn until the first one whose cell begins beyond the point; cells may overlap.
+    // Characters are drawn until the first one whose cell begins beyond the point; cells may
+    // overlap.
     const auto stop = std::upper_bound(line.farthest.begin(), line.farthest.end(), column);
     for (auto k = static_cast<std::size_t>(stop - line.farthest.begin()); k-- > 0;) {
         if (line.farthest[k] <= column - kCell) break;

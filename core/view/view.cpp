@@ -10,10 +10,15 @@
 namespace lightwalk {
 namespace {
 
-constexpr double radians(double degrees) { return degrees * (kPi / 180); }
-constexpr double degrees(double radians) { return radians * (180 / kPi); }
+constexpr double radians(double degrees) {
+    return degrees * (kPi / 180);
+}
+constexpr double degrees(double radians) {
+    return radians * (180 / kPi);
+}
 
-/// Upper limits of -vh and -vv [degrees], and whether the limit itself is excluded. See rpict(1), "-vt".
+/// Upper limits of -vh and -vv [degrees], and whether the limit itself is excluded. See rpict(1),
+/// "-vt".
 struct SizeLimits {
     double horizontal = HUGE_VAL, vertical = HUGE_VAL;
     bool horizontal_open = true, vertical_open = true;
@@ -21,12 +26,18 @@ struct SizeLimits {
 
 SizeLimits size_limits(char type) {
     switch (type) {
-        case 'v': return {180, 180, true, true};
-        case 'h': return {180, 180, false, false};
-        case 'c': return {360, 180, false, true};
-        case 'a': return {360, 360, false, false};
-        case 's': return {360, 360, true, true};
-        default: return {};
+        case 'v':
+            return {180, 180, true, true};
+        case 'h':
+            return {180, 180, false, false};
+        case 'c':
+            return {360, 180, false, true};
+        case 'a':
+            return {360, 360, false, false};
+        case 's':
+            return {360, 360, true, true};
+        default:
+            return {};
     }
 }
 
@@ -35,7 +46,9 @@ bool legal_size(double size, double limit, bool open) {
     return open ? size < limit - kEpsilon : size <= limit + kEpsilon;
 }
 
-bool finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+bool finite(const Vec3& a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 bool finite(const View& view) {
     const std::array<double, 6> numbers{view.horizontal, view.vertical, view.fore,
@@ -50,33 +63,42 @@ Vec3 unit(const Vec3& a) {
     return largest > 0 ? normalize({a.x / largest, a.y / largest, a.z / largest}) : Vec3{};
 }
 
-/// Extent of the image at unit distance for a horizontal or vertical size of the view; `straight`: projected
-/// onto a plane even where the other axis is wound around a cylinder.
+/// Extent of the image at unit distance for a horizontal or vertical size of the view; `straight`:
+/// projected onto a plane even where the other axis is wound around a cylinder.
 double image_extent(char type, double size, bool straight) {
     switch (type) {
-        case 'v': return 2 * std::tan(radians(size) / 2);
-        case 'h': return 2 * std::sin(std::min(radians(size), kPi) / 2);
-        case 's': return 2 * std::tan(radians(size) / 4);
-        case 'c': return straight ? 2 * std::tan(radians(size) / 2) : radians(size);
-        case 'a': return radians(size);
-        default: return size;
+        case 'v':
+            return 2 * std::tan(radians(size) / 2);
+        case 'h':
+            return 2 * std::sin(std::min(radians(size), kPi) / 2);
+        case 's':
+            return 2 * std::tan(radians(size) / 4);
+        case 'c':
+            return straight ? 2 * std::tan(radians(size) / 2) : radians(size);
+        case 'a':
+            return radians(size);
+        default:
+            return size;
     }
 }
 
 /// The size that shows `part` of the extent that `size` shows. Nothing when no such size exists.
 std::optional<double> cropped_size(char type, double size, double part, bool straight) {
     switch (type) {
-        case 'v': return degrees(2 * std::atan(part * std::tan(radians(size) / 2)));
+        case 'v':
+            return degrees(2 * std::atan(part * std::tan(radians(size) / 2)));
         case 'h': {
             const double sine = part * std::sin(radians(size) / 2);
             if (sine > 1) return std::nullopt;
             return degrees(2 * std::asin(sine));
         }
-        case 's': return degrees(4 * std::atan(part * std::tan(radians(size) / 4)));
+        case 's':
+            return degrees(4 * std::atan(part * std::tan(radians(size) / 4)));
         case 'c':
             if (straight) return cropped_size('v', size, part, straight);
             return part * size;
-        default: return part * size;
+        default:
+            return part * size;
     }
 }
 
@@ -84,7 +106,8 @@ std::optional<double> cropped_size(char type, double size, double part, bool str
 
 std::optional<std::string> Camera::problem(const View& view) {
     if (!finite(view)) return "view parameter is not a finite number";
-    if (view.fore < -kEpsilon || view.aft < -kEpsilon || (view.aft > kEpsilon && view.aft <= view.fore)) {
+    if (view.fore < -kEpsilon || view.aft < -kEpsilon ||
+        (view.aft > kEpsilon && view.aft <= view.fore)) {
         return "illegal fore/aft clipping plane";
     }
     const Vec3 forward = unit(view.direction), up = unit(view.up);
@@ -129,7 +152,9 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
             q = std::sqrt(z2) * forward_ + across;
             break;
         }
-        case 'c': q = std::cos(x) * forward_ + std::sin(x) * right_ + y * upward_; break;
+        case 'c':
+            q = std::cos(x) * forward_ + std::sin(x) * right_ + y * upward_;
+            break;
         case 'a': {
             const double angle = std::sqrt(x * x + y * y);
             if (!(angle <= kPi)) return std::nullopt;
@@ -142,7 +167,9 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
             q = z * forward_ + (1 + z) * across;
             break;
         }
-        default: q = forward_ + across; break;
+        default:
+            q = forward_ + across;
+            break;
     }
     const double stretch = length(q);
     return ViewRay{view_.position + view_.fore * q, q / stretch,
@@ -183,8 +210,10 @@ Camera::ImagePosition Camera::locate(const Vec3& point) const {
             const double sideways = std::sqrt(x * x + y * y);
             if (view_.type == 'a') {
                 const double psi = std::atan2(sideways, ahead);
-                if (sideways > 0) scale_x = scale_y = psi / sideways;
-                else angle = psi;
+                if (sideways > 0)
+                    scale_x = scale_y = psi / sideways;
+                else
+                    angle = psi;
             } else if (view_.type == 's') {
                 if (!(ahead / far > kEpsilon - 1)) return kNowhere;
                 scale_x = scale_y = 1 / (far + ahead);
@@ -224,9 +253,9 @@ PictureSize fit_picture(int x, int y, double view_aspect, double pixel_aspect) {
     if (!(pixel_aspect > kEpsilon)) {
         size.pixel_aspect = view_aspect * x / y;
     } else if (view_aspect * x > pixel_aspect * y) {
-        size.width = static_cast<int>(y / view_aspect * pixel_aspect + 0.5);
+        size.width = static_cast<int>(std::floor(y / view_aspect * pixel_aspect + 0.5));
     } else {
-        size.height = static_cast<int>(x * view_aspect / pixel_aspect + 0.5);
+        size.height = static_cast<int>(std::floor(x * view_aspect / pixel_aspect + 0.5));
     }
     return size;
 }

@@ -8,21 +8,22 @@
 namespace lightwalk {
 
 struct View {
-    char type = 'v';            ///< v perspective, l parallel, c cylindrical, h hemispherical, a angular, s stereographic
-    Vec3 position;              ///< -vp [m]
-    Vec3 direction{0, 1, 0};    ///< -vd; its length is the focus distance
-    Vec3 up{0, 0, 1};           ///< -vu
-    double horizontal = 45;     ///< -vh [degrees], or width [m] for parallel views
-    double vertical = 45;       ///< -vv
-    double fore = 0;            ///< -vo [m]
-    double aft = 0;             ///< -va [m], 0: none
-    double shift = 0, lift = 0; ///< -vs, -vl [picture widths, heights]
+    /// -vt: v perspective, l parallel, c cylindrical, h hemispherical, a angular, s stereographic
+    char type = 'v';
+    Vec3 position;               ///< -vp [m]
+    Vec3 direction{0, 1, 0};     ///< -vd; its length is the focus distance
+    Vec3 up{0, 0, 1};            ///< -vu
+    double horizontal = 45;      ///< -vh [degrees], or width [m] for parallel views
+    double vertical = 45;        ///< -vv
+    double fore = 0;             ///< -vo [m]
+    double aft = 0;              ///< -va [m], 0: none
+    double shift = 0, lift = 0;  ///< -vs, -vl [picture widths, heights]
     friend bool operator==(const View&, const View&) = default;
 };
 
-/// A validated view with its derived axes. Image positions (h, v): h to the right, v up, (0,0) lower left,
-/// (1,1) upper right. Fore and aft are distances from the view point to planes (types v, l), cylinders (c) or
-/// spheres (h, a, s).
+/// A validated view with its derived axes. Image positions (h, v): h to the right, v up, (0,0)
+/// lower left, (1,1) upper right. Fore and aft are distances from the view point to planes (types
+/// v, l), cylinders (c) or spheres (h, a, s).
 class Camera {
   public:
     /// The problem, or nothing: ready to use. Texts follow Radiance ("zero view direction", ...).
@@ -30,18 +31,21 @@ class Camera {
     explicit Camera(const View& view);  ///< throws InputError with problem()
 
     struct ViewRay {
-        Vec3 origin, direction;  ///< direction is unit; the origin lies on the fore clipping surface
-        double limit = 0;        ///< aft clipping distance from origin, 0: none [m]
+        Vec3 origin;       ///< on the fore clipping surface
+        Vec3 direction;    ///< unit
+        double limit = 0;  ///< aft clipping distance from origin, 0: none [m]
     };
     /// Nothing outside the view's domain (black pixels).
     [[nodiscard]] std::optional<ViewRay> ray(double h, double v) const;
 
-    /// Where a point appears. A point without an image (the view point itself, a point in a perspective's
-    /// view plane, the axis of a cylinder, the pole of a stereographic view) has in_front false, h = v = -1.
+    /// Where a point appears. A point without an image (the view point itself, a point in a
+    /// perspective's view plane, the axis of a cylinder, the pole of a stereographic view) has
+    /// in_front false, h = v = -1.
     struct ImagePosition {
-        double h = 0, v = 0, distance = 0;  ///< distance along the ray of (h, v), from its origin [m]
-        bool in_front = true;               ///< false: before the fore surface; h and v are of the mirrored point
-        bool beyond_aft = false;            ///< clipped by the aft surface
+        double h = 0, v = 0;
+        double distance = 0;      ///< along the ray of (h, v), from its origin [m]
+        bool in_front = true;     ///< else before the fore surface, or mirrored at the view point
+        bool beyond_aft = false;  ///< clipped by the aft surface
         /// Whether the picture shows the point, but for what hides it.
         [[nodiscard]] bool visible() const {
             return in_front && !beyond_aft && h > 0 && h < 1 && v > 0 && v < 1;
@@ -51,10 +55,11 @@ class Camera {
     [[nodiscard]] ImagePosition locate(const Vec3& point) const;
 
     [[nodiscard]] const View& view() const { return view_; }
-    [[nodiscard]] double aspect() const { return height_ / width_; }  ///< natural height / width of the image
-    [[nodiscard]] Vec3 forward() const { return forward_; }           ///< unit
-    [[nodiscard]] Vec3 right() const { return right_; }               ///< unit
-    [[nodiscard]] Vec3 upward() const { return upward_; }             ///< unit, perpendicular to both
+    /// Natural height / width of the image.
+    [[nodiscard]] double aspect() const { return height_ / width_; }
+    [[nodiscard]] Vec3 forward() const { return forward_; }  ///< unit
+    [[nodiscard]] Vec3 right() const { return right_; }      ///< unit
+    [[nodiscard]] Vec3 upward() const { return upward_; }    ///< unit, perpendicular to both
 
   private:
     View view_;
@@ -62,12 +67,14 @@ class Camera {
     double width_ = 0, height_ = 0;  ///< of the image at unit distance, on the type's image surface
 };
 
-/// The part [h0, h1] x [v0, v1] of a view, as a view of the same type. Nothing when the part is empty or would
-/// need a hemispherical view beyond 180 degrees.
-[[nodiscard]] std::optional<View> crop_view(const View& view, double h0, double v0, double h1, double v1);
+/// The part [h0, h1] x [v0, v1] of a view, as a view of the same type. Nothing when the part is
+/// empty or would need a hemispherical view beyond 180 degrees.
+[[nodiscard]] std::optional<View> crop_view(const View& view, double h0, double v0, double h1,
+                                            double v1);
 
-/// Width and height so that the picture of aspect `view_aspect` (height / width) has pixels of `pixel_aspect`
-/// (height / width) inside at most x by y; pixel_aspect 0: exactly x by y (then it is set to what results).
+/// Width and height so that the picture of aspect `view_aspect` (height / width) has pixels of
+/// `pixel_aspect` (height / width) inside at most x by y; pixel_aspect 0: exactly x by y (then it
+/// is set to what results).
 struct PictureSize {
     int width = 512, height = 512;
     double pixel_aspect = 1;

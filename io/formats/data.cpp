@@ -11,7 +11,9 @@ namespace {
 
 constexpr long kMaxDimensions = 6;
 
-std::string quoted(std::string_view word) { return '"' + std::string(word) + '"'; }
+std::string quoted(std::string_view word) {
+    return '"' + std::string(word) + '"';
+}
 
 class DataReader {
   public:
@@ -20,7 +22,8 @@ class DataReader {
     DataArray read() {
         const long dimensions = integer("the number of dimensions");
         if (dimensions < 1 || dimensions > kMaxDimensions) {
-            throw words_.error("bad number of dimensions " + std::to_string(dimensions) + ", expected 1 to 6");
+            throw words_.error("bad number of dimensions " + std::to_string(dimensions) +
+                               ", expected 1 to 6");
         }
         DataArray table;
         std::size_t size = 1;
@@ -69,7 +72,8 @@ class DataReader {
         } else {
             axis.extent = end - axis.origin;
         }
-        if (!std::isfinite(axis.extent)) throw words_.error("bad format in data file: range too wide");
+        if (!std::isfinite(axis.extent))
+            throw words_.error("bad format in data file: range too wide");
         return axis;
     }
     /// Coordinates must be monotonic. As in Radiance neighbours on a falling axis may be equal.
@@ -85,19 +89,25 @@ class DataReader {
         }
         axis.origin = p.front();
         axis.extent = p.back() - p.front();
-        if (axis.extent == 0) throw words_.error("bad format in data file: all coordinates are equal");
+        if (axis.extent == 0)
+            throw words_.error("bad format in data file: all coordinates are equal");
     }
 
     [[nodiscard]] InputError bad_format(std::string_view found, const char* expected) const {
-        return words_.error("bad format in data file: found " + quoted(found) + ", expected " + expected);
+        return words_.error("bad format in data file: found " + quoted(found) + ", expected " +
+                            expected);
     }
-    [[nodiscard]] InputError too_short() const { return words_.error("unexpected EOF in data file"); }
+    [[nodiscard]] InputError too_short() const {
+        return words_.error("unexpected EOF in data file");
+    }
 
     WordReader words_;
 };
 
 }  // namespace
 
-DataArray decode_data(std::string_view text, const std::string& name) { return DataReader(text, name).read(); }
+DataArray decode_data(std::string_view text, const std::string& name) {
+    return DataReader(text, name).read();
+}
 
 }  // namespace lightwalk

@@ -17,7 +17,8 @@ std::optional<std::string_view> header_variable(std::string_view line, std::stri
     line.remove_prefix(name.size() + 1);
     const std::size_t first = std::min(line.find_first_not_of(" \t\r\n\v\f"), line.size());
     const std::size_t last = line.find_last_not_of(" \t\r\n\v\f");
-    return last == std::string_view::npos ? std::string_view() : line.substr(first, last + 1 - first);
+    return last == std::string_view::npos ? std::string_view()
+                                          : line.substr(first, last + 1 - first);
 }
 
 InfoHeader decode_header(std::string_view bytes, const std::string& name) {

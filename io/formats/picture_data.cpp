@@ -7,7 +7,8 @@ namespace lightwalk {
 
 PictureData decode_picture(std::string_view bytes, const std::string& name) {
     const RgbePicture picture = decode_rgbe_picture(bytes, name, XyzPictures::refuse);
-    const double width = picture.width, height = picture.height * pixel_aspect(picture.header, name);
+    const double width = picture.width,
+                 height = picture.height * pixel_aspect(picture.header, name);
     PictureData data;
     data.axes[0].extent = static_cast<float>(width <= height ? height / width : 1);
     data.axes[0].count = static_cast<std::uint32_t>(picture.height);

@@ -7,7 +7,9 @@ namespace {
 
 constexpr std::size_t kLongestWord = 63;
 
-bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_blank(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ void WordReader::skip_blanks() {
 std::optional<std::string_view> WordReader::next() {
     skip_blanks();
     if (rest_.empty()) return std::nullopt;
-    const auto* end = std::find_if(rest_.begin(), rest_.end(), [](char c) { return is_blank(c) || c == '#'; });
+    const auto* end =
+        std::find_if(rest_.begin(), rest_.end(), [](char c) { return is_blank(c) || c == '#'; });
     const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
     if (word.size() > kLongestWord) {
         throw error("word of " + std::to_string(word.size()) + " characters, expected at most 63");

@@ -15,8 +15,8 @@ namespace lightwalk {
 /// Take the next word (between white space) off the front of `text`; empty at the end.
 [[nodiscard]] std::string_view take_word(std::string_view& text);
 
-/// The words of a data or font file: separated by white space, `#` begins a comment to the end of the line,
-/// also directly behind a word.
+/// The words of a data or font file: separated by white space, `#` begins a comment to the end of
+/// the line, also directly behind a word.
 class WordReader {
   public:
     WordReader(std::string_view text, std::string name) : rest_(text), where_{std::move(name), 1} {}

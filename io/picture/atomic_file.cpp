@@ -88,7 +88,8 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     }
     fs::path target = path;
     if (fs::is_symlink(target, ignored)) {
-        if (fs::path real = fs::weakly_canonical(target, ignored); !real.empty()) target = std::move(real);
+        if (fs::path real = fs::weakly_canonical(target, ignored); !real.empty())
+            target = std::move(real);
     }
     fs::path temporary;
     int descriptor = -1;

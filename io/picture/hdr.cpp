@@ -20,7 +20,8 @@ constexpr std::array<std::array<double, 3>, 3> kFromXyz{{{2.565312843, -1.166849
 
 /// Photometric XYZ [cd/m² for Y] to radiance.
 Rgb from_xyz(const Rgb& xyz) {
-    const auto X = static_cast<double>(xyz.r), Y = static_cast<double>(xyz.g), Z = static_cast<double>(xyz.b);
+    const auto X = static_cast<double>(xyz.r), Y = static_cast<double>(xyz.g),
+               Z = static_cast<double>(xyz.b);
     Rgb color;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::array<double, 3>& row = kFromXyz[i];
@@ -68,7 +69,8 @@ std::string clean_line(std::string line) {
 }  // namespace
 
 std::string encode_hdr(const Picture& picture, const PictureHeader& header) {
-    const auto width = static_cast<std::size_t>(picture.width), height = static_cast<std::size_t>(picture.height);
+    const auto width = static_cast<std::size_t>(picture.width),
+               height = static_cast<std::size_t>(picture.height);
     assert(picture.pixels.size() == width * height);
     std::string bytes = "#?RADIANCE\n";
     for (const std::string& line : header.lines) {
@@ -76,12 +78,14 @@ std::string encode_hdr(const Picture& picture, const PictureHeader& header) {
         bytes += clean_line(line) + '\n';
     }
     std::array<char, 64> resolution{};
-    (void)std::snprintf(resolution.data(), resolution.size(), "-Y %8d +X %8d\n", picture.height, picture.width);
+    (void)std::snprintf(resolution.data(), resolution.size(), "-Y %8d +X %8d\n", picture.height,
+                        picture.width);
     bytes += "FORMAT=32-bit_rle_rgbe\n\n";
     bytes += resolution.data();
     std::vector<Rgbe> scanline(width);
     for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x) scanline[x] = encode_rgbe(picture.pixels[y * width + x]);
+        for (std::size_t x = 0; x < width; ++x)
+            scanline[x] = encode_rgbe(picture.pixels[y * width + x]);
         encode_scanline(scanline, bytes);
     }
     return bytes;

@@ -16,39 +16,50 @@ struct Picture {
     std::vector<Rgb> pixels;
 };
 
-/// What a picture's header says beside the pixels; lines as Radiance tools expect them (see picture_header.h).
+/// What a picture's header says beside the pixels; lines as Radiance tools expect them (see
+/// picture_header.h).
 struct PictureHeader {
-    std::vector<std::string> lines;  ///< history and variables, without #?RADIANCE, FORMAT and resolution
+    /// History and variables, without #?RADIANCE, FORMAT and resolution.
+    std::vector<std::string> lines;
 };
 
-/// The bytes of a Radiance picture (.hdr): header, new run-length scanlines, identical to what Radiance writes.
+/// The bytes of a Radiance picture (.hdr): header, new run-length scanlines, identical to what
+/// Radiance writes.
 [[nodiscard]] std::string encode_hdr(const Picture& picture, const PictureHeader& header);
-/// Read any RGBE/XYZE picture; EXPOSURE and COLORCORR are undone and left out of `header`. Throws InputError.
-[[nodiscard]] Picture read_hdr(std::string_view bytes, const std::string& name, PictureHeader* header = nullptr);
+/// Read any RGBE/XYZE picture; EXPOSURE and COLORCORR are undone and left out of `header`. Throws
+/// InputError.
+[[nodiscard]] Picture read_hdr(std::string_view bytes, const std::string& name,
+                               PictureHeader* header = nullptr);
 
-/// Tone mapping for 8-bit files: automatic places the log-average at middle grey (18 %), or a fixed exposure.
+/// Tone mapping for 8-bit files: automatic places the log-average at middle grey (18 %), or a fixed
+/// exposure.
 struct ToneMapping {
     bool automatic = true;
-    double ev = 0;  ///< [stops] when not automatic: radiance 2^-ev W/(m² sr) is white but for the shoulder
+    /// When not automatic [stops]: radiance 2^-ev W/(m² sr) is white, but for the shoulder.
+    double ev = 0;
 };
-/// Factor from radiance to display values, 1 = white. The log-average leaves out pixels without light.
-/// Source: Reinhard et al., "Photographic tone reproduction for digital images", SIGGRAPH 2002, eqs. 1 and 2.
+/// Factor from radiance to display values, 1 = white. The log-average leaves out pixels without
+/// light. Source: Reinhard et al., "Photographic tone reproduction for digital images", SIGGRAPH
+/// 2002, eqs. 1 and 2.
 [[nodiscard]] double display_scale(const Picture& picture, const ToneMapping& tone);
-/// sRGB bytes r, g, b of one pixel: linear up to 0.6, beyond that a smooth shoulder towards white, then the sRGB
-/// curve (IEC 61966-2-1). Radiance's white is shown as the display's white.
+/// sRGB bytes r, g, b of one pixel: linear up to 0.6, beyond that a smooth shoulder towards white,
+/// then the sRGB curve (IEC 61966-2-1). Radiance's white is shown as the display's white.
 [[nodiscard]] std::array<std::uint8_t, 3> display_pixel(const Rgb& color, double scale);
-/// Write by extension: .hdr .pic (Radiance), .exr (float RGB), .png .jpg .jpeg (tone mapped sRGB). The file appears
-/// whole or not at all (temporary name, then rename). Throws InputError for other extensions and failed writes,
-/// naming the path.
+/// Write by extension: .hdr .pic (Radiance), .exr (float RGB), .png .jpg .jpeg (tone mapped sRGB).
+/// The file appears whole or not at all (temporary name, then rename). Throws InputError for other
+/// extensions and failed writes, naming the path.
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone);
-/// Depth: `path` ending in .exr: one float channel Z; otherwise raw native floats, row by row from the top.
+/// Depth: `path` ending in .exr: one float channel Z; otherwise raw native floats, row by row from
+/// the top.
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth);
-/// Any bytes, whole or not at all: a temporary file in the same folder is renamed when it is complete, and removed
-/// when that fails. Links are followed; devices and pipes are written to directly. Throws InputError.
+/// Any bytes, whole or not at all: a temporary file in the same folder is renamed when it is
+/// complete, and removed when that fails. Links are followed; devices and pipes are written to
+/// directly. Throws InputError.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
-/// Shared-exponent encoding of one pixel, and back. Source: Ward, "Real Pixels", Graphics Gems II (1991).
+/// Shared-exponent encoding of one pixel, and back. Source: Ward, "Real Pixels", Graphics Gems II
+/// (1991).
 struct Rgbe {
     unsigned char r = 0, g = 0, b = 0, e = 0;
     friend bool operator==(const Rgbe&, const Rgbe&) = default;

@@ -12,16 +12,16 @@ namespace lightwalk {
 
 struct PictureFacts {
     std::vector<std::string> scene_lines;  ///< history of the scene (an octree's header lines)
-    std::string command;                   ///< command line as one history line (history_line of option_words.h)
-    std::string software;                  ///< name and version of the writing program
-    std::optional<int> frame;              ///< number in a sequence
+    std::string command;   ///< command line as one history line (history_line of option_words.h)
+    std::string software;  ///< name and version of the writing program
+    std::optional<int> frame;  ///< number in a sequence
     View view;
-    double pixel_aspect = 1;               ///< height / width; said only when it is not about 1
-    std::time_t time = 0;                  ///< of creation
+    double pixel_aspect = 1;  ///< height / width; said only when it is not about 1
+    std::time_t time = 0;     ///< of creation
 };
 
-/// Lines from the scene's history to PRIMARIES; empty texts are left out. Local time as of the environment.
-/// Source: Radiance's file format guide, "picture file headers"; manual page rpict(1).
+/// Lines from the scene's history to PRIMARIES; empty texts are left out. Local time as of the
+/// environment. Source: Radiance's file format guide, "picture file headers"; manual page rpict(1).
 [[nodiscard]] PictureHeader make_picture_header(const PictureFacts& facts);
 
 }  // namespace lightwalk

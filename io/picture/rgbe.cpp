@@ -28,13 +28,16 @@ Rgbe encode_rgbe(const Rgb& color) {
     int exponent = 127;
     if (largest < kBrightest) (void)std::frexp(largest, &exponent);
     const double scale = std::ldexp(1.0, 8 - exponent);
-    return {mantissa(r, scale), mantissa(g, scale), mantissa(b, scale), static_cast<unsigned char>(exponent + 128)};
+    return {mantissa(r, scale), mantissa(g, scale), mantissa(b, scale),
+            static_cast<unsigned char>(exponent + 128)};
 }
 
 Rgb decode_rgbe(const Rgbe& pixel) {
     if (pixel.e == 0) return {};
-    const auto scale = std::bit_cast<double>(std::uint64_t{pixel.e + 1023u - 136u} << 52);  // 2^(e - 136)
-    return {static_cast<float>((pixel.r + 0.5) * scale), static_cast<float>((pixel.g + 0.5) * scale),
+    const auto scale =
+        std::bit_cast<double>(std::uint64_t{pixel.e + 1023u - 136u} << 52);  // 2^(e - 136)
+    return {static_cast<float>((pixel.r + 0.5) * scale),
+            static_cast<float>((pixel.g + 0.5) * scale),
             static_cast<float>((pixel.b + 0.5) * scale)};
 }
 

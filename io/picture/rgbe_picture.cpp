@@ -21,7 +21,7 @@ InputError bad_picture(const std::string& name, const std::string& problem) {
 /// Size and order of the scanlines. x counts to the right, y upward.
 struct Resolution {
     int width = 0, height = 0;
-    bool columns = false;                    ///< scanlines are columns
+    bool columns = false;  ///< scanlines are columns
     bool x_falling = false, y_falling = false;
 
     [[nodiscard]] int scanlines() const { return columns ? width : height; }
@@ -43,14 +43,16 @@ int axis_size(std::string_view line, std::size_t at) {
 Resolution take_resolution(std::string_view& bytes, const std::string& name) {
     const std::string_view line = take_line(bytes);
     const std::size_t x = line.find('X'), y = line.find('Y');
-    if (line.size() > kLongestResolution || x == std::string_view::npos || y == std::string_view::npos) {
+    if (line.size() > kLongestResolution || x == std::string_view::npos ||
+        y == std::string_view::npos) {
         throw bad_picture(name, "no resolution line");
     }
     Resolution resolution;
     resolution.width = axis_size(line, x);
     resolution.height = axis_size(line, y);
     if (resolution.width < 1 || resolution.height < 1) {
-        throw bad_picture(name, "bad resolution \"" + std::string(line) + "\", expected two positive sizes");
+        throw bad_picture(
+            name, "bad resolution \"" + std::string(line) + "\", expected two positive sizes");
     }
     resolution.columns = x < y;
     resolution.x_falling = x > 0 && line[x - 1] == '-';
@@ -59,15 +61,18 @@ Resolution take_resolution(std::string_view& bytes, const std::string& name) {
 }
 
 /// Scanlines in stored order. A scanline has at least four bytes.
-std::vector<Rgbe> take_scanlines(std::string_view bytes, const Resolution& resolution, const std::string& name) {
+std::vector<Rgbe> take_scanlines(std::string_view bytes, const Resolution& resolution,
+                                 const std::string& name) {
     const auto scanlines = static_cast<std::size_t>(resolution.scanlines());
     const auto length = static_cast<std::size_t>(resolution.length());
     if (scanlines > bytes.size() / 4) {
-        throw bad_picture(name, "the data end before scanline " + std::to_string(bytes.size() / 4 + 1) + " of " +
+        throw bad_picture(name, "the data end before scanline " +
+                                    std::to_string(bytes.size() / 4 + 1) + " of " +
                                     std::to_string(scanlines));
     }
     if (length > (kPixelsAlwaysAllowed + kPixelsPerByte * bytes.size()) / scanlines) {
-        throw bad_picture(name, std::to_string(resolution.width) + " x " + std::to_string(resolution.height) +
+        throw bad_picture(name, std::to_string(resolution.width) + " x " +
+                                    std::to_string(resolution.height) +
                                     " pixels are too many for a file of its size");
     }
     std::vector<Rgbe> pixels;
@@ -86,12 +91,14 @@ std::vector<Rgbe> take_scanlines(std::string_view bytes, const Resolution& resol
 std::vector<Rgbe> upright(std::vector<Rgbe> stored, const Resolution& resolution) {
     if (resolution.standard()) return stored;
     std::vector<Rgbe> pixels(stored.size());
-    const auto width = static_cast<std::size_t>(resolution.width), height = static_cast<std::size_t>(resolution.height);
+    const auto width = static_cast<std::size_t>(resolution.width),
+               height = static_cast<std::size_t>(resolution.height);
     for (std::size_t row = 0; row < height; ++row) {
         const std::size_t y = resolution.y_falling ? row : height - 1 - row;
         for (std::size_t column = 0; column < width; ++column) {
             const std::size_t x = resolution.x_falling ? width - 1 - column : column;
-            pixels[row * width + column] = resolution.columns ? stored[x * height + y] : stored[y * width + x];
+            pixels[row * width + column] =
+                resolution.columns ? stored[x * height + y] : stored[y * width + x];
         }
     }
     return pixels;
@@ -114,16 +121,20 @@ RgbePicture decode_rgbe_picture(std::string_view bytes, const std::string& name,
     return picture;
 }
 
-double header_product(const InfoHeader& header, std::string_view variable, const std::string& name) {
+double header_product(const InfoHeader& header, std::string_view variable,
+                      const std::string& name) {
     double product = 1;
     for (const std::string& line : header.lines) {
         std::optional<std::string_view> value = header_variable(line, variable);
         if (!value) continue;
         double factor = 0;
-        if (parse_real(take_word(*value), factor)) product *= factor;
-        else product = 0;
+        if (parse_real(take_word(*value), factor))
+            product *= factor;
+        else
+            product = 0;
         if (!(product > 0 && std::isfinite(product))) {
-            throw bad_picture(name, "header line \"" + line.substr(0, 80) + "\", expected a positive number");
+            throw bad_picture(
+                name, "header line \"" + line.substr(0, 80) + "\", expected a positive number");
         }
     }
     return product;

@@ -14,11 +14,14 @@ constexpr std::size_t kShortestRun = 4, kLongestRun = 127, kLongestLiteral = 128
 constexpr int kMostRepeatBytes = 4;
 constexpr std::array<unsigned char Rgbe::*, 4> kComponents{&Rgbe::r, &Rgbe::g, &Rgbe::b, &Rgbe::e};
 
-void put(std::string& out, std::size_t byte) { out.push_back(static_cast<char>(byte)); }
+void put(std::string& out, std::size_t byte) {
+    out.push_back(static_cast<char>(byte));
+}
 
 /// Bytes without long runs. Two or three equal ones are cheaper as a run.
 void put_literal(std::string_view bytes, std::string& out) {
-    const bool equal = std::all_of(bytes.begin(), bytes.end(), [&](char c) { return c == bytes.front(); });
+    const bool equal =
+        std::all_of(bytes.begin(), bytes.end(), [&](char c) { return c == bytes.front(); });
     if (equal && (bytes.size() == 2 || bytes.size() == 3)) {
         put(out, 128 + bytes.size());
         out.push_back(bytes.front());
@@ -89,7 +92,8 @@ void decode_components(std::string_view& bytes, std::span<Rgbe> pixels) {
     }
 }
 
-/// Pixels as they are, but 1 1 1 k repeats the one before it k times; directly following ones count in 256s.
+/// Pixels as they are, but 1 1 1 k repeats the one before it k times; directly following ones count
+/// in 256s.
 void decode_pixels(std::string_view& bytes, const Rgbe& first, std::span<Rgbe> pixels) {
     pixels[0] = first;
     int repeats = 0;

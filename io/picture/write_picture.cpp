@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "io/formats/decode.h"
 #include "io/picture/picture.h"
 
 namespace lightwalk {
@@ -15,8 +16,9 @@ constexpr int kJpegQuality = 95;
 
 std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+    });
     return extension;
 }
 
@@ -41,13 +43,20 @@ std::vector<unsigned char> encode_image(const std::string& path, const std::stri
 
 void write_exr(const std::string& path, const Picture& picture, const PictureHeader& header) {
     OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeFloat);
-    constexpr std::array<float, 8> kPrimaries{0.64f, 0.33f, 0.29f, 0.6f, 0.15f, 0.06f, 1 / 3.0f, 1 / 3.0f};
+    constexpr std::array<float, 8> kPrimaries{0.64f, 0.33f, 0.29f,    0.6f,
+                                              0.15f, 0.06f, 1 / 3.0f, 1 / 3.0f};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kPrimaries.data());
     std::string history;
-    for (const std::string& line : header.lines) history += line + '\n';
+    for (const std::string& line : header.lines) {
+        history += line + '\n';
+        if (const auto date = header_variable(line, "CAPDATE")) {
+            spec.attribute("DateTime", std::string(*date));  // else OpenImageIO writes its own
+        }
+    }
     spec.attribute("comments", history);
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    write_file_atomically(path, characters(encode_image(path, "openexr", spec, picture.pixels.data())));
+    write_file_atomically(path,
+                          characters(encode_image(path, "openexr", spec, picture.pixels.data())));
 }
 
 void write_display_image(const std::string& path, const std::string& format, const Picture& picture,
@@ -84,7 +93,8 @@ void write_picture(const std::string& path, const Picture& picture, const Pictur
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth) {
     assert(depth.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     if (extension_of(path) != ".exr") {
-        write_file_atomically(path, {reinterpret_cast<const char*>(depth.data()), depth.size() * sizeof(float)});
+        write_file_atomically(
+            path, {reinterpret_cast<const char*>(depth.data()), depth.size() * sizeof(float)});
         return;
     }
     OIIO::ImageSpec spec(width, height, 1, OIIO::TypeFloat);

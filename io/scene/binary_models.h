@@ -10,8 +10,8 @@
 
 namespace lightwalk {
 
-/// What an octree file says: its objects (frozen), or the scene files it was made from. The tree itself is
-/// checked and skipped: Lightwalk builds its own acceleration structure.
+/// What an octree file says: its objects (frozen), or the scene files it was made from. The tree
+/// itself is checked and skipped: Lightwalk builds its own acceleration structure.
 struct OctreeContents {
     std::vector<std::string> scene_files;  ///< empty when frozen
     std::uint64_t objects = 0;             ///< how many primitives it was made from

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/scene/transform_args.h"
 
@@ -36,17 +37,16 @@ PrimitiveType type_of(BinaryReader& reader, const TypeTable& table, std::int64_t
     return *table.types[at];
 }
 
-Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type,
-                      const std::vector<std::int32_t>& numbers) {
+Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type, std::size_t number) {
     Primitive object;
     object.type = type;
     object.where = {reader.name(), 0};
     const std::int64_t modifier = reader.integer(id_size);
-    if (modifier < -1 || modifier >= static_cast<std::int64_t>(numbers.size())) {
-        reader.fail("object " + std::to_string(numbers.size()) + " has modifier number " +
+    if (modifier < -1 || modifier >= static_cast<std::int64_t>(number)) {
+        reader.fail("object " + std::to_string(number) + " has modifier number " +
                     std::to_string(modifier) + ", expected that of an earlier object");
     }
-    if (modifier >= 0) object.modifier = numbers[static_cast<std::size_t>(modifier)];
+    object.modifier = static_cast<std::int32_t>(modifier);
     object.name = reader.string();
     const std::uint64_t strings = reader.unsigned_integer(2);
     reader.expect(strings, 1);
@@ -60,11 +60,15 @@ Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type,
 }
 
 /// An alias without a string renames its modifier; with one it is an alias of the scene language.
-std::int32_t add_object(ModelBuilder& builder, Primitive object) {
-    if (object.type != PrimitiveType::alias) return builder.add(std::move(object));
-    if (object.strings.empty()) return builder.rename(object.name, object.modifier, object.where);
-    const std::int32_t target = builder.alias_target(object.strings[0], object.where);
-    return builder.add_alias(object.modifier, object.name, target, object.where);
+void add_object(ModelBuilder& builder, Primitive object) {
+    if (object.type != PrimitiveType::alias) {
+        builder.add(std::move(object));
+    } else if (object.strings.empty()) {
+        builder.rename(object.name, object.modifier, object.where);
+    } else {
+        const std::int32_t target = builder.alias_target(object.strings[0], object.where);
+        builder.add_alias(object.modifier, object.name, target, object.where);
+    }
 }
 
 }  // namespace
@@ -73,7 +77,8 @@ ModelCube read_cube(BinaryReader& reader) {
     double values[4] = {};
     for (double& value : values) {
         const std::string text = reader.string();
-        if (!parse_real(text, value)) reader.fail("bad bounding cube: \"" + text + "\" is no number");
+        if (!parse_real(text, value))
+            reader.fail("bad bounding cube: \"" + text + "\" is no number");
     }
     return {values[0], values[1], values[2], values[3]};
 }
@@ -82,7 +87,9 @@ std::uint64_t skip_tree(BinaryReader& reader, int id_size) {
     std::uint64_t nodes = 0;
     for (std::uint64_t open = 1; open > 0; ++nodes) {
         switch (reader.unsigned_integer(1)) {
-            case 0: --open; break;
+            case 0:
+                --open;
+                break;
             case 1: {
                 const std::int64_t count = reader.integer(id_size);
                 if (count < 1 || count > kLargestLeaf) {
@@ -92,21 +99,22 @@ std::uint64_t skip_tree(BinaryReader& reader, int id_size) {
                 --open;
                 break;
             }
-            case 2: open += 7; break;
-            default: reader.fail("damaged tree: unknown node tag");
+            case 2:
+                open += 7;
+                break;
+            default:
+                reader.fail("damaged tree: unknown node tag");
         }
     }
     return nodes;
 }
 
-std::vector<std::int32_t> read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder) {
+void read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder) {
     const TypeTable table = read_type_table(reader);
-    std::vector<std::int32_t> numbers;
     for (std::int64_t type = reader.integer(1); type != -1; type = reader.integer(1)) {
-        Primitive object = read_object(reader, id_size, type_of(reader, table, type), numbers);
-        numbers.push_back(add_object(builder, std::move(object)));
+        const PrimitiveType known = type_of(reader, table, type);
+        add_object(builder, read_object(reader, id_size, known, builder.primitives().size()));
     }
-    return numbers;
 }
 
 }  // namespace lightwalk

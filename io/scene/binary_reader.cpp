@@ -4,7 +4,9 @@
 
 namespace lightwalk {
 
-void BinaryReader::fail(const std::string& what) const { throw InputError({name_, 0}, what); }
+void BinaryReader::fail(const std::string& what) const {
+    throw InputError({name_, 0}, what);
+}
 
 void BinaryReader::expect(std::uint64_t count, std::size_t size) {
     if (count > remaining() / size) fail("truncated " + kind_);

@@ -20,12 +20,14 @@ class BinaryReader {
     /// Most significant byte first, two's complement; `size` is 1 to 8 bytes.
     [[nodiscard]] std::int64_t integer(int size);
     [[nodiscard]] std::uint64_t unsigned_integer(int size);
-    /// (m ± 0.5) / 2147483647 · 2^e, from a 4-byte mantissa m with a sign and a 1-byte exponent e; 0 for m = 0.
+    /// (m ± 0.5) / 2147483647 · 2^e, from a 4-byte mantissa m with a sign and a 1-byte exponent e;
+    /// 0 for m = 0.
     [[nodiscard]] double real();
     [[nodiscard]] std::string string();
     void skip(std::uint64_t count);
 
-    /// Throws unless `count` more values of at least `size` bytes each can follow: a bound for what is allocated.
+    /// Throws unless `count` more values of at least `size` bytes each can follow: a bound for what
+    /// is allocated.
     void expect(std::uint64_t count, std::size_t size);
     [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
     [[noreturn]] void fail(const std::string& what) const;

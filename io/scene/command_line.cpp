@@ -149,6 +149,7 @@ std::vector<std::string> matches_of(const std::string& pattern, const std::strin
     const std::size_t prefix = path_from(directory, pattern).size() - pattern.size();
     glob_t found{};
     std::vector<std::string> names;
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): a scene is read by one thread
     if (glob(full.c_str(), 0, nullptr, &found) == 0) {
         for (std::size_t i = 0; i < found.gl_pathc; ++i) {
             names.push_back(std::string(found.gl_pathv[i]).substr(prefix));
@@ -164,7 +165,8 @@ std::optional<std::vector<Pipeline>> split_command(std::string_view text) {
     return CommandSplitter(text).split();
 }
 
-std::vector<std::string> expand_patterns(const SimpleCommand& command, const std::string& directory) {
+std::vector<std::string> expand_patterns(const SimpleCommand& command,
+                                         const std::string& directory) {
     std::vector<std::string> words;
     for (const CommandWord& word : command) {
         std::vector<std::string> names;

@@ -14,12 +14,12 @@ struct CommandWord {
 using SimpleCommand = std::vector<CommandWord>;  ///< a program and its arguments; never empty
 using Pipeline = std::vector<SimpleCommand>;     ///< each one's output is the next one's input
 
-/// Split a command as sh(1) does. Nothing when it needs a real shell: redirections, variables, command
-/// substitution, conditions, groups, or a syntax error.
+/// Split a command as sh(1) does. Nothing when it needs a real shell: redirections, variables,
+/// command substitution, conditions, groups, or a syntax error.
 [[nodiscard]] std::optional<std::vector<Pipeline>> split_command(std::string_view text);
 
-/// The words with patterns replaced by the names that match in `directory`, sorted; a pattern without a match
-/// stays as it is.
+/// The words with patterns replaced by the names that match in `directory`, sorted; a pattern
+/// without a match stays as it is.
 [[nodiscard]] std::vector<std::string> expand_patterns(const SimpleCommand& command,
                                                        const std::string& directory);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMaxDepth = 64;
 /// A scene's commands together, nested ones included.
 constexpr std::size_t kMaxCommands = std::size_t{1} << 20;
-constexpr std::size_t kMaxBytes = 8 * kMaxGeneratedBytes;
+constexpr std::size_t kMaxBytes = 2 * kMaxGeneratedBytes;
 constexpr std::size_t kLongestInMessage = 60;
 
 std::string_view without_mark(const std::string& command) {
@@ -31,7 +31,9 @@ std::string run_cat(std::span<const std::string> args, GeneratorContext& context
         if (name == "-") {
             output += context.input;
         } else {
-            output += read_file(path_from(context.directory, name), kMaxGeneratedBytes);
+            const std::string path = path_from(context.directory, name);
+            if (!is_readable_file(path)) throw InputError("cat: cannot open " + path);
+            output += read_file(path, kMaxGeneratedBytes);
         }
         if (output.size() > kMaxGeneratedBytes) throw InputError("cat: too much output");
     }
@@ -55,8 +57,10 @@ std::optional<std::string> unknown_program(const std::vector<Pipeline>& pipeline
 std::string shell_quoted(const std::string& word) {
     std::string result = "'";
     for (const char c : word) {
-        if (c == '\'') result += "'\\''";
-        else result.push_back(c);
+        if (c == '\'')
+            result += "'\\''";
+        else
+            result.push_back(c);
     }
     return result + "'";
 }
@@ -80,7 +84,8 @@ std::string abbreviate_command(const std::string& command) {
 }
 
 void CommandRunner::charge(std::size_t bytes, const SourceLocation& where) {
-    if (bytes > kMaxBytes - bytes_) throw CommandError(where, "the scene's commands write too much");
+    if (bytes > kMaxBytes - bytes_)
+        throw CommandError(where, "the scene's commands write too much");
     bytes_ += bytes;
 }
 
@@ -100,8 +105,9 @@ std::string CommandRunner::run(const std::string& command, const std::string& di
     } else if (allow_commands_) {
         output = run_shell(std::string(without_mark(command)), directory, where);
     } else if (pipelines) {
-        throw CommandError(where, "command \"" + *unknown_program(*pipelines) +
-                                      "\" is not built in; --allow-commands runs it through the shell");
+        throw CommandError(where,
+                           "command \"" + *unknown_program(*pipelines) +
+                               "\" is not built in; --allow-commands runs it through the shell");
     } else {
         throw CommandError(where, "\"" + abbreviate_command(command) +
                                       "\" needs a shell; --allow-commands runs it through one");
@@ -124,11 +130,13 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
             std::string written;
             try {
                 written = run_program(words, context);
-            } catch (const CommandError&) {
-                throw;
+            } catch (const CommandError& error) {
+                const std::string prefix = to_prefix(where);
+                if (std::string_view(error.what()).starts_with(prefix)) throw;
+                throw CommandError(where, error.what());
             } catch (const InputError& error) {
-                warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
-                               "\": " + error.what());
+                warnings_.warn(to_prefix(where) + "bad status from \"" +
+                               abbreviate_command(command) + "\": " + error.what());
             }
             charge(written.size(), where);
             context.input = std::move(written);
@@ -163,7 +171,8 @@ std::string CommandRunner::run_shell(const std::string& command, const std::stri
         throw CommandError(where, "\"" + abbreviate_command(command) + "\" writes too much");
     }
     if (status != 0) {
-        warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) + "\"");
+        warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
+                       "\"");
     }
     return output;
 }

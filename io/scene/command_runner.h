@@ -1,7 +1,9 @@
 #pragma once
-// Runs the `!` commands of scenes: by built-in generators, or through the shell where that is allowed.
+// Runs the `!` commands of scenes: by built-in generators, or through the shell where that is
+// allowed.
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -11,7 +13,8 @@
 
 namespace lightwalk {
 
-/// A command that cannot be run at all, or runs away; unlike a command that fails, it ends the reading.
+/// A command that cannot be run at all, or runs away; unlike a command that fails, it ends the
+/// reading.
 class CommandError : public InputError {
   public:
     using InputError::InputError;
@@ -23,16 +26,17 @@ class CommandRunner {
     CommandRunner(LibraryPath library, bool allow_commands, WarningSink& warnings)
         : library_(std::move(library)), allow_commands_(allow_commands), warnings_(warnings) {}
 
-    /// Output of `command`, which may begin with '!', run in `directory` ("" is the process's) with an empty
-    /// standard input. A command that fails gives the warning "bad status from ..."; what it wrote is kept.
-    /// Throws CommandError for programs that are not built in (unless commands are allowed), and for commands
-    /// that nest without end or write too much.
+    /// Output of `command`, which may begin with '!', run in `directory` ("" is the process's) with
+    /// an empty standard input. A command that fails gives the warning "bad status from ..."; what
+    /// it wrote is kept. Throws CommandError for programs that are not built in (unless commands
+    /// are allowed), and for commands that nest without end or write too much.
     [[nodiscard]] std::string run(const std::string& command, const std::string& directory,
                                   const SourceLocation& where);
 
   private:
     [[nodiscard]] std::string run_pipelines(const std::vector<Pipeline>& pipelines,
-                                            const std::string& command, const std::string& directory,
+                                            const std::string& command,
+                                            const std::string& directory,
                                             const SourceLocation& where);
     [[nodiscard]] std::string run_program(const SimpleCommand& words, GeneratorContext& context);
     [[nodiscard]] std::string run_shell(const std::string& command, const std::string& directory,

@@ -11,7 +11,8 @@ constexpr unsigned kFieldMask = 0x1fff;
 constexpr unsigned kFirstIsX = 1U << 3, kSecondIsZ = 1U << 4;
 constexpr unsigned kFirstShift = 5, kSecondShift = 18;
 
-/// Magnitude in steps of the code; anything that does not fit its field becomes the largest that does.
+/// Magnitude in steps of the code; anything that does not fit its field becomes the largest that
+/// does.
 unsigned quantize(double component) {
     const double steps = kFieldScale * std::abs(component) + 0.5;
     return steps < kFieldMask * 2.0 ? static_cast<unsigned>(steps) : kFieldMask;

@@ -6,9 +6,10 @@
 
 namespace lightwalk {
 
-/// Bits 0-2: x, y, z negative. Bit 3: the first field holds |x| (else |y|). Bit 4: the second holds |z| (else the
-/// larger of |x| and |y|). Bits 5-17 and 18-30: the fields, magnitudes times 11584.5; the third follows from
-/// the length 1. Exact to about 0.006 degrees. The zero vector has code 0, no direction has.
+/// Bits 0-2: x, y, z negative. Bit 3: the first field holds |x| (else |y|). Bit 4: the second holds
+/// |z| (else the larger of |x| and |y|). Bits 5-17 and 18-30: the fields, magnitudes times 11584.5;
+/// the third follows from the length 1. Exact to about 0.006 degrees. The zero vector has code 0,
+/// no direction has.
 [[nodiscard]] std::uint32_t encode_direction(const Vec3& unit);
 /// Every code is legal; damaged ones give finite vectors.
 [[nodiscard]] Vec3 decode_direction(std::uint32_t code);

@@ -26,14 +26,17 @@ struct Patch {
     std::uint32_t first = 0, count = 0;
 };
 
-/// A triangle whose corners may lie in patches that are not read yet: vertex ids, patch · 256 + index.
+/// A triangle whose corners may lie in patches that are not read yet: vertex ids, patch · 256 +
+/// index.
 struct RawTriangle {
     std::array<std::uint64_t, 3> corner{};
     std::int32_t material = kVoidIndex;
 };
 
 /// A coordinate code c stands for the middle of its cell, (c + 0.5) / 2^32 of the range.
-double fraction_of(std::uint64_t code) { return (static_cast<double>(code) + 0.5) / 4294967296.0; }
+double fraction_of(std::uint64_t code) {
+    return (static_cast<double>(code) + 0.5) / 4294967296.0;
+}
 
 class MeshDecoder {
   public:
@@ -58,9 +61,10 @@ class MeshDecoder {
   private:
     void read_materials(int id_size) {
         ModelBuilder builder;
-        material_numbers_ = read_objects(reader_, id_size, builder);
+        read_objects(reader_, id_size, builder);
         for (const Primitive& object : builder.primitives()) {
-            if (is_surface(object.type)) reader_.fail("non-modifier \"" + object.name + "\" in mesh");
+            if (is_surface(object.type))
+                reader_.fail("non-modifier \"" + object.name + "\" in mesh");
         }
         mesh_.materials = std::move(*builder.take());
     }
@@ -187,11 +191,12 @@ class MeshDecoder {
     }
 
     std::int32_t material_index(std::int32_t number) const {
-        if (material_numbers_.empty()) return kVoidIndex;
-        if (number < 0 || static_cast<std::size_t>(number) >= material_numbers_.size()) {
+        const std::size_t count = mesh_.materials.primitives.size();
+        if (count == 0) return kVoidIndex;
+        if (number < 0 || static_cast<std::size_t>(number) >= count) {
             reader_.fail("bad triangle material " + std::to_string(number));
         }
-        return material_numbers_[static_cast<std::size_t>(number)];
+        return number;
     }
 
     void add_triangle(const RawTriangle& raw) {
@@ -218,7 +223,6 @@ class MeshDecoder {
     BinaryReader reader_;
     ModelCube cube_;
     std::array<double, 4> uv_range_{};  ///< u_min, u_max, v_min, v_max
-    std::vector<std::int32_t> material_numbers_;
     std::vector<Patch> patches_;
     std::vector<RawTriangle> raw_;
     std::vector<bool> has_normal_, has_uv_;

@@ -49,7 +49,8 @@ OctreeContents decode_octree(std::string_view bytes, const std::string& name) {
     if (!contents.scene_files.empty()) return contents;
 
     ModelBuilder builder;
-    const std::size_t objects = read_objects(reader, size, builder).size();
+    read_objects(reader, size, builder);
+    const std::size_t objects = builder.primitives().size();
     if (objects < contents.objects) {
         reader.fail("holds " + std::to_string(objects) + " objects, expected " +
                     std::to_string(contents.objects));

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/scene/model_builder.h"
 #include "core/scene/transform_args.h"
@@ -13,7 +14,9 @@ namespace lightwalk {
 namespace {
 
 /// The next word, or an empty one at the end of the text.
-std::string next_word(SceneTokenizer& tokens) { return tokens.word().value_or(std::string()); }
+std::string next_word(SceneTokenizer& tokens) {
+    return tokens.word().value_or(std::string());
+}
 
 [[noreturn]] void bad_arguments(const PrimitiveText& primitive, const std::string& expected,
                                 const std::optional<std::string>& found) {
@@ -22,12 +25,13 @@ std::string next_word(SceneTokenizer& tokens) { return tokens.word().value_or(st
                                           (found ? "\"" + *found + "\"" : "the end of the text"));
 }
 
+/// A count of `what`, at most `most`.
 std::size_t read_count(SceneTokenizer& tokens, const PrimitiveText& primitive,
-                       const std::string& what) {
+                       const std::string& what, long most = std::numeric_limits<long>::max()) {
     const std::optional<std::string> word = tokens.word();
     long count = 0;
-    if (!word || !parse_integer(*word, count) || count < 0) {
-        bad_arguments(primitive, "the number of " + what, word);
+    if (!word || !parse_integer(*word, count) || count < 0 || count > most) {
+        bad_arguments(primitive, what, word);
     }
     return static_cast<std::size_t>(count);
 }
@@ -40,7 +44,8 @@ void append_real(double value, int digits, std::string& out) {
     out.append(text.data(), result.ptr);
 }
 
-/// The word, in quotes if it needs them. The language knows no escapes: each quote goes into the other kind.
+/// The word, in quotes if it needs them. The language knows no escapes: each quote goes into the
+/// other kind.
 void append_word(const std::string& word, std::string& out) {
     if (word.empty()) {
         out += "\"\"";
@@ -93,15 +98,15 @@ void read_primitive_arguments(SceneTokenizer& tokens, PrimitiveText& primitive) 
         primitive.strings.push_back(std::move(*target));
         return;
     }
-    for (std::size_t left = read_count(tokens, primitive, "strings"); left > 0; --left) {
+    for (std::size_t left = read_count(tokens, primitive, "the number of strings"); left > 0;
+         --left) {
         std::optional<std::string> word = tokens.word();
         if (!word) bad_arguments(primitive, std::to_string(left) + " more strings", word);
         primitive.strings.push_back(std::move(*word));
     }
-    if (read_count(tokens, primitive, "integers") != 0) {
-        bad_arguments(primitive, "0 integers", "another count");
-    }
-    for (std::size_t left = read_count(tokens, primitive, "numbers"); left > 0; --left) {
+    read_count(tokens, primitive, "0 integers", 0);
+    for (std::size_t left = read_count(tokens, primitive, "the number of numbers"); left > 0;
+         --left) {
         const std::optional<std::string> word = tokens.word();
         double value = 0;
         if (!word || !parse_real(*word, value)) {

@@ -38,8 +38,8 @@ void read_primitive_arguments(SceneTokenizer& tokens, PrimitiveText& primitive);
 /// How `write_primitive` rounds numbers: significant decimal digits.
 inline constexpr int kFullDigits = 12;
 
-/// Append the primitive as scene text, numbers with `digits` significant digits, words quoted where they must
-/// be. Throws InputError for a number that is not finite.
+/// Append the primitive as scene text, numbers with `digits` significant digits, words quoted where
+/// they must be. Throws InputError for a number that is not finite.
 void write_primitive(const PrimitiveText& primitive, int digits, std::string& out);
 
 }  // namespace lightwalk

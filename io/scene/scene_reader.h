@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/scene/primitive.h"
 #include "io/library_path.h"
@@ -12,15 +13,29 @@ namespace lightwalk {
 struct SceneReadOptions {
     LibraryPath library = LibraryPath::from_environment();
     bool allow_commands = false;  ///< run commands that no generator replaces through the shell
+    /// Working directory for scene files, commands and relative elements of `library`; "" is the
+    /// process's.
+    std::string directory = {};
 };
 
-/// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-" is standard
-/// input, "!words" a command. Throws InputError "file:line: what is wrong". Warnings follow Radiance's rules.
+/// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-"
+/// is standard input, "!words" a command. Throws InputError "file:line: what is wrong". Warnings
+/// follow Radiance's rules.
 [[nodiscard]] std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
-                                                      const SceneReadOptions& options, WarningSink& warnings);
+                                                      const SceneReadOptions& options,
+                                                      WarningSink& warnings);
 
 /// Parse scene text that is in memory, for tests and tools.
-[[nodiscard]] std::shared_ptr<const Model> parse_scene(std::string_view text, const std::string& name,
-                                                       const SceneReadOptions& options, WarningSink& warnings);
+[[nodiscard]] std::shared_ptr<const Model> parse_scene(std::string_view text,
+                                                       const std::string& name,
+                                                       const SceneReadOptions& options,
+                                                       WarningSink& warnings);
+
+/// The model of an octree whose bytes are in memory; the scene files of one that is not frozen are
+/// read.
+[[nodiscard]] std::shared_ptr<const Model> read_octree(std::string_view bytes,
+                                                       const std::string& name,
+                                                       const SceneReadOptions& options,
+                                                       WarningSink& warnings);
 
 }  // namespace lightwalk

@@ -7,7 +7,9 @@ namespace {
 
 constexpr std::size_t kLongestWord = std::size_t{64} << 10;
 
-constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+constexpr bool is_space(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 }  // namespace
 

@@ -20,9 +20,11 @@ class SceneTokenizer {
     /// Skip white space and tell what begins here; does not consume it.
     [[nodiscard]] Item peek();
     std::string_view comment();  ///< consume the rest of the line, '#' included
-    /// Consume to the end of the line, '!' included. Backslash-newline does not end it; both characters are kept.
+    /// Consume to the end of the line, '!' included. Backslash-newline does not end it; both
+    /// characters are kept.
     [[nodiscard]] std::string command();
-    /// Next word with quotes removed; nothing at the end of the text. Words longer than 64 KiB are an InputError.
+    /// Next word with quotes removed; nothing at the end of the text. Words longer than 64 KiB are
+    /// an InputError.
     [[nodiscard]] std::optional<std::string> word();
     [[nodiscard]] const SourceLocation& where() const { return where_; }
 

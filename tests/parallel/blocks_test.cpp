@@ -26,7 +26,8 @@ TEST_CASE("blocks cover every pixel of a picture exactly once") {
                 CHECK(block.x0 % side == 0);
                 CHECK(block.y0 % side == 0);
                 for (int y = block.y0; y < block.y1; ++y) {
-                    for (int x = block.x0; x < block.x1; ++x) ++covered[static_cast<std::size_t>(y * size.width + x)];
+                    for (int x = block.x0; x < block.x1; ++x)
+                        ++covered[static_cast<std::size_t>(y * size.width + x)];
                 }
             }
             CHECK(std::all_of(covered.begin(), covered.end(), [](int n) { return n == 1; }));
@@ -43,7 +44,8 @@ TEST_CASE("early blocks are spread over the picture: any tenth of them touches a
     for (std::size_t first = 0; first + tenth <= blocks.size(); first += tenth) {
         std::vector<int> quarters(4);
         for (std::size_t i = first; i < first + tenth; ++i) {
-            ++quarters[static_cast<std::size_t>((blocks[i].x0 >= size / 2 ? 1 : 0) + (blocks[i].y0 >= size / 2 ? 2 : 0))];
+            ++quarters[static_cast<std::size_t>((blocks[i].x0 >= size / 2 ? 1 : 0) +
+                                                (blocks[i].y0 >= size / 2 ? 2 : 0))];
         }
         CHECK(*std::min_element(quarters.begin(), quarters.end()) > 0);
     }

@@ -18,8 +18,11 @@ struct Kind {
     ExecutorKind kind;
     int workers;
 };
-const std::vector<Kind> kKinds{{ExecutorKind::serial, 1}, {ExecutorKind::threads, 1}, {ExecutorKind::threads, 7},
-                               {ExecutorKind::tbb, 1},    {ExecutorKind::tbb, 7}};
+const std::vector<Kind> kKinds{{ExecutorKind::serial, 1},
+                               {ExecutorKind::threads, 1},
+                               {ExecutorKind::threads, 7},
+                               {kDefaultExecutor, 1},
+                               {kDefaultExecutor, 7}};
 
 }  // namespace
 
@@ -36,7 +39,8 @@ TEST_CASE("every executor runs each task exactly once, on a worker that exists")
                 if (worker < 0 || worker >= executor->concurrency()) workers_exist = false;
             });
             CHECK(workers_exist);
-            CHECK(std::all_of(runs.begin(), runs.end(), [](const std::atomic<int>& n) { return n == 1; }));
+            CHECK(std::all_of(runs.begin(), runs.end(),
+                              [](const std::atomic<int>& n) { return n == 1; }));
         }
     }
 }
@@ -59,11 +63,14 @@ TEST_CASE("no two tasks run with the same worker at the same time") {
 
 TEST_CASE("the serial executor keeps the order of tasks") {
     std::vector<std::size_t> order;
-    make_executor(ExecutorKind::serial, 5)->for_each(4, [&](std::size_t i, int) { order.push_back(i); });
+    make_executor(ExecutorKind::serial, 5)->for_each(4, [&](std::size_t i, int) {
+        order.push_back(i);
+    });
     CHECK(order == std::vector<std::size_t>{0, 1, 2, 3});
 }
 
-TEST_CASE("an exception in a task comes out of for_each, ends the rest, and leaves the executor usable") {
+TEST_CASE(
+    "an exception in a task comes out of for_each, ends the rest, and leaves the executor usable") {
     for (const Kind& k : kKinds) {
         CAPTURE(static_cast<int>(k.kind));
         const std::unique_ptr<Executor> executor = make_executor(k.kind, k.workers);

@@ -39,7 +39,8 @@ TEST_CASE("without jitter a pixel's ray goes through its centre") {
     CHECK(rays.pinhole());
 }
 
-TEST_CASE("jitter J spreads rays uniformly over the pixel's middle J, each pixel with its own numbers") {
+TEST_CASE(
+    "jitter J spreads rays uniformly over the pixel's middle J, each pixel with its own numbers") {
     const Camera camera(view('l'));  // parallel: the origin tells the place
     const int size = 100;
     const double jitter = 0.5;
@@ -64,7 +65,8 @@ TEST_CASE("jitter J spreads rays uniformly over the pixel's middle J, each pixel
     // Uniform over a width J: mean 0, variance J²/12, each within 5 standard errors.
     const double variance = jitter * jitter / 12;
     CHECK(std::abs(sum / n) < 5 * std::sqrt(variance / n));
-    CHECK(std::abs(squares / n - variance) < 5 * std::sqrt((jitter * jitter * jitter * jitter / 80 - variance * variance) / n));
+    CHECK(std::abs(squares / n - variance) <
+          5 * std::sqrt((jitter * jitter * jitter * jitter / 80 - variance * variance) / n));
 }
 
 TEST_CASE("a pixel's ray is the same each time, and another with another seed") {
@@ -89,7 +91,8 @@ TEST_CASE("with a lens all rays of a pixel meet in the focal plane and start on 
             CHECK_FALSE(rays.pinhole());
             const auto ray = rays(7, 2).ray;
             REQUIRE(ray);
-            const Vec3 met = ray->origin + (target.y - ray->origin.y) / ray->direction.y * ray->direction;
+            const Vec3 met =
+                ray->origin + (target.y - ray->origin.y) / ray->direction.y * ray->direction;
             CHECK(length(met - target) < 1e-9);
             const double off = length(ray->origin - sharp->origin);
             CHECK(off <= aperture / 2 + 1e-12);

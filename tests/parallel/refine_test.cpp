@@ -17,7 +17,7 @@ using Image = std::function<PixelValue(int x, int y)>;
 
 struct Refined {
     std::vector<PixelValue> pixels;
-    std::vector<int> stored;   ///< how often each pixel was
+    std::vector<int> stored;  ///< how often each pixel was
     std::size_t traced = 0;
     [[nodiscard]] const PixelValue& at(int x, int y, int width) const {
         return pixels[static_cast<std::size_t>(y * width + x)];
@@ -33,7 +33,8 @@ Refined refine(const Image& image, int width, int height, const RefineOptions& o
         refine_tile(
             tile, width, height, options,
             [&](std::span<const PixelPlace> places, std::span<PixelValue> values) {
-                for (std::size_t i = 0; i < places.size(); ++i) values[i] = image(places[i].x, places[i].y);
+                for (std::size_t i = 0; i < places.size(); ++i)
+                    values[i] = image(places[i].x, places[i].y);
                 result.traced += places.size();
             },
             [&](const PixelPlace& place, const PixelValue& value) {
@@ -49,21 +50,29 @@ Refined refine(const Image& image, int width, int height, const RefineOptions& o
     return result;
 }
 
-float value(const PixelValue& v) { return v.radiance.g; }
-PixelValue grey(double v) { return {Rgb::grey(static_cast<float>(v)), 1}; }
+float value(const PixelValue& v) {
+    return v.radiance.g;
+}
+PixelValue grey(double v) {
+    return {Rgb::grey(static_cast<float>(v)), 1};
+}
 
 }  // namespace
 
 TEST_CASE("every pixel is stored exactly once, by its own tile, for any size and spacing") {
     for (const int spacing : {1, 2, 3, 4, 7, 16}) {
-        for (const auto& [width, height] : {std::pair{1, 1}, std::pair{1, 40}, std::pair{33, 65}, std::pair{50, 37}, std::pair{64, 64}}) {
+        for (const auto& [width, height] : {std::pair{1, 1}, std::pair{1, 40}, std::pair{33, 65},
+                                            std::pair{50, 37}, std::pair{64, 64}}) {
             CAPTURE(spacing);
             CAPTURE(width);
-            const Refined plain = refine([](int, int) { return grey(1); }, width, height, {spacing, 0.05, false});
-            const Refined noisy = refine([](int x, int y) { return grey((x * 7 + y * 13) % 5 + 1); }, width, height,
-                                         {spacing, 0, false});
+            const Refined plain =
+                refine([](int, int) { return grey(1); }, width, height, {spacing, 0.05, false});
+            const Refined noisy =
+                refine([](int x, int y) { return grey((x * 7 + y * 13) % 5 + 1); }, width, height,
+                       {spacing, 0, false});
             for (const Refined* r : {&plain, &noisy}) {
-                CHECK(std::all_of(r->stored.begin(), r->stored.end(), [](int n) { return n == 1; }));
+                CHECK(
+                    std::all_of(r->stored.begin(), r->stored.end(), [](int n) { return n == 1; }));
             }
         }
     }
@@ -77,11 +86,13 @@ TEST_CASE("threshold 0 traces every pixel of a picture without equal neighbours"
     }
 }
 
-TEST_CASE("where corners agree the picture is bilinear between them, so a linear picture is exact") {
+TEST_CASE(
+    "where corners agree the picture is bilinear between them, so a linear picture is exact") {
     const Image image = [](int x, int y) { return grey(100 + 0.01 * x + 0.02 * y); };
     const Refined r = refine(image, 61, 45, {4, 0.05, false});
     for (int y = 0; y < 45; ++y) {
-        for (int x = 0; x < 61; ++x) CHECK(value(r.at(x, y, 61)) == doctest::Approx(value(image(x, y))).epsilon(1e-6));
+        for (int x = 0; x < 61; ++x)
+            CHECK(value(r.at(x, y, 61)) == doctest::Approx(value(image(x, y))).epsilon(1e-6));
     }
     CHECK(r.traced < 61 * 45 / 6);
 }
@@ -95,8 +106,12 @@ TEST_CASE("a step is found to the pixel, and only squares on it are subdivided")
     CHECK(r.traced < 64 * 64 / 4);
 }
 
-TEST_CASE("the result depends on the traced values alone: the same pixels of a larger picture are the same") {
-    const Image image = [](int x, int y) { return grey(std::floor(2 + std::sin(0.3 * x) * std::cos(0.21 * y) * 2)); };
+TEST_CASE(
+    "the result depends on the traced values alone: the same pixels of a larger picture are the "
+    "same") {
+    const Image image = [](int x, int y) {
+        return grey(std::floor(2 + std::sin(0.3 * x) * std::cos(0.21 * y) * 2));
+    };
     const RefineOptions options{4, 0.05, false};
     const Refined small = refine(image, 65, 65, options);
     const Refined large = refine(image, 129, 97, options);

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -21,13 +20,16 @@ double at(const std::string& data, std::vector<double> point) {
     return interpolate(decode_data(data, "t.dat"), point);
 }
 
-/// A flat picture whose stored pixel in row r, column c has bytes (10 r + c + 1, 100, 50 + blue * r, 136).
-std::string picture_bytes(const std::string& variables, const std::string& resolution, int rows, int columns,
-                          int blue) {
-    std::string bytes = "#?RADIANCE\n" + variables + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n";
+/// A flat picture whose stored pixel in row r, column c has bytes (10 r + c + 1, 100, 50 + blue *
+/// r, 136).
+std::string picture_bytes(const std::string& variables, const std::string& resolution, int rows,
+                          int columns, int blue) {
+    std::string bytes =
+        "#?RADIANCE\n" + variables + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n";
     for (int r = 0; r < rows; ++r) {
         for (int c = 0; c < columns; ++c) {
-            for (const int byte : {10 * r + c + 1, 100, 50 + blue * r, 136}) bytes += static_cast<char>(byte);
+            for (const int byte : {10 * r + c + 1, 100, 50 + blue * r, 136})
+                bytes += static_cast<char>(byte);
         }
     }
     return bytes;
@@ -38,9 +40,12 @@ std::string conformance_picture(const std::string& setup) {
         return std::string("#?RADIANCE\n\n-Y 1 +X 1\n") + "\x07\x08\x09" + static_cast<char>(136);
     }
     if (setup.starts_with("PIC34")) return picture_bytes("", "-Y 4 +X 3", 4, 3, 0);
-    if (setup.find("PIXASPECT=2") != std::string::npos) return picture_bytes("PIXASPECT=2\n", "-Y 3 +X 4", 3, 4, 1);
-    if (setup.find("+Y 3 +X 4") != std::string::npos) return picture_bytes("", "+Y 3 +X 4", 3, 4, 1);
-    if (setup.find("+X 3 -Y 4") != std::string::npos) return picture_bytes("", "+X 3 -Y 4", 3, 4, 1);
+    if (setup.find("PIXASPECT=2") != std::string::npos)
+        return picture_bytes("PIXASPECT=2\n", "-Y 3 +X 4", 3, 4, 1);
+    if (setup.find("+Y 3 +X 4") != std::string::npos)
+        return picture_bytes("", "+Y 3 +X 4", 3, 4, 1);
+    if (setup.find("+X 3 -Y 4") != std::string::npos)
+        return picture_bytes("", "+X 3 -Y 4", 3, 4, 1);
     return picture_bytes("", "-Y 3 +X 4", 3, 4, 1);
 }
 
@@ -85,7 +90,9 @@ TEST_CASE("irregular axes may rise or fall") {
     CHECK(at("1 0 0 3 0 1 4 10 20 40", {8}) == doctest::Approx(18));
     CHECK(at("1 0 0 3 4 1 0 40 20 10", {7.01}) == doctest::Approx(59.801).epsilon(1e-5));
     CHECK(at("1 0 0 3 4 1 0 40 20 10", {20}) == doctest::Approx(11.25));
-    CHECK(at("1 0 0 4 9 5 5 1  1 2 3 4", {5}) == doctest::Approx(3).epsilon(0.5));  // a step is not a division by 0
+    const double step = at("1 0 0 4 9 5 5 1  1 2 3 4", {5});  // no division by the step's width
+    CHECK(step >= 2);
+    CHECK(step <= 3);
 }
 
 TEST_CASE("in several dimensions the first axis is the outermost") {
@@ -94,10 +101,12 @@ TEST_CASE("in several dimensions the first axis is the outermost") {
     CHECK(at(table, {0, 2.5}) == 3.5);
     CHECK(at(table, {-3, 0}) == doctest::Approx(-3));
     CHECK(at("3 0 1 2 0 1 2 0 1 2  1 2 3 4 5 6 7 8", {.3, .6, .9}) == doctest::Approx(4.3));
-    // f(a..f) = sum of the coordinates is linear, so that interpolation is exact in the whole table.
+    // f(a..f) = sum of the coordinates is linear, so that interpolation is exact in the whole
+    // table.
     std::string six = "6";
     for (int d = 0; d < 6; ++d) six += " 0 1 2";
-    for (int i = 0; i < 64; ++i) six += ' ' + std::to_string(__builtin_popcount(static_cast<unsigned>(i)));
+    for (int i = 0; i < 64; ++i)
+        six += ' ' + std::to_string(__builtin_popcount(static_cast<unsigned>(i)));
     CHECK(at(six, {.1, .2, .3, .4, .5, .6}) == doctest::Approx(2.1));
 }
 
@@ -105,11 +114,13 @@ TEST_CASE("outer neighbours of a weight up to 1e-6 contribute nothing") {
     const std::string table = "2 0 1 2 0 1 2  0 0 1e6 1e6";
     CHECK(at(table, {1e-6, 0}) == 0);
     CHECK(at(table, {2e-6, 0}) == doctest::Approx(2));
-    CHECK(at("1 0 1 2 0 1e6", {1e-9}) == doctest::Approx(1e-3));  // the innermost ones are not left out
+    CHECK(at("1 0 1 2 0 1e6", {1e-9}) ==
+          doctest::Approx(1e-3));  // the innermost ones are not left out
 }
 
 TEST_CASE("coordinates that are not numbers stay within the table's memory") {
-    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
     for (const std::string table : {"1 0 3 4 1 2 3 4", "1 0 0 4 0 1 2 5 1 2 3 4"}) {
         for (const double x : {nan, inf, -inf, 1e300, -1e300}) {
             const double y = at(table, {x});
@@ -156,7 +167,8 @@ TEST_CASE("pictures as tables give Radiance's values, in all orientations") {
         const std::vector<double> where = numbers(probe), expected = numbers(value);
         REQUIRE(where.size() == 2);
         const Rgb found = interpolate(picture, where[0], where[1]);
-        for (std::size_t k = 0; k < 3; ++k) CHECK(close(static_cast<double>(found[k]), expected.at(k), 1e-6));
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(close(static_cast<double>(found[k]), expected.at(k), 1e-6));
         ++rows;
     }
     CHECK(rows == 36);

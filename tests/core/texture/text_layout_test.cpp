@@ -30,7 +30,9 @@ TextLayout layout(const std::vector<std::string>& lines, std::optional<double> s
 
 TEST_CASE("text cells are spanned by the motion vectors, the origin is their upper left corner") {
     const TextLayout text({"A", " A"}, test_font(), {5, 6, 7}, {0, 0, 2}, {0, -3, 0});
-    const auto inside = [&](double column, double line) { return text.inside({5, 6 - 3 * line, 7 + 2 * column}); };
+    const auto inside = [&](double column, double line) {
+        return text.inside({5, 6 - 3 * line, 7 + 2 * column});
+    };
     CHECK(inside(0.5, 0.5));
     CHECK(inside(1.5, 1.5));
     CHECK_FALSE(inside(0.5, 1.5));
@@ -67,9 +69,12 @@ TEST_CASE("vectors that span no plane are illegal") {
     const auto make = [](const Vec3& right, const Vec3& down) {
         return TextLayout({"A"}, test_font(), {}, right, down);
     };
-    CHECK_THROWS_WITH_AS(make({1, 0, 0}, {2, 0, 0}), doctest::Contains("illegal motion vector"), InputError);
-    CHECK_THROWS_WITH_AS(make({}, {0, 1, 0}), doctest::Contains("illegal motion vector"), InputError);
-    CHECK_THROWS_WITH_AS(make({1, 0, 0}, {}), doctest::Contains("illegal motion vector"), InputError);
+    CHECK_THROWS_WITH_AS(make({1, 0, 0}, {2, 0, 0}), doctest::Contains("illegal motion vector"),
+                         InputError);
+    CHECK_THROWS_WITH_AS(make({}, {0, 1, 0}), doctest::Contains("illegal motion vector"),
+                         InputError);
+    CHECK_THROWS_WITH_AS(make({1, 0, 0}, {}), doctest::Contains("illegal motion vector"),
+                         InputError);
 }
 
 TEST_CASE("slits to holes leave the hole empty") {
@@ -79,12 +84,14 @@ TEST_CASE("slits to holes leave the hole empty") {
     CHECK(text.inside({0.9, -0.5, 0}));
 }
 
-TEST_CASE("characters without a glyph, empty lines and extreme spacings draw nothing and do no harm") {
+TEST_CASE(
+    "characters without a glyph, empty lines and extreme spacings draw nothing and do no harm") {
     for (const double spacing : {0.0, 0.5, -0.5, 1e300, -1e300}) {
         CAPTURE(spacing);
         const TextLayout text = layout({"", "\x01\xff", "xyz", "   "}, spacing);
         for (int line = 0; line < 5; ++line) {
-            for (const double x : {0.0, 0.5, 3.0, 1e300}) CHECK_FALSE(text.inside({x, -0.5 - line, 0}));
+            for (const double x : {0.0, 0.5, 3.0, 1e300})
+                CHECK_FALSE(text.inside({x, -0.5 - line, 0}));
         }
     }
     CHECK_FALSE(layout({}, 0.1).inside({0.5, -0.5, 0}));
@@ -97,14 +104,16 @@ TEST_CASE("text gives Radiance's foreground and background for every spacing") {
     for (std::string line; std::getline(file, line);) {
         if (!line.starts_with("brighttext\t")) continue;
         CAPTURE(line);
-        REQUIRE(line.find("lines \"A BC\",\"B   A\",\"CA\"; A 0 0 0 R 1 0 0 D 0 -1 0;") != std::string::npos);
+        REQUIRE(line.find("lines \"A BC\",\"B   A\",\"CA\"; A 0 0 0 R 1 0 0 D 0 -1 0;") !=
+                std::string::npos);
         std::istringstream in(line.substr(line.find("spacing ") + 8));
         std::string spacing, point, expected;
         double x = 0, y = 0;
         in >> spacing >> point >> x >> y >> expected;
         REQUIRE(point == "point");
-        const TextLayout text = layout({"A BC", "B   A", "CA"}, spacing == "absent" ? std::nullopt
-                                                                   : std::optional(std::stod(spacing)));
+        const TextLayout text =
+            layout({"A BC", "B   A", "CA"},
+                   spacing == "absent" ? std::nullopt : std::optional(std::stod(spacing)));
         CHECK(text.inside({x, y, 0}) == (expected == "fore"));
         ++rows;
     }

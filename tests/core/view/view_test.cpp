@@ -31,8 +31,9 @@ void check_near(const Vec3& a, const Vec3& b, double tolerance) {
 
 /// One view of every type, tilted, shifted and clipped.
 std::array<View, 6> tilted_views() {
-    std::array<View, 6> views{view_of('v', 60, 40),   view_of('l', 4, 2),     view_of('h', 170, 150),
-                              view_of('c', 300, 100), view_of('a', 250, 220), view_of('s', 300, 200)};
+    std::array<View, 6> views{view_of('v', 60, 40),   view_of('l', 4, 2),
+                              view_of('h', 170, 150), view_of('c', 300, 100),
+                              view_of('a', 250, 220), view_of('s', 300, 200)};
     for (View& view : views) {
         view.direction = {0.3, -1.2, 0.4};
         view.up = {0.2, 0.1, 2};
@@ -54,12 +55,32 @@ TEST_CASE("view rays equal Radiance's, with fore and aft clipping") {
         double limit;
     };
     const std::array<Row, 6> rows{{
-        {'v', 60, 40, {1.144337567, 2.5, 3.036397023}, {0.276674267, 0.958427775, 0.069767836}, 9.912066670},
+        {'v',
+         60,
+         40,
+         {1.144337567, 2.5, 3.036397023},
+         {0.276674267, 0.958427775, 0.069767836},
+         9.912066670},
         {'l', 4, 2, {2, 2.5, 3.2}, {0, 1, 0}, 9.5},
         {'h', 180, 180, {1.25, 2.421307489, 3.1}, {0.5, 0.842614977, 0.2}, 9.5},
-        {'c', 180, 90, {1.353553391, 2.353553391, 3.1}, {0.693375245, 0.693375245, 0.196116135}, 9.688137076},
-        {'a', 180, 180, {1.347513958, 2.331529028, 3.139005583}, {0.695027916, 0.663058057, 0.278011167}, 9.5},
-        {'s', 180, 180, {1.387596899, 2.275193798, 3.155038760}, {0.775193798, 0.550387597, 0.310077519}, 9.5},
+        {'c',
+         180,
+         90,
+         {1.353553391, 2.353553391, 3.1},
+         {0.693375245, 0.693375245, 0.196116135},
+         9.688137076},
+        {'a',
+         180,
+         180,
+         {1.347513958, 2.331529028, 3.139005583},
+         {0.695027916, 0.663058057, 0.278011167},
+         9.5},
+        {'s',
+         180,
+         180,
+         {1.387596899, 2.275193798, 3.155038760},
+         {0.775193798, 0.550387597, 0.310077519},
+         9.5},
     }};
     for (const Row& row : rows) {
         CAPTURE(row.type);
@@ -96,7 +117,8 @@ TEST_CASE("locate is the inverse of ray, for all view types") {
                 const double h = (i + 0.5) / 15, v = (j + 0.5) / 15;
                 const auto ray = camera.ray(h, v);
                 if (!ray) continue;
-                // Points of a cylinder's or a sphere's far side have other positions too: stay within the type.
+                // Points of a cylinder's or a sphere's far side have other positions too: stay
+                // within the type.
                 const double x = (h - 0.5 + view.shift) * view.horizontal;
                 if (view.type == 'c' && std::abs(x) >= 180) continue;
                 ++rays;
@@ -157,7 +179,8 @@ TEST_CASE("bad views are refused with Radiance's words, in its order") {
         return Camera::problem(view).value_or("fine");
     };
     CHECK(problem([](View&) {}) == "fine");
-    CHECK(problem([](View& v) { v.fore = -1, v.direction = {}; }) == "illegal fore/aft clipping plane");
+    CHECK(problem([](View& v) { v.fore = -1, v.direction = {}; }) ==
+          "illegal fore/aft clipping plane");
     CHECK(problem([](View& v) { v.fore = 2, v.aft = 2; }) == "illegal fore/aft clipping plane");
     CHECK(problem([](View& v) { v.aft = -1; }) == "illegal fore/aft clipping plane");
     CHECK(problem([](View& v) { v.direction = {}, v.up = {}; }) == "zero view direction");
@@ -167,15 +190,19 @@ TEST_CASE("bad views are refused with Radiance's words, in its order") {
     CHECK(problem([](View& v) { v.horizontal = 180; }) == "illegal horizontal view size");
     CHECK(problem([](View& v) { v.vertical = 180; }) == "illegal vertical view size");
     CHECK(problem([](View& v) { v.type = 'x'; }) == "unknown view type 'x'");
-    CHECK(problem([](View& v) { v.type = 'h', v.horizontal = 181; }) == "illegal horizontal view size");
+    CHECK(problem([](View& v) { v.type = 'h', v.horizontal = 181; }) ==
+          "illegal horizontal view size");
     CHECK(problem([](View& v) { v.type = 'h', v.horizontal = v.vertical = 180; }) == "fine");
     CHECK(problem([](View& v) { v.type = 'c', v.horizontal = 360; }) == "fine");
     CHECK(problem([](View& v) { v.type = 'c', v.vertical = 180; }) == "illegal vertical view size");
     CHECK(problem([](View& v) { v.type = 'a', v.horizontal = v.vertical = 360; }) == "fine");
-    CHECK(problem([](View& v) { v.type = 's', v.horizontal = 360; }) == "illegal horizontal view size");
+    CHECK(problem([](View& v) { v.type = 's', v.horizontal = 360; }) ==
+          "illegal horizontal view size");
     CHECK(problem([](View& v) { v.type = 'l', v.horizontal = 5000; }) == "fine");
     CHECK(problem([](View& v) { v.lift = std::numeric_limits<double>::quiet_NaN(); }) != "fine");
-    CHECK_THROWS_WITH_AS(Camera(View{.direction = {}}), "zero view direction", InputError);
+    View blind;
+    blind.direction = {};
+    CHECK_THROWS_WITH_AS(Camera{blind}, "zero view direction", InputError);
 }
 
 TEST_CASE("the direction's length does not matter, however large or small") {
@@ -212,7 +239,8 @@ TEST_CASE("a cropped view shows the same rays as its part of the whole") {
         CAPTURE(view.type);
         const auto part = crop_view(view, 0.25, 0.4, 0.5, 0.9);
         REQUIRE(part);
-        const auto a = Camera(*part).ray(0.3, 0.6), b = Camera(view).ray(0.25 + 0.3 * 0.25, 0.4 + 0.6 * 0.5);
+        const auto a = Camera(*part).ray(0.3, 0.6),
+                   b = Camera(view).ray(0.25 + 0.3 * 0.25, 0.4 + 0.6 * 0.5);
         REQUIRE(a);
         REQUIRE(b);
         check_near(a->origin, b->origin, 1e-12);

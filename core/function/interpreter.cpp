@@ -1,0 +1,320 @@
+// Evaluation of programs.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/function/code.h"
+#include "core/function/library.h"
+#include "core/function/noise.h"
+#include "core/function/prism.h"
+#include "core/function/program.h"
+#include "core/function/ray_functions.h"
+
+namespace lightwalk {
+namespace function {
+namespace {
+
+/// Bounds on what the calls of one tick may use: recursion of a function file ends with an error long
+/// before memory or patience do.
+constexpr std::uint64_t kMostOperations = 100000000;
+constexpr std::size_t kMostReturns = 200000;
+constexpr std::size_t kMostCells = std::size_t{1} << 21;
+
+struct Position {
+    const Instruction* next;
+    std::uint32_t frame;
+};
+
+[[noreturn]] void too_much(const Program::Code& code, const char* what) {
+    throw InputError(code.where, std::string("function file: ") + what);
+}
+
+void push_return(const Program::Code& code, EvalState& state, const Instruction* from, std::uint32_t frame,
+                 std::uint32_t cell) {
+    if (state.returns.size() >= kMostReturns) too_much(code, "recursion is too deep");
+    state.returns.push_back({static_cast<std::uint32_t>(from - code.instructions.data()) + 1, frame, cell});
+}
+
+/// Run the block at `entry` in `frame`, for the value of `cell`. Until it has one the cell is 0: what a
+/// variable that refers to itself finds.
+Position compute_cell(const Program::Code& code, EvalState& state, const Instruction* from, std::uint32_t caller,
+                      std::uint32_t frame, std::uint32_t cell, std::uint32_t entry) {
+    push_return(code, state, from, caller, cell);
+    state.flags[cell] = 1;
+    state.values[cell] = 0;
+    return {code.instructions.data() + entry, frame};
+}
+
+/// A parameter that has not been used yet holds where to compute it.
+double pack_thunk(std::uint32_t entry, std::uint32_t frame) {
+    return std::bit_cast<double>((std::uint64_t{entry} << 32) | frame);
+}
+
+Position force_parameter(const Program::Code& code, EvalState& state, const Instruction* from,
+                         std::uint32_t frame) {
+    const std::uint32_t cell = frame + from->dst;
+    const auto thunk = std::bit_cast<std::uint64_t>(state.values[cell]);
+    return compute_cell(code, state, from, frame, static_cast<std::uint32_t>(thunk), cell,
+                        static_cast<std::uint32_t>(thunk >> 32));
+}
+
+/// Enter a function: its frame begins at `top`, which moves up.
+Position enter_call(const Program::Code& code, EvalState& state, const Instruction* from, std::uint32_t frame,
+                    std::uint32_t& top) {
+    const FunctionCode& function = code.functions[from->a];
+    state.operations += function.cost;
+    if (state.operations > kMostOperations) too_much(code, "evaluation takes too long");
+    push_return(code, state, from, frame, frame + from->dst);
+    const std::uint32_t base = top;
+    const std::size_t end = std::size_t{base} + function.cells;
+    if (end > kMostCells) too_much(code, "recursion is too deep");
+    if (end > state.values.size()) {
+        state.values.resize(std::max(end, state.values.size() * 2));
+        state.flags.resize(state.values.size());
+    }
+    top = static_cast<std::uint32_t>(end);
+    std::fill_n(state.flags.begin() + base, function.marked, std::uint8_t{0});
+    for (std::uint32_t i = 0; i < function.parameters; ++i) {
+        const Argument& argument = code.arguments[from->b + i];
+        state.values[base + i] = argument.is_value ? state.values[frame + argument.at]
+                                                   : pack_thunk(argument.at, frame);
+        state.flags[base + i] = argument.is_value;
+    }
+    return {code.instructions.data() + function.entry, base};
+}
+
+Position leave(const Program::Code& code, EvalState& state, double value) {
+    const EvalState::Return back = state.returns.back();
+    state.returns.pop_back();
+    state.values[back.cell] = value;
+    state.flags[back.cell] = 1;
+    return {code.instructions.data() + back.instruction, back.frame};
+}
+
+double real_argument(const Program::Code& code, double n) {
+    const int k = rounded_index(n);
+    if (k < 1) return static_cast<double>(code.reals.size());
+    if (static_cast<std::size_t>(k) <= code.reals.size()) return code.reals[static_cast<std::size_t>(k) - 1];
+    throw InputError(code.where, "bad call to arg(" + std::to_string(k) + "): there are " +
+                                     std::to_string(code.reals.size()) + " real arguments");
+}
+
+double source_value(const Program::Code& code, const EvalState& state, Op op, double x, double y) {
+    try {
+        return op == Op::source_phi ? source_phi(*state.channels, x)
+                                    : source_corr(*state.channels, code.reals, x, y);
+    } catch (const InputError& error) {
+        throw InputError(code.where, error.what());
+    }
+}
+
+double prism_function(const Program::Code& code, EvalState& state, double v, double d, double n) {
+    if (!state.prism_traced) {
+        state.prism.clear();
+        if (!trace_prism(*state.channels, code.reals, state.prism)) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        state.prism_traced = true;
+    }
+    return prism_value(*state.channels, state.prism, v, d, n);
+}
+
+constexpr unsigned kDomain = static_cast<unsigned>(EvalError::domain);
+constexpr unsigned kRange = static_cast<unsigned>(EvalError::range);
+
+double run(const Program::Code& code, std::uint32_t entry, EvalState& state) {
+    const Instruction* i = code.instructions.data() + entry;
+    double* cells = state.values.data();  // of the present frame
+    std::uint32_t frame = 0;
+    std::uint32_t top = code.cells;
+    auto error = static_cast<unsigned>(state.error);
+    state.returns.clear();
+
+    const auto go = [&](const Position& to) {
+        i = to.next;
+        frame = to.frame;
+        cells = state.values.data() + frame;
+    };
+    // The end of a library function: a set flag or a result that is not finite makes it 0.
+    const auto checked = [&](double v) {
+        error &= i->keep;
+        if (error == 0 && std::abs(v) <= std::numeric_limits<double>::max()) [[likely]] {
+            cells[i->dst] = v;
+        } else {
+            if (error == 0) error = std::isnan(v) ? kDomain : kRange;
+            ++state.warnings;
+            cells[i->dst] = 0;
+        }
+        ++i;
+    };
+    const auto plain = [&](double v) {
+        cells[i->dst] = v;
+        ++i;
+    };
+    const auto a = [&] { return cells[i->a]; };
+    const auto b = [&] { return cells[i->b]; };
+    const auto c = [&] { return cells[i->c]; };
+    const auto zero_divisor = [&] {
+        error = kRange;
+        ++state.warnings;
+        return 0.0;
+    };
+
+    for (;;) {
+        switch (i->op) {
+            case Op::move: plain(a()); break;
+            case Op::load_tick: plain(state.values[i->a]); break;
+            case Op::negate: plain(-a()); break;
+            case Op::add: plain((0.0 + a()) + b()); break;
+            case Op::add3: plain(((0.0 + a()) + b()) + c()); break;
+            case Op::subtract: plain(a() - b()); break;
+            case Op::multiply: plain(a() * b()); break;
+            case Op::multiply3: plain((a() * b()) * c()); break;
+            case Op::add_product: plain((0.0 + c()) + a() * b()); break;
+            case Op::subtract_product: plain(c() - a() * b()); break;
+            case Op::divide: plain(a() / b()); break;
+            case Op::divide_tested: plain(b() == 0 ? zero_divisor() : a() / b()); break;
+            case Op::lesser: plain(b() < a() ? b() : a()); break;
+            case Op::greater: plain(b() > a() ? b() : a()); break;
+            case Op::guard_divisor:
+                if (a() == 0) {
+                    cells[i->dst] = zero_divisor();
+                    i = code.instructions.data() + i->b;
+                } else {
+                    ++i;
+                }
+                break;
+            case Op::power: checked(std::pow(a(), b())); break;
+            case Op::min: checked(b() < a() ? b() : a()); break;
+            case Op::max: checked(b() > a() ? b() : a()); break;
+            case Op::rand: checked(rand_value(a())); break;
+            case Op::floor: checked(std::floor(a())); break;
+            case Op::ceil: checked(std::ceil(a())); break;
+            case Op::sqrt: checked(std::sqrt(a())); break;
+            case Op::exp: checked(std::exp(a())); break;
+            case Op::log: checked(std::log(a())); break;
+            case Op::log10: checked(std::log10(a())); break;
+            case Op::sin: checked(std::sin(a())); break;
+            case Op::cos: checked(std::cos(a())); break;
+            case Op::tan: checked(std::tan(a())); break;
+            case Op::asin: checked(std::asin(a())); break;
+            case Op::acos: checked(std::acos(a())); break;
+            case Op::atan: checked(std::atan(a())); break;
+            case Op::atan2: checked(std::atan2(a(), b())); break;
+            case Op::erf: checked(std::erf(a())); break;
+            case Op::erfc: checked(std::erfc(a())); break;
+            case Op::noise3: checked(noise3(a(), b(), c(), state.noise)); break;
+            case Op::noise3x: checked(noise3_difference(0, a(), b(), c(), state.noise)); break;
+            case Op::noise3y: checked(noise3_difference(1, a(), b(), c(), state.noise)); break;
+            case Op::noise3z: checked(noise3_difference(2, a(), b(), c(), state.noise)); break;
+            case Op::fnoise3: checked(fnoise3(a(), b(), c(), state.fractal)); break;
+            case Op::arg: checked(real_argument(code, a())); break;
+            case Op::source_theta: checked(source_theta(*state.channels)); break;
+            case Op::source_phi:
+            case Op::source_corr: checked(source_value(code, state, i->op, a(), b())); break;
+            case Op::fprism_val: checked(prism_function(code, state, a(), b(), c())); break;
+            case Op::check: checked(a()); break;
+            case Op::pick: checked(a() > 0 ? b() : c()); break;
+            case Op::clear:
+                error = 0;
+                ++i;
+                break;
+            case Op::touch:
+            case Op::touch_tick: {
+                std::uint8_t& touched = state.flags[i->op == Op::touch ? frame + i->dst : i->dst];
+                if (!touched) error = 0;
+                touched = 1;
+                ++i;
+                break;
+            }
+            case Op::forget:
+                state.flags[frame + i->dst] = 0;
+                ++i;
+                break;
+            case Op::jump: i = code.instructions.data() + i->a; break;
+            case Op::jump_unless_positive:
+                i = a() > 0 ? i + 1 : code.instructions.data() + i->b;
+                break;
+            case Op::jump_unless_above:
+                i = a() - c() > 0 ? i + 1 : code.instructions.data() + i->b;
+                break;
+            case Op::choose: {
+                const auto cases = static_cast<int>(i->c);
+                const int k = selected_case(a(), cases);
+                if (k < 0) {
+                    error = kDomain;
+                    cells[i->dst] = 0;
+                }
+                const auto target = static_cast<std::uint32_t>(k < 0 ? cases + 1 : k);
+                i = code.instructions.data() + code.targets[i->b + target];
+                break;
+            }
+            case Op::ensure:
+                if (state.flags[frame + i->dst]) {
+                    ++i;
+                } else {
+                    go(compute_cell(code, state, i, frame, frame, frame + i->dst, i->a));
+                }
+                break;
+            case Op::ensure_tick:
+                if (state.flags[i->dst]) {
+                    ++i;
+                } else {
+                    go(compute_cell(code, state, i, frame, 0, i->dst, i->a));
+                }
+                break;
+            case Op::force:
+                if (state.flags[frame + i->dst]) {
+                    ++i;
+                } else {
+                    go(force_parameter(code, state, i, frame));
+                }
+                break;
+            case Op::call: go(enter_call(code, state, i, frame, top)); break;
+            case Op::give: go(leave(code, state, a())); break;
+            case Op::give_call:
+                top = frame;
+                go(leave(code, state, a()));
+                break;
+            case Op::halt: state.error = static_cast<EvalError>(error); return a();
+            case Op::fatal: throw InputError(code.where, code.messages[i->a]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace function
+
+std::size_t Program::outputs() const { return code_ ? code_->outputs.size() : 0; }
+ChannelMask Program::channels() const { return code_ ? code_->channels : 0; }
+
+void Program::begin(EvalState& state, const ChannelValues& channels) const {
+    const Code& code = *code_;
+    state.channels = &channels;
+    if (state.values.size() < code.cells) {
+        state.values.resize(code.cells);
+        state.flags.resize(code.cells);
+    }
+    for (const std::uint8_t c : code.used_channels) state.values[c] = channels[c];
+    std::copy(code.constants.begin(), code.constants.end(), state.values.begin() + kChannelCount);
+    std::fill_n(state.flags.begin() + code.lazies_at, code.lazies, std::uint8_t{0});
+    state.operations = 0;
+    state.prism_traced = false;
+}
+
+double Program::evaluate(std::size_t output, EvalState& state) const {
+    return function::run(*code_, code_->outputs[output].entry, state);
+}
+
+double Program::call(std::size_t output, std::span<const double> arguments, EvalState& state) const {
+    std::copy(arguments.begin(), arguments.end(), state.values.begin() + code_->inputs_at);
+    return function::run(*code_, code_->outputs[output].entry, state);
+}
+
+const double* Program::constant(std::size_t output) const {
+    const function::OutputCode& code = code_->outputs[output];
+    return code.is_constant ? &code.value : nullptr;
+}
+
+}  // namespace lightwalk

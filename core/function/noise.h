@@ -1,0 +1,33 @@
+#pragma once
+// The noise functions with a memory of the last point: neighbouring points, and functions of one
+// point, share most of the work.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace lightwalk::function {
+
+/// Step of the backward differences noise3x, noise3y, noise3z.
+inline constexpr double kNoiseStep = .0005;
+
+/// The last point and noise3 there.
+struct NoiseMemory {
+    std::array<double, 3> point{};
+    double value = 0;
+};
+[[nodiscard]] double noise3(double x, double y, double z, NoiseMemory& memory);
+/// (noise3(p) - noise3(p - step along axis)) / step.
+[[nodiscard]] double noise3_difference(int axis, double x, double y, double z, NoiseMemory& memory);
+
+/// How fnoise3 last came down to a point: the cell, and for each halving the octant and the values at
+/// the corners of the cube before it.
+struct FractalMemory {
+    static constexpr std::size_t kLevels = 10;
+    std::array<std::int64_t, 3> cell{std::numeric_limits<std::int64_t>::min(), 0, 0};
+    std::array<std::uint32_t, kLevels> octants{};
+    std::array<std::array<double, 8>, kLevels + 1> corners{};
+};
+[[nodiscard]] double fnoise3(double x, double y, double z, FractalMemory& memory);
+
+}  // namespace lightwalk::function

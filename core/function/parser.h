@@ -1,0 +1,31 @@
+#pragma once
+// From text to expressions and definitions, folding constants on the way.
+#include <string>
+#include <string_view>
+
+#include "core/function/expression.h"
+#include "core/function/lexer.h"
+#include "core/function/symbols.h"
+#include "core/math/function_ref.h"
+
+namespace lightwalk::function {
+
+/// Value of a variable or call that is constant: known now. Throws InputError when it has none.
+using ConstantEvaluator = FunctionRef<double(const Expr& e, const SourceLocation& where)>;
+
+/// What names mean to a parser.
+struct Scope {
+    const SymbolTable& symbols;
+    SymbolTable* writable = nullptr;  ///< where references and definitions go; null: nothing is entered
+    std::string_view context;
+    ConstantEvaluator evaluate;
+};
+
+/// Parse one expression that is all of `text`. Throws InputError.
+[[nodiscard]] Expr parse_expression(std::string_view text, const SourceLocation& where, const Scope& scope);
+
+/// Parse definitions and enter each into the table as soon as it is complete, flattened if `flat`.
+/// Throws InputError; definitions before the error stay.
+void parse_definitions(std::string_view text, const SourceLocation& where, const Scope& scope, bool flat);
+
+}  // namespace lightwalk::function

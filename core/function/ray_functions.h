@@ -1,0 +1,23 @@
+#pragma once
+// Built-in functions of the ray and the primitive's real arguments.
+#include <span>
+#include <vector>
+
+#include "core/function/program.h"
+
+namespace lightwalk::function {
+
+/// Angle between the ray and -z [degrees], 0 to 180.
+[[nodiscard]] double source_theta(const ChannelValues& channels);
+
+/// Azimuth of the ray's origin [degrees], folded by `symmetry` (after rounding): 360, 180 or 90.
+/// @throws InputError (without a place) for another symmetry
+[[nodiscard]] double source_phi(const ChannelValues& channels, double symmetry);
+
+/// Luminaire correction: v times the first real argument, over the projected area of the emitting
+/// shape `kind`: 0 none, 1 flat, 2 box, 3 box nearby, 4 cylinder, whose size [m] the others give.
+/// @throws InputError (without a place) for another kind, or missing arguments
+[[nodiscard]] double source_corr(const ChannelValues& channels, std::span<const double> reals, double v,
+                                 double kind);
+
+}  // namespace lightwalk::function

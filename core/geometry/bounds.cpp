@@ -1,0 +1,116 @@
+#include "core/geometry/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwalk {
+namespace {
+
+/// Extends the box by a disc: along each axis it reaches radius * sin(angle between axis and normal).
+void extend_by_disc(Bounds& bounds, const Vec3& center, const Vec3& normal, double radius) {
+    Vec3 reach;
+    for (std::size_t k = 0; k < 3; ++k) {
+        reach[k] = radius * std::sqrt(std::max(0.0, 1 - normal[k] * normal[k]));
+    }
+    bounds.extend(center - reach);
+    bounds.extend(center + reach);
+}
+
+}  // namespace
+
+void Bounds::extend(const Vec3& p) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+}
+
+void extend(Bounds& bounds, const Bounds& other) {
+    if (other.empty()) return;
+    bounds.extend(other.lower);
+    bounds.extend(other.upper);
+}
+
+Bounds bounds_of(const Shape& shape) {
+    Bounds bounds;
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+        for (const Vec3& vertex : polygon->vertices) bounds.extend(vertex);
+    } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+        const Vec3 reach{sphere->radius, sphere->radius, sphere->radius};
+        bounds.extend(sphere->center - reach);
+        bounds.extend(sphere->center + reach);
+    } else if (const auto* cone = std::get_if<ConeShape>(&shape)) {
+        extend_by_disc(bounds, cone->p0, cone->axis, cone->r0);
+        extend_by_disc(bounds, cone->p1, cone->axis, cone->r1);
+    } else if (const auto* ring = std::get_if<RingShape>(&shape)) {
+        extend_by_disc(bounds, ring->center, ring->normal, ring->r1);
+    }
+    return bounds;
+}
+
+Bounds hit_bounds(const Shape& shape) {
+    Bounds bounds = bounds_of(shape);
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+        // Hits lie on the mean plane: drop each vertex onto it along the axis that the inside test ignores.
+        const auto axis = static_cast<std::size_t>(polygon->drop_axis);
+        for (Vec3 vertex : polygon->vertices) {
+            vertex[axis] += (polygon->offset - dot(polygon->normal, vertex)) / polygon->normal[axis];
+            bounds.extend(vertex);
+        }
+    }
+    return grown(bounds, 4 * kEpsilon);
+}
+
+Bounds grown(Bounds bounds, double margin) {
+    if (bounds.empty()) return bounds;
+    const Vec3 reach{margin, margin, margin};
+    bounds.lower -= reach;
+    bounds.upper += reach;
+    return bounds;
+}
+
+Bounds transformed(const Bounds& bounds, const Matrix& matrix) {
+    Bounds result;
+    if (bounds.empty()) return result;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        result.extend(matrix.point({(corner & 1U) != 0 ? bounds.upper.x : bounds.lower.x,
+                                    (corner & 2U) != 0 ? bounds.upper.y : bounds.lower.y,
+                                    (corner & 4U) != 0 ? bounds.upper.z : bounds.lower.z}));
+    }
+    return result;
+}
+
+Bounds cube_around(const Bounds& bounds) {
+    constexpr double kMargin = 1e-5;  // [m]
+    if (bounds.empty()) return bounds;
+    const Vec3 size = bounds.upper - bounds.lower, center = (bounds.lower + bounds.upper) * 0.5;
+    const double half = std::max({size.x, size.y, size.z}) / 2 + kMargin;
+    return {center - Vec3{half, half, half}, center + Vec3{half, half, half}};
+}
+
+bool contains(const Bounds& bounds, const Vec3& p) {
+    return p.x >= bounds.lower.x && p.x <= bounds.upper.x && p.y >= bounds.lower.y && p.y <= bounds.upper.y &&
+           p.z >= bounds.lower.z && p.z <= bounds.upper.z;
+}
+
+std::optional<double> entry(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
+    double first = 0, last = kHuge;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (direction[k] == 0) {
+            if (!(origin[k] >= bounds.lower[k] && origin[k] <= bounds.upper[k])) return std::nullopt;
+            continue;
+        }
+        const double a = (bounds.lower[k] - origin[k]) / direction[k];
+        const double b = (bounds.upper[k] - origin[k]) / direction[k];
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    if (!(first <= last)) return std::nullopt;
+    return first;
+}
+
+double magnitude(const Bounds& bounds) {
+    if (bounds.empty()) return 0;
+    return std::max({std::abs(bounds.lower.x), std::abs(bounds.lower.y), std::abs(bounds.lower.z),
+                     std::abs(bounds.upper.x), std::abs(bounds.upper.y), std::abs(bounds.upper.z)});
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,428 @@
+#include "core/geometry/geometry.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/geometry/bounds.h"
+#include "core/geometry/placed_scene.h"
+#include "core/geometry/search_space.h"
+
+// Embree proposes, doubles decide. Every surface is a user geometry whose box is a little too large, so that no
+// rounding of Embree's single precision can hide a true crossing; PlacedScene then computes each crossing in
+// double precision. The answer does not depend on the order of proposals, so packets give the same bits as
+// single rays. Measured on interiors, this is also faster than triangles with a filter function.
+
+namespace lightwalk {
+namespace {
+
+struct ReleaseDevice {
+    void operator()(RTCDeviceTy* device) const noexcept { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+    void operator()(RTCSceneTy* scene) const noexcept { rtcReleaseScene(scene); }
+};
+struct ReleaseGeometry {
+    void operator()(RTCGeometryTy* geometry) const noexcept { rtcReleaseGeometry(geometry); }
+};
+using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
+
+constexpr unsigned kPacket = 16;
+constexpr unsigned kOwnSurfaces = 0;  ///< geometry id in every Embree scene; instances have FrameId + 1
+
+/// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's inverse.
+constexpr double kFarthest = 4e10;
+constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
+
+float round_down(double x) {
+    const auto f = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
+    return std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+float round_up(double x) { return -round_down(-x); }
+
+/// False for NaN as well.
+bool is_within_reach(const Vec3& v) {
+    return std::abs(v.x) < kUnreachable && std::abs(v.y) < kUnreachable && std::abs(v.z) < kUnreachable;
+}
+
+/// A model's primitives in an Embree scene.
+struct Hierarchy {
+    const ModelPrimitives* primitives = nullptr;
+    SearchSpace space;
+    ScenePtr scene;
+};
+
+void primitive_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    const Bounds box = model.space.box(model.primitives->hit_bounds(args->primID));
+    *args->bounds_o = {round_down(box.lower.x), round_down(box.lower.y), round_down(box.lower.z), 0,
+                       round_up(box.upper.x),   round_up(box.upper.y),   round_up(box.upper.z),   0};
+}
+
+/// One traversal: what Embree hands to the callbacks. Ray i of a packet has the id i.
+struct NearestQuery : RTCIntersectContext {
+    const PlacedScene* placed = nullptr;
+    NearestRay* rays = nullptr;
+    std::array<double, kPacket> start{};  ///< distance of Embree's origin from the true one [m]
+};
+struct ShadowQueries : RTCIntersectContext {
+    const PlacedScene* placed = nullptr;
+    ShadowRay* rays = nullptr;
+};
+
+FrameId frame_of(const RTCIntersectContext* context) {
+    const unsigned instance = context->instID[0];
+    return instance == RTC_INVALID_GEOMETRY_ID ? kWorld : FrameId{static_cast<std::int32_t>(instance) - 1};
+}
+
+/// End of Embree's ray: nothing up to `limit` may be lost in rounding.
+float embree_end(double limit, double start) {
+    constexpr double kRoundUp = 1 + 0x1p-20;  // 16 half units in the last place
+    return static_cast<float>(std::max(limit - start, 0.0) * kRoundUp);
+}
+
+void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
+    auto& query = *static_cast<NearestQuery*>(args->context);
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    const PrimitiveRef what{frame_of(args->context), args->primID};
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        const unsigned i = RTCRayN_id(rays, args->N, lane);
+        NearestRay& ray = query.rays[i];
+        if (query.placed->propose(ray, what)) {
+            RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
+        }
+    }
+}
+
+void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
+    auto& query = *static_cast<ShadowQueries*>(args->context);
+    const PrimitiveRef what{frame_of(args->context), args->primID};
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];
+        if (query.placed->propose(ray, what)) {
+            RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
+        }
+    }
+}
+
+/// A ray as Embree takes it.
+struct EmbreeRay {
+    std::array<float, 3> origin, direction;
+    float end = 0;
+    double start = 0;
+};
+
+}  // namespace
+
+struct Geometry::Impl {
+    explicit Impl(GeometryInput input);
+
+    [[nodiscard]] std::optional<EmbreeRay> embree_ray(const TracedRay& ray) const;
+    void trace(NearestRay& ray) const;
+    void trace(std::span<NearestRay> rays) const;
+    void trace(ShadowRay& ray) const;
+    void trace(std::span<ShadowRay> rays) const;
+    [[nodiscard]] Hit finish(const RaySegment& segment, const NearestRay& ray) const;
+
+    std::atomic<std::ptrdiff_t> embree_bytes{0};  ///< Embree may allocate from several threads while it builds
+    std::string embree_message;
+    PlacedScene placed;
+    DevicePtr device;  ///< outlives the scenes below
+    std::vector<Hierarchy> models;
+    Bounds box;  ///< of all geometry, relative to models[0].space.center, margins included
+
+  private:
+    void open_device();
+    void check(const char* doing) const;
+    void build(Hierarchy& model);
+    void add_instances();
+};
+
+Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
+    open_device();
+    models.resize(placed.model_count());
+    std::vector<bool> used(models.size(), false);
+    used[0] = true;
+    for (const PlacedModel& frame : placed.frames()) used[frame.model] = true;
+    const std::vector<SearchSpace> spaces = search_spaces(placed);
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        models[i].primitives = &placed.primitives(static_cast<std::uint32_t>(i));
+        models[i].space = spaces[i];
+    }
+    for (std::size_t i = 1; i < models.size(); ++i) {
+        if (!used[i] || models[i].primitives->size() == 0) continue;
+        build(models[i]);
+        rtcCommitScene(models[i].scene.get());
+        check("building a model's search tree");
+    }
+    build(models[0]);
+    add_instances();
+    rtcCommitScene(models[0].scene.get());
+    check("building the scene's search tree");
+    RTCBounds b{};
+    rtcGetSceneBounds(models[0].scene.get(), &b);
+    box.lower = {static_cast<double>(b.lower_x), static_cast<double>(b.lower_y), static_cast<double>(b.lower_z)};
+    box.upper = {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y), static_cast<double>(b.upper_z)};
+}
+
+/// Embree's own default for threads: a number would limit oneTBB in the whole process.
+void Geometry::Impl::open_device() {
+    device.reset(rtcNewDevice(nullptr));
+    if (!device) throw std::runtime_error("Embree does not start on this machine");
+    rtcSetDeviceErrorFunction(
+        device.get(),
+        [](void* message, RTCError, const char* text) { *static_cast<std::string*>(message) = text ? text : ""; },
+        &embree_message);
+    rtcSetDeviceMemoryMonitorFunction(
+        device.get(),
+        [](void* bytes, ssize_t change, bool) {
+            static_cast<std::atomic<std::ptrdiff_t>*>(bytes)->fetch_add(change, std::memory_order_relaxed);
+            return true;
+        },
+        &embree_bytes);
+}
+
+void Geometry::Impl::check(const char* doing) const {
+    const RTCError error = rtcGetDeviceError(device.get());
+    if (error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw InputError(std::string("out of memory while ") + doing);
+    throw std::runtime_error(std::string("Embree failed while ") + doing + ": " + embree_message);
+}
+
+void Geometry::Impl::build(Hierarchy& model) {
+    model.scene.reset(rtcNewScene(device.get()));
+    check("creating a scene");
+    rtcSetSceneFlags(model.scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(model.scene.get(), RTC_BUILD_QUALITY_HIGH);
+    if (model.primitives->size() == 0) return;
+    const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    check("creating the surfaces");
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(model.primitives->size()));
+    rtcSetGeometryUserData(geometry.get(), &model);
+    rtcSetGeometryBoundsFunction(geometry.get(), primitive_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), intersect_primitive);
+    rtcSetGeometryOccludedFunction(geometry.get(), occlude_primitive);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(model.scene.get(), geometry.get(), kOwnSurfaces);
+    check("adding the surfaces");
+}
+
+void Geometry::Impl::add_instances() {
+    for (std::size_t i = 0; i < placed.frames().size(); ++i) {
+        const PlacedModel& frame = placed.frames()[i];
+        const Hierarchy& model = models[frame.model];
+        if (!model.scene) continue;
+        const Matrix& matrix = frame.to_world.forward;
+        const Vec3 origin = matrix.point(model.space.center) - models[0].space.center;
+        if (!is_within_reach(origin)) continue;
+        std::array<float, 12> columns{};
+        for (std::size_t row = 0; row < 4; ++row) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                columns[3 * row + k] = static_cast<float>(row < 3 ? matrix.row[row][k] : origin[k]);
+            }
+        }
+        const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+        check("creating an instance");
+        rtcSetGeometryInstancedScene(geometry.get(), model.scene.get());
+        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(models[0].scene.get(), geometry.get(), static_cast<unsigned>(i) + 1);
+        check("adding an instance");
+    }
+}
+
+namespace {
+
+void set_ray(RTCRay& ray, const EmbreeRay& from) {
+    ray.org_x = from.origin[0];
+    ray.org_y = from.origin[1];
+    ray.org_z = from.origin[2];
+    ray.tnear = 0;
+    ray.dir_x = from.direction[0];
+    ray.dir_y = from.direction[1];
+    ray.dir_z = from.direction[2];
+    ray.time = 0;
+    ray.tfar = from.end;
+    ray.mask = ~0U;
+    ray.id = 0;
+    ray.flags = 0;
+}
+
+void set_ray(RTCRay16& rays, unsigned i, const EmbreeRay& from) {
+    rays.org_x[i] = from.origin[0];
+    rays.org_y[i] = from.origin[1];
+    rays.org_z[i] = from.origin[2];
+    rays.tnear[i] = 0;
+    rays.dir_x[i] = from.direction[0];
+    rays.dir_y[i] = from.direction[1];
+    rays.dir_z[i] = from.direction[2];
+    rays.time[i] = 0;
+    rays.tfar[i] = from.end;
+    rays.mask[i] = ~0U;
+    rays.id[i] = i;
+    rays.flags[i] = 0;
+}
+
+}  // namespace
+
+/// A ray from outside starts where it enters the scene, so that a far origin costs no precision. Nothing when the
+/// ray cannot meet the scene, or is not made of numbers.
+std::optional<EmbreeRay> Geometry::Impl::embree_ray(const TracedRay& ray) const {
+    Vec3 origin = ray.origin - models[0].space.center;
+    if (!is_within_reach(origin) || !is_within_reach(ray.direction) || !(ray.limit > kEpsilon)) return std::nullopt;
+    EmbreeRay result;
+    if (!contains(box, origin)) {
+        const std::optional<double> start = entry(box, origin, ray.direction);
+        if (!start || *start > ray.limit) return std::nullopt;
+        result.start = *start;
+        origin += ray.direction * *start;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        result.origin[k] = static_cast<float>(origin[k]);
+        result.direction[k] = static_cast<float>(ray.direction[k]);
+    }
+    result.end = embree_end(ray.limit, result.start);
+    return result;
+}
+
+Geometry::Geometry(GeometryInput input) : impl_(std::make_unique<Impl>(std::move(input))) {}
+Geometry::~Geometry() = default;
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+
+const Transform& Geometry::frame(FrameId id) const { return impl_->placed.transform(id); }
+Bounds Geometry::bounds() const { return impl_->placed.bounds(); }
+std::size_t Geometry::frame_count() const { return impl_->placed.frames().size(); }
+std::size_t Geometry::memory_bytes() const {
+    const std::ptrdiff_t embree = impl_->embree_bytes.load(std::memory_order_relaxed);
+    return impl_->placed.memory_bytes() + static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
+}
+
+Hit Geometry::intersect_surface(SurfaceId surface, const RaySegment& ray) const {
+    return impl_->placed.intersect_surface(surface, ray);
+}
+
+void Geometry::Impl::trace(NearestRay& ray) const {
+    const std::optional<EmbreeRay> from = embree_ray(ray);
+    if (!from) return;
+    NearestQuery query;
+    rtcInitIntersectContext(&query);
+    query.placed = &placed;
+    query.rays = &ray;
+    query.start[0] = from->start;
+    RTCRayHit hit;
+    set_ray(hit.ray, *from);
+    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(models[0].scene.get(), &query, &hit);
+}
+
+void Geometry::Impl::trace(std::span<NearestRay> rays) const {
+    assert(rays.size() <= kPacket);
+    alignas(64) std::array<int, kPacket> valid{};
+    RTCRayHit16 hits;
+    NearestQuery query;
+    rtcInitIntersectContext(&query);
+    query.placed = &placed;
+    query.rays = rays.data();
+    for (unsigned i = 0; i < kPacket; ++i) {
+        hits.hit.geomID[i] = hits.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        const std::optional<EmbreeRay> from = i < rays.size() ? embree_ray(rays[i]) : std::nullopt;
+        set_ray(hits.ray, i, from.value_or(EmbreeRay{}));
+        if (!from) continue;
+        valid[i] = -1;
+        query.start[i] = from->start;
+    }
+    rtcIntersect16(valid.data(), models[0].scene.get(), &query, &hits);
+}
+
+void Geometry::Impl::trace(ShadowRay& ray) const {
+    const std::optional<EmbreeRay> from = embree_ray(ray);
+    if (!from) return;
+    ShadowQueries query;
+    rtcInitIntersectContext(&query);
+    query.placed = &placed;
+    query.rays = &ray;
+    RTCRay embree;
+    set_ray(embree, *from);
+    rtcOccluded1(models[0].scene.get(), &query, &embree);
+}
+
+void Geometry::Impl::trace(std::span<ShadowRay> rays) const {
+    assert(rays.size() <= kPacket);
+    alignas(64) std::array<int, kPacket> valid{};
+    RTCRay16 embree;
+    ShadowQueries query;
+    rtcInitIntersectContext(&query);
+    query.placed = &placed;
+    query.rays = rays.data();
+    for (unsigned i = 0; i < kPacket; ++i) {
+        const std::optional<EmbreeRay> from = i < rays.size() ? embree_ray(rays[i]) : std::nullopt;
+        set_ray(embree, i, from.value_or(EmbreeRay{}));
+        if (from) valid[i] = -1;
+    }
+    rtcOccluded16(valid.data(), models[0].scene.get(), &query, &embree);
+}
+
+Hit Geometry::Impl::finish(const RaySegment& segment, const NearestRay& ray) const {
+    if (!ray.nearest) return {};
+    if (!placed.is_ambiguous(ray)) return placed.hit_of(segment, *ray.nearest);
+    std::vector<Candidate> all{*ray.nearest};
+    NearestRay again;
+    placed.begin_gathering(again, segment, ray, all);
+    trace(again);
+    if (again.out_of_memory) throw std::bad_alloc();
+    return placed.hit_of(segment, placed.resolve(all));
+}
+
+Hit Geometry::intersect(const RaySegment& ray) const {
+    NearestRay search;
+    impl_->placed.begin(search, ray);
+    impl_->trace(search);
+    return impl_->finish(ray, search);
+}
+
+void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) const {
+    assert(rays.size() == out.size());
+    std::array<NearestRay, kPacket> searches;
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        const std::size_t count = std::min<std::size_t>(kPacket, rays.size() - first);
+        for (std::size_t i = 0; i < count; ++i) impl_->placed.begin(searches[i], rays[first + i]);
+        impl_->trace(std::span(searches).first(count));
+        for (std::size_t i = 0; i < count; ++i) out[first + i] = impl_->finish(rays[first + i], searches[i]);
+    }
+}
+
+Visibility Geometry::visibility(const RaySegment& ray, SurfaceId target) const {
+    ShadowRay search;
+    impl_->placed.begin(search, ray, target);
+    impl_->trace(search);
+    return search.result;
+}
+
+void Geometry::visibility(std::span<ShadowQuery> queries) const {
+    std::array<ShadowRay, kPacket> searches;
+    for (std::size_t first = 0; first < queries.size(); first += kPacket) {
+        const std::span<ShadowQuery> some =
+            queries.subspan(first, std::min<std::size_t>(kPacket, queries.size() - first));
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            impl_->placed.begin(searches[i], some[i].segment, some[i].target);
+        }
+        impl_->trace(std::span(searches).first(some.size()));
+        for (std::size_t i = 0; i < some.size(); ++i) some[i].result = searches[i].result;
+    }
+}
+
+}  // namespace lightwalk

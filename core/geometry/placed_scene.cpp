@@ -1,0 +1,240 @@
+#include "core/geometry/placed_scene.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "core/geometry/bounds.h"
+
+namespace lightwalk {
+namespace {
+
+void begin_tracing(TracedRay& ray, const RaySegment& segment) {
+    ray.origin = segment.origin;
+    ray.direction = segment.direction;
+    ray.limit = std::min(segment.t_max, kHuge);
+    ray.local_frame = kWorld;
+}
+
+}  // namespace
+
+PlacedScene::PlacedScene(GeometryInput input) : input_(std::move(input)) {
+    if (input_.models.empty()) input_.models.emplace_back();
+    frames_ = flatten_placements(input_);
+    models_.reserve(input_.models.size());
+    for (const ModelGeometry& model : input_.models) models_.emplace_back(input_.surfaces, model);
+    for (const PlacedModel& frame : frames_) {
+        coincidence_ = std::max(coincidence_, kEpsilon * frame.to_world.size());
+    }
+    std::vector<std::optional<Bounds>> cubes(input_.models.size());
+    bounds_ = model_bounds(0, cubes);
+}
+
+Bounds PlacedScene::model_bounds(std::uint32_t model, std::vector<std::optional<Bounds>>& cubes) const {
+    Bounds bounds = models_[model].bounds();
+    for (const Placement& placement : input_.models[model].placements) {
+        if (!cubes[placement.model]) {
+            const std::optional<Bounds>& stated = input_.models[placement.model].cube;
+            cubes[placement.model] = stated ? *stated : cube_around(model_bounds(placement.model, cubes));
+        }
+        extend(bounds, transformed(*cubes[placement.model], placement.transform.forward));
+    }
+    return bounds;
+}
+
+const Transform& PlacedScene::transform(FrameId frame) const {
+    return frame == kWorld ? identity_ : frames_[static_cast<std::size_t>(index(frame))].to_world;
+}
+
+std::size_t PlacedScene::memory_bytes() const {
+    std::size_t bytes = frames_.capacity() * sizeof(PlacedModel);
+    for (const ModelPrimitives& model : models_) bytes += sizeof(model) + model.memory_bytes();
+    return bytes;
+}
+
+LocalRay PlacedScene::local_ray(const Vec3& origin, const Vec3& direction, FrameId frame) const {
+    if (frame == kWorld) return {origin, direction, 1};
+    const Transform& t = transform(frame);
+    return {t.inverse.point(origin), t.inverse.vector(direction) * t.size(), t.size()};
+}
+
+std::optional<Candidate> PlacedScene::cross(TracedRay& ray, PrimitiveRef what) const {
+    if (what.frame == kWorld) {
+        const auto hit = models_[0].intersect(what.primitive, ray.origin, ray.direction, ray.limit);
+        if (!hit) return std::nullopt;
+        return Candidate{hit->t, what, *hit};
+    }
+    if (ray.local_frame != what.frame) {
+        ray.local = local_ray(ray.origin, ray.direction, what.frame);
+        ray.local_frame = what.frame;
+    }
+    constexpr double kRoundUp = 1 + 1e-12;  // the limit holds in the world, exactly: see below
+    const double local_limit = ray.limit / ray.local.size * kRoundUp;
+    const auto hit =
+        model_of(what.frame).intersect(what.primitive, ray.local.origin, ray.local.direction, local_limit);
+    if (!hit) return std::nullopt;
+    const double t = hit->t * ray.local.size;
+    if (!(t <= ray.limit)) return std::nullopt;
+    return Candidate{t, what, *hit};
+}
+
+void PlacedScene::begin(NearestRay& ray, const RaySegment& segment) {
+    begin_tracing(ray, segment);
+    ray.nearest.reset();
+    ray.second = std::numeric_limits<double>::infinity();
+    ray.all = nullptr;
+    ray.out_of_memory = false;
+}
+
+bool PlacedScene::propose(NearestRay& ray, PrimitiveRef what) const {
+    const std::optional<Candidate> candidate = cross(ray, what);
+    if (!candidate) return false;
+    if (ray.all) {
+        try {
+            ray.all->push_back(*candidate);
+        } catch (const std::bad_alloc&) {  // must not unwind through the search's C frames
+            ray.out_of_memory = true;
+        }
+        return false;
+    }
+    if (ray.nearest) {
+        const Candidate& best = *ray.nearest;
+        if (what == best.what) return false;
+        const bool nearer = candidate->t < best.t || (candidate->t == best.t && what < best.what);
+        ray.second = std::min(ray.second, nearer ? best.t : candidate->t);
+        if (!nearer) return false;
+    }
+    ray.nearest = candidate;
+    ray.limit = std::min(ray.limit, candidate->t + coincidence_);
+    return true;
+}
+
+bool PlacedScene::is_ambiguous(const NearestRay& ray) const {
+    if (!ray.nearest) return false;
+    const PrimitiveRef what = ray.nearest->what;
+    if (model_of(what.frame).is_triangle(what.primitive)) return false;  // in meshes the nearest wins
+    return ray.second <= ray.nearest->t + kEpsilon * transform(what.frame).size();
+}
+
+void PlacedScene::begin_gathering(NearestRay& ray, const RaySegment& segment, const NearestRay& first,
+                                  std::vector<Candidate>& all) const {
+    begin(ray, segment);
+    // The winner lies within one tolerance of the nearest; what could take its place, within another.
+    ray.limit = std::min(ray.limit, first.nearest->t + 2 * coincidence_);
+    ray.all = &all;
+}
+
+Precedence PlacedScene::precedence(const Candidate& candidate) const {
+    const ModelPrimitives& model = model_of(candidate.what.frame);
+    const std::uint32_t primitive = candidate.what.primitive;
+    return precedence_of(model.traits(primitive), candidate.local.front, model.modifier(primitive),
+                         model.surface(primitive));
+}
+
+Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
+    std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+        return std::pair(a.what.frame, std::pair(a.t, a.what)) < std::pair(b.what.frame, std::pair(b.t, b.what));
+    });
+    Candidate winner;
+    for (auto group = all.cbegin(); group != all.cend();) {
+        const FrameId frame = group->what.frame;
+        const ModelPrimitives& model = model_of(frame);
+        const double tied = group->t + kEpsilon * transform(frame).size();
+        Candidate best = *group;
+        const bool has_ties = !model.is_triangle(best.what.primitive);
+        for (; group != all.cend() && group->what.frame == frame; ++group) {
+            if (has_ties && group->t <= tied && !model.is_triangle(group->what.primitive) &&
+                precedence(*group) > precedence(best)) {
+                best = *group;
+            }
+        }
+        if (best.t < winner.t || winner.t >= kHuge) winner = best;
+    }
+    return winner;
+}
+
+Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) const {
+    const auto [frame, primitive] = winner.what;
+    const ModelPrimitives& model = model_of(frame);
+    const Transform& to_world = transform(frame);
+    Hit hit;
+    hit.t = winner.t;
+    hit.position = segment.origin + segment.direction * winner.t;
+    hit.normal = winner.local.normal;
+    if (frame != kWorld) hit.normal = to_world.forward.vector(hit.normal) / to_world.size();
+    hit.rod = -dot(segment.direction, hit.normal);
+    hit.surface = model.surface(primitive);
+    hit.modifier = model.modifier(primitive);
+    hit.frame = frame;
+    if (model.is_triangle(primitive)) {
+        const LocalRay local = local_ray(segment.origin, segment.direction, frame);
+        const Vec3 position = local.origin + local.direction * winner.local.t;
+        const auto smoothing = model.smoothing(primitive, position, winner.local.normal);
+        hit.perturbation = to_world.forward.vector(smoothing.perturbation) / to_world.size();
+        hit.u = smoothing.u;
+        hit.v = smoothing.v;
+    }
+    if (frame == kWorld) return hit;
+    const PlacedModel& placed = frames_[static_cast<std::size_t>(index(frame))];
+    if (placed.override_surface != kNoSurface) {
+        hit.surface = placed.override_surface;
+        hit.modifier = surface(placed.override_surface).modifier;
+        hit.frame = placed.override_frame;
+    }
+    return hit;
+}
+
+Hit PlacedScene::intersect_surface(SurfaceId id, const RaySegment& segment) const {
+    Hit hit;
+    const auto crossing = models_[0].intersect_surface(id, segment.origin, segment.direction,
+                                                       std::min(segment.t_max, kHuge));
+    if (!crossing) return hit;
+    hit.t = crossing->t;
+    hit.position = segment.origin + segment.direction * hit.t;
+    hit.normal = crossing->normal;
+    hit.rod = -dot(segment.direction, hit.normal);
+    hit.surface = id;
+    hit.modifier = surface(id).modifier;
+    return hit;
+}
+
+void PlacedScene::begin(ShadowRay& ray, const RaySegment& segment, SurfaceId target) {
+    begin_tracing(ray, segment);
+    ray.t_max = ray.limit;
+    ray.target = target;
+    if (target != kNoSurface) ray.limit += kEpsilon;
+    ray.result = Visibility::clear;
+    ray.target_precedence.reset();
+}
+
+ShadowClass PlacedScene::shadow_class(PrimitiveRef what) const {
+    if (what.frame != kWorld) {
+        const PlacedModel& placed = frames_[static_cast<std::size_t>(index(what.frame))];
+        if (placed.override_surface != kNoSurface) return surface(placed.override_surface).traits.shadow;
+    }
+    return model_of(what.frame).traits(what.primitive).shadow;
+}
+
+bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) const {
+    if (ray.target == kNoSurface || candidate.what.frame != kWorld) return candidate.t < ray.t_max;
+    if (candidate.t < ray.t_max - kEpsilon) return true;
+    if (!ray.target_precedence) {
+        const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});
+        const Surface& light = surface(ray.target);
+        ray.target_precedence = precedence_of(light.traits, on_target.rod > 0, light.modifier, ray.target);
+    }
+    return precedence(candidate) > *ray.target_precedence;
+}
+
+bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
+    const ShadowClass shadow = shadow_class(what);
+    if (shadow == ShadowClass::ignored) return false;
+    if (shadow == ShadowClass::special && ray.result == Visibility::special) return false;
+    if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
+    const std::optional<Candidate> candidate = cross(ray, what);
+    if (!candidate || !is_in_the_way(ray, *candidate)) return false;
+    ray.result = shadow == ShadowClass::blocks ? Visibility::blocked : Visibility::special;
+    return ray.result == Visibility::blocked;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,67 @@
+#pragma once
+// Light sources too small for the pixel grid, drawn into a picture with their true coverage.
+#include <vector>
+
+#include "core/light/image_polygon.h"
+#include "core/light/light_sources.h"
+#include "core/view/view.h"
+
+namespace lightwalk {
+
+/// Pixels [x0, x1) x [y0, y1); y from the bottom.
+struct PixelRectangle {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// What a small source brings to one pixel.
+struct SourcePixel {
+    int x = 0, y = 0;     ///< y from the bottom
+    float coverage = 0;   ///< share of the pixel that it covers
+    Rgb radiance;         ///< of the source as seen through the scene [W/(m² sr)]
+    double distance = 0;  ///< along the ray [m]
+};
+
+/// Blend a source into its pixel. Where the pixel's own ray met the source already only the
+/// coverage counts; with distances (null: none), a source that is clearly nearer than what the
+/// pixel shows sets the distance. Source: behaviour of Radiance's rpict.
+void blend_source(const SourcePixel& source, Rgb& pixel, float* distance);
+
+/// The sources that a picture has to draw, as rpict selects them: whole inside the picture, facing
+/// the eye, no illums, narrower than the spacing of the traced pixels. Immutable; draw() may be
+/// called from many threads.
+class SmallSources {
+  public:
+    /// @param spacing  -ps: distance of the pixels that are traced in any case [pixels]
+    /// Selects nothing with -dv-. Not for pictures with a lens (-pd) or motion blur. The arguments
+    /// must outlive this.
+    SmallSources(const Tracer& tracer, const Camera& camera, int width, int height, int spacing);
+
+    [[nodiscard]] bool empty() const { return outlines_.empty(); }
+    [[nodiscard]] std::size_t size() const { return outlines_.size(); }
+
+    /// Trace the sources' pixels inside a rectangle; `pixel` gets them source by source, in the
+    /// order in which they have to be blended. What a pixel gets does not depend on the rectangle.
+    /// As in rpict the topmost row of the picture gets nothing.
+    void draw(const PixelRectangle& area, TraceContext& context,
+              FunctionRef<void(const SourcePixel&)> pixel) const;
+
+  private:
+    struct Outline {
+        std::int32_t source = kNoTarget;
+        ImagePolygon polygon;  ///< [pixels]
+    };
+    [[nodiscard]] bool project(const LightSource& source, ImagePolygon& polygon) const;
+    [[nodiscard]] bool project_parallelogram(const LightSource& source,
+                                             ImagePolygon& polygon) const;
+    [[nodiscard]] bool project_box(const LightSource& source, ImagePolygon& polygon) const;
+    [[nodiscard]] bool add_corner(const Vec3& corner, ImagePolygon& polygon) const;
+    void draw_pixel(const Outline& outline, int x, int y, TraceContext& context,
+                    FunctionRef<void(const SourcePixel&)> pixel) const;
+
+    const Tracer& tracer_;
+    const Camera& camera_;
+    int width_, height_;
+    std::vector<Outline> outlines_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,54 @@
+#pragma once
+// Runs the built program as a user would.
+#include <string>
+#include <vector>
+
+namespace lightwalk::test {
+
+struct ProgramResult {
+    int status = -1;  ///< exit status; 128 + n for a process that signal n ended
+    std::string out, err;
+};
+
+/// Run the program to its end with `input` on standard input.
+ProgramResult run_program(const std::vector<std::string>& words, const std::string& input = "");
+
+/// The program while it runs.
+class RunningProgram {
+  public:
+    explicit RunningProgram(const std::vector<std::string>& words);
+    ~RunningProgram();  ///< kills it
+    RunningProgram(const RunningProgram&) = delete;
+    RunningProgram& operator=(const RunningProgram&) = delete;
+
+    void send(const std::string& input) const;
+    /// Read `bytes` of standard output; fewer when it ends or says nothing for ten seconds.
+    [[nodiscard]] std::string receive(std::size_t bytes) const;
+    void end_input();
+    void interrupt() const;
+    /// All that is left of its output, and its exit status.
+    ProgramResult finish();
+
+  private:
+    int process_ = -1, in_ = -1, out_ = -1, err_ = -1;
+};
+
+/// A folder for one test, removed with all that is in it.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    [[nodiscard]] std::string path(const std::string& name) const { return path_ + "/" + name; }
+    /// Write a file; returns its path.
+    std::string write(const std::string& name, const std::string& text) const;
+    [[nodiscard]] std::vector<std::string> files() const;  ///< names, sorted
+
+  private:
+    std::string path_;
+};
+
+[[nodiscard]] std::string read_whole(const std::string& path);
+
+}  // namespace lightwalk::test

@@ -1,0 +1,176 @@
+#include "tests/apps/program.h"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+namespace lightwalk::test {
+namespace {
+
+std::array<int, 2> make_pipe() {
+    std::array<int, 2> ends{};
+    REQUIRE(pipe2(ends.data(), O_CLOEXEC) == 0);
+    return ends;
+}
+
+std::string read_all(int descriptor) {
+    std::string text;
+    std::array<char, 65536> buffer{};
+    for (ssize_t count = 0; (count = read(descriptor, buffer.data(), buffer.size())) > 0;) {
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+}
+
+}  // namespace
+
+RunningProgram::RunningProgram(const std::vector<std::string>& words) {
+    std::signal(SIGPIPE, SIG_IGN);
+    const std::array<int, 2> in = make_pipe();
+    const std::array<int, 2> out = make_pipe();
+    const std::array<int, 2> err = make_pipe();
+    std::vector<std::string> line{LIGHTWALK_PROGRAM};
+    line.insert(line.end(), words.begin(), words.end());
+    std::vector<char*> arguments;
+    arguments.reserve(line.size() + 1);
+    for (std::string& word : line) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    process_ = fork();
+    REQUIRE(process_ >= 0);
+    if (process_ == 0) {
+        dup2(in[0], STDIN_FILENO);
+        dup2(out[1], STDOUT_FILENO);
+        dup2(err[1], STDERR_FILENO);
+        execv(arguments.front(), arguments.data());
+        _exit(127);
+    }
+    for (const int unused : {in[0], out[1], err[1]}) close(unused);
+    in_ = in[1];
+    out_ = out[0];
+    err_ = err[0];
+}
+
+RunningProgram::~RunningProgram() {
+    if (process_ >= 0) {
+        kill(process_, SIGKILL);
+        waitpid(process_, nullptr, 0);
+    }
+    end_input();
+    close(out_);
+    close(err_);
+}
+
+void RunningProgram::send(const std::string& input) const {
+    for (std::size_t at = 0; at < input.size();) {
+        const ssize_t count = write(in_, input.data() + at, input.size() - at);
+        if (count <= 0) return;  // it no longer listens
+        at += static_cast<std::size_t>(count);
+    }
+}
+
+std::string RunningProgram::receive(std::size_t bytes) const {
+    std::string text;
+    while (text.size() < bytes) {
+        pollfd ready{out_, POLLIN, 0};
+        if (poll(&ready, 1, 10000) <= 0) break;
+        std::array<char, 4096> buffer{};
+        const ssize_t count =
+            read(out_, buffer.data(), std::min(buffer.size(), bytes - text.size()));
+        if (count <= 0) break;
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+}
+
+void RunningProgram::end_input() {
+    if (in_ >= 0) close(in_);
+    in_ = -1;
+}
+
+void RunningProgram::interrupt() const {
+    kill(process_, SIGINT);
+}
+
+ProgramResult RunningProgram::finish() {
+    end_input();
+    ProgramResult result;
+    std::thread errors([&] { result.err = read_all(err_); });
+    result.out = read_all(out_);
+    errors.join();
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+}
+
+ProgramResult run_program(const std::vector<std::string>& words, const std::string& input) {
+    RunningProgram program(words);
+    program.send(input);  // smaller than a pipe holds
+    return program.finish();
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "lightwalk-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+}
+
+std::vector<std::string> TemporaryFolder::files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+        names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string read_whole(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace lightwalk::test
+
+TEST_CASE(
+    "program: help and version answer on standard output with status 0, nothing at all with status "
+    "2") {
+    using lightwalk::test::run_program;
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                  {"render", "--help"},
+                                                  {"trace", "-help"},
+                                                  {"info", "--help"},
+                                                  {"help", "trace"}}) {
+        const auto result = run_program(words);
+        CHECK(result.status == 0);
+        CHECK(result.out.starts_with("lightwalk"));
+        CHECK(result.err.empty());
+    }
+    CHECK(run_program({"--version"}).out.starts_with("Lightwalk "));
+    const auto nothing = run_program({});
+    CHECK(nothing.status == 2);
+    CHECK(nothing.out.empty());
+    const auto unknown = run_program({"rendre"});
+    CHECK(unknown.status == 2);
+    CHECK(unknown.err.find("did you mean render?") != std::string::npos);
+}

@@ -1,0 +1,185 @@
+// Direct light on surfaces of a scene.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "core/light/light_scratch.h"
+#include "core/light/light_sources.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using test::TestScene;
+
+namespace {
+
+const std::string kFloor =
+    "void plastic grey\n0\n0\n5 .5 .5 .5 0 0\ngrey polygon floor\n0\n0\n12 -50 -50 0 50 -50 0 50 "
+    "50 0 -50 50 0\n";
+const std::string kLamp = "void light lamp\n0\n0\n3 100 50 25\n";
+const std::string kPanel =
+    kLamp + "lamp polygon panel\n0\n0\n12 -.5 -.5 1  -.5 .5 1  .5 .5 1  .5 -.5 1\n";
+
+/// Radiance of the floor at (x, y).
+Rgb floor_at(TestScene& scene, double x, double y, std::uint32_t sample = 0) {
+    return scene.trace({x, y, 0.5}, {0, 0, -1}, sample).value;
+}
+
+/// A grid of small lamps over the floor, each dimmer than the one before, with a wall among
+/// them.
+std::string many_lamps(int count) {
+    std::ostringstream text;
+    text << kFloor << "grey polygon wall\n0\n0\n12 .2 -1 .6  .2 -1 1.5  .2 1 1.5  .2 1 .6\n";
+    double radiance = 1000;
+    for (int i = 0; i < count; ++i) {
+        text << "void light l" << i << "\n0\n0\n3 " << radiance << ' ' << radiance << ' '
+             << radiance << "\nl" << i << " sphere s" << i << "\n0\n0\n4 "
+             << (i * 7 % 11) * 0.3 - 1.5 << ' ' << (i * 5 % 9) * 0.3 - 1.2 << " 3 .05\n";
+        radiance *= 0.8;
+    }
+    return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("direct light of a sphere: radiance · solid angle · cosine · reflectance / π") {
+    TestScene scene(kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n");
+    CHECK(floor_at(scene, 0, 0).r == doctest::Approx(0.5 * 100 * 0.0625 / 16));
+    const Rgb aside = floor_at(scene, 3, 0);
+    CHECK(aside.r == doctest::Approx(0.5 * 100 * 0.0625 / 25 * 0.8));
+    CHECK(aside.g == doctest::Approx(0.5 * static_cast<double>(aside.r)));
+    CHECK(aside.b == doctest::Approx(0.25 * static_cast<double>(aside.r)));
+}
+
+TEST_CASE(
+    "direct light of a panel: one sample without -ds, the form factor of the rectangle with it") {
+    TestScene coarse(kFloor + kPanel);
+    CHECK(floor_at(coarse, 0, 0).r == doctest::Approx(0.5 * 100 / kPi));
+    RenderOptions options = TestScene::exact();
+    options.source_subdivision = 0.1;
+    TestScene fine(kFloor + kPanel, options);
+    const double root = std::sqrt(1.25),
+                 factor = 4 * (0.5 / root * std::atan(0.5 / root));  // times L: irradiance
+    CHECK(floor_at(fine, 0, 0).r == doctest::Approx(0.5 * 100 / kPi * factor).epsilon(0.004));
+    CHECK(floor_at(fine, 0, 0).r < 0.9f * floor_at(coarse, 0, 0).r);
+}
+
+TEST_CASE("a panel lights its front only, a wide sun with the cosine of its centre") {
+    TestScene above(kFloor + kLamp +
+                    "lamp polygon panel\n0\n0\n12 -.5 -.5 1  .5 -.5 1  .5 .5 1  -.5 .5 1\n");
+    CHECK(floor_at(above, 0, 0) == Rgb{});
+    TestScene sun(kFloor + kLamp + "lamp source sun\n0\n0\n4 0 3 4 10\n");
+    const double omega = 2 * kPi * (1 - std::cos(5 * kPi / 180));
+    CHECK(floor_at(sun, 3, 3).r == doctest::Approx(0.5 * 100 / kPi * omega * 0.8));
+}
+
+TEST_CASE(
+    "shadows: opaque surfaces block, wherever they stand; what is behind the light does not") {
+    const std::string base = kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
+    const std::string wall = "grey ring w\n0\n0\n8 0 0 ";
+    for (const char* height : {"3.7", "2", "0.6"}) {
+        TestScene scene(base + wall + height + " 0 0 1 0 .1\n");
+        CHECK(floor_at(scene, 0, 0) == Rgb{});
+        CHECK(floor_at(scene, 3, 0).r > 0);
+    }
+    TestScene behind(base + wall + "4.5 0 0 1 0 .1\n");
+    CHECK(floor_at(behind, 0, 0).r == doctest::Approx(0.5 * 100 * 0.0625 / 16));
+    TestScene void_wall(base + "void ring w\n0\n0\n8 0 0 2 0 0 1 0 .1\n");
+    CHECK(floor_at(void_wall, 0, 0).r == doctest::Approx(0.5 * 100 * 0.0625 / 16));
+    TestScene other_light(base + "lamp ring w\n0\n0\n8 0 0 2 0 0 1 0 .01\n");
+    CHECK(floor_at(other_light, 0, 0) == Rgb{});
+}
+
+TEST_CASE("glass in the way: the pane's transmittance, squared for two, nothing with a wall") {
+    const std::string base = kFloor + "void glass pane\n0\n0\n3 .96 .96 .96\n" + kLamp +
+                             "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
+    const std::string pane = "pane ring g\n0\n0\n8 0 0 2 0 0 1 0 1\n",
+                      second = "pane ring h\n0\n0\n8 0 0 3 0 0 1 0 1\n";
+    const double clear = 0.5 * 100 * 0.0625 / 16, transmittance = 0.881460;  // at normal incidence
+    TestScene one(base + pane), two(base + pane + second);
+    CHECK(floor_at(one, 0, 0).r == doctest::Approx(clear * transmittance).epsilon(1e-5));
+    CHECK(floor_at(two, 0, 0).r ==
+          doctest::Approx(clear * transmittance * transmittance).epsilon(1e-5));
+    TestScene blocked(base + pane + "grey ring w\n0\n0\n8 0 0 3 0 0 1 0 1\n");
+    CHECK(floor_at(blocked, 0, 0) == Rgb{});
+}
+
+TEST_CASE("a medium absorbs on the way from the light") {
+    RenderOptions options = TestScene::exact();
+    options.extinction = {0.1f, 0.1f, 0.1f};
+    TestScene scene(kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n", options);
+    CHECK(floor_at(scene, 0, 0).r ==
+          doctest::Approx(0.5 * 100 * 0.0625 / 16 * std::exp(-0.1 * 3.75) * std::exp(-0.1 * 0.5)));
+}
+
+TEST_CASE("packets of shadow rays give what single lamps give") {
+    TestScene all(many_lamps(40));
+    for (const double x : {-0.7, 0.0, 0.9}) {
+        double sum = 0;
+        const std::string text = many_lamps(40);
+        for (int i = 0; i < 40; ++i) {
+            // The same scene with all other lamps' materials black: they still cast shadows.
+            std::string one = text;
+            for (int k = 0; k < 40; ++k) {
+                if (k == i) continue;
+                const std::string head = "void light l" + std::to_string(k) + "\n0\n0\n3 ";
+                const std::size_t at = one.find(head) + head.size();
+                one.replace(at, one.find('\n', at) - at, "0 0 0");
+            }
+            TestScene single(one);
+            sum += static_cast<double>(floor_at(single, x, 0.1).r);
+        }
+        CHECK(static_cast<double>(floor_at(all, x, 0.1).r) == doctest::Approx(sum).epsilon(1e-5));
+    }
+}
+
+TEST_CASE(
+    "-dt: fewer shadow rays, the same mean within half a percent, no memory of earlier rays") {
+    RenderOptions options = TestScene::exact();
+    options.shadow_threshold = 0.05;
+    options.shadow_certainty = 0.5;
+    TestScene exact(many_lamps(40)), quick(many_lamps(40), options), again(many_lamps(40), options);
+    double exact_sum = 0, quick_sum = 0;
+    for (int i = 0; i < 60; ++i) {
+        for (int k = 0; k < 60; ++k) {
+            const double x = -3 + 0.1 * i, y = -3 + 0.1 * k;
+            exact_sum += static_cast<double>(floor_at(exact, x, y).r);
+            quick_sum += static_cast<double>(floor_at(quick, x, y).r);
+        }
+    }
+    CHECK(quick.context.counters.shadow < exact.context.counters.shadow);
+    CHECK(quick_sum / exact_sum == doctest::Approx(1).epsilon(0.005));
+    CHECK(floor_at(quick, 0.3, 0.2) == floor_at(again, 0.3, 0.2));
+}
+
+TEST_CASE("shadow rays are counted") {
+    TestScene scene(many_lamps(10));
+    (void)floor_at(scene, 0, 0);
+    CHECK(scene.context.counters.shadow == 10);
+}
+
+TEST_CASE("-dj 1: in the mean over many samples a half hidden panel gives half its light") {
+    RenderOptions options = TestScene::exact();
+    options.source_jitter = 1;
+    TestScene scene(
+        kFloor + kLamp +
+            "lamp polygon panel\n0\n0\n12 -.05 -.05 2  -.05 .05 2  .05 .05 2  .05 -.05 2\n" +
+            "grey polygon half\n0\n0\n12 0 -1 1.99  0 1 1.99  1 1 1.99  1 -1 1.99\n",
+        options);
+    double sum = 0;
+    constexpr int kSamples = 4000;
+    for (std::uint32_t i = 0; i < kSamples; ++i)
+        sum += static_cast<double>(floor_at(scene, 0, 0, i).r) / kSamples;
+    const double all = 0.5 * 100 * 0.01 / 4 / kPi;
+    CHECK(std::abs(sum / all - 0.5) < 4 * 0.5 / std::sqrt(kSamples));
+}
+
+TEST_CASE("the scratch memory is as found after every calculation") {
+    TestScene scene(many_lamps(12));
+    (void)floor_at(scene, 0, 0);
+    CHECK(scene.context.light->candidates.empty());
+    CHECK(scene.context.light->queries.empty());
+    CHECK(scene.context.light->samples.empty());
+    CHECK(scene.context.light->tails.empty());
+}

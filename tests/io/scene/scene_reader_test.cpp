@@ -1,0 +1,275 @@
+#include "io/scene/scene_reader.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/io/scene/temporary_folder.h"
+#include "tests/test_scene.h"
+
+namespace lightwalk {
+namespace {
+
+using test::Silence;
+using test::TemporaryFolder;
+
+/// Options that look for files in one folder only.
+SceneReadOptions inside(const std::string& directory) {
+    return {LibraryPath(std::vector<std::string>{"."}), false, directory};
+}
+
+struct Parsed {
+    std::shared_ptr<const Model> model;
+    std::vector<std::string> warnings;
+    std::string error;
+
+    [[nodiscard]] const Primitive& at(std::size_t i) const { return model->primitives.at(i); }
+    [[nodiscard]] std::size_t size() const { return model->primitives.size(); }
+    /// Last primitive with this name.
+    [[nodiscard]] const Primitive& named(const std::string& name) const {
+        const auto& all = model->primitives;
+        const auto found =
+            std::find_if(all.rbegin(), all.rend(), [&](const auto& p) { return p.name == name; });
+        REQUIRE(found != all.rend());
+        return *found;
+    }
+};
+
+Parsed parse(const std::string& text, const SceneReadOptions& options = inside("/nonexistent")) {
+    Silence silence;
+    Parsed result;
+    try {
+        result.model = parse_scene(text, "room.rad", options, silence);
+    } catch (const InputError& error) {
+        result.error = error.what();
+    }
+    result.warnings = silence.messages;
+    return result;
+}
+
+Parsed read(const std::vector<std::string>& files, const SceneReadOptions& options) {
+    Silence silence;
+    Parsed result;
+    try {
+        result.model = read_scene(files, options, silence);
+    } catch (const InputError& error) {
+        result.error = error.what();
+    }
+    result.warnings = silence.messages;
+    return result;
+}
+
+const std::string kPlastic = "void plastic red 0 0 5 .7 .1 .1 0 0\n";
+const std::string kBall = "red sphere ball 0 0 4 0 0 0 1\n";
+
+TEST_CASE("primitives may share a line, quote their words, and end lines as they like") {
+    const Parsed scene = parse(
+        "void plastic 'my \"red\"' 0 0 5 .7 .1 .1 0 0 \"my \"'\"red\"' sphere a\"b c\"d\r\n"
+        "0\r\n0\r\n4 '1' +2 -.3e1 4. # done\r\n");
+    CHECK(scene.error == "");
+    REQUIRE(scene.size() == 2);
+    CHECK(scene.at(1).name == "ab cd");
+    CHECK(scene.at(1).modifier == 0);
+    CHECK(scene.at(1).reals == std::vector<double>{1, 2, -3, 4});
+    CHECK(scene.at(0).where.file == "room.rad");
+    CHECK(scene.at(0).where.line == 1);
+}
+
+TEST_CASE("errors name file and line, what was found and what was expected") {
+    struct Row {
+        const char* text;
+        const char* message;
+    };
+    const Row rows[] = {
+        {"\nvoid plastic m # x\n0 0 0\n",
+         "room.rad:2: bad arguments for plastic \"m\": expected the number of "
+         "strings, found \"#\""},
+        {"void plastic m 0 1 3 0",
+         "room.rad:1: bad arguments for plastic \"m\": expected 0 integers, found \"1\""},
+        {"void plastic m\n0\n0\n5 1 2 3",
+         "room.rad:1: bad arguments for plastic \"m\": expected 2 more numbers, "
+         "found the end of the text"},
+        {"void plastic m 0 0 2 1 0x1",
+         "room.rad:1: bad arguments for plastic \"m\": expected 1 more numbers, "
+         "found \"0x1\""},
+        {"void plastic m -1 0 0",
+         "room.rad:1: bad arguments for plastic \"m\": expected the number of strings, "
+         "found \"-1\""},
+        {"void plastic m 2 a",
+         "room.rad:1: bad arguments for plastic \"m\": expected 1 more strings, found the "
+         "end of the text"},
+        {"void plstic m 0 0 0", "room.rad:1: unknown type \"plstic\", did you mean \"plastic\"?"},
+        {"void", "room.rad:1: unknown type \"\""},
+        {"void plastic",
+         "room.rad:1: bad arguments for plastic \"\": expected the number of strings, found the "
+         "end of the text"},
+        {"# a\nred sphere s 0 0 4 0 0 0 1", "room.rad:2: undefined modifier \"red\""},
+        {"void plastic m 0 0 5 1 1 1 0 0 7\nvoid x",
+         "room.rad:1: undefined modifier \"7\", did you mean \"m\"?"},
+        {"inherit plastic m 0 0 0",
+         "room.rad:1: inappropriate use of 'inherit' modifier: only an alias inherits"},
+        {"void plastic void 0 0 0", "room.rad:1: illegal modifier name \"void\""},
+        {"void plastic 'a\tb' 0 0 0", "room.rad:1: identifier \"a\tb\" holds a tab"},
+        {"void alias x y", "room.rad:1: bad reference \"y\": no modifier has this name"},
+        {"void alias x",
+         "room.rad:1: bad arguments for alias \"x\": expected the modifier it stands for, found "
+         "the end of the text"},
+        {"void sphere s 0 0 4 0 0 0 1 s plastic p 0 0 0", "room.rad:1: undefined modifier \"s\""},
+        {"void plastic m 99999999999 0 0",
+         "room.rad:1: bad arguments for plastic \"m\": expected 99999999997 "
+         "more strings, found the end of the text"},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.text);
+        CHECK(parse(row.text).error == row.message);
+    }
+}
+
+TEST_CASE("earlier users keep the old record of a redefined name, later ones get the new") {
+    const Parsed scene = parse(kPlastic +
+                               "red sphere a 0 0 4 0 0 0 1\n"
+                               "void plastic red 0 0 5 .1 .1 .7 0 0 red sphere b 0 0 4 0 0 0 1\n");
+    REQUIRE(scene.size() == 4);
+    CHECK(scene.named("a").modifier == 0);
+    CHECK(scene.named("b").modifier == 2);
+}
+
+TEST_CASE("an equal redefinition keeps identity: antimatter still means the old record") {
+    const Parsed scene = parse(kPlastic + "void antimatter hole 1 red 0 0 " + kPlastic +
+                               "red sphere s 0 0 4 0 0 0 1");
+    CHECK(scene.named("hole").references == std::vector<std::int32_t>{0});
+    CHECK(scene.named("s").modifier == 0);
+}
+
+TEST_CASE("the five forms of alias") {
+    const std::string start =
+        "void brightfunc P 2 f . 0 0 void brightfunc Q 2 g . 0 0 "
+        "P plastic R 0 0 5 1 1 1 0 0 ";  // numbers 0, 1, 2
+    const auto meaning = [&](const std::string& aliases) {
+        const Parsed scene = parse(start + aliases + " X sphere s 0 0 4 0 0 0 1");
+        REQUIRE(scene.error == "");
+        const Primitive& m = scene.at(static_cast<std::size_t>(scene.named("s").modifier));
+        CHECK(m.name == "X");  // what rtrace reports
+        return std::pair{m.modifier, m.references.at(0)};
+    };
+    using Meaning = std::pair<std::int32_t, std::int32_t>;  // modifier, whose type and arguments
+    CHECK(meaning("inherit alias X R") == Meaning{0, 2});
+    CHECK(meaning("P alias X R") == Meaning{0, 2});
+    CHECK(meaning("void alias X R") == Meaning{kVoidIndex, 2});
+    CHECK(meaning("Q alias X R") == Meaning{1, 2});
+    CHECK(meaning("Q alias Y R P alias X Y") == Meaning{0, 2});
+    CHECK(meaning("void alias Y R inherit alias X Y") == Meaning{kVoidIndex, 2});
+    CHECK(meaning("void alias R R inherit alias X R") == Meaning{kVoidIndex, 2});
+}
+
+TEST_CASE("commands are replaced by what they write, and keep their place in messages") {
+    const TemporaryFolder folder;
+    folder.write("ball.rad", kBall);
+    folder.write("bad.rad", "\n\nblue sphere s 0 0 4 0 0 0 1\n");
+    const Parsed scene = parse(
+        kPlastic + "!cat ball.rad | xform -t 1 0 0\n !xform -n up -t 0 0 5 \\\n ball.rad\n" + kBall,
+        inside(folder.path()));
+    REQUIRE(scene.size() == 4);
+    CHECK(scene.at(1).reals == std::vector<double>{1, 0, 0, 1});
+    CHECK(scene.at(1).where.line == 2);
+    CHECK(scene.at(2).name == "up.ball");
+    CHECK(scene.at(2).where.line == 3);
+    CHECK(scene.at(3).where.line == 5);
+    CHECK(parse("\n!cat bad.rad", inside(folder.path())).error ==
+          "room.rad:2: !cat bad.rad:3: undefined modifier \"blue\"");
+}
+
+TEST_CASE("a failed command is a warning and reading goes on; a file without objects is one, too") {
+    const Parsed scene =
+        parse(kPlastic + "!xform -t 1 0 no_such_file\n!cat no_such_file\n" + kBall);
+    CHECK(scene.size() == 2);
+    REQUIRE(scene.warnings.size() == 4);
+    CHECK(scene.warnings[0].starts_with(
+        "room.rad:2: bad status from \"!xform -t 1 0 no_such_file\": "));
+    CHECK(scene.warnings[1] == "room.rad:2: !xform -t 1 0 no_such_file: empty file");
+    CHECK(scene.warnings[2].starts_with("room.rad:3: bad status from \"!cat no_such_file\": "));
+    CHECK(parse("# nothing\n").warnings == std::vector<std::string>{"room.rad: empty file"});
+}
+
+TEST_CASE("a bad material that nothing uses is accepted") {
+    CHECK(parse("void plastic unused 0 0 1 .5\n").size() == 1);
+}
+
+TEST_CASE("unknown programs need leave, and then run in the scene's directory") {
+    const TemporaryFolder folder;
+    folder.write("name.txt", "ball");
+    CHECK(parse("\n!make_tree 7 | xform -t 0 0 1\n").error ==
+          "room.rad:2: command \"make_tree\" is not built in; --allow-commands runs it through the "
+          "shell");
+    CHECK(parse("!genbox a b $SIZE 1 1\n").error ==
+          "room.rad:1: \"!genbox a b $SIZE 1 1\" needs a shell; --allow-commands runs it through "
+          "one");
+    SceneReadOptions options = inside(folder.path());
+    options.allow_commands = true;
+    const Parsed scene =
+        parse("!echo void sphere $(cat name.txt) 0 0 4 0 0 0 1; exit 3\n", options);
+    REQUIRE(scene.size() == 1);
+    CHECK(scene.at(0).name == "ball");
+    CHECK(scene.warnings ==
+          std::vector<std::string>{"room.rad:1: bad status from \"!echo void sphere $(cat "
+                                   "name.txt) 0 0 4 0 0 0 1; exit 3\""});
+}
+
+TEST_CASE("commands do not read the program's input") {
+    SceneReadOptions options = inside("");
+    options.allow_commands = true;
+    CHECK(parse("!sed p\n", options).size() == 0);
+    CHECK(parse("!cat\n").size() == 0);
+    CHECK(parse("!xform -t 1 2 3\n").size() == 0);
+}
+
+TEST_CASE("a file that reads itself ends with an error") {
+    const TemporaryFolder folder;
+    folder.write("self.rad", kBall + "!xform -t 1 0 0 self.rad\n");
+    folder.write("cat.rad", "!cat cat.rad\n");
+    folder.write("twice.rad", "!cat twice.rad\n!cat twice.rad\n");
+    const std::string error = parse(kPlastic + "!xform -s 2 self.rad", inside(folder.path())).error;
+    CHECK(error ==
+          "room.rad:2: commands nest more than 64 levels deep at \"!xform -t 1 0 0 self.rad\": "
+          "does a "
+          "file read itself?");
+    CHECK(parse("!cat cat.rad", inside(folder.path())).error ==
+          "room.rad:1: commands write commands more than 64 levels deep");
+    CHECK(parse("!cat twice.rad", inside(folder.path())).error != "");
+}
+
+TEST_CASE("files share one name space in order; they are opened as given, without a search") {
+    const TemporaryFolder folder;
+    folder.write("mat.rad", kPlastic);
+    folder.write("geo.rad", kBall);
+    folder.write("lib/other.rad", kBall);
+    SceneReadOptions options = inside(folder.path());
+    options.library = LibraryPath(std::vector<std::string>{folder.path() + "/lib"});
+    const Parsed scene = read({"mat.rad", "geo.rad", "!cat geo.rad"}, options);
+    CHECK(scene.size() == 3);
+    CHECK(scene.at(1).where.file == folder.path() + "/geo.rad");
+    CHECK(read({"geo.rad", "mat.rad"}, options).error ==
+          folder.path() + "/geo.rad:1: undefined modifier \"red\"");
+    CHECK(read({"other.rad"}, options).error ==
+          folder.path() + "/other.rad: cannot open: No such file or directory");
+    CHECK(read({}, options).error == "no scene: expected one octree, or scene files");
+}
+
+TEST_CASE("commands inside a file that xform reads run in that file's directory") {
+    const TemporaryFolder folder;
+    folder.write("parts/chair.rad",
+                 "!xform -t 0 1 0 leg.rad\n!xform -t 0 2 0 ./leg.rad\n!cat leg.rad");
+    folder.write("parts/leg.rad", kBall);
+    const Parsed scene =
+        parse(kPlastic + "!xform -t 10 0 0 parts/chair.rad\n", inside(folder.path()));
+    CHECK(scene.warnings.empty());
+    REQUIRE(scene.size() == 4);
+    CHECK(scene.at(1).reals == std::vector<double>{10, 1, 0, 1});
+    CHECK(scene.at(2).reals == std::vector<double>{10, 2, 0, 1});
+    CHECK(scene.at(3).reals == std::vector<double>{10, 0, 0, 1});
+}
+
+}  // namespace
+}  // namespace lightwalk
