@@ -21,14 +21,16 @@ std::optional<std::string> library_file(const std::string& name) {
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// Points and directions that no two iterations share: nothing can be remembered, and branches vary.
+/// Points and directions that no two iterations share: nothing can be remembered, and branches
+/// vary.
 std::vector<ChannelValues> rays() {
     std::vector<ChannelValues> all(1024);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double t = static_cast<double>(i);
         const double azimuth = 2.399963 * t, z = std::sin(0.7 * t), r = std::sqrt(1 - z * z);
-        const std::array<double, 9> values{r * std::cos(azimuth), r * std::sin(azimuth), z,
-                                           0, 0, 1, 10.37 * std::cos(t), 7.91 * std::sin(1.3 * t), 0.61 * t};
+        const std::array<double, 9> values{
+            r * std::cos(azimuth), r * std::sin(azimuth),    z,       0, 0, 1,
+            10.37 * std::cos(t),   7.91 * std::sin(1.3 * t), 0.61 * t};
         for (std::size_t c = 0; c < values.size(); ++c) all[i][c + 1] = values[c];
     }
     return all;
@@ -66,16 +68,33 @@ void evaluate_file(benchmark::State& state, const std::string& file, const std::
 // A clear sky of 21 June, as gensky writes it.
 const std::vector<double> kSky{1, 9.77, 6.08, 0.638, -0.0687, -0.299, 0.9519};
 
-void clear_sky(benchmark::State& state) { evaluate_file(state, "skybright.cal", "skybr", kSky); }
-void wood_zgrain(benchmark::State& state) { evaluate_file(state, "woodpat.cal", "zgrain", {.3}); }
-void wood_xgrain(benchmark::State& state) { evaluate_file(state, "woodpat.cal", "xgrain", {.3}); }
-void marble(benchmark::State& state) { evaluate_file(state, "marble.cal", "marble", {.5}); }
-void constant(benchmark::State& state) { evaluate(state, "t.cal", "", {"1"}, {}); }
-void arithmetic(benchmark::State& state) { evaluate(state, "t.cal", "", {"Px*Py+Pz"}, {}); }
-void noise(benchmark::State& state) { evaluate(state, "t.cal", "", {"noise3(Px,Py,Pz)"}, {}); }
-void fractal_noise(benchmark::State& state) { evaluate(state, "t.cal", "", {"fnoise3(Px,Py,Pz)"}, {}); }
+void clear_sky(benchmark::State& state) {
+    evaluate_file(state, "skybright.cal", "skybr", kSky);
+}
+void wood_zgrain(benchmark::State& state) {
+    evaluate_file(state, "woodpat.cal", "zgrain", {.3});
+}
+void wood_xgrain(benchmark::State& state) {
+    evaluate_file(state, "woodpat.cal", "xgrain", {.3});
+}
+void marble(benchmark::State& state) {
+    evaluate_file(state, "marble.cal", "marble", {.5});
+}
+void constant(benchmark::State& state) {
+    evaluate(state, "t.cal", "", {"1"}, {});
+}
+void arithmetic(benchmark::State& state) {
+    evaluate(state, "t.cal", "", {"Px*Py+Pz"}, {});
+}
+void noise(benchmark::State& state) {
+    evaluate(state, "t.cal", "", {"noise3(Px,Py,Pz)"}, {});
+}
+void fractal_noise(benchmark::State& state) {
+    evaluate(state, "t.cal", "", {"fnoise3(Px,Py,Pz)"}, {});
+}
 void noise_texture(benchmark::State& state) {
-    const std::string text = "dx = .1*noise3x(Px,Py,Pz); dy = .1*noise3y(Px,Py,Pz); dz = .1*noise3z(Px,Py,Pz);";
+    const std::string text =
+        "dx = .1*noise3x(Px,Py,Pz); dy = .1*noise3y(Px,Py,Pz); dz = .1*noise3z(Px,Py,Pz);";
     evaluate(state, "t.cal", text, {"dx", "dy", "dz"}, {});
 }
 void recursion(benchmark::State& state) {
@@ -91,7 +110,8 @@ void compile_sky(benchmark::State& state) {
     environment.load("skybright.cal", *text);
     const std::array<ExpressionRequest, 1> request{ExpressionRequest{"skybr", -1}};
     for (auto _ : state) {
-        const Program program = environment.compile("skybright.cal", request, kSky, 0, {"bench.rad", 1});
+        const Program program =
+            environment.compile("skybright.cal", request, kSky, 0, {"bench.rad", 1});
         benchmark::DoNotOptimize(program.outputs());
     }
 }

@@ -15,7 +15,8 @@ constexpr int kWidth = 256, kHeight = 128;
 constexpr int kBlock = 4;  ///< packets are blocks of 4 by 4 pixels
 const Vec3 kEye{1, 1, 1.6}, kLamp{5, 4, 2.9};
 
-/// A room of 10 by 8 by 3 m with `boxes` boxes in it, half of them turned, and a few spheres and cylinders.
+/// A room of 10 by 8 by 3 m with `boxes` boxes in it, half of them turned, and a few spheres and
+/// cylinders.
 class Room {
   public:
     explicit Room(int boxes) : random_(RandomStream::of_pixel(1, 0, 0, 0)) {
@@ -54,11 +55,13 @@ class Room {
         surfaces_.push_back(std::move(surface));
     }
     void add_box(const Vec3& center, const Vec3& half, double turn) {
-        constexpr unsigned kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+        constexpr unsigned kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                           {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
         for (const auto& face : kFaces) {
             std::vector<double> reals;
             for (const unsigned corner : face) {
-                const double x = (corner & 1U) != 0 ? half.x : -half.x, y = (corner & 2U) != 0 ? half.y : -half.y;
+                const double x = (corner & 1U) != 0 ? half.x : -half.x,
+                             y = (corner & 2U) != 0 ? half.y : -half.y;
                 reals.push_back(center.x + x * std::cos(turn) - y * std::sin(turn));
                 reals.push_back(center.y + x * std::sin(turn) + y * std::cos(turn));
                 reals.push_back(center.z + ((corner & 4U) != 0 ? half.z : -half.z));
@@ -75,7 +78,8 @@ std::vector<RaySegment> primary_rays() {
     for (int by = 0; by < kHeight; by += kBlock) {
         for (int bx = 0; bx < kWidth; bx += kBlock) {
             for (int i = 0; i < kBlock * kBlock; ++i) {
-                const double x = (bx + i % kBlock + 0.5) / kWidth - 0.5, y = (by + i / kBlock + 0.5) / kHeight - 0.5;
+                const double x = (bx + i % kBlock + 0.5) / kWidth - 0.5,
+                             y = (by + i / kBlock + 0.5) / kHeight - 0.5;
                 rays.push_back({kEye, normalize(Vec3{1, 1.6 * x + 0.6, 0.8 * y - 0.1})});
             }
         }
@@ -90,14 +94,16 @@ std::vector<RaySegment> secondary_rays(const Geometry& geometry, bool to_lamp) {
     for (const RaySegment& primary : primary_rays()) {
         const Hit hit = geometry.intersect(primary);
         if (!hit.exists()) continue;
-        const Vec3 n = hit.rod > 0 ? hit.normal : -hit.normal, u = perpendicular(n), v = cross(n, u);
+        const Vec3 n = hit.rod > 0 ? hit.normal : -hit.normal, u = perpendicular(n),
+                   v = cross(n, u);
         if (to_lamp) {
             const Vec3 way = kLamp + Vec3{random.next(), random.next(), 0} * 0.3 - hit.position;
             rays.push_back({hit.position, normalize(way), length(way)});
         } else {
             const double r2 = random.next(), angle = 2 * kPi * random.next(), r = std::sqrt(r2);
-            rays.push_back({hit.position, normalize(u * (r * std::cos(angle)) + v * (r * std::sin(angle)) +
-                                                    n * std::sqrt(1 - r2))});
+            rays.push_back(
+                {hit.position, normalize(u * (r * std::cos(angle)) + v * (r * std::sin(angle)) +
+                                         n * std::sqrt(1 - r2))});
         }
     }
     return rays;
@@ -107,14 +113,16 @@ void count_rays(benchmark::State& state, const std::vector<RaySegment>& rays) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 
-void single_hits(benchmark::State& state, const Geometry& geometry, const std::vector<RaySegment>& rays) {
+void single_hits(benchmark::State& state, const Geometry& geometry,
+                 const std::vector<RaySegment>& rays) {
     for ([[maybe_unused]] auto iteration : state) {
         for (const RaySegment& ray : rays) benchmark::DoNotOptimize(geometry.intersect(ray));
     }
     count_rays(state, rays);
 }
 
-void packet_hits(benchmark::State& state, const Geometry& geometry, const std::vector<RaySegment>& rays) {
+void packet_hits(benchmark::State& state, const Geometry& geometry,
+                 const std::vector<RaySegment>& rays) {
     std::vector<Hit> hits(rays.size());
     for ([[maybe_unused]] auto iteration : state) {
         geometry.intersect(rays, hits);
@@ -146,7 +154,8 @@ void shadow_single(benchmark::State& state) {
     const Geometry geometry = room.build();
     const std::vector<RaySegment> rays = secondary_rays(geometry, true);
     for ([[maybe_unused]] auto iteration : state) {
-        for (const RaySegment& ray : rays) benchmark::DoNotOptimize(geometry.visibility(ray, kNoSurface));
+        for (const RaySegment& ray : rays)
+            benchmark::DoNotOptimize(geometry.visibility(ray, kNoSurface));
     }
     count_rays(state, rays);
 }

@@ -10,7 +10,9 @@
 namespace lightwalk::function {
 
 /// Operands dst, a, b, c are cells of the present frame unless said otherwise. "Checked" operations
-/// end with the language's test: a set error flag, or a result that is not finite, makes the result 0.
+/// end with the language's test: a set error flag, or a result that is not finite, makes the result
+/// 0.
+// clang-format off
 enum class Op : std::uint8_t {
     move, load_tick,      ///< dst = a; dst = cell a of the tick's frame
     negate, subtract, multiply, divide,  ///< plain IEEE
@@ -25,6 +27,8 @@ enum class Op : std::uint8_t {
     power, min, max, rand, floor, ceil, sqrt, exp, log, log10, sin, cos, tan, asin, acos, atan, atan2,
     erf, erfc, noise3, noise3x, noise3y, noise3z, fnoise3, arg, source_theta, source_phi, source_corr,
     fprism_val,           ///< checked
+    modulo, fraction,     ///< a - floor(a / b) * b; a - floor(a); floor checked
+    absolute,             ///< max(a, -a), checked
     check,                ///< dst = a, checked
     pick,                 ///< dst = a > 0 ? b : c, checked
     clear,                ///< clear the error flag
@@ -42,6 +46,7 @@ enum class Op : std::uint8_t {
     halt,                 ///< end of an output: a is its value
     fatal,                ///< throw message a
 };
+// clang-format on
 
 struct Instruction {
     Op op = Op::halt;
@@ -49,13 +54,14 @@ struct Instruction {
     std::uint32_t dst = 0, a = 0, b = 0, c = 0;
 };
 
-/// Cells of a frame: first those that are computed when needed (parameters first), then temporaries.
+/// Cells of a frame: first those that are computed when needed (parameters first), then
+/// temporaries.
 struct FunctionCode {
     std::uint32_t entry = 0;
     std::uint32_t cells = 0;
-    std::uint32_t marked = 0;      ///< cells with an "already computed" mark
+    std::uint32_t marked = 0;  ///< cells with an "already computed" mark
     std::uint32_t parameters = 0;
-    std::uint32_t cost = 0;        ///< instructions
+    std::uint32_t cost = 0;  ///< instructions
 };
 
 /// An argument: a cell of the caller, or the block of the caller that computes it.

@@ -15,9 +15,12 @@ bool CodeGenerator::settled(NodeId id) const {
         case NodeKind::conditional:
         case NodeKind::choice:
         case NodeKind::check:
-        case NodeKind::fatal: return true;
-        case NodeKind::constant: return (error_clear_ || n.clears) && std::isfinite(n.value);
-        default: return false;
+        case NodeKind::fatal:
+            return true;
+        case NodeKind::constant:
+            return (error_clear_ || n.clears) && std::isfinite(n.value);
+        default:
+            return false;
     }
 }
 

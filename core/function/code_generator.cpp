@@ -185,8 +185,8 @@ void CodeGenerator::patch_lazies() {
     }
 }
 
-std::uint32_t CodeGenerator::emit(Op op, Cell dst, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                  std::uint8_t keep) {
+std::uint32_t CodeGenerator::emit(Op op, Cell dst, std::uint32_t a, std::uint32_t b,
+                                  std::uint32_t c, std::uint8_t keep) {
     code_.instructions.push_back({op, keep, dst, a, b, c});
     return here() - 1;
 }
@@ -264,9 +264,12 @@ bool CodeGenerator::quiet(NodeId id, int depth) const {
             return !n.clears && std::all_of(n.touches.begin(), n.touches.end(),
                                             [this](LazyId l) { return available_[l]; });
         case NodeKind::channel:
-        case NodeKind::input: return true;
-        case NodeKind::lazy: return available_[n.index];
-        case NodeKind::parameter: return available_[available_index_of_parameter(n.index)];
+        case NodeKind::input:
+            return true;
+        case NodeKind::lazy:
+            return available_[n.index];
+        case NodeKind::parameter:
+            return available_[available_index_of_parameter(n.index)];
         case NodeKind::quotient:
             if (graph_.nodes[n.kids[1]].kind != NodeKind::constant) return false;
             if (graph_.nodes[n.kids[1]].value == 0) return false;
@@ -274,11 +277,14 @@ bool CodeGenerator::quiet(NodeId id, int depth) const {
         case NodeKind::sum:
         case NodeKind::product:
         case NodeKind::difference:
-        case NodeKind::negation: break;
-        default: return false;
+        case NodeKind::negation:
+            break;
+        default:
+            return false;
     }
     return depth < kDeepestQuiet && n.kids.size() <= kMostKids &&
-           std::all_of(n.kids.begin(), n.kids.end(), [&](NodeId kid) { return quiet(kid, depth + 1); });
+           std::all_of(n.kids.begin(), n.kids.end(),
+                       [&](NodeId kid) { return quiet(kid, depth + 1); });
 }
 
 bool CodeGenerator::at_hand(NodeId id) const {

@@ -1,6 +1,7 @@
 #pragma once
 // From a graph to register code.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -10,12 +11,14 @@
 
 namespace lightwalk::function {
 
-/// Lays out expressions in the language's order of evaluation. What is known on the way decides what is
-/// emitted: which lazies have been computed for certain, and whether the error flag is clear for certain.
+/// Lays out expressions in the language's order of evaluation. What is known on the way decides
+/// what is emitted: which lazies have been computed for certain, and whether the error flag is
+/// clear for certain.
 ///
-/// A lazy that is first needed in one place only is computed right there. One that may be needed first
-/// in several becomes a block of its own, which each of them runs unless a mark says that it has been
-/// done. Which those are is found by generating the code again until there are no more of them.
+/// A lazy that is first needed in one place only is computed right there. One that may be needed
+/// first in several becomes a block of its own, which each of them runs unless a mark says that it
+/// has been done. Which those are is found by generating the code again until there are no more of
+/// them.
 class CodeGenerator {
   public:
     explicit CodeGenerator(const Graph& graph);
@@ -62,6 +65,7 @@ class CodeGenerator {
     Cell call(const Node& n, Cell want);
     std::uint32_t jump_unless(NodeId condition);
     [[nodiscard]] bool is_simple_product(NodeId id) const;
+    [[nodiscard]] std::optional<NodeId> remainder_divisor(const Node& n) const;
     [[nodiscard]] bool settled(NodeId id) const;
     bool needed(LazyId id);
     void touch(LazyId id);
@@ -74,9 +78,11 @@ class CodeGenerator {
     /// Quiet, and without an instruction.
     [[nodiscard]] bool at_hand(NodeId id) const;
 
-    std::uint32_t emit(Op op, Cell dst = 0, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0,
-                       std::uint8_t keep = 0);
-    [[nodiscard]] std::uint32_t here() const { return static_cast<std::uint32_t>(code_.instructions.size()); }
+    std::uint32_t emit(Op op, Cell dst = 0, std::uint32_t a = 0, std::uint32_t b = 0,
+                       std::uint32_t c = 0, std::uint8_t keep = 0);
+    [[nodiscard]] std::uint32_t here() const {
+        return static_cast<std::uint32_t>(code_.instructions.size());
+    }
     Cell result(Cell want) { return want == kAnyCell ? temporary() : want; }
     Cell temporary();
     [[nodiscard]] Cell lazy_cell(LazyId id) const;
@@ -92,12 +98,12 @@ class CodeGenerator {
 
     const Graph& graph_;
     Program::Code code_;
-    std::vector<bool> shared_;                ///< lazies that are blocks
-    std::vector<std::uint32_t> sites_;        ///< places of this pass that a lazy is first needed at
-    std::vector<bool> emitting_;              ///< lazies whose body is being emitted in place
-    std::vector<std::uint32_t> entries_;      ///< of the lazies' blocks
-    std::vector<std::uint32_t> lazy_index_;   ///< within its frame
-    std::vector<std::uint32_t> frame_lazies_; ///< how many each frame has
+    std::vector<bool> shared_;               ///< lazies that are blocks
+    std::vector<std::uint32_t> sites_;       ///< places of this pass that a lazy is first needed at
+    std::vector<bool> emitting_;             ///< lazies whose body is being emitted in place
+    std::vector<std::uint32_t> entries_;     ///< of the lazies' blocks
+    std::vector<std::uint32_t> lazy_index_;  ///< within its frame
+    std::vector<std::uint32_t> frame_lazies_;                 ///< how many each frame has
     std::unordered_map<std::uint64_t, Cell> constant_cells_;  ///< by the bits of the value
     std::vector<bool> available_;
     std::vector<std::size_t> available_log_;
@@ -109,8 +115,8 @@ class CodeGenerator {
     std::uint32_t frame_ = 0;
     std::uint32_t depth_ = 0;
     std::uint32_t parameters_ = 0;  ///< of the function whose frame this is
-    Cell next_cell_ = 0;   ///< next free temporary
-    Cell high_cell_ = 0;   ///< cells that the frame uses so far
+    Cell next_cell_ = 0;            ///< next free temporary
+    Cell high_cell_ = 0;            ///< cells that the frame uses so far
 };
 
 }  // namespace lightwalk::function

@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "core/function/code_generator.h"
 
@@ -11,15 +12,33 @@ namespace {
 /// Operation of a function of up to three arguments that are evaluated in order.
 Op operation(LibraryFunction f) {
     using F = LibraryFunction;
-    static constexpr std::array<std::pair<LibraryFunction, Op>, 26> kOperations{{
-        {F::rand, Op::rand}, {F::floor, Op::floor}, {F::ceil, Op::ceil}, {F::sqrt, Op::sqrt},
-        {F::exp, Op::exp}, {F::log, Op::log}, {F::log10, Op::log10}, {F::sin, Op::sin},
-        {F::cos, Op::cos}, {F::tan, Op::tan}, {F::asin, Op::asin}, {F::acos, Op::acos},
-        {F::atan, Op::atan}, {F::atan2, Op::atan2}, {F::arg, Op::arg}, {F::erf, Op::erf},
-        {F::erfc, Op::erfc}, {F::noise3, Op::noise3}, {F::noise3x, Op::noise3x},
-        {F::noise3y, Op::noise3y}, {F::noise3z, Op::noise3z}, {F::fnoise3, Op::fnoise3},
-        {F::source_theta, Op::source_theta}, {F::source_phi, Op::source_phi},
-        {F::source_corr, Op::source_corr}, {F::fprism_val, Op::fprism_val}}};
+    static constexpr std::array<std::pair<LibraryFunction, Op>, 26> kOperations{
+        {{F::rand, Op::rand},
+         {F::floor, Op::floor},
+         {F::ceil, Op::ceil},
+         {F::sqrt, Op::sqrt},
+         {F::exp, Op::exp},
+         {F::log, Op::log},
+         {F::log10, Op::log10},
+         {F::sin, Op::sin},
+         {F::cos, Op::cos},
+         {F::tan, Op::tan},
+         {F::asin, Op::asin},
+         {F::acos, Op::acos},
+         {F::atan, Op::atan},
+         {F::atan2, Op::atan2},
+         {F::arg, Op::arg},
+         {F::erf, Op::erf},
+         {F::erfc, Op::erfc},
+         {F::noise3, Op::noise3},
+         {F::noise3x, Op::noise3x},
+         {F::noise3y, Op::noise3y},
+         {F::noise3z, Op::noise3z},
+         {F::fnoise3, Op::fnoise3},
+         {F::source_theta, Op::source_theta},
+         {F::source_phi, Op::source_phi},
+         {F::source_corr, Op::source_corr},
+         {F::fprism_val, Op::fprism_val}}};
     for (const auto& [function, op] : kOperations) {
         if (function == f) return op;
     }
@@ -46,22 +65,54 @@ CodeGenerator::Cell CodeGenerator::node(NodeId id, Cell want) {
     ++depth_;
     Cell cell = 0;
     switch (n.kind) {
-        case NodeKind::constant: cell = constant(n, want); break;
-        case NodeKind::channel: cell = tick_cell(n.index, want); break;
-        case NodeKind::input: cell = tick_cell(code_.inputs_at + n.index, want); break;
-        case NodeKind::lazy: cell = lazy(n.index, want); break;
-        case NodeKind::parameter: cell = parameter(n.index, want); break;
-        case NodeKind::sum: cell = sum(n, want); break;
-        case NodeKind::product: cell = product(n, want); break;
-        case NodeKind::difference: cell = difference(n, want); break;
-        case NodeKind::quotient: cell = quotient(n, want); break;
-        case NodeKind::negation: cell = negation(n, want); break;
-        case NodeKind::power: cell = power(n, want); break;
-        case NodeKind::library: cell = library(n, want); break;
-        case NodeKind::conditional: cell = conditional(n, want); break;
-        case NodeKind::choice: cell = choice(n, want); break;
-        case NodeKind::check: cell = check(n, want); break;
-        case NodeKind::call: cell = call(n, want); break;
+        case NodeKind::constant:
+            cell = constant(n, want);
+            break;
+        case NodeKind::channel:
+            cell = tick_cell(n.index, want);
+            break;
+        case NodeKind::input:
+            cell = tick_cell(code_.inputs_at + n.index, want);
+            break;
+        case NodeKind::lazy:
+            cell = lazy(n.index, want);
+            break;
+        case NodeKind::parameter:
+            cell = parameter(n.index, want);
+            break;
+        case NodeKind::sum:
+            cell = sum(n, want);
+            break;
+        case NodeKind::product:
+            cell = product(n, want);
+            break;
+        case NodeKind::difference:
+            cell = difference(n, want);
+            break;
+        case NodeKind::quotient:
+            cell = quotient(n, want);
+            break;
+        case NodeKind::negation:
+            cell = negation(n, want);
+            break;
+        case NodeKind::power:
+            cell = power(n, want);
+            break;
+        case NodeKind::library:
+            cell = library(n, want);
+            break;
+        case NodeKind::conditional:
+            cell = conditional(n, want);
+            break;
+        case NodeKind::choice:
+            cell = choice(n, want);
+            break;
+        case NodeKind::check:
+            cell = check(n, want);
+            break;
+        case NodeKind::call:
+            cell = call(n, want);
+            break;
         case NodeKind::fatal:
             emit(Op::fatal, 0, n.index);
             cell = result(want);
@@ -166,9 +217,39 @@ CodeGenerator::Cell CodeGenerator::product(const Node& n, Cell want) {
     return total;
 }
 
+/// For x - floor(x/d)*d with x and d at hand: d; for x - floor(x): kNoNode.
+std::optional<NodeId> CodeGenerator::remainder_divisor(const Node& n) const {
+    const NodeId x = n.kids[0];
+    const auto is_floor = [](const Node& f) {
+        return f.kind == NodeKind::library &&
+               f.index == static_cast<std::uint32_t>(LibraryFunction::floor);
+    };
+    if (!quiet(x)) return std::nullopt;
+    const Node& second = graph_.nodes[n.kids[1]];
+    if (is_floor(second) && second.kids[0] == x) return kNoNode;
+    if (!is_simple_product(n.kids[1]) || !is_floor(graph_.nodes[second.kids[0]]))
+        return std::nullopt;
+    const Node& ratio = graph_.nodes[graph_.nodes[second.kids[0]].kids[0]];
+    const NodeId d = second.kids[1];
+    const bool matches =
+        ratio.kind == NodeKind::quotient && ratio.kids[0] == x && ratio.kids[1] == d;
+    const Node& divisor = graph_.nodes[d];
+    const bool safe = divisor.kind == NodeKind::constant && divisor.value != 0 && quiet(d);
+    return matches && safe ? std::optional<NodeId>(d) : std::nullopt;
+}
+
 CodeGenerator::Cell CodeGenerator::difference(const Node& n, Cell want) {
     const Cell mark = next_cell_;
     const Cell x = node(n.kids[0]);
+    if (const std::optional<NodeId> divisor = remainder_divisor(n)) {
+        const bool fraction = *divisor == kNoNode;
+        const Cell y = fraction ? 0 : node(*divisor);
+        next_cell_ = mark;
+        const Cell d = result(want);
+        emit(fraction ? Op::fraction : Op::modulo, d, x, y);
+        error_clear_ = false;
+        return d;
+    }
     if (is_simple_product(n.kids[1])) {
         const Node& factors = graph_.nodes[n.kids[1]];
         const Cell a = node(factors.kids[0]);
@@ -269,6 +350,15 @@ CodeGenerator::Cell CodeGenerator::extremum(const Node& n, Op op, Cell want) {
         const Cell d = temporary();
         emit(op, d, best, x);
         best = d;
+    }
+    const Node& last = graph_.nodes[n.kids.back()];
+    if (op == Op::greater && n.kids.size() == 2 && last.kind == NodeKind::negation &&
+        last.kids[0] == n.kids[0] && quiet(n.kids[0])) {
+        next_cell_ = mark;
+        const Cell d = result(want);
+        emit(Op::absolute, d, best, 0, 0, keep);
+        error_clear_ = false;
+        return d;
     }
     if (n.kids.size() > 1) {
         const Cell x = node(n.kids[1]);

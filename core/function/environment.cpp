@@ -47,7 +47,8 @@ class ConstantFolder {
         require_patience(where);
         if (state_.error != EvalError::none) {
             const char* kind = state_.error == EvalError::domain ? "domain" : "range";
-            throw InputError(where, std::string("bad constant expression: ") + kind + " error in " + e.name);
+            throw InputError(
+                where, std::string("bad constant expression: ") + kind + " error in " + e.name);
         }
         return value;
     }
@@ -77,14 +78,16 @@ struct FunctionEnvironment::Impl {
     SymbolTable symbols;
     std::unordered_set<std::string> contexts;
 
-    void parse(std::string_view text, const SourceLocation& where, std::string_view context, bool flat) {
+    void parse(std::string_view text, const SourceLocation& where, std::string_view context,
+               bool flat) {
         ConstantFolder folder(symbols);
         const function::Scope scope{symbols, &symbols, context, folder};
         function::parse_definitions(text, where, scope, flat);
     }
 
     /// The request as an expression; a call of a function by name has its values as parameters.
-    [[nodiscard]] function::OutputRequest output(const ExpressionRequest& request, std::string_view context,
+    [[nodiscard]] function::OutputRequest output(const ExpressionRequest& request,
+                                                 std::string_view context,
                                                  const SourceLocation& where) const {
         if (request.parameters < 0) {
             ConstantFolder folder(symbols);
@@ -92,7 +95,8 @@ struct FunctionEnvironment::Impl {
             return {function::parse_expression(request.text, where, scope), 0};
         }
         if (!is_name(request.text)) {
-            throw InputError(where, "syntax error: found \"" + request.text + "\", expected the name of a function");
+            throw InputError(where, "syntax error: found \"" + request.text +
+                                        "\", expected the name of a function");
         }
         Expr call;
         call.kind = ExprKind::call;
@@ -107,7 +111,8 @@ struct FunctionEnvironment::Impl {
         return {std::move(call), static_cast<std::uint32_t>(request.parameters)};
     }
 
-    [[nodiscard]] const function::Symbol* symbol(std::string_view file, std::string_view name) const {
+    [[nodiscard]] const function::Symbol* symbol(std::string_view file,
+                                                 std::string_view name) const {
         const std::string context = function::context_of_file(file);
         const auto id = is_name(name) ? symbols.find(name, context) : std::nullopt;
         return id ? &symbols[*id] : nullptr;
@@ -135,12 +140,14 @@ void FunctionEnvironment::define(std::string_view text, const SourceLocation& wh
     impl_->parse(text, where, "", false);
 }
 
-Program FunctionEnvironment::compile(std::string_view file, std::span<const ExpressionRequest> requests,
+Program FunctionEnvironment::compile(std::string_view file,
+                                     std::span<const ExpressionRequest> requests,
                                      std::span<const double> reals, ChannelMask material_channels,
                                      const SourceLocation& where) const {
     const std::string context = function::context_of_file(file);
     std::vector<function::OutputRequest> outputs;
-    for (const ExpressionRequest& request : requests) outputs.push_back(impl_->output(request, context, where));
+    for (const ExpressionRequest& request : requests)
+        outputs.push_back(impl_->output(request, context, where));
     const function::Specialisation specialisation{impl_->symbols, reals, material_channels, false};
     std::uint64_t effort = 0;
     const function::Graph graph = function::build_graph(specialisation, outputs, effort);

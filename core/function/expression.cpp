@@ -46,7 +46,8 @@ void flatten_list(Expr& e) {
     if (first != list.end()) {
         for (auto it = first + 1; it != list.end(); ++it) {
             if (!it->is_number()) continue;
-            first->value = e.kind == ExprKind::sum ? first->value + it->value : first->value * it->value;
+            first->value =
+                e.kind == ExprKind::sum ? first->value + it->value : first->value * it->value;
         }
         list.erase(std::remove_if(first + 1, list.end(), is_number), list.end());
     }

@@ -13,11 +13,11 @@ inline constexpr SymbolId kNoSymbol = 0xffffffffu;
 
 enum class ExprKind : std::uint8_t {
     number,
-    channel,         ///< $index
-    parameter,       ///< the index-th of the function being defined
-    variable,        ///< symbol `index`, spelled `name`
-    sum,             ///< of all kids, from 0, left to right
-    product,         ///< of all kids, from 1, left to right
+    channel,    ///< $index
+    parameter,  ///< the index-th of the function being defined
+    variable,   ///< symbol `index`, spelled `name`
+    sum,        ///< of all kids, from 0, left to right
+    product,    ///< of all kids, from 1, left to right
     difference,
     quotient,
     power,
@@ -45,8 +45,8 @@ struct Expr {
 
 // Build an operator node from its operands, folding constants as each operator is recognised. These
 // rewrites change rounding and hide errors, so they are part of the language: E - 2 is E + (-2),
-// E / 3 is E * (1/3), E * 0 is 0, E ^ 1 is E, ... They throw InputError at `where` for a division by
-// the constant zero, a constant power without a finite value, and too deep a tree.
+// E / 3 is E * (1/3), E * 0 is 0, E ^ 1 is E, ... They throw InputError at `where` for a division
+// by the constant zero, a constant power without a finite value, and too deep a tree.
 [[nodiscard]] Expr make_negation(Expr e, const SourceLocation& where);
 [[nodiscard]] Expr make_sum(Expr a, Expr b, const SourceLocation& where);
 [[nodiscard]] Expr make_difference(Expr a, Expr b, const SourceLocation& where);

@@ -19,28 +19,28 @@ using LazyId = std::uint32_t;
 inline constexpr NodeId kNoNode = 0xffffffffu;
 
 enum class NodeKind : std::uint8_t {
-    constant,    ///< `value`; evaluating it may clear the error flag, see Node
-    channel,     ///< `index`: Channel
-    input,       ///< the index-th value that an output is called with
-    lazy,        ///< `index`: LazyId, computed when first needed
-    parameter,   ///< of the function instance, by need
-    sum,         ///< kids, from 0, left to right
-    product,     ///< kids, from 1, left to right
+    constant,   ///< `value`; evaluating it may clear the error flag, see Node
+    channel,    ///< `index`: Channel
+    input,      ///< the index-th value that an output is called with
+    lazy,       ///< `index`: LazyId, computed when first needed
+    parameter,  ///< of the function instance, by need
+    sum,        ///< kids, from 0, left to right
+    product,    ///< kids, from 1, left to right
     difference,
-    quotient,    ///< divisor first
+    quotient,  ///< divisor first
     negation,
-    power,       ///< exponent first
-    library,     ///< `index`: LibraryFunction, of kids
-    conditional, ///< if(kids[0], kids[1], kids[2])
-    choice,      ///< select(kids[0], kids[1], ...)
-    check,       ///< a library call of which only the chosen argument kids[0] is left
-    call,        ///< of function instance `index`, kids by need
-    fatal,       ///< error message `index`
+    power,        ///< exponent first
+    library,      ///< `index`: LibraryFunction, of kids
+    conditional,  ///< if(kids[0], kids[1], kids[2])
+    choice,       ///< select(kids[0], kids[1], ...)
+    check,        ///< a library call of which only the chosen argument kids[0] is left
+    call,         ///< of function instance `index`, kids by need
+    fatal,        ///< error message `index`
 };
 
-/// Evaluating a node may change the language's error flag. A constant (and the head of a check) does
-/// so in one way only: it clears it, if `clears`, or when one of the lazies `touches` has not been
-/// touched before. Such a lazy has a known value; it is never computed.
+/// Evaluating a node may change the language's error flag. A constant (and the head of a check)
+/// does so in one way only: it clears it, if `clears`, or when one of the lazies `touches` has not
+/// been touched before. Such a lazy has a known value; it is never computed.
 struct Node {
     NodeKind kind = NodeKind::constant;
     bool clears = false;
@@ -53,8 +53,8 @@ struct Node {
 /// A variable, or an argument of an inlined call: computed at most once a tick, or a call.
 struct Lazy {
     NodeId body = kNoNode;
-    std::uint32_t frame = 0;          ///< 0: of the tick; k + 1: of a call of function instance k
-    std::uint32_t output = kNoNode;   ///< the output it belongs to: forgotten when that starts
+    std::uint32_t frame = 0;         ///< 0: of the tick; k + 1: of a call of function instance k
+    std::uint32_t output = kNoNode;  ///< the output it belongs to: forgotten when that starts
     [[nodiscard]] bool of_tick() const { return frame == 0; }
 };
 
@@ -88,8 +88,9 @@ struct OutputRequest {
     std::uint32_t inputs = 0;
 };
 
-/// `effort` is increased by the work done. Throws InputError when there are too many function instances.
-[[nodiscard]] Graph build_graph(const Specialisation& specialisation, std::span<const OutputRequest> outputs,
-                                std::uint64_t& effort);
+/// `effort` is increased by the work done. Throws InputError when there are too many function
+/// instances.
+[[nodiscard]] Graph build_graph(const Specialisation& specialisation,
+                                std::span<const OutputRequest> outputs, std::uint64_t& effort);
 
 }  // namespace lightwalk::function

@@ -98,18 +98,29 @@ NodeId GraphBuilder::build(const Expr& e, const Activation* in) {
     ++effort_;
     const Restored<std::uint32_t> deeper(depth_, depth_ + 1);
     switch (e.kind) {
-        case ExprKind::number: return constant(e.value);
-        case ExprKind::channel: return channel(e.index);
-        case ExprKind::parameter: return parameter(e, in);
-        case ExprKind::variable: return variable(e);
-        case ExprKind::sum: return build_list(NodeKind::sum, e, in);
-        case ExprKind::product: return build_list(NodeKind::product, e, in);
-        case ExprKind::difference: return build_list(NodeKind::difference, e, in);
-        case ExprKind::quotient: return build_list(NodeKind::quotient, e, in);
-        case ExprKind::power: return build_list(NodeKind::power, e, in);
-        case ExprKind::negation: return build_list(NodeKind::negation, e, in);
+        case ExprKind::number:
+            return constant(e.value);
+        case ExprKind::channel:
+            return channel(e.index);
+        case ExprKind::parameter:
+            return parameter(e, in);
+        case ExprKind::variable:
+            return variable(e);
+        case ExprKind::sum:
+            return build_list(NodeKind::sum, e, in);
+        case ExprKind::product:
+            return build_list(NodeKind::product, e, in);
+        case ExprKind::difference:
+            return build_list(NodeKind::difference, e, in);
+        case ExprKind::quotient:
+            return build_list(NodeKind::quotient, e, in);
+        case ExprKind::power:
+            return build_list(NodeKind::power, e, in);
+        case ExprKind::negation:
+            return build_list(NodeKind::negation, e, in);
         case ExprKind::call:
-        case ExprKind::call_parameter: return call(e, in);
+        case ExprKind::call_parameter:
+            return call(e, in);
     }
     return kNoNode;
 }
@@ -145,7 +156,8 @@ std::optional<Channel> GraphBuilder::material_channel(const Expr& e) const {
         if (!(with_.material_channels & channel_bit(known_name.channel))) return std::nullopt;
         // The normal's variables are global: a definition of the file hides them.
         const bool global = known_name.channel <= Channel::RdotP;
-        if (global && e.index != kNoSymbol && with_.symbols[e.index].is_variable()) return std::nullopt;
+        if (global && e.index != kNoSymbol && with_.symbols[e.index].is_variable())
+            return std::nullopt;
         return known_name.channel;
     }
     return std::nullopt;
@@ -168,7 +180,8 @@ NodeId GraphBuilder::variable(const Expr& e) {
     const Expr& body = with_.symbols[e.index].definition->body;
     const auto [found, is_new] = variables_.try_emplace(e.index);
     if (!is_new) {
-        if (found->second.progress == Progress::building) return constant(0);  // it refers to itself
+        if (found->second.progress == Progress::building)
+            return constant(0);  // it refers to itself
         return found->second.node;
     }
     NodeId node = kNoNode;
@@ -191,7 +204,8 @@ GraphBuilder::Callee GraphBuilder::callee(const Expr& e, const Activation* in) c
     for (;;) {
         if (at->instance != kNoNode) {
             const std::vector<SymbolId>& functions = graph_.instances[at->instance].functions;
-            const bool given = name->index < functions.size() && functions[name->index] != kNoSymbol;
+            const bool given =
+                name->index < functions.size() && functions[name->index] != kNoSymbol;
             return {given ? functions[name->index] : kNoSymbol, given};
         }
         if (name->index >= at->bindings.size()) return {kNoSymbol, false};
@@ -214,9 +228,10 @@ NodeId GraphBuilder::call(const Expr& e, const Activation* in) {
     return fatal(e.name + "(): undefined function");
 }
 
-/// Recursion is unrolled while no branch that depends on the ray lies between one level and the next:
-/// each of them would be called, so that what ends the recursion must be known here.
-bool GraphBuilder::may_inline(SymbolId symbol, std::uint32_t argument_depth, const Activation* in) const {
+/// Recursion is unrolled while no branch that depends on the ray lies between one level and the
+/// next: each of them would be called, so that what ends the recursion must be known here.
+bool GraphBuilder::may_inline(SymbolId symbol, std::uint32_t argument_depth,
+                              const Activation* in) const {
     const std::uint32_t chain = argument_depth + (in ? in->argument_depth : 0);
     const std::uint32_t body = with_.symbols[symbol].definition->body.depth;
     if (depth_ + chain + body > InlineLimits::kDepth) return false;
@@ -228,7 +243,8 @@ bool GraphBuilder::may_inline(SymbolId symbol, std::uint32_t argument_depth, con
 }
 
 NodeId GraphBuilder::user_call(SymbolId symbol, const Expr& e, const Activation* in) {
-    return may_inline(symbol, deepest(e.kids), in) ? inline_call(symbol, e, in) : real_call(symbol, e, in);
+    return may_inline(symbol, deepest(e.kids), in) ? inline_call(symbol, e, in)
+                                                   : real_call(symbol, e, in);
 }
 
 NodeId GraphBuilder::inline_call(SymbolId symbol, const Expr& e, const Activation* in) {

@@ -15,11 +15,11 @@ namespace lightwalk::function {
 /// Inlining is bounded, so that any text compiles in time and memory like its own size: what goes
 /// beyond becomes a call, which means the same.
 struct InlineLimits {
-    static constexpr std::uint32_t kDepth = 800;        ///< of recursion while building
-    static constexpr std::size_t kNodes = 20000;        ///< of the graph
-    static constexpr std::uint64_t kEffort = 200000;    ///< expressions visited
-    static constexpr std::size_t kInstances = 2000;     ///< of functions; more is an error
-    static constexpr std::size_t kTouches = 32;         ///< lazies behind one constant
+    static constexpr std::uint32_t kDepth = 800;      ///< of recursion while building
+    static constexpr std::size_t kNodes = 20000;      ///< of the graph
+    static constexpr std::uint64_t kEffort = 200000;  ///< expressions visited
+    static constexpr std::size_t kInstances = 2000;   ///< of functions; more is an error
+    static constexpr std::size_t kTouches = 32;       ///< lazies behind one constant
 };
 
 class GraphBuilder {
@@ -33,17 +33,18 @@ class GraphBuilder {
   private:
     struct Activation;
     struct Binding {
-        const Expr* argument = nullptr;        ///< in the caller's terms
+        const Expr* argument = nullptr;  ///< in the caller's terms
         const Activation* caller = nullptr;
-        mutable NodeId node = kNoNode;         ///< once it is used
+        mutable NodeId node = kNoNode;  ///< once it is used
     };
     /// A call that is being inlined; the root of an instance's body; or an output.
     struct Activation {
-        const Activation* caller = nullptr;    ///< the chain of functions that this one is inlined into
+        const Activation* caller =
+            nullptr;  ///< the chain of functions that this one is inlined into
         SymbolId symbol = kNoSymbol;
-        std::uint32_t conditions = 0;          ///< conditions_ when it was entered
-        std::uint32_t argument_depth = 0;      ///< of all arguments along the chain together
-        std::uint32_t instance = kNoNode;      ///< parameters are this instance's
+        std::uint32_t conditions = 0;      ///< conditions_ when it was entered
+        std::uint32_t argument_depth = 0;  ///< of all arguments along the chain together
+        std::uint32_t instance = kNoNode;  ///< parameters are this instance's
         std::vector<Binding> bindings;
     };
     enum class Progress : std::uint8_t { building, built };
@@ -70,11 +71,13 @@ class GraphBuilder {
     NodeId user_call(SymbolId symbol, const Expr& e, const Activation* in);
     NodeId inline_call(SymbolId symbol, const Expr& e, const Activation* in);
     NodeId real_call(SymbolId symbol, const Expr& e, const Activation* in);
-    [[nodiscard]] bool may_inline(SymbolId symbol, std::uint32_t argument_depth, const Activation* in) const;
+    [[nodiscard]] bool may_inline(SymbolId symbol, std::uint32_t argument_depth,
+                                  const Activation* in) const;
     std::uint32_t instance(SymbolId symbol, std::vector<SymbolId> functions);
 
     NodeId library_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
-    NodeId library_argument(const LibraryEntry& entry, const Expr& e, std::size_t i, const Activation* in);
+    NodeId library_argument(const LibraryEntry& entry, const Expr& e, std::size_t i,
+                            const Activation* in);
     NodeId if_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
     NodeId select_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
     NodeId arg_call(NodeId index);
@@ -87,8 +90,11 @@ class GraphBuilder {
     NodeId fatal(std::string message);
     NodeId make(NodeKind kind, std::uint32_t index, std::vector<NodeId> kids);
     NodeId list(NodeKind kind, std::vector<NodeId> kids);
-    std::optional<Node> fold(NodeKind kind, std::uint32_t index, const std::vector<NodeId>& kids) const;
-    [[nodiscard]] bool known(NodeId id) const { return graph_.nodes[id].kind == NodeKind::constant; }
+    std::optional<Node> fold(NodeKind kind, std::uint32_t index,
+                             const std::vector<NodeId>& kids) const;
+    [[nodiscard]] bool known(NodeId id) const {
+        return graph_.nodes[id].kind == NodeKind::constant;
+    }
     /// A value that is computed once and used many times.
     NodeId remember(NodeId body);
 

@@ -13,16 +13,21 @@ NodeId GraphBuilder::library_argument(const LibraryEntry& entry, const Expr& e, 
 
 NodeId GraphBuilder::library_call(const LibraryEntry& entry, const Expr& e, const Activation* in) {
     switch (entry.function) {
-        case LibraryFunction::if_: return if_call(entry, e, in);
-        case LibraryFunction::select: return select_call(entry, e, in);
-        case LibraryFunction::arg: return arg_call(library_argument(entry, e, 0, in));
-        default: break;
+        case LibraryFunction::if_:
+            return if_call(entry, e, in);
+        case LibraryFunction::select:
+            return select_call(entry, e, in);
+        case LibraryFunction::arg:
+            return arg_call(library_argument(entry, e, 0, in));
+        default:
+            break;
     }
-    if (with_.constant && entry.channels != 0) return fatal("ray parameter used in constant expression");
+    if (with_.constant && entry.channels != 0)
+        return fatal("ray parameter used in constant expression");
     std::vector<NodeId> kids;
     // source_theta does not look at its argument.
     const auto used = entry.function == LibraryFunction::source_theta ? 0u
-                      : entry.variadic ? e.kids.size()
+                      : entry.variadic                                ? e.kids.size()
                                        : static_cast<std::size_t>(entry.arguments);
     for (std::size_t i = 0; i < used; ++i) kids.push_back(library_argument(entry, e, i, in));
     if (entry.function == LibraryFunction::fprism_val) return prism_call(std::move(kids));
@@ -49,7 +54,8 @@ NodeId GraphBuilder::select_call(const LibraryEntry& entry, const Expr& e, const
     if (known(selector)) {
         const int k = selected_case(graph_.nodes[selector].value, m);
         if (k >= 0) {
-            const NodeId chosen = k == 0 ? constant(m) : build(e.kids[static_cast<std::size_t>(k)], in);
+            const NodeId chosen =
+                k == 0 ? constant(m) : build(e.kids[static_cast<std::size_t>(k)], in);
             return check(chosen, graph_.nodes[selector].touches);
         }
     }
@@ -66,7 +72,8 @@ NodeId GraphBuilder::prism_call(std::vector<NodeId> kids) {
         if (with_.material_channels & channel_bit(c)) continue;
         return fatal("DxA, DyA, DzA: undefined variable, needed by fprism_val()");
     }
-    return make(NodeKind::library, static_cast<std::uint32_t>(LibraryFunction::fprism_val), std::move(kids));
+    return make(NodeKind::library, static_cast<std::uint32_t>(LibraryFunction::fprism_val),
+                std::move(kids));
 }
 
 }  // namespace lightwalk::function

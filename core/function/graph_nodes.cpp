@@ -58,20 +58,27 @@ std::optional<Node> GraphBuilder::fold(NodeKind kind, std::uint32_t index,
     }
     if (result.touches.size() > InlineLimits::kTouches) return std::nullopt;
     switch (kind) {
-        case NodeKind::negation: result.value = -x[0]; return result;
-        case NodeKind::difference: result.value = x[0] - x[1]; return result;
+        case NodeKind::negation:
+            result.value = -x[0];
+            return result;
+        case NodeKind::difference:
+            result.value = x[0] - x[1];
+            return result;
         case NodeKind::quotient:
             if (x[1] == 0) return std::nullopt;
             result.value = x[0] / x[1];
             return result;
-        case NodeKind::power: result.value = std::pow(x[0], x[1]); break;
+        case NodeKind::power:
+            result.value = std::pow(x[0], x[1]);
+            break;
         case NodeKind::library: {
             const auto function = static_cast<LibraryFunction>(index);
             if (!is_pure_function(function)) return std::nullopt;
             result.value = library_value(function, x.data(), x.size());
             break;
         }
-        default: return std::nullopt;
+        default:
+            return std::nullopt;
     }
     if (!std::isfinite(result.value)) return std::nullopt;  // the error belongs to run time
     result.clears = true;
@@ -120,11 +127,13 @@ NodeId GraphBuilder::remember(NodeId body) {
         case NodeKind::input:
         case NodeKind::lazy:
         case NodeKind::parameter:
-        case NodeKind::fatal: return body;
+        case NodeKind::fatal:
+            return body;
         case NodeKind::constant:
             if (!node.clears) return body;
             break;
-        default: break;
+        default:
+            break;
     }
     const auto id = static_cast<LazyId>(graph_.lazies.size());
     graph_.lazies.push_back({body, frame_, frame_ == 0 ? output_ : kNoNode});
@@ -162,7 +171,8 @@ NodeId GraphBuilder::check(NodeId chosen, const std::vector<LazyId>& touches) {
 }
 
 NodeId GraphBuilder::arg_call(NodeId index) {
-    if (with_.constant) return fatal("bad call to arg(n): it has no value in a constant expression");
+    if (with_.constant)
+        return fatal("bad call to arg(n): it has no value in a constant expression");
     if (!known(index)) {
         return make(NodeKind::library, static_cast<std::uint32_t>(LibraryFunction::arg), {index});
     }
@@ -172,8 +182,8 @@ NodeId GraphBuilder::arg_call(NodeId index) {
         return fatal("bad call to arg(" + std::to_string(k) + "): there are " +
                      std::to_string(with_.reals.size()) + " real arguments");
     }
-    const double value =
-        k < 1 ? static_cast<double>(with_.reals.size()) : with_.reals[static_cast<std::size_t>(k - 1)];
+    const double value = k < 1 ? static_cast<double>(with_.reals.size())
+                               : with_.reals[static_cast<std::size_t>(k - 1)];
     if (!std::isfinite(value)) {
         return make(NodeKind::library, static_cast<std::uint32_t>(LibraryFunction::arg), {index});
     }

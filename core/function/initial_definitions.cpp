@@ -3,8 +3,8 @@
 namespace lightwalk::function {
 namespace {
 
-// The names that scenes take for granted. Source: Radiance's documentation of its initialisation file
-// (rayinit.cal) and of the variables available while shading.
+// The names that scenes take for granted. Source: Radiance's documentation of its initialisation
+// file (rayinit.cal) and of the variables available while shading.
 constexpr std::string_view kRenderer = R"({ ray parameters }
 Dx = $1; Dy = $2; Dz = $3;
 Nx = $4; Ny = $5; Nz = $6;

@@ -15,8 +15,8 @@ namespace lightwalk {
 namespace function {
 namespace {
 
-/// Bounds on what the calls of one tick may use: recursion of a function file ends with an error long
-/// before memory or patience do.
+/// Bounds on what the calls of one tick may use: recursion of a function file ends with an error
+/// long before memory or patience do.
 constexpr std::uint64_t kMostOperations = 100000000;
 constexpr std::size_t kMostReturns = 200000;
 constexpr std::size_t kMostCells = std::size_t{1} << 21;
@@ -30,16 +30,18 @@ struct Position {
     throw InputError(code.where, std::string("function file: ") + what);
 }
 
-void push_return(const Program::Code& code, EvalState& state, const Instruction* from, std::uint32_t frame,
-                 std::uint32_t cell) {
+void push_return(const Program::Code& code, EvalState& state, const Instruction* from,
+                 std::uint32_t frame, std::uint32_t cell) {
     if (state.returns.size() >= kMostReturns) too_much(code, "recursion is too deep");
-    state.returns.push_back({static_cast<std::uint32_t>(from - code.instructions.data()) + 1, frame, cell});
+    state.returns.push_back(
+        {static_cast<std::uint32_t>(from - code.instructions.data()) + 1, frame, cell});
 }
 
-/// Run the block at `entry` in `frame`, for the value of `cell`. Until it has one the cell is 0: what a
-/// variable that refers to itself finds.
-Position compute_cell(const Program::Code& code, EvalState& state, const Instruction* from, std::uint32_t caller,
-                      std::uint32_t frame, std::uint32_t cell, std::uint32_t entry) {
+/// Run the block at `entry` in `frame`, for the value of `cell`. Until it has one the cell is 0:
+/// what a variable that refers to itself finds.
+Position compute_cell(const Program::Code& code, EvalState& state, const Instruction* from,
+                      std::uint32_t caller, std::uint32_t frame, std::uint32_t cell,
+                      std::uint32_t entry) {
     push_return(code, state, from, caller, cell);
     state.flags[cell] = 1;
     state.values[cell] = 0;
@@ -54,31 +56,30 @@ double pack_thunk(std::uint32_t entry, std::uint32_t frame) {
 Position force_parameter(const Program::Code& code, EvalState& state, const Instruction* from,
                          std::uint32_t frame) {
     const std::uint32_t cell = frame + from->dst;
+    if (state.flags[cell]) return {from + 1, frame};
     const auto thunk = std::bit_cast<std::uint64_t>(state.values[cell]);
     return compute_cell(code, state, from, frame, static_cast<std::uint32_t>(thunk), cell,
                         static_cast<std::uint32_t>(thunk >> 32));
 }
 
-/// Enter a function: its frame begins at `top`, which moves up.
-Position enter_call(const Program::Code& code, EvalState& state, const Instruction* from, std::uint32_t frame,
-                    std::uint32_t& top) {
+/// Enter a function: its frame begins at `base`.
+Position enter_call(const Program::Code& code, EvalState& state, const Instruction* from,
+                    std::uint32_t frame, std::uint32_t base) {
     const FunctionCode& function = code.functions[from->a];
     state.operations += function.cost;
     if (state.operations > kMostOperations) too_much(code, "evaluation takes too long");
     push_return(code, state, from, frame, frame + from->dst);
-    const std::uint32_t base = top;
     const std::size_t end = std::size_t{base} + function.cells;
     if (end > kMostCells) too_much(code, "recursion is too deep");
     if (end > state.values.size()) {
         state.values.resize(std::max(end, state.values.size() * 2));
         state.flags.resize(state.values.size());
     }
-    top = static_cast<std::uint32_t>(end);
     std::fill_n(state.flags.begin() + base, function.marked, std::uint8_t{0});
     for (std::uint32_t i = 0; i < function.parameters; ++i) {
         const Argument& argument = code.arguments[from->b + i];
-        state.values[base + i] = argument.is_value ? state.values[frame + argument.at]
-                                                   : pack_thunk(argument.at, frame);
+        state.values[base + i] =
+            argument.is_value ? state.values[frame + argument.at] : pack_thunk(argument.at, frame);
         state.flags[base + i] = argument.is_value;
     }
     return {code.instructions.data() + function.entry, base};
@@ -95,7 +96,8 @@ Position leave(const Program::Code& code, EvalState& state, double value) {
 double real_argument(const Program::Code& code, double n) {
     const int k = rounded_index(n);
     if (k < 1) return static_cast<double>(code.reals.size());
-    if (static_cast<std::size_t>(k) <= code.reals.size()) return code.reals[static_cast<std::size_t>(k) - 1];
+    if (static_cast<std::size_t>(k) <= code.reals.size())
+        return code.reals[static_cast<std::size_t>(k) - 1];
     throw InputError(code.where, "bad call to arg(" + std::to_string(k) + "): there are " +
                                      std::to_string(code.reals.size()) + " real arguments");
 }
@@ -123,48 +125,102 @@ double prism_function(const Program::Code& code, EvalState& state, double v, dou
 constexpr unsigned kDomain = static_cast<unsigned>(EvalError::domain);
 constexpr unsigned kRange = static_cast<unsigned>(EvalError::range);
 
-double run(const Program::Code& code, std::uint32_t entry, EvalState& state) {
-    const Instruction* i = code.instructions.data() + entry;
-    double* cells = state.values.data();  // of the present frame
-    std::uint32_t frame = 0;
-    std::uint32_t top = code.cells;
-    auto error = static_cast<unsigned>(state.error);
-    state.returns.clear();
+/// One evaluation. The loop is the machine's only user, so that its state lives in registers.
+class Machine {
+  public:
+    Machine(const Program::Code& code, EvalState& state, std::uint32_t entry)
+        : code_(code),
+          state_(state),
+          i_(code.instructions.data() + entry),
+          cells_(state.values.data()),
+          top_(code.cells),
+          error_(static_cast<unsigned>(state.error)) {
+        state.returns.clear();
+    }
+    double run();
 
-    const auto go = [&](const Position& to) {
-        i = to.next;
-        frame = to.frame;
-        cells = state.values.data() + frame;
-    };
-    // The end of a library function: a set flag or a result that is not finite makes it 0.
-    const auto checked = [&](double v) {
-        error &= i->keep;
-        if (error == 0 && std::abs(v) <= std::numeric_limits<double>::max()) [[likely]] {
-            cells[i->dst] = v;
+  private:
+    [[nodiscard]] double a() const { return cells_[i_->a]; }
+    [[nodiscard]] double b() const { return cells_[i_->b]; }
+    [[nodiscard]] double c() const { return cells_[i_->c]; }
+    void plain(double v) {
+        cells_[i_->dst] = v;
+        ++i_;
+    }
+    /// The end of a library function: a set flag or a result that is not finite makes it 0.
+    [[gnu::always_inline]] double tested(double v) {
+        error_ &= i_->keep;
+        if (error_ == 0 && std::abs(v) <= std::numeric_limits<double>::max()) [[likely]]
+            return v;
+        if (error_ == 0) error_ = std::isnan(v) ? kDomain : kRange;
+        ++state_.warnings;
+        return 0;
+    }
+    [[gnu::always_inline]] void checked(double v) { plain(tested(v)); }
+    double zero_divisor() {
+        error_ = kRange;
+        ++state_.warnings;
+        return 0;
+    }
+    void touch(std::uint8_t& touched) {
+        if (!touched) error_ = 0;
+        touched = 1;
+        ++i_;
+    }
+    void jump_unless(bool stay, std::uint32_t target) {
+        i_ = stay ? i_ + 1 : code_.instructions.data() + target;
+    }
+    void guard_divisor() {
+        if (a() == 0) {
+            cells_[i_->dst] = zero_divisor();
+            i_ = code_.instructions.data() + i_->b;
         } else {
-            if (error == 0) error = std::isnan(v) ? kDomain : kRange;
-            ++state.warnings;
-            cells[i->dst] = 0;
+            ++i_;
         }
-        ++i;
-    };
-    const auto plain = [&](double v) {
-        cells[i->dst] = v;
-        ++i;
-    };
-    const auto a = [&] { return cells[i->a]; };
-    const auto b = [&] { return cells[i->b]; };
-    const auto c = [&] { return cells[i->c]; };
-    const auto zero_divisor = [&] {
-        error = kRange;
-        ++state.warnings;
-        return 0.0;
-    };
+    }
+    void choose() {
+        const int k = selected_case(a(), static_cast<int>(i_->c));
+        if (k < 0) {
+            error_ = kDomain;
+            cells_[i_->dst] = 0;
+        }
+        const std::uint32_t target = k < 0 ? i_->c + 1 : static_cast<std::uint32_t>(k);
+        i_ = code_.instructions.data() + code_.targets[i_->b + target];
+    }
+    [[gnu::always_inline]] void go(const Position& to) {
+        i_ = to.next;
+        frame_ = to.frame;
+        cells_ = state_.values.data() + frame_;
+    }
+    [[gnu::always_inline]] void call() {
+        const std::uint32_t cells = code_.functions[i_->a].cells;
+        go(enter_call(code_, state_, i_, frame_, top_));
+        top_ = frame_ + cells;
+    }
+    [[gnu::always_inline]] void ensure(std::uint32_t of_frame) {
+        if (state_.flags[of_frame + i_->dst]) {
+            ++i_;
+        } else {
+            go(compute_cell(code_, state_, i_, frame_, of_frame, of_frame + i_->dst, i_->a));
+        }
+    }
 
+    const Program::Code& code_;
+    EvalState& state_;
+    const Instruction* i_;     ///< the present instruction
+    double* cells_;            ///< of the present frame
+    std::uint32_t frame_ = 0;  ///< where that begins
+    std::uint32_t top_;        ///< where the next frame will begin
+    unsigned error_;           ///< EvalError
+};
+
+[[gnu::always_inline]] inline double Machine::run() {
     for (;;) {
-        switch (i->op) {
+        // A line an instruction.
+        // clang-format off
+        switch (i_->op) {
             case Op::move: plain(a()); break;
-            case Op::load_tick: plain(state.values[i->a]); break;
+            case Op::load_tick: plain(state_.values[i_->a]); break;
             case Op::negate: plain(-a()); break;
             case Op::add: plain((0.0 + a()) + b()); break;
             case Op::add3: plain(((0.0 + a()) + b()) + c()); break;
@@ -177,14 +233,7 @@ double run(const Program::Code& code, std::uint32_t entry, EvalState& state) {
             case Op::divide_tested: plain(b() == 0 ? zero_divisor() : a() / b()); break;
             case Op::lesser: plain(b() < a() ? b() : a()); break;
             case Op::greater: plain(b() > a() ? b() : a()); break;
-            case Op::guard_divisor:
-                if (a() == 0) {
-                    cells[i->dst] = zero_divisor();
-                    i = code.instructions.data() + i->b;
-                } else {
-                    ++i;
-                }
-                break;
+            case Op::guard_divisor: guard_divisor(); break;
             case Op::power: checked(std::pow(a(), b())); break;
             case Op::min: checked(b() < a() ? b() : a()); break;
             case Op::max: checked(b() > a() ? b() : a()); break;
@@ -204,90 +253,55 @@ double run(const Program::Code& code, std::uint32_t entry, EvalState& state) {
             case Op::atan2: checked(std::atan2(a(), b())); break;
             case Op::erf: checked(std::erf(a())); break;
             case Op::erfc: checked(std::erfc(a())); break;
-            case Op::noise3: checked(noise3(a(), b(), c(), state.noise)); break;
-            case Op::noise3x: checked(noise3_difference(0, a(), b(), c(), state.noise)); break;
-            case Op::noise3y: checked(noise3_difference(1, a(), b(), c(), state.noise)); break;
-            case Op::noise3z: checked(noise3_difference(2, a(), b(), c(), state.noise)); break;
-            case Op::fnoise3: checked(fnoise3(a(), b(), c(), state.fractal)); break;
-            case Op::arg: checked(real_argument(code, a())); break;
-            case Op::source_theta: checked(source_theta(*state.channels)); break;
+            case Op::noise3: checked(noise3(a(), b(), c(), state_.noise)); break;
+            case Op::noise3x: checked(noise3_difference(0, a(), b(), c(), state_.noise)); break;
+            case Op::noise3y: checked(noise3_difference(1, a(), b(), c(), state_.noise)); break;
+            case Op::noise3z: checked(noise3_difference(2, a(), b(), c(), state_.noise)); break;
+            case Op::fnoise3: checked(fnoise3(a(), b(), c(), state_.fractal)); break;
+            case Op::arg: checked(real_argument(code_, a())); break;
+            case Op::source_theta: checked(source_theta(*state_.channels)); break;
             case Op::source_phi:
-            case Op::source_corr: checked(source_value(code, state, i->op, a(), b())); break;
-            case Op::fprism_val: checked(prism_function(code, state, a(), b(), c())); break;
+            case Op::source_corr: checked(source_value(code_, state_, i_->op, a(), b())); break;
+            case Op::fprism_val: checked(prism_function(code_, state_, a(), b(), c())); break;
+            case Op::modulo: plain(a() - tested(std::floor(a() / b())) * b()); break;
+            case Op::fraction: plain(a() - tested(std::floor(a()))); break;
+            case Op::absolute: checked(-a() > a() ? -a() : a()); break;
             case Op::check: checked(a()); break;
             case Op::pick: checked(a() > 0 ? b() : c()); break;
-            case Op::clear:
-                error = 0;
-                ++i;
-                break;
-            case Op::touch:
-            case Op::touch_tick: {
-                std::uint8_t& touched = state.flags[i->op == Op::touch ? frame + i->dst : i->dst];
-                if (!touched) error = 0;
-                touched = 1;
-                ++i;
-                break;
-            }
-            case Op::forget:
-                state.flags[frame + i->dst] = 0;
-                ++i;
-                break;
-            case Op::jump: i = code.instructions.data() + i->a; break;
-            case Op::jump_unless_positive:
-                i = a() > 0 ? i + 1 : code.instructions.data() + i->b;
-                break;
-            case Op::jump_unless_above:
-                i = a() - c() > 0 ? i + 1 : code.instructions.data() + i->b;
-                break;
-            case Op::choose: {
-                const auto cases = static_cast<int>(i->c);
-                const int k = selected_case(a(), cases);
-                if (k < 0) {
-                    error = kDomain;
-                    cells[i->dst] = 0;
-                }
-                const auto target = static_cast<std::uint32_t>(k < 0 ? cases + 1 : k);
-                i = code.instructions.data() + code.targets[i->b + target];
-                break;
-            }
-            case Op::ensure:
-                if (state.flags[frame + i->dst]) {
-                    ++i;
-                } else {
-                    go(compute_cell(code, state, i, frame, frame, frame + i->dst, i->a));
-                }
-                break;
-            case Op::ensure_tick:
-                if (state.flags[i->dst]) {
-                    ++i;
-                } else {
-                    go(compute_cell(code, state, i, frame, 0, i->dst, i->a));
-                }
-                break;
-            case Op::force:
-                if (state.flags[frame + i->dst]) {
-                    ++i;
-                } else {
-                    go(force_parameter(code, state, i, frame));
-                }
-                break;
-            case Op::call: go(enter_call(code, state, i, frame, top)); break;
-            case Op::give: go(leave(code, state, a())); break;
-            case Op::give_call:
-                top = frame;
-                go(leave(code, state, a()));
-                break;
-            case Op::halt: state.error = static_cast<EvalError>(error); return a();
-            case Op::fatal: throw InputError(code.where, code.messages[i->a]);
+            case Op::clear: error_ = 0; ++i_; break;
+            case Op::touch: touch(state_.flags[frame_ + i_->dst]); break;
+            case Op::touch_tick: touch(state_.flags[i_->dst]); break;
+            case Op::forget: state_.flags[frame_ + i_->dst] = 0; ++i_; break;
+            case Op::jump: jump_unless(false, i_->a); break;
+            case Op::jump_unless_positive: jump_unless(a() > 0, i_->b); break;
+            case Op::jump_unless_above: jump_unless(a() - c() > 0, i_->b); break;
+            case Op::choose: choose(); break;
+            case Op::ensure: ensure(frame_); break;
+            case Op::ensure_tick: ensure(0); break;
+            case Op::force: go(force_parameter(code_, state_, i_, frame_)); break;
+            case Op::call: call(); break;
+            case Op::give: go(leave(code_, state_, a())); break;
+            case Op::give_call: top_ = frame_; go(leave(code_, state_, a())); break;
+            case Op::halt: state_.error = static_cast<EvalError>(error_); return a();
+            case Op::fatal: throw InputError(code_.where, code_.messages[i_->a]);
         }
+        // clang-format on
     }
+}
+
+double run(const Program::Code& code, std::uint32_t entry, EvalState& state) {
+    return Machine(code, state, entry).run();
 }
 
 }  // namespace
 }  // namespace function
 
-std::size_t Program::outputs() const { return code_ ? code_->outputs.size() : 0; }
-ChannelMask Program::channels() const { return code_ ? code_->channels : 0; }
+std::size_t Program::outputs() const {
+    return code_ ? code_->outputs.size() : 0;
+}
+ChannelMask Program::channels() const {
+    return code_ ? code_->channels : 0;
+}
 
 void Program::begin(EvalState& state, const ChannelValues& channels) const {
     const Code& code = *code_;
@@ -307,7 +321,8 @@ double Program::evaluate(std::size_t output, EvalState& state) const {
     return function::run(*code_, code_->outputs[output].entry, state);
 }
 
-double Program::call(std::size_t output, std::span<const double> arguments, EvalState& state) const {
+double Program::call(std::size_t output, std::span<const double> arguments,
+                     EvalState& state) const {
     std::copy(arguments.begin(), arguments.end(), state.values.begin() + code_->inputs_at);
     return function::run(*code_, code_->outputs[output].entry, state);
 }

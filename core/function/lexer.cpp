@@ -16,7 +16,8 @@ bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
 }
 
-/// The power of ten of the first digit of `word` that is not 0; `word` is digits [. digits] [e digits].
+/// The power of ten of the first digit of `word` that is not 0; `word` is digits [. digits] [e
+/// digits].
 long long decimal_exponent(std::string_view word) {
     const std::size_t mark = std::min(word.find_first_of("eE"), word.size());
     const std::string_view mantissa = word.substr(0, mark);
@@ -98,8 +99,12 @@ void Lexer::expect(char c, std::string_view what) {
     if (!accept(c)) unexpected(what);
 }
 
-bool Lexer::at_number() const { return is_digit(peek()) || peek() == '.'; }
-bool Lexer::at_name() const { return is_letter(peek()) || peek() == '`'; }
+bool Lexer::at_number() const {
+    return is_digit(peek()) || peek() == '.';
+}
+bool Lexer::at_name() const {
+    return is_letter(peek()) || peek() == '`';
+}
 
 double Lexer::number() {
     const std::size_t start = at_;
@@ -111,12 +116,14 @@ double Lexer::number() {
     const bool whole = digits();
     if (peek() == '.') {
         ++at_;
-        if (!digits() && !whole) throw InputError(where_, "badly formed number: no digit beside the '.'");
+        if (!digits() && !whole)
+            throw InputError(where_, "badly formed number: no digit beside the '.'");
     }
     if (peek() == 'e' || peek() == 'E') {
         ++at_;
         if (peek() == '+' || peek() == '-') ++at_;
-        if (!digits()) throw InputError(where_, "missing exponent: no digit after the 'e' of a number");
+        if (!digits())
+            throw InputError(where_, "missing exponent: no digit after the 'e' of a number");
     }
     const double value = to_double(text_.substr(start, at_ - start));
     skip();
@@ -126,7 +133,8 @@ double Lexer::number() {
 std::uint32_t Lexer::integer() {
     std::uint64_t value = 0;
     for (; is_digit(peek()); ++at_) {
-        value = std::min<std::uint64_t>(value * 10 + static_cast<std::uint64_t>(peek() - '0'), 1000000000);
+        value = std::min<std::uint64_t>(value * 10 + static_cast<std::uint64_t>(peek() - '0'),
+                                        1000000000);
     }
     skip();
     return static_cast<std::uint32_t>(value);

@@ -12,7 +12,8 @@ namespace lightwalk::function {
 /// Walks over a text. White space and comments before a word belong to nobody.
 class Lexer {
   public:
-    /// `where` is the place of the first character; lines are counted from there on when it has one.
+    /// `where` is the place of the first character; lines are counted from there on when it has
+    /// one.
     Lexer(std::string_view text, SourceLocation where);
 
     /// Next character of a word; 0 at the end. Throws InputError for a comment that does not end.

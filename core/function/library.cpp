@@ -77,9 +77,12 @@ double noise_slope(int axis, const double* x) {
 
 }  // namespace
 
-std::span<const LibraryEntry> library_functions() { return kLibrary; }
+std::span<const LibraryEntry> library_functions() {
+    return kLibrary;
+}
 
-const LibraryEntry* find_library_function(std::string_view name, FunctionEnvironment::Library library) {
+const LibraryEntry* find_library_function(std::string_view name,
+                                          FunctionEnvironment::Library library) {
     for (const LibraryEntry& entry : kLibrary) {
         if (entry.name != name) continue;
         return entry.core || library == FunctionEnvironment::Library::renderer ? &entry : nullptr;
@@ -93,30 +96,54 @@ const LibraryEntry& library_entry(LibraryFunction function) {
 
 double library_value(LibraryFunction function, const double* x, std::size_t count) {
     switch (function) {
-        case F::min: return smallest(x, count);
-        case F::max: return largest(x, count);
-        case F::rand: return rand_value(x[0]);
-        case F::floor: return std::floor(x[0]);
-        case F::ceil: return std::ceil(x[0]);
-        case F::sqrt: return std::sqrt(x[0]);
-        case F::exp: return std::exp(x[0]);
-        case F::log: return std::log(x[0]);
-        case F::log10: return std::log10(x[0]);
-        case F::sin: return std::sin(x[0]);
-        case F::cos: return std::cos(x[0]);
-        case F::tan: return std::tan(x[0]);
-        case F::asin: return std::asin(x[0]);
-        case F::acos: return std::acos(x[0]);
-        case F::atan: return std::atan(x[0]);
-        case F::atan2: return std::atan2(x[0], x[1]);
-        case F::erf: return std::erf(x[0]);
-        case F::erfc: return std::erfc(x[0]);
-        case F::noise3: return lightwalk::noise3(x[0], x[1], x[2]);
-        case F::noise3x: return noise_slope(0, x);
-        case F::noise3y: return noise_slope(1, x);
-        case F::noise3z: return noise_slope(2, x);
-        case F::fnoise3: return lightwalk::fnoise3(x[0], x[1], x[2]);
-        default: return 0;
+        case F::min:
+            return smallest(x, count);
+        case F::max:
+            return largest(x, count);
+        case F::rand:
+            return rand_value(x[0]);
+        case F::floor:
+            return std::floor(x[0]);
+        case F::ceil:
+            return std::ceil(x[0]);
+        case F::sqrt:
+            return std::sqrt(x[0]);
+        case F::exp:
+            return std::exp(x[0]);
+        case F::log:
+            return std::log(x[0]);
+        case F::log10:
+            return std::log10(x[0]);
+        case F::sin:
+            return std::sin(x[0]);
+        case F::cos:
+            return std::cos(x[0]);
+        case F::tan:
+            return std::tan(x[0]);
+        case F::asin:
+            return std::asin(x[0]);
+        case F::acos:
+            return std::acos(x[0]);
+        case F::atan:
+            return std::atan(x[0]);
+        case F::atan2:
+            return std::atan2(x[0], x[1]);
+        case F::erf:
+            return std::erf(x[0]);
+        case F::erfc:
+            return std::erfc(x[0]);
+        case F::noise3:
+            return lightwalk::noise3(x[0], x[1], x[2]);
+        case F::noise3x:
+            return noise_slope(0, x);
+        case F::noise3y:
+            return noise_slope(1, x);
+        case F::noise3z:
+            return noise_slope(2, x);
+        case F::fnoise3:
+            return lightwalk::fnoise3(x[0], x[1], x[2]);
+        default:
+            return 0;
     }
 }
 

@@ -10,15 +10,42 @@
 namespace lightwalk::function {
 
 enum class LibraryFunction : std::uint8_t {
-    if_, select, min, max, rand, floor, ceil, sqrt, exp, log, log10, sin, cos, tan, asin, acos, atan,
-    atan2, arg, erf, erfc, noise3, noise3x, noise3y, noise3z, fnoise3, source_theta, source_phi,
-    source_corr, fprism_val,
+    if_,
+    select,
+    min,
+    max,
+    rand,
+    floor,
+    ceil,
+    sqrt,
+    exp,
+    log,
+    log10,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    atan2,
+    arg,
+    erf,
+    erfc,
+    noise3,
+    noise3x,
+    noise3y,
+    noise3z,
+    fnoise3,
+    source_theta,
+    source_phi,
+    source_corr,
+    fprism_val,
 };
 
 struct LibraryEntry {
     std::string_view name;
     LibraryFunction function;
-    int arguments;         ///< that it may use; 1 for the functions of any number
+    int arguments;  ///< that it may use; 1 for the functions of any number
     bool variadic;
     bool constant;         ///< a call with constant arguments may be replaced by its value
     bool core;             ///< known to the generators, too; the others belong to the renderer
@@ -45,7 +72,8 @@ struct LibraryEntry {
     return r < 2147483647.0 ? static_cast<int>(r) : 2147483647;
 }
 
-/// Which of `cases` values select(n, ...) chooses, from 1; 0 for their number; -1 for a domain error.
+/// Which of `cases` values select(n, ...) chooses, from 1; 0 for their number; -1 for a domain
+/// error.
 [[nodiscard]] inline int selected_case(double n, int cases) {
     if (!(n >= -0.5)) return -1;
     const int k = rounded_index(n);
@@ -55,7 +83,8 @@ struct LibraryEntry {
 /// Pseudo-random number in [0, 1) that depends on x alone.
 [[nodiscard]] double rand_value(double x);
 
-/// The definitions that a renderer starts with, and those of the generators; text of a function file.
+/// The definitions that a renderer starts with, and those of the generators; text of a function
+/// file.
 [[nodiscard]] std::string_view initial_definitions(FunctionEnvironment::Library library);
 
 }  // namespace lightwalk::function

@@ -42,17 +42,33 @@ constexpr std::array<std::uint8_t, 513> kTwice = [] {
 struct Gradient {
     double x, y, z;
 };
-constexpr std::array<Gradient, 16> kGradients{{{1, 1, 0},  {-1, 1, 0},  {1, -1, 0},  {-1, -1, 0},
-                                               {1, 0, 1},  {-1, 0, 1},  {1, 0, -1},  {-1, 0, -1},
-                                               {0, 1, 1},  {0, -1, 1},  {0, 1, -1},  {0, -1, -1},
-                                               {1, 1, 0},  {0, -1, 1},  {-1, 1, 0},  {0, -1, -1}}};
+constexpr std::array<Gradient, 16> kGradients{{{1, 1, 0},
+                                               {-1, 1, 0},
+                                               {1, -1, 0},
+                                               {-1, -1, 0},
+                                               {1, 0, 1},
+                                               {-1, 0, 1},
+                                               {1, 0, -1},
+                                               {-1, 0, -1},
+                                               {0, 1, 1},
+                                               {0, -1, 1},
+                                               {0, 1, -1},
+                                               {0, -1, -1},
+                                               {1, 1, 0},
+                                               {0, -1, 1},
+                                               {-1, 1, 0},
+                                               {0, -1, -1}}};
 
 double gradient(std::uint8_t hash, double x, double y, double z) {
     const Gradient& g = kGradients[hash & 15u];
     return g.x * x + g.y * y + g.z * z;
 }
-double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-double lerp(double s, double a, double b) { return a + s * (b - a); }
+double fade(double t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
+double lerp(double s, double a, double b) {
+    return a + s * (b - a);
+}
 
 bool within(double limit, double x, double y, double z) {
     return std::abs(x) < limit && std::abs(y) < limit && std::abs(z) < limit;
@@ -80,9 +96,9 @@ double noise3(double x, double y, double z) {
     const std::uint32_t ba = kTwice[b] + cz.index, bb = kTwice[b + 1] + cz.index;
     const double tx = cx.t, ty = cy.t, tz = cz.t;
     const double u = fade(tx), v = fade(ty), w = fade(tz);
-    const double near =
-        lerp(v, lerp(u, gradient(kTwice[aa], tx, ty, tz), gradient(kTwice[ba], tx - 1, ty, tz)),
-             lerp(u, gradient(kTwice[ab], tx, ty - 1, tz), gradient(kTwice[bb], tx - 1, ty - 1, tz)));
+    const double near = lerp(
+        v, lerp(u, gradient(kTwice[aa], tx, ty, tz), gradient(kTwice[ba], tx - 1, ty, tz)),
+        lerp(u, gradient(kTwice[ab], tx, ty - 1, tz), gradient(kTwice[bb], tx - 1, ty - 1, tz)));
     const double far = lerp(v,
                             lerp(u, gradient(kTwice[aa + 1], tx, ty, tz - 1),
                                  gradient(kTwice[ba + 1], tx - 1, ty, tz - 1)),
@@ -124,10 +140,11 @@ using Sums [[gnu::vector_size(32)]] = std::uint32_t;
 using Bits [[gnu::vector_size(32)]] = std::int32_t;
 using Values [[gnu::vector_size(64)]] = double;
 
-/// Uniform in (-1, 1] times `scale` for each of eight lattice points, given their sums of coordinates: base,
+/// Uniform in (-1, 1] times `scale` for each of eight lattice points, given their sums of
+/// coordinates: base,
 /// + dx, + dy, + dz, + dy + dz, + dx + dz, + dx + dy, + all three.
-void hash(std::uint32_t base, std::uint32_t dx, std::uint32_t dy, std::uint32_t dz,
-          double scale, Octet& values) {
+void hash(std::uint32_t base, std::uint32_t dx, std::uint32_t dy, std::uint32_t dz, double scale,
+          Octet& values) {
     constexpr std::uint32_t kAll = 0xffffffffu;
     constexpr Sums kX{0, kAll, 0, 0, 0, kAll, kAll, kAll};
     constexpr Sums kY{0, 0, kAll, 0, kAll, 0, kAll, kAll};
@@ -135,7 +152,9 @@ void hash(std::uint32_t base, std::uint32_t dx, std::uint32_t dy, std::uint32_t 
     Sums n = base + (dx & kX) + (dy & kY) + (dz & kZ);
     n = (n << 13) ^ n;
     const Sums bits = (n * (n * n * 15731u + 789221u) + 1376312589u) & 0x7fffffffu;
-    const Values uniform = 1.0 - __builtin_convertvector(reinterpret_cast<const Bits&>(bits), Values) * (1 / 1073741824.0);
+    const Values uniform =
+        1.0 -
+        __builtin_convertvector(reinterpret_cast<const Bits&>(bits), Values) * (1 / 1073741824.0);
     const Values scaled = uniform * scale;
     std::memcpy(values.data(), &scaled, sizeof scaled);
 }
@@ -146,9 +165,12 @@ struct Descent {
     std::int32_t offset;
     explicit Descent(double x)
         : cell(static_cast<std::int64_t>(std::floor(x))),
-          offset(static_cast<std::int32_t>(static_cast<std::int64_t>(kCellUnits * x) - kCellUnits * cell)) {}
+          offset(static_cast<std::int32_t>(static_cast<std::int64_t>(kCellUnits * x) -
+                                           kCellUnits * cell)) {}
     /// Of the cell [units].
-    [[nodiscard]] std::uint32_t corner() const { return static_cast<std::uint32_t>(kCellUnits * cell); }
+    [[nodiscard]] std::uint32_t corner() const {
+        return static_cast<std::uint32_t>(kCellUnits * cell);
+    }
     /// Move to the half of size `half` that holds x: all ones if it is the upper one, else 0. Which
     /// it is nothing can predict, so there is no branch.
     std::uint32_t step(std::int32_t half) {
@@ -162,8 +184,8 @@ double mean(const Octet& f) {
     return (f[0] + f[1] + f[2] + f[3] + f[4] + f[5] + f[6] + f[7]) * 0.125;
 }
 
-/// Values at the corners of octant `o`, from those of its parent `f` and the displacements `h` of the
-/// centers of the cube, its faces and its edges.
+/// Values at the corners of octant `o`, from those of its parent `f` and the displacements `h` of
+/// the centers of the cube, its faces and its edges.
 void subdivide(const Octet& f, std::size_t o, const Octet& h, Octet& g) {
     // The corners on the octant's side of the cube, across each axis in turn.
     const double* x = &f[o & 1u];

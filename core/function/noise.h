@@ -20,8 +20,8 @@ struct NoiseMemory {
 /// (noise3(p) - noise3(p - step along axis)) / step.
 [[nodiscard]] double noise3_difference(int axis, double x, double y, double z, NoiseMemory& memory);
 
-/// How fnoise3 last came down to a point: the cell, and for each halving the octant and the values at
-/// the corners of the cube before it.
+/// How fnoise3 last came down to a point: the cell, and for each halving the octant and the values
+/// at the corners of the cube before it.
 struct FractalMemory {
     static constexpr std::size_t kLevels = 10;
     std::array<std::int64_t, 3> cell{std::numeric_limits<std::int64_t>::min(), 0, 0};

@@ -200,7 +200,8 @@ Expr Parser::call(std::string name) {
     const auto parameter = std::find(parameters_.begin(), parameters_.end(), name);
     const bool is_parameter = parameter != parameters_.end();
     e.kind = is_parameter ? ExprKind::call_parameter : ExprKind::call;
-    e.index = is_parameter ? static_cast<std::uint32_t>(parameter - parameters_.begin()) : refer(name);
+    e.index =
+        is_parameter ? static_cast<std::uint32_t>(parameter - parameters_.begin()) : refer(name);
     e.name = std::move(name);
     arguments(e);
     if (is_foldable(e)) return make_number(scope_.evaluate(e, lexer_.where()));
@@ -223,7 +224,8 @@ Expr parse_expression(std::string_view text, const SourceLocation& where, const 
     return Parser(text, where, scope).whole_expression();
 }
 
-void parse_definitions(std::string_view text, const SourceLocation& where, const Scope& scope, bool flat) {
+void parse_definitions(std::string_view text, const SourceLocation& where, const Scope& scope,
+                       bool flat) {
     assert(scope.writable);
     Parser(text, where, scope).definitions(flat);
 }

@@ -16,16 +16,19 @@ using ConstantEvaluator = FunctionRef<double(const Expr& e, const SourceLocation
 /// What names mean to a parser.
 struct Scope {
     const SymbolTable& symbols;
-    SymbolTable* writable = nullptr;  ///< where references and definitions go; null: nothing is entered
+    SymbolTable* writable =
+        nullptr;  ///< where references and definitions go; null: nothing is entered
     std::string_view context;
     ConstantEvaluator evaluate;
 };
 
 /// Parse one expression that is all of `text`. Throws InputError.
-[[nodiscard]] Expr parse_expression(std::string_view text, const SourceLocation& where, const Scope& scope);
+[[nodiscard]] Expr parse_expression(std::string_view text, const SourceLocation& where,
+                                    const Scope& scope);
 
 /// Parse definitions and enter each into the table as soon as it is complete, flattened if `flat`.
 /// Throws InputError; definitions before the error stay.
-void parse_definitions(std::string_view text, const SourceLocation& where, const Scope& scope, bool flat);
+void parse_definitions(std::string_view text, const SourceLocation& where, const Scope& scope,
+                       bool flat);
 
 }  // namespace lightwalk::function

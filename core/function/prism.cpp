@@ -21,7 +21,9 @@ enum class Face { alpha, beta, gamma, delta };
 
 struct Polarisation {
     double parallel = 0, perpendicular = 0;
-    [[nodiscard]] double energy() const { return parallel * parallel + perpendicular * perpendicular; }
+    [[nodiscard]] double energy() const {
+        return parallel * parallel + perpendicular * perpendicular;
+    }
 };
 
 struct PrismRay {
@@ -38,13 +40,16 @@ struct Prism {
     double reflectance, merge_angle, aim_angle;
 };
 
-bool within(double x, double low, double high) { return x >= low && x <= high; }
+bool within(double x, double low, double high) {
+    return x >= low && x <= high;
+}
 
 bool read_prism(std::span<const double> reals, Prism& prism) {
     if (reals.size() < 10) return false;
     const int metal = rounded_index(reals[6]);
-    prism = {reals[0], reals[1], reals[3], reals[4], reals[5],
-             metal == 1 ? Face::beta : metal == 2 ? Face::gamma : Face::delta, reals[7], reals[8], reals[9]};
+    prism = {reals[0], reals[1], reals[3],
+             reals[4], reals[5], metal == 1 ? Face::beta : metal == 2 ? Face::gamma : Face::delta,
+             reals[7], reals[8], reals[9]};
     const bool sizes = prism.a >= 0 && prism.b >= 0 && reals[2] >= 0 && prism.depth >= 0;
     const bool optics = prism.index >= 1 && prism.threshold >= 0 && prism.threshold < 1 &&
                         (metal == 1 || metal == 2 || metal == 4) &&
@@ -60,7 +65,9 @@ Vec3 turn(const Vec3& v, double c, double s) {
 Vec3 parallel_axis(const Vec3& v) {
     return normalize(Vec3{v.y * v.y + v.z * v.z, -v.x * v.y, -v.x * v.z});
 }
-Vec3 perpendicular_axis(const Vec3& v) { return normalize(Vec3{0, -v.z, v.y}); }
+Vec3 perpendicular_axis(const Vec3& v) {
+    return normalize(Vec3{0, -v.z, v.y});
+}
 
 /// Follows light inside the panel, and lists what leaves it.
 class PrismTracer {
@@ -188,8 +195,9 @@ PrismRay PrismTracer::transmitted(PrismRay ray, Face at) const {
     const double s2 = d.y * d.y + d.z * d.z;
     const double sign = d.x < 0 ? -1 : 1;
     ray.direction = {sign * std::sqrt(1 - s2 / in.squared_index), d.y / root, d.z / root};
-    const double sum = scale(ray, 2 * root * in.cosine / (in.refracted + in.squared_index * in.cosine),
-                             2 * in.cosine / (in.cosine + in.refracted));
+    const double sum =
+        scale(ray, 2 * root * in.cosine / (in.refracted + in.squared_index * in.cosine),
+              2 * in.cosine / (in.cosine + in.refracted));
     ray.energy = ray.energy / 2 * (in.refracted / in.cosine) * sum;
     ray.medium = ray.medium == 1 ? prism_.index : 1;
     return ray;
@@ -221,7 +229,8 @@ void PrismTracer::leave(const PrismRay& ray) {
 }
 
 void PrismTracer::at_alpha(const PrismRay& ray) {
-    PrismRay inside = ray.from == Face::alpha ? transmitted(ray, Face::alpha) : reflected(ray, Face::alpha);
+    PrismRay inside =
+        ray.from == Face::alpha ? transmitted(ray, Face::alpha) : reflected(ray, Face::alpha);
     if (ray.from == Face::alpha) leave(reflected(ray, Face::alpha));
     inside.from = Face::alpha;
     const double to_beta = alpha_to_beta(inside);
@@ -231,8 +240,10 @@ void PrismTracer::at_alpha(const PrismRay& ray) {
 }
 
 void PrismTracer::at_beta(const PrismRay& ray) {
-    PrismRay f = in_frame(ray, Face::beta, [&](const PrismRay& r) { return reflected(r, Face::beta); });
-    PrismRay q = in_frame(ray, Face::beta, [&](const PrismRay& r) { return transmitted(r, Face::beta); });
+    PrismRay f =
+        in_frame(ray, Face::beta, [&](const PrismRay& r) { return reflected(r, Face::beta); });
+    PrismRay q =
+        in_frame(ray, Face::beta, [&](const PrismRay& r) { return transmitted(r, Face::beta); });
     f.from = Face::beta;
     q.from = Face::gamma;  // as Radiance has it
     PrismRay& inner = ray.medium > 1 ? f : q;
@@ -251,8 +262,10 @@ void PrismTracer::at_beta(const PrismRay& ray) {
 }
 
 void PrismTracer::at_gamma(const PrismRay& ray) {
-    PrismRay f = in_frame(ray, Face::gamma, [&](const PrismRay& r) { return reflected(r, Face::gamma); });
-    PrismRay q = in_frame(ray, Face::gamma, [&](const PrismRay& r) { return transmitted(r, Face::gamma); });
+    PrismRay f =
+        in_frame(ray, Face::gamma, [&](const PrismRay& r) { return reflected(r, Face::gamma); });
+    PrismRay q =
+        in_frame(ray, Face::gamma, [&](const PrismRay& r) { return transmitted(r, Face::gamma); });
     f.from = q.from = Face::gamma;
     PrismRay& inner = ray.medium > 1 ? f : q;
     PrismRay& outer = ray.medium > 1 ? q : f;
@@ -273,9 +286,15 @@ void PrismTracer::trace(const PrismRay& ray, Face to) {
     if (depth_ >= kDeepest || ++steps_ > kMostSteps) return;
     ++depth_;
     switch (to) {
-        case Face::alpha: at_alpha(ray); break;
-        case Face::beta: at_beta(ray); break;
-        case Face::gamma: at_gamma(ray); break;
+        case Face::alpha:
+            at_alpha(ray);
+            break;
+        case Face::beta:
+            at_beta(ray);
+            break;
+        case Face::gamma:
+            at_gamma(ray);
+            break;
         case Face::delta:
             if (ray.from == Face::delta) {
                 follow(ray, alpha_to_beta(ray), Face::beta);
@@ -307,7 +326,8 @@ void sort_by_energy(std::vector<double>& rays) {
 
 }  // namespace
 
-bool trace_prism(const ChannelValues& channels, std::span<const double> reals, std::vector<double>& rays) {
+bool trace_prism(const ChannelValues& channels, std::span<const double> reals,
+                 std::vector<double>& rays) {
     Prism prism{};
     if (!read_prism(reals, prism)) return false;
     PrismRay ray;
@@ -321,14 +341,16 @@ bool trace_prism(const ChannelValues& channels, std::span<const double> reals, s
     if (aim.x != 0 || aim.y != 0 || aim.z != 0) {
         const double angle = std::atan2(aim.y, aim.x);
         for (std::size_t i = 0; i < rays.size(); i += 4) {
-            if (std::abs(std::atan2(rays[i + 1], rays[i]) - angle) > prism.aim_angle) rays[i + 3] = 0;
+            if (std::abs(std::atan2(rays[i + 1], rays[i]) - angle) > prism.aim_angle)
+                rays[i + 3] = 0;
         }
     }
     sort_by_energy(rays);
     return true;
 }
 
-double prism_value(const ChannelValues& channels, std::span<const double> rays, double v, double d, double n) {
+double prism_value(const ChannelValues& channels, std::span<const double> rays, double v, double d,
+                   double n) {
     const int component = rounded_index(v);
     if (component < 0 || component > 3) return std::numeric_limits<double>::quiet_NaN();
     const double dx = channels[static_cast<std::size_t>(Channel::Dx)];
@@ -339,7 +361,8 @@ double prism_value(const ChannelValues& channels, std::span<const double> rays, 
     const double side = rounded_index(d) * (dx < 0 ? -1.0 : 1.0);
     int count = 0;
     for (std::size_t i = 0; i < rays.size(); i += 4) {
-        if (rays[i] * side >= 0 && ++count == wanted) return rays[i + static_cast<std::size_t>(component)];
+        if (rays[i] * side >= 0 && ++count == wanted)
+            return rays[i + static_cast<std::size_t>(component)];
     }
     return component == 0 && dx != 0 ? 1 : 0;
 }

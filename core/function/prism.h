@@ -7,8 +7,8 @@
 
 namespace lightwalk::function {
 
-/// Trace the rays that leave a prismatic panel hit along (Dx, Dy, Dz), brightest first: for each its
-/// direction and its share of the energy, four numbers. Nothing when Dx is 0.
+/// Trace the rays that leave a prismatic panel hit along (Dx, Dy, Dz), brightest first: for each
+/// its direction and its share of the energy, four numbers. Nothing when Dx is 0.
 /// @param reals  a, b, -, d: the prism's sides and depth; index; threshold of energy; metal face
 ///               (1, 2; 4 is none); its reflectance; angles [rad] within which rays are merged, and
 ///               within which they count as the one that is aimed at (DxA, DyA, DzA)
@@ -18,7 +18,7 @@ namespace lightwalk::function {
 
 /// Component v (0, 1, 2: direction; 3: energy) of the n-th ray on side d.
 /// @return NaN for another v
-[[nodiscard]] double prism_value(const ChannelValues& channels, std::span<const double> rays, double v,
-                                 double d, double n);
+[[nodiscard]] double prism_value(const ChannelValues& channels, std::span<const double> rays,
+                                 double v, double d, double n);
 
 }  // namespace lightwalk::function

@@ -13,14 +13,19 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-double value(const ChannelValues& channels, Channel c) { return channels[static_cast<std::size_t>(c)]; }
+double value(const ChannelValues& channels, Channel c) {
+    return channels[static_cast<std::size_t>(c)];
+}
 
-double positive(double x) { return x > 0 ? x : 0; }
+double positive(double x) {
+    return x > 0 ? x : 0;
+}
 
 void require(std::span<const double> reals, std::size_t n, int kind) {
     if (reals.size() >= n) return;
     throw InputError("bad call to source_corr(v," + std::to_string(kind) + "): it needs " +
-                     std::to_string(n) + " real arguments, there are " + std::to_string(reals.size()));
+                     std::to_string(n) + " real arguments, there are " +
+                     std::to_string(reals.size()));
 }
 
 }  // namespace
@@ -33,19 +38,24 @@ double source_theta(const ChannelValues& channels) {
 }
 
 double source_phi(const ChannelValues& channels, double symmetry) {
-    double phi = kDegrees * std::atan2(-value(channels, Channel::Dy), -value(channels, Channel::Dx));
+    double phi =
+        kDegrees * std::atan2(-value(channels, Channel::Dy), -value(channels, Channel::Dx));
     if (phi < 0) phi += 360;
     switch (rounded_index(symmetry)) {
-        case 360: return phi;
-        case 180: return phi < 180 ? phi : 360 - phi;
+        case 360:
+            return phi;
+        case 180:
+            return phi < 180 ? phi : 360 - phi;
         case 90:
             if (phi >= 180) phi -= 180;
             return phi < 90 ? phi : 180 - phi;
-        default: throw InputError("illegal symmetry in source_phi(), expected 90, 180 or 360");
+        default:
+            throw InputError("illegal symmetry in source_phi(), expected 90, 180 or 360");
     }
 }
 
-double source_corr(const ChannelValues& channels, std::span<const double> reals, double v, double kind) {
+double source_corr(const ChannelValues& channels, std::span<const double> reals, double v,
+                   double kind) {
     double a = v;
     if (reals.size() > 1) a *= reals[0];
     if (!(a > 0)) return std::isnan(a) ? a : 0;
@@ -53,8 +63,10 @@ double source_corr(const ChannelValues& channels, std::span<const double> reals,
                  dz = value(channels, Channel::Dz);
     const int k = rounded_index(kind);
     switch (k) {
-        case 0: return a;
-        case 1: return a / value(channels, Channel::Rdot);
+        case 0:
+            return a;
+        case 1:
+            return a / value(channels, Channel::Rdot);
         case 2:
             require(reals, 4, k);
             return a / (std::abs(dx) * reals[2] * reals[3] + std::abs(dy) * reals[1] * reals[3] +
@@ -65,8 +77,9 @@ double source_corr(const ChannelValues& channels, std::span<const double> reals,
             const double x = std::abs(value(channels, Channel::Px) - dx * ts) - reals[1] / 2;
             const double y = std::abs(value(channels, Channel::Py) - dy * ts) - reals[2] / 2;
             const double z = std::abs(value(channels, Channel::Pz) - dz * ts) - reals[3] / 2;
-            return a * ts / (positive(x) * reals[2] * reals[3] + positive(y) * reals[1] * reals[3] +
-                             positive(z) * reals[1] * reals[2]);
+            return a * ts /
+                   (positive(x) * reals[2] * reals[3] + positive(y) * reals[1] * reals[3] +
+                    positive(z) * reals[1] * reals[2]);
         }
         case 4: {
             require(reals, 3, k);
@@ -74,7 +87,8 @@ double source_corr(const ChannelValues& channels, std::span<const double> reals,
             return a / (reals[1] * reals[2] * std::sqrt(1 - d * d) +
                         std::numbers::pi / 4 * reals[1] * reals[1] * std::abs(d));
         }
-        default: throw InputError("illegal correction in source_corr(), expected 0 to 4");
+        default:
+            throw InputError("illegal correction in source_corr(), expected 0 to 4");
     }
 }
 

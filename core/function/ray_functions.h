@@ -17,7 +17,7 @@ namespace lightwalk::function {
 /// Luminaire correction: v times the first real argument, over the projected area of the emitting
 /// shape `kind`: 0 none, 1 flat, 2 box, 3 box nearby, 4 cylinder, whose size [m] the others give.
 /// @throws InputError (without a place) for another kind, or missing arguments
-[[nodiscard]] double source_corr(const ChannelValues& channels, std::span<const double> reals, double v,
-                                 double kind);
+[[nodiscard]] double source_corr(const ChannelValues& channels, std::span<const double> reals,
+                                 double v, double kind);
 
 }  // namespace lightwalk::function

@@ -16,7 +16,9 @@ std::string local_name(std::string_view name, std::string_view context) {
     return std::string(name).append(context);
 }
 
-bool only_one_level(std::string_view name) { return name.front() == '`' || name.back() == '`'; }
+bool only_one_level(std::string_view name) {
+    return name.front() == '`' || name.back() == '`';
+}
 
 bool ends_with_cal(std::string_view file) {
     if (file.size() <= 4) return false;
@@ -49,7 +51,8 @@ std::optional<SymbolId> SymbolTable::find(std::string_view name, std::string_vie
 }
 
 SymbolId SymbolTable::entry(const std::string& qualified) {
-    const auto [found, is_new] = ids_.try_emplace(qualified, static_cast<SymbolId>(symbols_.size()));
+    const auto [found, is_new] =
+        ids_.try_emplace(qualified, static_cast<SymbolId>(symbols_.size()));
     if (is_new) {
         symbols_.push_back({qualified, find_library_function(qualified, library_), std::nullopt});
     }

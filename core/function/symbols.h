@@ -29,13 +29,14 @@ struct Symbol {
     [[nodiscard]] bool is_function() const { return is_user_function() || library; }
     /// Whether a call with constant arguments is replaced by its value.
     [[nodiscard]] bool is_constant_function() const {
-        return definition ? definition->is_function && definition->constant : library && library->constant;
+        return definition ? definition->is_function && definition->constant
+                          : library && library->constant;
     }
 };
 
-/// All names of a scene. A context is a string of components that each begin with a backquote, or "".
-/// A name x in context C is first x + C, then x with the components of C removed from the front one
-/// by one; `x is only the first of these and x` only the last.
+/// All names of a scene. A context is a string of components that each begin with a backquote, or
+/// "". A name x in context C is first x + C, then x with the components of C removed from the front
+/// one by one; `x is only the first of these and x` only the last.
 class SymbolTable {
   public:
     /// Knows the built-in functions.
@@ -44,7 +45,8 @@ class SymbolTable {
     [[nodiscard]] const Symbol& operator[](SymbolId id) const { return symbols_[id]; }
 
     /// The entry that a reference to `name` in `context` means; nothing when there is none yet.
-    [[nodiscard]] std::optional<SymbolId> find(std::string_view name, std::string_view context) const;
+    [[nodiscard]] std::optional<SymbolId> find(std::string_view name,
+                                               std::string_view context) const;
     /// The same, making an entry where there is none: global for library functions, else local.
     SymbolId refer(std::string_view name, std::string_view context);
     /// Create or replace the definition of `name` at `context` itself.
@@ -65,8 +67,12 @@ class SymbolTable {
 [[nodiscard]] std::string context_of_file(std::string_view file);
 
 /// What names are made of, whatever the locale.
-[[nodiscard]] inline bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-[[nodiscard]] inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+[[nodiscard]] inline bool is_letter(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+[[nodiscard]] inline bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
 [[nodiscard]] inline bool is_name_character(char c) {
     return is_letter(c) || is_digit(c) || c == '_' || c == '.' || c == '`';
 }

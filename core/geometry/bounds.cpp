@@ -6,7 +6,8 @@
 namespace lightwalk {
 namespace {
 
-/// Extends the box by a disc: along each axis it reaches radius * sin(angle between axis and normal).
+/// Extends the box by a disc: along each axis it reaches radius * sin(angle between axis and
+/// normal).
 void extend_by_disc(Bounds& bounds, const Vec3& center, const Vec3& normal, double radius) {
     Vec3 reach;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -49,10 +50,12 @@ Bounds bounds_of(const Shape& shape) {
 Bounds hit_bounds(const Shape& shape) {
     Bounds bounds = bounds_of(shape);
     if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        // Hits lie on the mean plane: drop each vertex onto it along the axis that the inside test ignores.
+        // Hits lie on the mean plane: drop each vertex onto it along the axis that the inside test
+        // ignores.
         const auto axis = static_cast<std::size_t>(polygon->drop_axis);
         for (Vec3 vertex : polygon->vertices) {
-            vertex[axis] += (polygon->offset - dot(polygon->normal, vertex)) / polygon->normal[axis];
+            vertex[axis] +=
+                (polygon->offset - dot(polygon->normal, vertex)) / polygon->normal[axis];
             bounds.extend(vertex);
         }
     }
@@ -87,15 +90,16 @@ Bounds cube_around(const Bounds& bounds) {
 }
 
 bool contains(const Bounds& bounds, const Vec3& p) {
-    return p.x >= bounds.lower.x && p.x <= bounds.upper.x && p.y >= bounds.lower.y && p.y <= bounds.upper.y &&
-           p.z >= bounds.lower.z && p.z <= bounds.upper.z;
+    return p.x >= bounds.lower.x && p.x <= bounds.upper.x && p.y >= bounds.lower.y &&
+           p.y <= bounds.upper.y && p.z >= bounds.lower.z && p.z <= bounds.upper.z;
 }
 
 std::optional<double> entry(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
     double first = 0, last = kHuge;
     for (std::size_t k = 0; k < 3; ++k) {
         if (direction[k] == 0) {
-            if (!(origin[k] >= bounds.lower[k] && origin[k] <= bounds.upper[k])) return std::nullopt;
+            if (!(origin[k] >= bounds.lower[k] && origin[k] <= bounds.upper[k]))
+                return std::nullopt;
             continue;
         }
         const double a = (bounds.lower[k] - origin[k]) / direction[k];

@@ -10,8 +10,8 @@ namespace lightwalk {
 /// Smallest box around the surface (a polygon: around its vertices). Empty for sources and nothing.
 [[nodiscard]] Bounds bounds_of(const Shape& shape);
 
-/// Box of every point at which `intersect` can report a hit: wider than bounds_of by the tolerances of the
-/// inside rules, and by what a non-planar polygon's vertices lie off its mean plane.
+/// Box of every point at which `intersect` can report a hit: wider than bounds_of by the tolerances
+/// of the inside rules, and by what a non-planar polygon's vertices lie off its mean plane.
 [[nodiscard]] Bounds hit_bounds(const Shape& shape);
 
 /// The box, grown by `margin` on every side [m]; an empty one stays empty.
@@ -28,7 +28,8 @@ void extend(Bounds& bounds, const Bounds& other);
 [[nodiscard]] bool contains(const Bounds& bounds, const Vec3& point);
 
 /// Where a ray enters a box, 0 when it starts inside; nothing when it misses the box [m].
-[[nodiscard]] std::optional<double> entry(const Bounds& bounds, const Vec3& origin, const Vec3& direction);
+[[nodiscard]] std::optional<double> entry(const Bounds& bounds, const Vec3& origin,
+                                          const Vec3& direction);
 
 /// Largest magnitude of a coordinate; 0 for an empty box [m].
 [[nodiscard]] double magnitude(const Bounds& bounds);

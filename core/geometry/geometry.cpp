@@ -17,10 +17,11 @@
 #include "core/geometry/placed_scene.h"
 #include "core/geometry/search_space.h"
 
-// Embree proposes, doubles decide. Every surface is a user geometry whose box is a little too large, so that no
-// rounding of Embree's single precision can hide a true crossing; PlacedScene then computes each crossing in
-// double precision. The answer does not depend on the order of proposals, so packets give the same bits as
-// single rays. Measured on interiors, this is also faster than triangles with a filter function.
+// Embree proposes, doubles decide. Every surface is a user geometry whose box is a little too
+// large, so that no rounding of Embree's single precision can hide a true crossing; PlacedScene
+// then computes each crossing in double precision. The answer does not depend on the order of
+// proposals, so packets give the same bits as single rays. Measured on interiors, this is also
+// faster than triangles with a filter function.
 
 namespace lightwalk {
 namespace {
@@ -39,9 +40,11 @@ using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
 constexpr unsigned kPacket = 16;
-constexpr unsigned kOwnSurfaces = 0;  ///< geometry id in every Embree scene; instances have FrameId + 1
+constexpr unsigned kOwnSurfaces =
+    0;  ///< geometry id in every Embree scene; instances have FrameId + 1
 
-/// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's inverse.
+/// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's
+/// inverse.
 constexpr double kFarthest = 4e10;
 constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
 
@@ -49,11 +52,14 @@ float round_down(double x) {
     const auto f = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
     return std::nextafter(f, -std::numeric_limits<float>::infinity());
 }
-float round_up(double x) { return -round_down(-x); }
+float round_up(double x) {
+    return -round_down(-x);
+}
 
 /// False for NaN as well.
 bool is_within_reach(const Vec3& v) {
-    return std::abs(v.x) < kUnreachable && std::abs(v.y) < kUnreachable && std::abs(v.z) < kUnreachable;
+    return std::abs(v.x) < kUnreachable && std::abs(v.y) < kUnreachable &&
+           std::abs(v.z) < kUnreachable;
 }
 
 /// A model's primitives in an Embree scene.
@@ -66,8 +72,9 @@ struct Hierarchy {
 void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
     const Bounds box = model.space.box(model.primitives->hit_bounds(args->primID));
-    *args->bounds_o = {round_down(box.lower.x), round_down(box.lower.y), round_down(box.lower.z), 0,
-                       round_up(box.upper.x),   round_up(box.upper.y),   round_up(box.upper.z),   0};
+    *args->bounds_o = {
+        round_down(box.lower.x), round_down(box.lower.y), round_down(box.lower.z), 0,
+        round_up(box.upper.x),   round_up(box.upper.y),   round_up(box.upper.z),   0};
 }
 
 /// One traversal: what Embree hands to the callbacks. Ray i of a packet has the id i.
@@ -83,7 +90,8 @@ struct ShadowQueries : RTCIntersectContext {
 
 FrameId frame_of(const RTCIntersectContext* context) {
     const unsigned instance = context->instID[0];
-    return instance == RTC_INVALID_GEOMETRY_ID ? kWorld : FrameId{static_cast<std::int32_t>(instance) - 1};
+    return instance == RTC_INVALID_GEOMETRY_ID ? kWorld
+                                               : FrameId{static_cast<std::int32_t>(instance) - 1};
 }
 
 /// End of Embree's ray: nothing up to `limit` may be lost in rounding.
@@ -137,7 +145,8 @@ struct Geometry::Impl {
     void trace(std::span<ShadowRay> rays) const;
     [[nodiscard]] Hit finish(const RaySegment& segment, const NearestRay& ray) const;
 
-    std::atomic<std::ptrdiff_t> embree_bytes{0};  ///< Embree may allocate from several threads while it builds
+    std::atomic<std::ptrdiff_t> embree_bytes{
+        0};  ///< Embree may allocate from several threads while it builds
     std::string embree_message;
     PlacedScene placed;
     DevicePtr device;  ///< outlives the scenes below
@@ -174,8 +183,10 @@ Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
     check("building the scene's search tree");
     RTCBounds b{};
     rtcGetSceneBounds(models[0].scene.get(), &b);
-    box.lower = {static_cast<double>(b.lower_x), static_cast<double>(b.lower_y), static_cast<double>(b.lower_z)};
-    box.upper = {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y), static_cast<double>(b.upper_z)};
+    box.lower = {static_cast<double>(b.lower_x), static_cast<double>(b.lower_y),
+                 static_cast<double>(b.lower_z)};
+    box.upper = {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y),
+                 static_cast<double>(b.upper_z)};
 }
 
 /// Embree's own default for threads: a number would limit oneTBB in the whole process.
@@ -184,12 +195,15 @@ void Geometry::Impl::open_device() {
     if (!device) throw std::runtime_error("Embree does not start on this machine");
     rtcSetDeviceErrorFunction(
         device.get(),
-        [](void* message, RTCError, const char* text) { *static_cast<std::string*>(message) = text ? text : ""; },
+        [](void* message, RTCError, const char* text) {
+            *static_cast<std::string*>(message) = text ? text : "";
+        },
         &embree_message);
     rtcSetDeviceMemoryMonitorFunction(
         device.get(),
         [](void* bytes, ssize_t change, bool) {
-            static_cast<std::atomic<std::ptrdiff_t>*>(bytes)->fetch_add(change, std::memory_order_relaxed);
+            static_cast<std::atomic<std::ptrdiff_t>*>(bytes)->fetch_add(change,
+                                                                        std::memory_order_relaxed);
             return true;
         },
         &embree_bytes);
@@ -198,7 +212,8 @@ void Geometry::Impl::open_device() {
 void Geometry::Impl::check(const char* doing) const {
     const RTCError error = rtcGetDeviceError(device.get());
     if (error == RTC_ERROR_NONE) return;
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw InputError(std::string("out of memory while ") + doing);
+    if (error == RTC_ERROR_OUT_OF_MEMORY)
+        throw InputError(std::string("out of memory while ") + doing);
     throw std::runtime_error(std::string("Embree failed while ") + doing + ": " + embree_message);
 }
 
@@ -210,7 +225,8 @@ void Geometry::Impl::build(Hierarchy& model) {
     if (model.primitives->size() == 0) return;
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(model.primitives->size()));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(),
+                                     static_cast<unsigned>(model.primitives->size()));
     rtcSetGeometryUserData(geometry.get(), &model);
     rtcSetGeometryBoundsFunction(geometry.get(), primitive_bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), intersect_primitive);
@@ -237,7 +253,8 @@ void Geometry::Impl::add_instances() {
         const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
         check("creating an instance");
         rtcSetGeometryInstancedScene(geometry.get(), model.scene.get());
-        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                                columns.data());
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometryByID(models[0].scene.get(), geometry.get(), static_cast<unsigned>(i) + 1);
         check("adding an instance");
@@ -278,11 +295,12 @@ void set_ray(RTCRay16& rays, unsigned i, const EmbreeRay& from) {
 
 }  // namespace
 
-/// A ray from outside starts where it enters the scene, so that a far origin costs no precision. Nothing when the
-/// ray cannot meet the scene, or is not made of numbers.
+/// A ray from outside starts where it enters the scene, so that a far origin costs no precision.
+/// Nothing when the ray cannot meet the scene, or is not made of numbers.
 std::optional<EmbreeRay> Geometry::Impl::embree_ray(const TracedRay& ray) const {
     Vec3 origin = ray.origin - models[0].space.center;
-    if (!is_within_reach(origin) || !is_within_reach(ray.direction) || !(ray.limit > kEpsilon)) return std::nullopt;
+    if (!is_within_reach(origin) || !is_within_reach(ray.direction) || !(ray.limit > kEpsilon))
+        return std::nullopt;
     EmbreeRay result;
     if (!contains(box, origin)) {
         const std::optional<double> start = entry(box, origin, ray.direction);
@@ -303,12 +321,19 @@ Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
-const Transform& Geometry::frame(FrameId id) const { return impl_->placed.transform(id); }
-Bounds Geometry::bounds() const { return impl_->placed.bounds(); }
-std::size_t Geometry::frame_count() const { return impl_->placed.frames().size(); }
+const Transform& Geometry::frame(FrameId id) const {
+    return impl_->placed.transform(id);
+}
+Bounds Geometry::bounds() const {
+    return impl_->placed.bounds();
+}
+std::size_t Geometry::frame_count() const {
+    return impl_->placed.frames().size();
+}
 std::size_t Geometry::memory_bytes() const {
     const std::ptrdiff_t embree = impl_->embree_bytes.load(std::memory_order_relaxed);
-    return impl_->placed.memory_bytes() + static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
+    return impl_->placed.memory_bytes() +
+           static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
 }
 
 Hit Geometry::intersect_surface(SurfaceId surface, const RaySegment& ray) const {
@@ -401,7 +426,8 @@ void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) c
         const std::size_t count = std::min<std::size_t>(kPacket, rays.size() - first);
         for (std::size_t i = 0; i < count; ++i) impl_->placed.begin(searches[i], rays[first + i]);
         impl_->trace(std::span(searches).first(count));
-        for (std::size_t i = 0; i < count; ++i) out[first + i] = impl_->finish(rays[first + i], searches[i]);
+        for (std::size_t i = 0; i < count; ++i)
+            out[first + i] = impl_->finish(rays[first + i], searches[i]);
     }
 }
 

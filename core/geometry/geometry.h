@@ -83,7 +83,10 @@ struct ShadowQuery {
 /// Immutable after building; every method may be called from many threads at once.
 class Geometry {
   public:
-    /// Throws InputError when nested placements exceed the supported number (flattened instances > 2^26).
+    /// Throws InputError when nested placements multiply to more than 2^22 flattened instances, when one scales by
+    /// less than 1e-7 or more than 1e7 in all, and for damaged meshes. Builds on oneTBB's default threads.
+    /// Answers are bit-identical for single rays and packets; they need no flush-to-zero mode of the caller.
+    /// A placed model wins over what is not in it only where it is strictly nearer; inside it has its own ties.
     explicit Geometry(GeometryInput input);
     ~Geometry();
     Geometry(Geometry&&) noexcept;

@@ -11,7 +11,8 @@ constexpr int kMaxDepth = 1000;
 
 SourceLocation location(const GeometryInput& input, SurfaceId surface) {
     const auto i = static_cast<std::size_t>(index(surface));
-    return surface == kNoSurface || i >= input.surfaces.size() ? SourceLocation{} : input.surfaces[i].where;
+    return surface == kNoSurface || i >= input.surfaces.size() ? SourceLocation{}
+                                                               : input.surfaces[i].where;
 }
 
 bool is_finite(const Matrix& matrix) {
@@ -31,7 +32,8 @@ class PathCounter {
         if (known_[model]) return paths_[model];
         std::size_t sum = 0;
         for (const Placement& placement : input_.models[model].placements) {
-            if (depth >= kMaxDepth) throw InputError(location(input_, placement.surface), "nested too deeply");
+            if (depth >= kMaxDepth)
+                throw InputError(location(input_, placement.surface), "nested too deeply");
             sum = std::min(sum + with(placement.model, depth + 1), kMaxInstances + 1);
         }
         known_[model] = true;
@@ -55,7 +57,8 @@ class Flattener {
     explicit Flattener(const GeometryInput& input) : input_(input), counter_(input) {
         const std::size_t count = counter_.below(0, 0);
         if (count > kMaxInstances) {
-            throw InputError("instances inside instances multiply to more than " + std::to_string(kMaxInstances) +
+            throw InputError("instances inside instances multiply to more than " +
+                             std::to_string(kMaxInstances) +
                              " copies, the most that are supported");
         }
         frames.reserve(count);
@@ -71,7 +74,8 @@ class Flattener {
             child.model = placement.model;
             child.to_world = placement.transform * parent.to_world;
             if (!is_finite(child.to_world.forward) || !is_finite(child.to_world.inverse) ||
-                !(child.to_world.size() >= kSmallestScale && child.to_world.size() <= kLargestScale)) {
+                !(child.to_world.size() >= kSmallestScale &&
+                  child.to_world.size() <= kLargestScale)) {
                 throw InputError(location(input_, placement.surface),
                                  "bad transform: expected a total scale between 1e-7 and 1e7");
             }
@@ -96,7 +100,8 @@ std::vector<PlacedModel> flatten_placements(const GeometryInput& input) {
     for (const ModelGeometry& model : input.models) {
         for (const Placement& placement : model.placements) {
             if (placement.model >= input.models.size()) {
-                throw InputError(location(input, placement.surface), "placement of an unknown model");
+                throw InputError(location(input, placement.surface),
+                                 "placement of an unknown model");
             }
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
-// Nested placements, flattened: one frame for every path of placements that leads from the scene to a model.
+// Nested placements, flattened: one frame for every path of placements that leads from the scene to
+// a model.
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -12,8 +13,8 @@ namespace lightwalk {
 struct PlacedModel {
     Transform to_world;
     std::uint32_t model = 0;
-    /// The outermost placement of the path whose modifier shades everything inside, and the frame that this
-    /// modifier lives in; nothing when the contents keep their own modifiers.
+    /// The outermost placement of the path whose modifier shades everything inside, and the frame
+    /// that this modifier lives in; nothing when the contents keep their own modifiers.
     SurfaceId override_surface = kNoSurface;
     FrameId override_frame = kWorld;
 };
@@ -24,8 +25,9 @@ inline constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 /// Total scale of a path of placements.
 inline constexpr double kSmallestScale = 1e-7, kLargestScale = 1e7;
 
-/// Frames of all paths that lead to geometry, indexed by FrameId. Throws InputError for more than kMaxInstances
-/// paths, for models nested deeper than 1000, and for transforms that are not finite or scale beyond these.
+/// Frames of all paths that lead to geometry, indexed by FrameId. Throws InputError for more than
+/// kMaxInstances paths, for models nested deeper than 1000, and for transforms that are not finite
+/// or scale beyond these.
 [[nodiscard]] std::vector<PlacedModel> flatten_placements(const GeometryInput& input);
 
 }  // namespace lightwalk

@@ -10,7 +10,9 @@
 namespace lightwalk {
 namespace {
 
-Vec3 to_vec3(const MeshModel::Vertex& vertex) { return {vertex.x, vertex.y, vertex.z}; }
+Vec3 to_vec3(const MeshModel::Vertex& vertex) {
+    return {vertex.x, vertex.y, vertex.z};
+}
 
 /// Neither NaN nor so large that products overflow.
 bool is_usable(const MeshModel::Vertex& v) {
@@ -18,8 +20,8 @@ bool is_usable(const MeshModel::Vertex& v) {
            std::abs(v.z) <= kLargestCoordinate;
 }
 
-[[noreturn]] void fail(const MeshPart& part, std::span<const Surface> surfaces, std::size_t triangle,
-                       const char* problem) {
+[[noreturn]] void fail(const MeshPart& part, std::span<const Surface> surfaces,
+                       std::size_t triangle, const char* problem) {
     const auto i = static_cast<std::size_t>(index(part.surface));
     const SourceLocation where = i < surfaces.size() ? surfaces[i].where : SourceLocation{};
     throw InputError(where, "mesh triangle " + std::to_string(triangle) + ": " + problem);
@@ -32,24 +34,30 @@ void validate(const MeshPart& part, std::span<const Surface> surfaces) {
         for (const std::uint32_t v : t.v) {
             if (v >= mesh.positions.size()) fail(part, surfaces, i, "no such vertex");
             if (!is_usable(mesh.positions[v])) fail(part, surfaces, i, "vertex out of range");
-            if (t.has_normals && v >= mesh.normals.size()) fail(part, surfaces, i, "no such vertex normal");
+            if (t.has_normals && v >= mesh.normals.size())
+                fail(part, surfaces, i, "no such vertex normal");
             if (t.has_uvs && (v >= mesh.us.size() || v >= mesh.vs.size())) {
                 fail(part, surfaces, i, "no such texture coordinate");
             }
         }
-        const auto known = static_cast<std::int64_t>(std::min(part.materials.size(), part.traits.size()));
+        const auto known =
+            static_cast<std::int64_t>(std::min(part.materials.size(), part.traits.size()));
         if (t.material >= known) fail(part, surfaces, i, "no such material");
     }
 }
 
-/// Twice the area, signed, of the edge a -> b as the ray sees it from the origin. Antisymmetric to the last
-/// bit, so that two triangles with a common edge leave no gap and share no more than the edge itself.
-/// Source: Platis & Theoharis, "Fast Ray-Tetrahedron Intersection Using Plucker Coordinates", 2003.
-double edge_side(const Vec3& direction, const Vec3& a, const Vec3& b) { return dot(direction, cross(a, b)); }
+/// Twice the area, signed, of the edge a -> b as the ray sees it from the origin. Antisymmetric to
+/// the last bit, so that two triangles with a common edge leave no gap and share no more than the
+/// edge itself. Source: Platis & Theoharis, "Fast Ray-Tetrahedron Intersection Using Plucker
+/// Coordinates", 2003.
+double edge_side(const Vec3& direction, const Vec3& a, const Vec3& b) {
+    return dot(direction, cross(a, b));
+}
 
 }  // namespace
 
-Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId modifier, SurfaceId surface) {
+Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId modifier,
+                         SurfaceId surface) {
     return {traits.has_material, !traits.transparent, front, index(modifier), index(surface)};
 }
 
@@ -57,7 +65,9 @@ ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelG
     : surfaces_(surfaces), meshes_(model.meshes) {
     for (const SurfaceId id : model.surfaces) {
         const Shape& shape = surfaces[static_cast<std::size_t>(index(id))].shape;
-        if (std::holds_alternative<std::monostate>(shape) || std::holds_alternative<SourceShape>(shape)) continue;
+        if (std::holds_alternative<std::monostate>(shape) ||
+            std::holds_alternative<SourceShape>(shape))
+            continue;
         const auto* polygon = std::get_if<PolygonShape>(&shape);
         if (polygon && polygon->vertices.size() > kLargePolygon) {
             large_polygons_.emplace(index(id), EdgeIndex(*polygon));
@@ -69,7 +79,8 @@ ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelG
         validate(part, surfaces);
         size_ += part.mesh->triangles.size();
     }
-    if (size_ > std::numeric_limits<std::int32_t>::max()) throw InputError("too many surfaces in one model");
+    if (size_ > std::numeric_limits<std::int32_t>::max())
+        throw InputError("too many surfaces in one model");
 }
 
 Vec3 ModelPrimitives::TriangleRef::corner(int i) const {
@@ -84,7 +95,8 @@ ModelPrimitives::TriangleRef ModelPrimitives::triangle(std::uint32_t primitive) 
 }
 
 std::optional<ShapeHit> ModelPrimitives::intersect_surface(SurfaceId surface, const Vec3& origin,
-                                                           const Vec3& direction, double t_max) const {
+                                                           const Vec3& direction,
+                                                           double t_max) const {
     const Shape& shape = surfaces_[static_cast<std::size_t>(index(surface))].shape;
     const auto* polygon = std::get_if<PolygonShape>(&shape);
     if (!polygon) return lightwalk::intersect(shape, origin, direction, t_max);
@@ -96,8 +108,10 @@ std::optional<ShapeHit> ModelPrimitives::intersect_surface(SurfaceId surface, co
     return lightwalk::intersect(*polygon, origin, direction, t_max, edges);
 }
 
-std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primitive, const Vec3& origin,
-                                                            const Vec3& direction, double t_max) const {
+std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primitive,
+                                                            const Vec3& origin,
+                                                            const Vec3& direction,
+                                                            double t_max) const {
     const TriangleRef ref = triangle(primitive);
     const Vec3 a = ref.corner(0) - origin, b = ref.corner(1) - origin, c = ref.corner(2) - origin;
     const Vec3 normal = cross(b - a, c - a);
@@ -127,7 +141,8 @@ Bounds ModelPrimitives::bounds() const {
         extend(bounds, bounds_of(surfaces_[static_cast<std::size_t>(index(id))].shape));
     }
     for (const MeshPart& part : meshes_) {
-        for (const MeshModel::Vertex& vertex : part.mesh->positions) if (is_usable(vertex)) bounds.extend(to_vec3(vertex));
+        for (const MeshModel::Vertex& vertex : part.mesh->positions)
+            if (is_usable(vertex)) bounds.extend(to_vec3(vertex));
     }
     return bounds;
 }
@@ -136,7 +151,8 @@ const SurfaceTraits& ModelPrimitives::traits(std::uint32_t primitive) const {
     if (!is_triangle(primitive)) return own_surface(primitive).traits;
     const TriangleRef ref = triangle(primitive);
     const std::int32_t material = ref.triangle->material;
-    return material < 0 ? ref.part->void_traits : ref.part->traits[static_cast<std::size_t>(material)];
+    return material < 0 ? ref.part->void_traits
+                        : ref.part->traits[static_cast<std::size_t>(material)];
 }
 
 SurfaceId ModelPrimitives::surface(std::uint32_t primitive) const {
@@ -154,8 +170,10 @@ ModelPrimitives::Smoothing ModelPrimitives::smoothing(std::uint32_t primitive, c
                                                       const Vec3& normal) const {
     const TriangleRef ref = triangle(primitive);
     const MeshModel& mesh = *ref.part->mesh;
-    const Vec3 a = ref.corner(0) - position, b = ref.corner(1) - position, c = ref.corner(2) - position;
-    double weights[3] = {dot(normal, cross(b, c)), dot(normal, cross(c, a)), dot(normal, cross(a, b))};
+    const Vec3 a = ref.corner(0) - position, b = ref.corner(1) - position,
+               c = ref.corner(2) - position;
+    double weights[3] = {dot(normal, cross(b, c)), dot(normal, cross(c, a)),
+                         dot(normal, cross(a, b))};
     const double sum = weights[0] + weights[1] + weights[2];
     Smoothing result;
     if (!(sum > 0)) return result;
@@ -175,7 +193,8 @@ ModelPrimitives::Smoothing ModelPrimitives::smoothing(std::uint32_t primitive, c
 
 std::size_t ModelPrimitives::memory_bytes() const {
     std::size_t bytes = own_.capacity() * sizeof(SurfaceId);
-    for (const auto& [surface, edges] : large_polygons_) bytes += sizeof(surface) + edges.memory_bytes();
+    for (const auto& [surface, edges] : large_polygons_)
+        bytes += sizeof(surface) + edges.memory_bytes();
     return bytes;
 }
 

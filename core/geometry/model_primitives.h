@@ -1,9 +1,10 @@
 #pragma once
-// What a ray can hit inside one model, in the model's own space: its surfaces, then its meshes' triangles.
-#include <compare>
+// What a ray can hit inside one model, in the model's own space: its surfaces, then its meshes'
+// triangles.
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -12,35 +13,45 @@
 
 namespace lightwalk {
 
-/// What decides between coincident surfaces; the greater one is seen. A material beats none, then an opaque
-/// material a transparent one, the front side the back, the later modifier, the later surface.
+/// What decides between coincident surfaces; the greater one is seen. A material beats none, then
+/// an opaque material a transparent one, the front side the back, the later modifier, the later
+/// surface.
 struct Precedence {
     bool has_material = false, opaque = false, front = false;
     std::int32_t modifier = -1, surface = -1;
-    friend auto operator<=>(const Precedence&, const Precedence&) = default;
+    friend bool operator>(const Precedence& a, const Precedence& b) {
+        return std::tie(a.has_material, a.opaque, a.front, a.modifier, a.surface) >
+               std::tie(b.has_material, b.opaque, b.front, b.modifier, b.surface);
+    }
 };
 
 /// The precedence of a surface that a ray meets on its front or back.
-[[nodiscard]] Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId modifier, SurfaceId surface);
+[[nodiscard]] Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId modifier,
+                                       SurfaceId surface);
 
-/// Primitives of a model, numbered from 0. Keeps references to the surfaces and to the model's meshes.
+/// Primitives of a model, numbered from 0. Keeps references to the surfaces and to the model's
+/// meshes.
 class ModelPrimitives {
   public:
     /// Throws InputError for mesh triangles whose vertices or materials do not exist.
     ModelPrimitives(std::span<const Surface> surfaces, const ModelGeometry& model);
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] bool is_triangle(std::uint32_t primitive) const { return primitive >= own_.size(); }
+    [[nodiscard]] bool is_triangle(std::uint32_t primitive) const {
+        return primitive >= own_.size();
+    }
 
     /// Nearest crossing with t in (kEpsilon, t_max]; the direction is unit.
     [[nodiscard]] std::optional<ShapeHit> intersect(std::uint32_t primitive, const Vec3& origin,
                                                     const Vec3& direction, double t_max) const {
-        return is_triangle(primitive) ? intersect_triangle(primitive, origin, direction, t_max)
-                                      : intersect_surface(own_[primitive], origin, direction, t_max);
+        return is_triangle(primitive)
+                   ? intersect_triangle(primitive, origin, direction, t_max)
+                   : intersect_surface(own_[primitive], origin, direction, t_max);
     }
     /// The same for a surface of this model.
     [[nodiscard]] std::optional<ShapeHit> intersect_surface(SurfaceId surface, const Vec3& origin,
-                                                            const Vec3& direction, double t_max) const;
+                                                            const Vec3& direction,
+                                                            double t_max) const;
     /// Box of every point that `intersect` can report, before rounding.
     [[nodiscard]] Bounds hit_bounds(std::uint32_t primitive) const;
     /// Box around all surfaces and triangles themselves.
@@ -55,7 +66,8 @@ class ModelPrimitives {
         Vec3 perturbation;
         double u = 0, v = 0;
     };
-    [[nodiscard]] Smoothing smoothing(std::uint32_t primitive, const Vec3& position, const Vec3& normal) const;
+    [[nodiscard]] Smoothing smoothing(std::uint32_t primitive, const Vec3& position,
+                                      const Vec3& normal) const;
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
@@ -68,11 +80,13 @@ class ModelPrimitives {
         return surfaces_[static_cast<std::size_t>(index(own_[primitive]))];
     }
     [[nodiscard]] TriangleRef triangle(std::uint32_t primitive) const;
-    [[nodiscard]] std::optional<ShapeHit> intersect_triangle(std::uint32_t primitive, const Vec3& origin,
-                                                             const Vec3& direction, double t_max) const;
+    [[nodiscard]] std::optional<ShapeHit> intersect_triangle(std::uint32_t primitive,
+                                                             const Vec3& origin,
+                                                             const Vec3& direction,
+                                                             double t_max) const;
 
     std::span<const Surface> surfaces_;
-    std::vector<SurfaceId> own_;           ///< surfaces of this model that have a shape
+    std::vector<SurfaceId> own_;  ///< surfaces of this model that have a shape
     std::span<const MeshPart> meshes_;
     std::unordered_map<std::int32_t, EdgeIndex> large_polygons_;  ///< by index of the surface
     std::size_t size_ = 0;

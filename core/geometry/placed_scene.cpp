@@ -30,12 +30,14 @@ PlacedScene::PlacedScene(GeometryInput input) : input_(std::move(input)) {
     bounds_ = model_bounds(0, cubes);
 }
 
-Bounds PlacedScene::model_bounds(std::uint32_t model, std::vector<std::optional<Bounds>>& cubes) const {
+Bounds PlacedScene::model_bounds(std::uint32_t model,
+                                 std::vector<std::optional<Bounds>>& cubes) const {
     Bounds bounds = models_[model].bounds();
     for (const Placement& placement : input_.models[model].placements) {
         if (!cubes[placement.model]) {
             const std::optional<Bounds>& stated = input_.models[placement.model].cube;
-            cubes[placement.model] = stated ? *stated : cube_around(model_bounds(placement.model, cubes));
+            cubes[placement.model] =
+                stated ? *stated : cube_around(model_bounds(placement.model, cubes));
         }
         extend(bounds, transformed(*cubes[placement.model], placement.transform.forward));
     }
@@ -71,7 +73,8 @@ std::optional<Candidate> PlacedScene::cross(TracedRay& ray, PrimitiveRef what) c
     constexpr double kRoundUp = 1 + 1e-12;  // the limit holds in the world, exactly: see below
     const double local_limit = ray.limit / ray.local.size * kRoundUp;
     const auto hit =
-        model_of(what.frame).intersect(what.primitive, ray.local.origin, ray.local.direction, local_limit);
+        model_of(what.frame)
+            .intersect(what.primitive, ray.local.origin, ray.local.direction, local_limit);
     if (!hit) return std::nullopt;
     const double t = hit->t * ray.local.size;
     if (!(t <= ray.limit)) return std::nullopt;
@@ -112,14 +115,16 @@ bool PlacedScene::propose(NearestRay& ray, PrimitiveRef what) const {
 bool PlacedScene::is_ambiguous(const NearestRay& ray) const {
     if (!ray.nearest) return false;
     const PrimitiveRef what = ray.nearest->what;
-    if (model_of(what.frame).is_triangle(what.primitive)) return false;  // in meshes the nearest wins
+    if (model_of(what.frame).is_triangle(what.primitive))
+        return false;  // in meshes the nearest wins
     return ray.second <= ray.nearest->t + kEpsilon * transform(what.frame).size();
 }
 
-void PlacedScene::begin_gathering(NearestRay& ray, const RaySegment& segment, const NearestRay& first,
-                                  std::vector<Candidate>& all) const {
+void PlacedScene::begin_gathering(NearestRay& ray, const RaySegment& segment,
+                                  const NearestRay& first, std::vector<Candidate>& all) const {
     begin(ray, segment);
-    // The winner lies within one tolerance of the nearest; what could take its place, within another.
+    // The winner lies within one tolerance of the nearest; what could take its place, within
+    // another.
     ray.limit = std::min(ray.limit, first.nearest->t + 2 * coincidence_);
     ray.all = &all;
 }
@@ -133,7 +138,7 @@ Precedence PlacedScene::precedence(const Candidate& candidate) const {
 
 Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
     std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        return std::pair(a.what.frame, std::pair(a.t, a.what)) < std::pair(b.what.frame, std::pair(b.t, b.what));
+        return std::tie(a.what.frame, a.t, a.what) < std::tie(b.what.frame, b.t, b.what);
     });
     Candidate winner;
     for (auto group = all.cbegin(); group != all.cend();) {
@@ -159,7 +164,7 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
     const Transform& to_world = transform(frame);
     Hit hit;
     hit.t = winner.t;
-    hit.position = segment.origin + segment.direction * winner.t;
+    hit.position = fused_advance(segment.origin, segment.direction, winner.t);
     hit.normal = winner.local.normal;
     if (frame != kWorld) hit.normal = to_world.forward.vector(hit.normal) / to_world.size();
     hit.rod = -dot(segment.direction, hit.normal);
@@ -190,7 +195,7 @@ Hit PlacedScene::intersect_surface(SurfaceId id, const RaySegment& segment) cons
                                                        std::min(segment.t_max, kHuge));
     if (!crossing) return hit;
     hit.t = crossing->t;
-    hit.position = segment.origin + segment.direction * hit.t;
+    hit.position = fused_advance(segment.origin, segment.direction, hit.t);
     hit.normal = crossing->normal;
     hit.rod = -dot(segment.direction, hit.normal);
     hit.surface = id;
@@ -210,7 +215,8 @@ void PlacedScene::begin(ShadowRay& ray, const RaySegment& segment, SurfaceId tar
 ShadowClass PlacedScene::shadow_class(PrimitiveRef what) const {
     if (what.frame != kWorld) {
         const PlacedModel& placed = frames_[static_cast<std::size_t>(index(what.frame))];
-        if (placed.override_surface != kNoSurface) return surface(placed.override_surface).traits.shadow;
+        if (placed.override_surface != kNoSurface)
+            return surface(placed.override_surface).traits.shadow;
     }
     return model_of(what.frame).traits(what.primitive).shadow;
 }
@@ -221,7 +227,8 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
     if (!ray.target_precedence) {
         const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});
         const Surface& light = surface(ray.target);
-        ray.target_precedence = precedence_of(light.traits, on_target.rod > 0, light.modifier, ray.target);
+        ray.target_precedence =
+            precedence_of(light.traits, on_target.rod > 0, light.modifier, ray.target);
     }
     return precedence(candidate) > *ray.target_precedence;
 }

@@ -1,9 +1,11 @@
 #pragma once
-// Which of the surfaces on a ray it meets: Radiance's rules in double precision, whatever search proposes the
-// candidates and in whatever order. The search (Embree) must propose at least every true crossing up to `limit`.
+// Which of the surfaces on a ray it meets: Radiance's rules in double precision, whatever search
+// proposes the candidates and in whatever order. The search (Embree) must propose at least every
+// true crossing up to `limit`.
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "core/geometry/geometry.h"
@@ -22,14 +24,17 @@ struct LocalRay {
 struct PrimitiveRef {
     FrameId frame = kWorld;
     std::uint32_t primitive = 0;
-    friend auto operator<=>(const PrimitiveRef&, const PrimitiveRef&) = default;
+    friend bool operator==(const PrimitiveRef&, const PrimitiveRef&) = default;
+    friend bool operator<(const PrimitiveRef& a, const PrimitiveRef& b) {
+        return std::tie(a.frame, a.primitive) < std::tie(b.frame, b.primitive);
+    }
 };
 
 /// A crossing of a ray with a primitive.
 struct Candidate {
-    double t = kHuge;     ///< in the world [m]
+    double t = kHuge;  ///< in the world [m]
     PrimitiveRef what;
-    ShapeHit local;       ///< in the space of the placed model
+    ShapeHit local;  ///< in the space of the placed model
 };
 
 /// A ray that is being traced, with the local ray of the placed model that the search is in.
@@ -37,13 +42,14 @@ struct TracedRay {
     Vec3 origin, direction;
     double limit = kHuge;  ///< candidates beyond cannot matter any more; only ever falls [m]
     FrameId local_frame = kWorld;
-    LocalRay local;        ///< valid where local_frame is not kWorld
+    LocalRay local;  ///< valid where local_frame is not kWorld
 };
 
 /// The search for the nearest hit: the nearest crossing, and how near the next one is.
 struct NearestRay : TracedRay {
     std::optional<Candidate> nearest;
-    double second = std::numeric_limits<double>::infinity();  ///< least t of all other crossings [m]
+    double second =
+        std::numeric_limits<double>::infinity();  ///< least t of all other crossings [m]
     std::vector<Candidate>* all = nullptr;  ///< set: keep every crossing up to `limit` instead
     bool out_of_memory = false;             ///< `all` could not grow
 };
@@ -53,7 +59,8 @@ struct ShadowRay : TracedRay {
     double t_max = kHuge;
     SurfaceId target = kNoSurface;
     Visibility result = Visibility::clear;
-    std::optional<Precedence> target_precedence;  ///< filled when something coincides with the target
+    std::optional<Precedence>
+        target_precedence;  ///< filled when something coincides with the target
 };
 
 class PlacedScene {
@@ -62,9 +69,13 @@ class PlacedScene {
     explicit PlacedScene(GeometryInput input);
 
     [[nodiscard]] const std::vector<PlacedModel>& frames() const { return frames_; }
-    [[nodiscard]] const ModelPrimitives& primitives(std::uint32_t model) const { return models_[model]; }
+    [[nodiscard]] const ModelPrimitives& primitives(std::uint32_t model) const {
+        return models_[model];
+    }
     [[nodiscard]] std::size_t model_count() const { return models_.size(); }
-    [[nodiscard]] Bounds bounds() const { return bounds_; }  ///< of everything, placed models by their cubes
+    [[nodiscard]] Bounds bounds() const {
+        return bounds_;
+    }  ///< of everything, placed models by their cubes
     [[nodiscard]] const Transform& transform(FrameId frame) const;
     [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -76,7 +87,8 @@ class PlacedScene {
     [[nodiscard]] bool is_ambiguous(const NearestRay& ray) const;
     void begin_gathering(NearestRay& ray, const RaySegment& segment, const NearestRay& first,
                          std::vector<Candidate>& all) const;
-    /// The crossing that wins: within each placed model Radiance's tie rules, between them the nearer one.
+    /// The crossing that wins: within each placed model Radiance's tie rules, between them the
+    /// nearer one.
     [[nodiscard]] Candidate resolve(std::vector<Candidate>& all) const;
     [[nodiscard]] Hit hit_of(const RaySegment& segment, const Candidate& winner) const;
     [[nodiscard]] Hit intersect_surface(SurfaceId surface, const RaySegment& segment) const;
@@ -92,12 +104,14 @@ class PlacedScene {
     [[nodiscard]] const Surface& surface(SurfaceId id) const {
         return input_.surfaces[static_cast<std::size_t>(index(id))];
     }
-    [[nodiscard]] LocalRay local_ray(const Vec3& origin, const Vec3& direction, FrameId frame) const;
+    [[nodiscard]] LocalRay local_ray(const Vec3& origin, const Vec3& direction,
+                                     FrameId frame) const;
     [[nodiscard]] std::optional<Candidate> cross(TracedRay& ray, PrimitiveRef what) const;
     [[nodiscard]] Precedence precedence(const Candidate& candidate) const;
     [[nodiscard]] ShadowClass shadow_class(PrimitiveRef what) const;
     [[nodiscard]] bool is_in_the_way(ShadowRay& ray, const Candidate& candidate) const;
-    [[nodiscard]] Bounds model_bounds(std::uint32_t model, std::vector<std::optional<Bounds>>& cubes) const;
+    [[nodiscard]] Bounds model_bounds(std::uint32_t model,
+                                      std::vector<std::optional<Bounds>>& cubes) const;
 
     GeometryInput input_;
     std::vector<ModelPrimitives> models_;

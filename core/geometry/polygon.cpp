@@ -21,14 +21,16 @@ const Axes& remaining_axes(const PolygonShape& polygon) {
 
 enum class EdgeTest { passes, crosses, touches };
 
-/// What the edge a -> b means for the origin: does the positive x axis cross it, or does it touch the origin?
+/// What the edge a -> b means for the origin: does the positive x axis cross it, or does it touch
+/// the origin?
 inline EdgeTest test_edge(double ax, double ay, double bx, double by) {
     const bool a_right = ax > 0, b_right = bx > 0;
     const bool spans = (ay > 0) != (by > 0);
     if (a_right == b_right) {
         if (!spans) return EdgeTest::passes;
         if (a_right) return EdgeTest::crosses;
-        return std::abs(ax) <= kEpsilon && std::abs(bx) <= kEpsilon ? EdgeTest::touches : EdgeTest::passes;
+        return std::abs(ax) <= kEpsilon && std::abs(bx) <= kEpsilon ? EdgeTest::touches
+                                                                    : EdgeTest::passes;
     }
     if (std::abs(ay) <= kEpsilon && std::abs(by) <= kEpsilon) return EdgeTest::touches;
     if (!spans) return EdgeTest::passes;
@@ -73,14 +75,18 @@ bool contains_by_index(const PolygonShape& polygon, const Vec3& point, const Edg
 EdgeIndex::EdgeIndex(const PolygonShape& polygon) {
     const Coordinate y = remaining_axes(polygon).y;
     const std::vector<Vec3>& vertices = polygon.vertices;
-    const auto [low, high] = std::minmax_element(vertices.begin(), vertices.end(),
-                                                 [y](const Vec3& a, const Vec3& b) { return a.*y < b.*y; });
+    const auto [low, high] =
+        std::minmax_element(vertices.begin(), vertices.end(),
+                            [y](const Vec3& a, const Vec3& b) { return a.*y < b.*y; });
     lowest_ = (*low).*y;
     const double height = (*high).*y - lowest_;
-    const auto range = [&](std::size_t edge) {  // slabs that the edge reaches, with room for the tolerance
-        const double a = vertices[edge == 0 ? vertices.size() - 1 : edge - 1].*y, b = vertices[edge].*y;
-        return std::pair(slab(std::min(a, b) - 2 * kEpsilon), slab(std::max(a, b) + 2 * kEpsilon));
-    };
+    const auto range =
+        [&](std::size_t edge) {  // slabs that the edge reaches, with room for the tolerance
+            const double a = vertices[edge == 0 ? vertices.size() - 1 : edge - 1].*y,
+                         b = vertices[edge].*y;
+            return std::pair(slab(std::min(a, b) - 2 * kEpsilon),
+                             slab(std::max(a, b) + 2 * kEpsilon));
+        };
 
     const std::size_t budget = 8 * vertices.size();
     std::size_t references = 0;
@@ -105,14 +111,16 @@ EdgeIndex::EdgeIndex(const PolygonShape& polygon) {
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t edge = 0; edge < vertices.size(); ++edge) {
         const auto [begin, end] = range(edge);
-        for (std::size_t s = begin; s <= end; ++s) edges_[next[s]++] = static_cast<std::uint32_t>(edge);
+        for (std::size_t s = begin; s <= end; ++s)
+            edges_[next[s]++] = static_cast<std::uint32_t>(edge);
     }
 }
 
 std::size_t EdgeIndex::slab(double y) const {
     const double position = (y - lowest_) * slabs_per_meter_;
     const auto last = static_cast<double>(first_.size() - 2);
-    return static_cast<std::size_t>(position > 0 ? std::min(position, last) : 0.0);  // NaN: the first
+    return static_cast<std::size_t>(position > 0 ? std::min(position, last)
+                                                 : 0.0);  // NaN: the first
 }
 
 std::pair<const std::uint32_t*, const std::uint32_t*> EdgeIndex::edges(double y) const {
@@ -123,17 +131,20 @@ std::pair<const std::uint32_t*, const std::uint32_t*> EdgeIndex::edges(double y)
 bool contains(const PolygonShape& polygon, const Vec3& point, const EdgeIndex* index) {
     if (index) return contains_by_index(polygon, point, *index);
     switch (polygon.drop_axis) {
-        case 0: return contains_by_all_edges<&Vec3::y, &Vec3::z>(polygon.vertices, point);
-        case 1: return contains_by_all_edges<&Vec3::z, &Vec3::x>(polygon.vertices, point);
-        default: return contains_by_all_edges<&Vec3::x, &Vec3::y>(polygon.vertices, point);
+        case 0:
+            return contains_by_all_edges<&Vec3::y, &Vec3::z>(polygon.vertices, point);
+        case 1:
+            return contains_by_all_edges<&Vec3::z, &Vec3::x>(polygon.vertices, point);
+        default:
+            return contains_by_all_edges<&Vec3::x, &Vec3::y>(polygon.vertices, point);
     }
 }
 
-std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origin, const Vec3& direction,
-                                  double t_max, const EdgeIndex* index) {
-    const double cosine = dot(polygon.normal, direction);
+std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origin,
+                                  const Vec3& direction, double t_max, const EdgeIndex* index) {
+    const double cosine = fused_dot(polygon.normal, direction);
     if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
-    const double t = (polygon.offset - dot(polygon.normal, origin)) / cosine;
+    const double t = (polygon.offset - fused_dot(polygon.normal, origin)) / cosine;
     if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
     if (!contains(polygon, origin + direction * t, index)) return std::nullopt;
     return ShapeHit{t, polygon.normal, cosine < 0};

@@ -1,5 +1,6 @@
 #pragma once
-// Points in polygons: Radiance's even-odd test, and an index that keeps it fast for outlines of many vertices.
+// Points in polygons: Radiance's even-odd test, and an index that keeps it fast for outlines of
+// many vertices.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,14 +11,18 @@
 
 namespace lightwalk {
 
-/// Finds the edges that matter to the even-odd test of a point: the outline cut into slabs of its second
-/// remaining coordinate. Gives the same answers as testing every edge. Holds at most 8 references an edge.
+/// Finds the edges that matter to the even-odd test of a point: the outline cut into slabs of its
+/// second remaining coordinate. Gives the same answers as testing every edge. Holds at most 8
+/// references an edge.
 class EdgeIndex {
   public:
     explicit EdgeIndex(const PolygonShape& polygon);
-    /// Edges that may matter for a point whose second remaining coordinate is `y`; edge i ends at vertex i.
+    /// Edges that may matter for a point whose second remaining coordinate is `y`; edge i ends at
+    /// vertex i.
     [[nodiscard]] std::pair<const std::uint32_t*, const std::uint32_t*> edges(double y) const;
-    [[nodiscard]] std::size_t memory_bytes() const { return (first_.size() + edges_.size()) * sizeof(std::uint32_t); }
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return (first_.size() + edges_.size()) * sizeof(std::uint32_t);
+    }
 
   private:
     [[nodiscard]] std::size_t slab(double y) const;
@@ -30,12 +35,14 @@ class EdgeIndex {
 /// Outlines with more vertices than this are worth an EdgeIndex.
 inline constexpr std::size_t kLargePolygon = 64;
 
-/// Whether a point of the polygon's plane lies inside its outline: even-odd rule, edges within kEpsilon count as
-/// inside, so that the seam to a hole is solid. `index` may be null; else it must be the polygon's own.
+/// Whether a point of the polygon's plane lies inside its outline: even-odd rule, edges within
+/// kEpsilon count as inside, so that the seam to a hole is solid. `index` may be null; else it must
+/// be the polygon's own.
 [[nodiscard]] bool contains(const PolygonShape& polygon, const Vec3& point, const EdgeIndex* index);
 
 /// Crossing of a ray with a polygon, as `intersect` of its Shape.
 [[nodiscard]] std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origin,
-                                                const Vec3& direction, double t_max, const EdgeIndex* index);
+                                                const Vec3& direction, double t_max,
+                                                const EdgeIndex* index);
 
 }  // namespace lightwalk

@@ -8,21 +8,25 @@
 namespace lightwalk {
 namespace {
 
-/// How far single precision may be off, relative to the numbers involved: origin, direction and box test of a
-/// ray, 16 half units in the last place altogether; twice that through an instance's matrix.
+/// How far single precision may be off, relative to the numbers involved: origin, direction and box
+/// test of a ray, 16 half units in the last place altogether; twice that through an instance's
+/// matrix.
 constexpr double kRounding = 0x1p-20;
 constexpr double kInstanceRounding = 2 * kRounding;
-constexpr double kRegion = 4;      ///< rays start within this many times the scene's reach
-constexpr double kMostOf = 0.9;    ///< part of the scene that the reach holds
+constexpr double kRegion = 4;    ///< rays start within this many times the scene's reach
+constexpr double kMostOf = 0.9;  ///< part of the scene that the reach holds
 
 double quantile(std::vector<double> values, double part) {
     if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * part);
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * part);
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
 
-Vec3 center_of(const Bounds& bounds) { return (bounds.lower + bounds.upper) * 0.5; }
+Vec3 center_of(const Bounds& bounds) {
+    return (bounds.lower + bounds.upper) * 0.5;
+}
 
 Bounds moved(Bounds bounds, const Vec3& by) {
     bounds.lower += by;
@@ -54,7 +58,8 @@ std::vector<Bounds> world_boxes(const PlacedScene& scene, const std::vector<Boun
     for (const PlacedModel& frame : scene.frames()) {
         const Matrix& matrix = frame.to_world.forward;
         const Bounds& inside = model_boxes[frame.model];
-        boxes.push_back(inside.empty() ? Bounds{matrix.row[3], matrix.row[3]} : transformed(inside, matrix));
+        boxes.push_back(inside.empty() ? Bounds{matrix.row[3], matrix.row[3]}
+                                       : transformed(inside, matrix));
     }
     return boxes;
 }
@@ -90,7 +95,8 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
         space.margin = std::max(space.margin, margin);
         space.relative = kInstanceRounding;
     }
-    for (std::size_t m = 1; m < spaces.size(); ++m) {  // copies that shrink to nothing must not spoil the others
+    for (std::size_t m = 1; m < spaces.size();
+         ++m) {  // copies that shrink to nothing must not spoil the others
         if (model_boxes[m].empty()) continue;
         const Vec3 size = model_boxes[m].upper - model_boxes[m].lower;
         spaces[m].margin = std::min(spaces[m].margin, 0.01 * std::max({size.x, size.y, size.z}));

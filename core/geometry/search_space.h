@@ -1,5 +1,6 @@
 #pragma once
-// Coordinates for a search in single precision that loses no crossing: recentred, and with room for rounding.
+// Coordinates for a search in single precision that loses no crossing: recentred, and with room for
+// rounding.
 #include <vector>
 
 #include "core/geometry/placed_scene.h"
@@ -16,9 +17,9 @@ struct SearchSpace {
     [[nodiscard]] Bounds box(Bounds bounds) const;
 };
 
-/// A space for each model. Boxes grow by what single precision loses for rays that start within four times the
-/// region that holds nine tenths of the scene. Rays from farther away, or at far-off surfaces, may miss an edge
-/// by a ten-millionth of the distance.
+/// A space for each model. Boxes grow by what single precision loses for rays that start within
+/// four times the region that holds nine tenths of the scene. Rays from farther away, or at far-off
+/// surfaces, may miss an edge by a ten-millionth of the distance.
 [[nodiscard]] std::vector<SearchSpace> search_spaces(const PlacedScene& scene);
 
 }  // namespace lightwalk

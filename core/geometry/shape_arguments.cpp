@@ -9,14 +9,14 @@ namespace lightwalk {
 namespace {
 
 [[noreturn]] void fail(const Primitive& primitive, const std::string& problem) {
-    throw InputError(primitive.where,
-                     std::string(to_string(primitive.type)) + " \"" + primitive.name + "\": " + problem);
+    throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" +
+                                          primitive.name + "\": " + problem);
 }
 
 void expect_count(const Primitive& primitive, std::size_t count, const char* problem) {
     if (primitive.reals.size() == count) return;
-    fail(primitive, std::string(problem) + ": expected " + std::to_string(count) + " real arguments, found " +
-                        std::to_string(primitive.reals.size()));
+    fail(primitive, std::string(problem) + ": expected " + std::to_string(count) +
+                        " real arguments, found " + std::to_string(primitive.reals.size()));
 }
 
 void expect_finite(const Primitive& primitive) {
@@ -27,24 +27,35 @@ void expect_finite(const Primitive& primitive) {
     }
 }
 
-Vec3 point_at(const std::vector<double>& reals, std::size_t i) { return {reals[i], reals[i + 1], reals[i + 2]}; }
+Vec3 point_at(const std::vector<double>& reals, std::size_t i) {
+    return {reals[i], reals[i + 1], reals[i + 2]};
+}
 
-double zero_if_tiny(double radius) { return std::abs(radius) <= kEpsilon ? 0 : radius; }
+double zero_if_tiny(double radius) {
+    return std::abs(radius) <= kEpsilon ? 0 : radius;
+}
 
 /// sphere <-> bubble, cone <-> cup, cylinder <-> tube.
 PrimitiveType other_side(PrimitiveType type) {
     switch (type) {
-        case PrimitiveType::sphere: return PrimitiveType::bubble;
-        case PrimitiveType::bubble: return PrimitiveType::sphere;
-        case PrimitiveType::cone: return PrimitiveType::cup;
-        case PrimitiveType::cup: return PrimitiveType::cone;
-        case PrimitiveType::cylinder: return PrimitiveType::tube;
-        default: return PrimitiveType::cylinder;
+        case PrimitiveType::sphere:
+            return PrimitiveType::bubble;
+        case PrimitiveType::bubble:
+            return PrimitiveType::sphere;
+        case PrimitiveType::cone:
+            return PrimitiveType::cup;
+        case PrimitiveType::cup:
+            return PrimitiveType::cone;
+        case PrimitiveType::cylinder:
+            return PrimitiveType::tube;
+        default:
+            return PrimitiveType::cylinder;
     }
 }
 
 bool faces_inward(PrimitiveType type) {
-    return type == PrimitiveType::bubble || type == PrimitiveType::cup || type == PrimitiveType::tube;
+    return type == PrimitiveType::bubble || type == PrimitiveType::cup ||
+           type == PrimitiveType::tube;
 }
 
 ValidatedShape ignored(PrimitiveType type, std::string warning) {
@@ -61,7 +72,8 @@ ValidatedShape make_sphere(const Primitive& primitive) {
         result.type = other_side(primitive.type);
         result.warning = "negative radius";
     }
-    result.shape = SphereShape{point_at(primitive.reals, 0), std::abs(radius), faces_inward(result.type)};
+    result.shape =
+        SphereShape{point_at(primitive.reals, 0), std::abs(radius), faces_inward(result.type)};
     return result;
 }
 
@@ -80,7 +92,8 @@ bool is_planar(const std::vector<Vec3>& vertices, const Vec3& normal) {
 }
 
 bool coincide(const Vec3& a, const Vec3& b) {
-    return std::abs(a.x - b.x) <= kEpsilon && std::abs(a.y - b.y) <= kEpsilon && std::abs(a.z - b.z) <= kEpsilon;
+    return std::abs(a.x - b.x) <= kEpsilon && std::abs(a.y - b.y) <= kEpsilon &&
+           std::abs(a.z - b.z) <= kEpsilon;
 }
 
 /// The axis along which the normal is longest; of equals x goes before y, and y before z.
@@ -93,13 +106,16 @@ int longest_axis(const Vec3& normal) {
 ValidatedShape make_polygon(const Primitive& primitive) {
     const std::vector<double>& reals = primitive.reals;
     if (reals.size() < 9 || reals.size() % 3 != 0) {
-        fail(primitive, "bad # arguments: expected three coordinates for each of at least three vertices, found " +
-                            std::to_string(reals.size()) + " real arguments");
+        fail(primitive,
+             "bad # arguments: expected three coordinates for each of at least three vertices, "
+             "found " +
+                 std::to_string(reals.size()) + " real arguments");
     }
     expect_finite(primitive);
     PolygonShape polygon;
     polygon.vertices.reserve(reals.size() / 3);
-    for (std::size_t i = 0; i < reals.size(); i += 3) polygon.vertices.push_back(point_at(reals, i));
+    for (std::size_t i = 0; i < reals.size(); i += 3)
+        polygon.vertices.push_back(point_at(reals, i));
     std::vector<Vec3>& vertices = polygon.vertices;
     if (vertices.size() > 3 && coincide(vertices.front(), vertices.back())) vertices.pop_back();
 
@@ -168,7 +184,8 @@ ValidatedShape make_cone(const Primitive& primitive) {
         r1 = std::abs(r1);
     }
     if (std::abs(r0 - r1) <= kEpsilon) {
-        result.type = result.type == PrimitiveType::cone ? PrimitiveType::cylinder : PrimitiveType::tube;
+        result.type =
+            result.type == PrimitiveType::cone ? PrimitiveType::cylinder : PrimitiveType::tube;
         r1 = r0;
     }
     return make_cone_shape({point_at(primitive.reals, 0), point_at(primitive.reals, 3), r0, r1},
@@ -201,16 +218,24 @@ ValidatedShape make_source(const Primitive& primitive) {
 
 ValidatedShape make_shape(const Primitive& primitive) {
     switch (primitive.type) {
-        case PrimitiveType::source: return make_source(primitive);
+        case PrimitiveType::source:
+            return make_source(primitive);
         case PrimitiveType::sphere:
-        case PrimitiveType::bubble: return make_sphere(primitive);
-        case PrimitiveType::polygon: return make_polygon(primitive);
+        case PrimitiveType::bubble:
+            return make_sphere(primitive);
+        case PrimitiveType::polygon:
+            return make_polygon(primitive);
         case PrimitiveType::cone:
-        case PrimitiveType::cup: return make_cone(primitive);
+        case PrimitiveType::cup:
+            return make_cone(primitive);
         case PrimitiveType::cylinder:
-        case PrimitiveType::tube: return make_cylinder(primitive);
-        case PrimitiveType::ring: return make_ring(primitive);
-        default: return {std::monostate{}, primitive.type, {}};  // placements and modifiers have no shape
+        case PrimitiveType::tube:
+            return make_cylinder(primitive);
+        case PrimitiveType::ring:
+            return make_ring(primitive);
+        default:
+            return {
+                std::monostate{}, primitive.type, {}};  // placements and modifiers have no shape
     }
 }
 

@@ -14,9 +14,10 @@ struct Roots {
     int count = 0;
 };
 
-/// Roots of a t² + 2 h t + c with half coefficient h, where disc = h² - a c is given. A discriminant within
-/// kEpsilon² of zero counts as one root. Where `a` is tiny (a ray along a cone's axis or side), the form
-/// c / q keeps the near root accurate: Radiance's linear formula would leave the surface.
+/// Roots of a t² + 2 h t + c with half coefficient h, where disc = h² - a c is given. A
+/// discriminant within kEpsilon² of zero counts as one root. Where `a` is tiny (a ray along a
+/// cone's axis or side), the form c / q keeps the near root accurate: Radiance's linear formula
+/// would leave the surface.
 Roots solve_quadratic(double a, double h, double c, double disc) {
     if (!(disc >= -kEpsilon * kEpsilon)) return {};
     if (std::abs(a) <= kEpsilon) {
@@ -33,11 +34,12 @@ Roots solve_quadratic(double a, double h, double c, double disc) {
                  : Roots{{(-h + width) / a, (-h - width) / a}, 2};
 }
 
-std::optional<ShapeHit> intersect(const SphereShape& sphere, const Vec3& origin, const Vec3& direction,
-                                  double t_max) {
+std::optional<ShapeHit> intersect(const SphereShape& sphere, const Vec3& origin,
+                                  const Vec3& direction, double t_max) {
     const Vec3 to_center = sphere.center - origin;
     const double t_closest = dot(to_center, direction);
-    const Vec3 miss = direction * t_closest - to_center;  // from the centre to the nearest point of the line
+    const Vec3 miss =
+        direction * t_closest - to_center;  // from the centre to the nearest point of the line
     const double c = length_squared(miss) - sphere.radius * sphere.radius;
     const double a = length_squared(direction);
     const Roots roots = solve_quadratic(a, 0, c, -a * c);
@@ -56,7 +58,8 @@ Vec3 cone_normal(const ConeShape& cone, const Vec3& from_p0, double height) {
     const Vec3 radial = normalize(from_p0 - cone.axis * height);
     // An apex has no normal of its own: away from the body.
     Vec3 outward = -cone.axis;
-    if (radial != Vec3{}) outward = normalize(radial * cone.length - cone.axis * (cone.r1 - cone.r0));
+    if (radial != Vec3{})
+        outward = normalize(radial * cone.length - cone.axis * (cone.r1 - cone.r0));
     return cone.inward ? -outward : outward;
 }
 
@@ -80,7 +83,8 @@ std::optional<ShapeHit> intersect(const ConeShape& cone, const Vec3& origin, con
         if (!(t <= t_max)) return std::nullopt;
         const double along = height + climb * s;
         if (!(along >= 0 && along <= cone.length)) continue;
-        return ShapeHit{t, cone_normal(cone, start + direction * s, along), (i == 0) != cone.inward};
+        return ShapeHit{t, cone_normal(cone, start + direction * s, along),
+                        (i == 0) != cone.inward};
     }
     return std::nullopt;
 }
@@ -92,19 +96,24 @@ std::optional<ShapeHit> intersect(const RingShape& ring, const Vec3& origin, con
     const double t = dot(ring.normal, ring.center - origin) / cosine;
     if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
     const double distance_squared = length_squared(origin + direction * t - ring.center);
-    if (!(distance_squared >= ring.r0 * ring.r0 && distance_squared <= ring.r1 * ring.r1)) return std::nullopt;
+    if (!(distance_squared >= ring.r0 * ring.r0 && distance_squared <= ring.r1 * ring.r1))
+        return std::nullopt;
     return ShapeHit{t, ring.normal, cosine < 0};
 }
 
 }  // namespace
 
-std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin, const Vec3& direction, double t_max) {
+std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin, const Vec3& direction,
+                                  double t_max) {
     if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
         return intersect(*polygon, origin, direction, t_max, nullptr);
     }
-    if (const auto* sphere = std::get_if<SphereShape>(&shape)) return intersect(*sphere, origin, direction, t_max);
-    if (const auto* cone = std::get_if<ConeShape>(&shape)) return intersect(*cone, origin, direction, t_max);
-    if (const auto* ring = std::get_if<RingShape>(&shape)) return intersect(*ring, origin, direction, t_max);
+    if (const auto* sphere = std::get_if<SphereShape>(&shape))
+        return intersect(*sphere, origin, direction, t_max);
+    if (const auto* cone = std::get_if<ConeShape>(&shape))
+        return intersect(*cone, origin, direction, t_max);
+    if (const auto* ring = std::get_if<RingShape>(&shape))
+        return intersect(*ring, origin, direction, t_max);
     return std::nullopt;  // nothing, or a source at infinity
 }
 

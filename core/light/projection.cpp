@@ -125,11 +125,19 @@ std::optional<RelayDisk> relay_disk(const Shape& shape) {
 }
 
 bool is_before_mirror(const LightSource& source, const Plane& plane) {
-    const double height =
-        source.distant ? dot(plane.normal, source.center) : plane.height(source.center);
-    double reach = std::abs(dot(plane.normal, source.u)) + std::abs(dot(plane.normal, source.v));
-    if (!source.flat) reach += std::abs(dot(plane.normal, source.w));
-    return height + overhang(source) * reach > kEpsilon;
+    // Radiance steps along each half axis by comparing its projection with the plane's offset, not with zero. The
+    // point that is reached is not always the foremost one: a lamp that is sunk into a mirror's plane may get no
+    // image. Its pictures show that, so ours do.
+    const double offset = source.distant ? 0 : plane.offset;
+    double reached = dot(plane.normal, source.center);
+    const auto step = [&](const Vec3& axis) {
+        const double along = dot(plane.normal, axis);
+        reached += (along > offset ? 1 : -1) * overhang(source) * along;
+    };
+    step(source.u);
+    step(source.v);
+    if (!source.flat) step(source.w);
+    return reached > offset + kEpsilon;
 }
 
 LightSource project(const LightSource& source, const Projection& projection) {

@@ -75,7 +75,7 @@ class BrtdFunction final : public Modifier {
     ChannelOutputs reflected_, transmitted_, directional_;
     FunctionBinding binding_;
     Rgb front_, back_, through_;  ///< diffuse reflectances and transmittance
-    bool directional_first_;  ///< the first directional function is not 0
+    bool directional_first_;      ///< the first directional function is not 0
 };
 
 BrtdFunction::BrtdFunction(const ModifierBuild& build, Requests requests)
@@ -89,8 +89,8 @@ BrtdFunction::BrtdFunction(const ModifierBuild& build, Requests requests)
       front_(color_argument(build.primitive)),
       back_(color_argument(build.primitive, 3)),
       through_(color_argument(build.primitive, 6)),
-      directional_first_(build.primitive.strings[6].empty() || build.primitive.strings[6][0] != '0') {
-}
+      directional_first_(build.primitive.strings[6].empty() ||
+                         build.primitive.strings[6][0] != '0') {}
 
 void BrtdFunction::warn(TraceContext& context) const {
     context.warnings.warn("BRTDfunc \"" + name_ + "\": its distribution cannot be computed here");

@@ -127,9 +127,6 @@ SurfaceTraits ModifierTable::traits(ModifierId first) const {
                                  transfunc, plasdata, metdata,  transdata, light, glow,   spotlight, prism1,
                                  prism2};
     bool blocks = std::find(kOpaque.begin(), kOpaque.end(), record.type) != kOpaque.end();
-    if (record.type == trans && primitive.reals.size() > 4) {
-        blocks = primitive.reals[4] * primitive.reals[4] > kEpsilon;  // rough: passes no light straight on
-    }
     if (record.type == brtdfunc) blocks = !transmits(primitive);
     if (record.type == mirror) blocks = primitive.strings.empty();
     // Antimatter can cut any surface away.

@@ -167,12 +167,13 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
             q = z * forward_ + (1 + z) * across;
             break;
         }
-        default:
-            q = forward_ + across;
+        default:  // fused, and scaled axes first: to the bit what released builds of Radiance compute
+            q = fused_advance(fused_advance(forward_, right_ * width_, h + (view_.shift - 0.5)),
+                              upward_ * height_, v + (view_.lift - 0.5));
             break;
     }
     const double stretch = length(q);
-    return ViewRay{view_.position + view_.fore * q, q / stretch,
+    return ViewRay{view_.position + view_.fore * q, q * (1 / stretch),
                    clipped ? (view_.aft - view_.fore) * stretch : 0};
 }
 

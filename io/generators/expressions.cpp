@@ -22,7 +22,8 @@ bool GeneratorExpressions::accept_option(GeneratorWords& words) {
     if (words.accept("-e")) {
         environment_.define(words.text("expression"), {words.program() + " -e", 0});
     } else if (words.accept("-f")) {
-        const std::string path = context_.library.locate(words.text("function file"), "function file");
+        const std::string path =
+            context_.library.locate(words.text("function file"), "function file");
         environment_.define(read_file(path, kMaxFunctionFileBytes), {path, 1});
     } else {
         return false;

@@ -19,7 +19,8 @@ class CompiledFunctions {
     CompiledFunctions(const CompiledFunctions&) = delete;
     CompiledFunctions& operator=(const CompiledFunctions&) = delete;
 
-    /// Value of function `index` of those that were compiled. Throws InputError for undefined names.
+    /// Value of function `index` of those that were compiled. Throws InputError for undefined
+    /// names.
     [[nodiscard]] double operator()(std::size_t index, std::span<const double> arguments);
     [[nodiscard]] std::uint64_t numeric_errors() const { return state_.warnings; }
 

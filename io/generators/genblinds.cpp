@@ -19,8 +19,8 @@ struct Blinds {
     std::string material, name;
     double depth = 0, width = 0, height = 0;
     long slats = 0;
-    double angle = 0;   ///< of the slats above the horizontal [rad]
-    double radius = 0;  ///< of a slat's arc; 0 for a flat one
+    double angle = 0;     ///< of the slats above the horizontal [rad]
+    double radius = 0;    ///< of a slat's arc; 0 for a flat one
     bool arched = false;  ///< upward; else sagging
 };
 
@@ -42,7 +42,8 @@ Blinds parse(GeneratorWords& words) {
     }
     if (!words.at_end()) words.unknown_option();
     if (blinds.radius > 0 && !(std::abs(blinds.depth) <= 2 * blinds.radius)) {
-        words.fail("a slat of this depth does not fit the radius, expected at least half the depth");
+        words.fail(
+            "a slat of this depth does not fit the radius, expected at least half the depth");
     }
     return blinds;
 }
@@ -62,13 +63,13 @@ std::vector<std::array<double, 2>> slat_profile(const Blinds& blinds) {
     for (int k = 0; k <= pieces; ++k) {
         if (blinds.arched) {
             const double at = begin + k * step;
-            profile.push_back({r * (std::cos(begin) - std::cos(at)),
-                               r * (std::sin(at) - std::sin(begin))});
+            profile.push_back(
+                {r * (std::cos(begin) - std::cos(at)), r * (std::sin(at) - std::sin(begin))});
         } else {
             const double end = begin + arc;
             const double at = end - k * step;
-            profile.push_back({r * (std::cos(at) - std::cos(end)),
-                               r * (std::sin(end) - std::sin(at))});
+            profile.push_back(
+                {r * (std::cos(at) - std::cos(end)), r * (std::sin(end) - std::sin(at))});
         }
     }
     return profile;

@@ -20,12 +20,8 @@ constexpr long kMaxSegments = 256;  ///< of a quarter circle; more would not fit
 // A vertex code: bits 0-2 choose the high side in x, y, z; bits 3-5 inset that coordinate.
 using Face = std::array<std::uint8_t, 4>;
 
-constexpr std::array<Face, 6> kPlainFaces = {{{1, 5, 4, 0},
-                                              {4, 6, 2, 0},
-                                              {2, 3, 1, 0},
-                                              {3, 2, 6, 7},
-                                              {5, 1, 3, 7},
-                                              {6, 4, 5, 7}}};
+constexpr std::array<Face, 6> kPlainFaces = {
+    {{1, 5, 4, 0}, {4, 6, 2, 0}, {2, 3, 1, 0}, {3, 2, 6, 7}, {5, 1, 3, 7}, {6, 4, 5, 7}}};
 constexpr std::array<Face, 6> kInsetFaces = {{{051, 055, 054, 050},
                                               {064, 066, 062, 060},
                                               {032, 033, 031, 030},

@@ -48,6 +48,8 @@ void GeneratorWords::fail(const std::string& what) const {
     throw InputError(args_[0] + ": " + what + "; usage: " + args_[0] + " " + std::string(usage_));
 }
 
-void GeneratorWords::unknown_option() const { fail("unknown option \"" + args_[at_] + "\""); }
+void GeneratorWords::unknown_option() const {
+    fail("unknown option \"" + args_[at_] + "\"");
+}
 
 }  // namespace lightwalk

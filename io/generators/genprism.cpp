@@ -1,4 +1,5 @@
-// genprism: a prism over a polygon, with square or rounded edges. See Radiance's manual page genprism(1).
+// genprism: a prism over a polygon, with square or rounded edges. See Radiance's manual page
+// genprism(1).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,9 +23,15 @@ constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
 struct Vec2 {
     double x = 0, y = 0;
 };
-Vec2 operator+(const Vec2& a, const Vec2& b) { return {a.x + b.x, a.y + b.y}; }
-Vec2 operator-(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
-Vec2 operator*(const Vec2& a, double s) { return {a.x * s, a.y * s}; }
+Vec2 operator+(const Vec2& a, const Vec2& b) {
+    return {a.x + b.x, a.y + b.y};
+}
+Vec2 operator-(const Vec2& a, const Vec2& b) {
+    return {a.x - b.x, a.y - b.y};
+}
+Vec2 operator*(const Vec2& a, double s) {
+    return {a.x * s, a.y * s};
+}
 
 struct PrismOptions {
     std::string material, name;
@@ -60,7 +67,8 @@ std::vector<Vec2> read_base(GeneratorWords& words, GeneratorContext& context) {
     const std::string source = words.text("vertices");
     const bool standard = source == "-";
     const std::string path = path_from(context.directory, source);
-    if (!standard && !is_readable_file(path)) words.fail("cannot open vertex file \"" + path + "\"");
+    if (!standard && !is_readable_file(path))
+        words.fail("cannot open vertex file \"" + path + "\"");
     const std::string text = standard ? context.input : read_file(path, kMaxFileBytes);
     const std::string where = standard ? "standard input" : source;
     std::vector<Vec2> base = pairs(parse_numbers(text, where, 2 * kMaxVertices), where);
@@ -207,10 +215,10 @@ class RoundedPrism {
     }
 
     const PrismOptions& prism_;
-    double r_;                    ///< negative when the prism points down
-    std::vector<Vec2> back_;      ///< unit vector from vertex i to vertex i - 1
-    std::vector<double> setback_; ///< how far the rounding's centre is set back along it, in radii
-    std::vector<Vec2> center_;    ///< of the rounding at vertex i
+    double r_;                     ///< negative when the prism points down
+    std::vector<Vec2> back_;       ///< unit vector from vertex i to vertex i - 1
+    std::vector<double> setback_;  ///< how far the rounding's centre is set back along it, in radii
+    std::vector<Vec2> center_;     ///< of the rounding at vertex i
 };
 
 }  // namespace
@@ -219,8 +227,10 @@ std::string run_genprism(std::span<const std::string> args, GeneratorContext& co
     GeneratorWords words(args, kUsage);
     const PrismOptions prism = parse(words, context);
     SceneWriter out(args);
-    if (prism.radius > kEpsilon) RoundedPrism(prism, words.program()).write(out);
-    else write_plain(prism, out);
+    if (prism.radius > kEpsilon)
+        RoundedPrism(prism, words.program()).write(out);
+    else
+        write_plain(prism, out);
     return out.take();
 }
 

@@ -21,7 +21,9 @@ struct Profile {
     double z = 0, r = 0;
 };
 
-bool equal(double a, double b) { return std::abs(a - b) <= kEqual; }
+bool equal(double a, double b) {
+    return std::abs(a - b) <= kEqual;
+}
 
 /// Unit normal of the segment from a to b, to the right of it as z points up and r to the right:
 /// outward for rising z. Zero for no segment.
@@ -37,7 +39,8 @@ std::array<double, 2> line_through(double x0, double y0, double x1, double y1) {
     return {slope, y0 - slope * x0};
 }
 
-/// The texture that bends the normal of the piece from a to b, so that it runs from `before` to `after`.
+/// The texture that bends the normal of the piece from a to b, so that it runs from `before` to
+/// `after`.
 void write_texture(const std::string& material, const Profile& a, const Profile& b,
                    const Profile& before, const Profile& after, SceneWriter& out) {
     std::array<double, 2> z = {0, a.r > b.r ? 1.0 : -1.0};
@@ -75,8 +78,10 @@ std::string run_genrev(std::span<const std::string> args, GeneratorContext& cont
     GeneratorExpressions expressions(context);
     bool smooth = false;
     while (!words.at_end()) {
-        if (words.accept("-s")) smooth = true;
-        else if (!expressions.accept_option(words)) words.unknown_option();
+        if (words.accept("-s"))
+            smooth = true;
+        else if (!expressions.accept_option(words))
+            words.unknown_option();
     }
     const std::size_t segments = expressions.count(words, count, "number of segments", kMaxPieces);
     const std::array<std::string, 2> names = {"Z`SYS", "R`SYS"};

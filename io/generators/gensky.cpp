@@ -48,13 +48,14 @@ struct SkyOptions {
 /// Standard meridian of a time zone, degrees west.
 std::optional<double> zone_meridian(std::string_view name) {
     constexpr std::array<std::pair<std::string_view, double>, 27> kZones = {
-        {{"YST", 135}, {"YDT", 120}, {"PST", 120}, {"PDT", 105}, {"MST", 105},
-         {"MDT", 90}, {"CST", 90}, {"CDT", 75}, {"EST", 75}, {"EDT", 60},
-         {"AST", 60}, {"ADT", 45}, {"NST", 52.5}, {"NDT", 37.5}, {"GMT", 0},
-         {"BST", -15}, {"CET", -15}, {"CEST", -30}, {"EET", -30}, {"EEST", -45},
-         {"GST", -60}, {"GDT", -75}, {"IST", -82.5}, {"IDT", -97.5}, {"JST", -135},
-         {"NZST", -180}, {"NZDT", -195}}};
-    const auto same = [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - 'a' + 'A' : a) == b; };
+        {{"YST", 135},  {"YDT", 120},   {"PST", 120},  {"PDT", 105}, {"MST", 105},   {"MDT", 90},
+         {"CST", 90},   {"CDT", 75},    {"EST", 75},   {"EDT", 60},  {"AST", 60},    {"ADT", 45},
+         {"NST", 52.5}, {"NDT", 37.5},  {"GMT", 0},    {"BST", -15}, {"CET", -15},   {"CEST", -30},
+         {"EET", -30},  {"EEST", -45},  {"GST", -60},  {"GDT", -75}, {"IST", -82.5}, {"IDT", -97.5},
+         {"JST", -135}, {"NZST", -180}, {"NZDT", -195}}};
+    const auto same = [](char a, char b) {
+        return (a >= 'a' && a <= 'z' ? a - 'a' + 'A' : a) == b;
+    };
     for (const auto& [zone, meridian] : kZones) {
         if (std::ranges::equal(name, zone, same)) return meridian;
     }
@@ -101,11 +102,20 @@ void take_time(GeneratorWords& words, SkyOptions& sky) {
 /// The options that say which sky; false when it is another one.
 bool take_model(char sign, char letter, SkyOptions& sky) {
     switch (letter) {
-        case 's': sky.model = SkyModel::clear; break;
-        case 'c': sky.model = SkyModel::overcast; break;
-        case 'u': sky.model = SkyModel::uniform; break;
-        case 'i': sky.model = SkyModel::intermediate; break;
-        default: return false;
+        case 's':
+            sky.model = SkyModel::clear;
+            break;
+        case 'c':
+            sky.model = SkyModel::overcast;
+            break;
+        case 'u':
+            sky.model = SkyModel::uniform;
+            break;
+        case 'i':
+            sky.model = SkyModel::intermediate;
+            break;
+        default:
+            return false;
     }
     sky.show_sun = sign == '+';
     return true;
@@ -123,15 +133,34 @@ void take_option(GeneratorWords& words, SkyOptions& sky, WarningSink& warnings) 
     }
     static_cast<void>(words.text("option"));
     switch (letter) {
-        case 'y': sky.moment.date.year = take_year(words, warnings); break;
-        case 'g': sky.ground_reflectance = words.real("ground reflectance"); break;
-        case 't': sky.turbidity = words.real("turbidity"); break;
-        case 'b': case 'B': sky.zenith = {words.real("zenith radiance"), letter == 'B'}; break;
-        case 'r': case 'R': sky.sun = {words.real("solar radiance"), letter == 'R'}; break;
-        case 'a': sky.site.latitude = take_degrees(words, "latitude"); break;
-        case 'o': sky.site.longitude = take_degrees(words, "longitude"); break;
-        case 'm': sky.site.meridian = take_degrees(words, "standard meridian"); break;
-        default: break;
+        case 'y':
+            sky.moment.date.year = take_year(words, warnings);
+            break;
+        case 'g':
+            sky.ground_reflectance = words.real("ground reflectance");
+            break;
+        case 't':
+            sky.turbidity = words.real("turbidity");
+            break;
+        case 'b':
+        case 'B':
+            sky.zenith = {words.real("zenith radiance"), letter == 'B'};
+            break;
+        case 'r':
+        case 'R':
+            sky.sun = {words.real("solar radiance"), letter == 'R'};
+            break;
+        case 'a':
+            sky.site.latitude = take_degrees(words, "latitude");
+            break;
+        case 'o':
+            sky.site.longitude = take_degrees(words, "longitude");
+            break;
+        case 'm':
+            sky.site.meridian = take_degrees(words, "standard meridian");
+            break;
+        default:
+            break;
     }
 }
 
@@ -152,19 +181,23 @@ SkyOptions parse(GeneratorWords& words, WarningSink& warnings) {
 
 /// What is printed of a sky [W/(m² sr)].
 struct SkyRadiances {
-    double shape = 0;            ///< the model's value toward the zenith, F2
+    double shape = 0;  ///< the model's value toward the zenith, F2
     double zenith = 0;
-    double ground_ambient = 0;   ///< without the sun, not yet reflected
+    double ground_ambient = 0;  ///< without the sun, not yet reflected
     double ground = 0;
     std::optional<double> sun;
 };
 
 ZenithModel zenith_model(const SkyOptions& sky, double altitude) {
     switch (sky.model) {
-        case SkyModel::clear: return clear_sky_zenith(altitude);
-        case SkyModel::overcast: return {0, kOvercastDiffuseFactor};
-        case SkyModel::uniform: return {0, 1};
-        default: return intermediate_sky_zenith(altitude);
+        case SkyModel::clear:
+            return clear_sky_zenith(altitude);
+        case SkyModel::overcast:
+            return {0, kOvercastDiffuseFactor};
+        case SkyModel::uniform:
+            return {0, 1};
+        default:
+            return intermediate_sky_zenith(altitude);
     }
 }
 
@@ -220,8 +253,10 @@ std::string defaults() {
     const SkyOptions sky;
     return default_line("-g " + fixed(sky.ground_reflectance, 6), "ground reflectance") +
            default_line("-t " + fixed(sky.turbidity, 6), "atmospheric turbidity") +
-           default_line("-a " + fixed(sky.site.latitude * 180 / kPi, 6), "latitude, degrees north") +
-           default_line("-o " + fixed(sky.site.longitude * 180 / kPi, 6), "longitude, degrees west") +
+           default_line("-a " + fixed(sky.site.latitude * 180 / kPi, 6),
+                        "latitude, degrees north") +
+           default_line("-o " + fixed(sky.site.longitude * 180 / kPi, 6),
+                        "longitude, degrees west") +
            default_line("-m " + fixed(sky.site.meridian * 180 / kPi, 6),
                         "standard meridian, degrees west");
 }

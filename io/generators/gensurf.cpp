@@ -96,16 +96,20 @@ SurfaceOptions parse(GeneratorWords& words, GeneratorExpressions& expressions) {
     const std::string n = words.text("n");
     while (!words.at_end()) {
         if (expressions.accept_option(words)) continue;
-        if (words.accept("-s")) options.smooth = true;
-        else if (words.accept("-i")) options.inverted = true;
-        else if (words.accept("-o")) options.obj = true;
-        else words.unknown_option();
+        if (words.accept("-s"))
+            options.smooth = true;
+        else if (words.accept("-i"))
+            options.inverted = true;
+        else if (words.accept("-o"))
+            options.obj = true;
+        else
+            words.unknown_option();
     }
     options.m = expressions.count(words, m, "m", kMaxPieces);
     options.n = expressions.count(words, n, "n", kMaxPieces);
-    if ((options.m + 3) * (options.n + 3) > 2 * kMaxPieces) {  // with the border
-        words.fail("m times n is too large, expected at most " + std::to_string(kMaxPieces));
-    }
+    // With the border; a smoothed piece is several times as long as a flat one.
+    const std::size_t most = options.smooth ? kMaxPieces / 4 : 2 * kMaxPieces;
+    if ((options.m + 3) * (options.n + 3) > most) words.fail("m times n is too large");
     return options;
 }
 
@@ -122,15 +126,16 @@ class CellWriter {
     }
 
     void write_scene(SceneWriter& out) {
-        for_each_piece([&](const SurfaceCell& cell, std::span<const std::size_t> corners,
-                           const Vec3& flat) {
-            std::array<Vec3, 4> points;
-            for (std::size_t i = 0; i < corners.size(); ++i) points[i] = point(cell, corners[i]);
-            const bool smoothed = options_.smooth && write_texture(cell, flat, out);
-            out.polygon(smoothed ? "Phong" : options_.material,
-                        options_.name + "." + std::to_string(++pieces_),
-                        std::span<const Vec3>(points.data(), corners.size()));
-        });
+        for_each_piece(
+            [&](const SurfaceCell& cell, std::span<const std::size_t> corners, const Vec3& flat) {
+                std::array<Vec3, 4> points;
+                for (std::size_t i = 0; i < corners.size(); ++i)
+                    points[i] = point(cell, corners[i]);
+                const bool smoothed = options_.smooth && write_texture(cell, flat, out);
+                out.polygon(smoothed ? "Phong" : options_.material,
+                            options_.name + "." + std::to_string(++pieces_),
+                            std::span<const Vec3>(points.data(), corners.size()));
+            });
     }
 
     [[nodiscard]] PolygonMesh mesh() {
@@ -198,7 +203,8 @@ class CellWriter {
         }
     }
 
-    /// The texture that bends the flat normal to the surface's; false when the cell determines none.
+    /// The texture that bends the flat normal to the surface's; false when the cell determines
+    /// none.
     bool write_texture(const SurfaceCell& cell, const Vec3& flat, SceneWriter& out) const {
         std::array<Vec3, 4> points;
         std::array<Vec3, 4> corner_normals;

@@ -1,5 +1,5 @@
-// genworm: a tube of varying radius along a curve, made of spheres and the cones that touch them. See
-// Radiance's manual page genworm(1).
+// genworm: a tube of varying radius along a curve, made of spheres and the cones that touch them.
+// See Radiance's manual page genworm(1).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +21,8 @@ struct Bead {
     double radius = 0;
 };
 
-/// The cylinder or cone that touches both spheres; nothing when they have one centre and unlike radii.
+/// The cylinder or cone that touches both spheres; nothing when they have one centre and unlike
+/// radii.
 void write_joint(const std::string& material, const std::string& name, const Bead& a, const Bead& b,
                  SceneWriter& out) {
     const double difference = a.radius - b.radius;

@@ -9,7 +9,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kSolarConstant = 1367;  // [W/m²]
+constexpr double kSolarConstant = 1367;     // [W/m²]
 constexpr double kClearnessWeight = 1.041;  // of the zenith angle's cube [1/rad³]
 
 using Row = std::array<double, 4>;
@@ -41,8 +41,8 @@ constexpr std::array<Row, 8> kDirectEfficacy = {{
     {101.18, 1.58, -1.10, -8.29},
 }};
 
-/// Per class the rows A to E; each x1 + x2 zenith + brightness (x3 + x4 zenith), but for C and D of the
-/// first class.
+/// Per class the rows A to E; each x1 + x2 zenith + brightness (x3 + x4 zenith), but for C and D of
+/// the first class.
 constexpr std::array<std::array<Row, 5>, 8> kCoefficients = {{
     {{{1.3525, -0.2576, -0.2690, -1.4366},
       {-0.7670, 0.0007, 1.2734, -0.1233},
@@ -86,7 +86,9 @@ constexpr std::array<std::array<Row, 5>, 8> kCoefficients = {{
       {1.5000, -0.6426, 1.8564, 0.5636}}},
 }};
 
-double zenith_term(double zenith) { return kClearnessWeight * zenith * zenith * zenith; }
+double zenith_term(double zenith) {
+    return kClearnessWeight * zenith * zenith * zenith;
+}
 
 }  // namespace
 
@@ -112,8 +114,8 @@ SkyCondition limited(SkyCondition condition) {
 SkyCondition sky_condition(const DaylightPair& irradiance, const PerezSun& sun) {
     const double k = zenith_term(sun.zenith);
     const double ratio = (irradiance.diffuse + irradiance.direct) / irradiance.diffuse;
-    return limited({(ratio + k) / (1 + k),
-                    irradiance.diffuse * sun.air_mass() / sun.extraterrestrial});
+    return limited(
+        {(ratio + k) / (1 + k), irradiance.diffuse * sun.air_mass() / sun.extraterrestrial});
 }
 
 DaylightPair irradiances(const SkyCondition& condition, const PerezSun& sun) {
@@ -132,11 +134,11 @@ DaylightPair luminous_efficacies(const SkyCondition& condition, const PerezSun& 
     if (!sky_class) return {};
     const Row& diffuse = kDiffuseEfficacy[*sky_class];
     const Row& direct = kDirectEfficacy[*sky_class];
-    return {std::max(0.0, direct[0] + direct[1] * water +
-                              direct[2] * std::exp(5.73 * sun.zenith - 5) +
-                              direct[3] * condition.brightness),
-            diffuse[0] + diffuse[1] * water + diffuse[2] * std::cos(sun.zenith) +
-                diffuse[3] * std::log(condition.brightness)};
+    return {
+        std::max(0.0, direct[0] + direct[1] * water + direct[2] * std::exp(5.73 * sun.zenith - 5) +
+                          direct[3] * condition.brightness),
+        diffuse[0] + diffuse[1] * water + diffuse[2] * std::cos(sun.zenith) +
+            diffuse[3] * std::log(condition.brightness)};
 }
 
 double PerezDistribution::luminance(double zenith, double gamma) const {
@@ -160,7 +162,8 @@ double PerezDistribution::horizontal_integral(double sun_zenith) const {
             const double azimuth = 2 * kPi * i / band.count;  // from the sun's
             const double cos_gamma = std::cos(zenith) * std::cos(sun_zenith) +
                                      std::sin(zenith) * std::sin(sun_zenith) * std::cos(azimuth);
-            sum += luminance(zenith, std::acos(std::clamp(cos_gamma, -1.0, 1.0))) * std::cos(zenith);
+            sum +=
+                luminance(zenith, std::acos(std::clamp(cos_gamma, -1.0, 1.0))) * std::cos(zenith);
         }
         count += band.count;
     }

@@ -1,9 +1,9 @@
 #pragma once
-// The all-weather sky luminance model of Perez, and what follows from irradiances. Source: R. Perez,
-// R. Seals, J. Michalsky, "All-weather model for sky luminance distribution", Solar Energy 50 (1993),
-// pp. 235-245; efficacies: R. Perez, P. Ineichen, R. Seals, J. Michalsky, R. Stewart, "Modeling daylight
-// availability and irradiance components from direct and global irradiance", Solar Energy 44 (1990),
-// pp. 271-289. Angles in radians.
+// The all-weather sky luminance model of Perez, and what follows from irradiances. Source: R.
+// Perez, R. Seals, J. Michalsky, "All-weather model for sky luminance distribution", Solar Energy
+// 50 (1993), pp. 235-245; efficacies: R. Perez, P. Ineichen, R. Seals, J. Michalsky, R. Stewart,
+// "Modeling daylight availability and irradiance components from direct and global irradiance",
+// Solar Energy 44 (1990), pp. 271-289. Angles in radians.
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -23,8 +23,8 @@ struct DaylightPair {
 
 /// The sun as the model sees it.
 struct PerezSun {
-    double zenith = 0;             ///< angle of the sun from the zenith, at most pi/2
-    double extraterrestrial = 1367; ///< irradiance above the atmosphere, normal to the sun [W/m²]
+    double zenith = 0;               ///< angle of the sun from the zenith, at most pi/2
+    double extraterrestrial = 1367;  ///< irradiance above the atmosphere, normal to the sun [W/m²]
 
     [[nodiscard]] double air_mass() const;
 };
@@ -61,9 +61,11 @@ struct PerezDistribution {
 [[nodiscard]] std::optional<PerezDistribution> perez_distribution(const SkyCondition& condition,
                                                                   double sun_zenith);
 
-/// Split of global horizontal irradiance. Source: D. Erbs, S. Klein, J. Duffie, "Estimation of the diffuse
-/// radiation fraction for hourly, daily and monthly-average global radiation", Solar Energy 28 (1982).
-/// `extraterrestrial` is the horizontal one; global is cut to 0.999 of it. Direct is normal to the sun.
-[[nodiscard]] DaylightPair split_global(double global, double extraterrestrial, double sin_altitude);
+/// Split of global horizontal irradiance. Source: D. Erbs, S. Klein, J. Duffie, "Estimation of the
+/// diffuse radiation fraction for hourly, daily and monthly-average global radiation", Solar Energy
+/// 28 (1982). `extraterrestrial` is the horizontal one; global is cut to 0.999 of it. Direct is
+/// normal to the sun.
+[[nodiscard]] DaylightPair split_global(double global, double extraterrestrial,
+                                        double sin_altitude);
 
 }  // namespace lightwalk

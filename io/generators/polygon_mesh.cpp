@@ -16,7 +16,9 @@ void append_values(std::string& line, std::span<const double> values) {
     line += "\n";
 }
 
-std::array<double, 3> values_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+std::array<double, 3> values_of(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 /// "-2", "-2/-2", "-2//-2" or "-2/-2/-2".
 std::string face_vertex(const PolygonMesh& mesh, std::size_t vertex) {
@@ -45,7 +47,8 @@ std::string write_obj(std::span<const std::string> args, const std::string& mate
     }
     for (const PolygonMesh::Face& face : mesh.faces) {
         line = "f";
-        for (std::size_t i = 0; i < face.corners; ++i) line += " " + face_vertex(mesh, face.vertex[i]);
+        for (std::size_t i = 0; i < face.corners; ++i)
+            line += " " + face_vertex(mesh, face.vertex[i]);
         line += "\n";
         flush();
     }

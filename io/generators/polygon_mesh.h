@@ -24,9 +24,10 @@ struct PolygonMesh {
     std::vector<Face> faces;
 };
 
-/// The mesh as .OBJ text: usemtl, o, v, vt, vn, f; indices count backwards from the last vertex, so that
-/// files can be joined. Throws InputError when it is larger than kMaxGeneratedBytes, and for numbers
-/// that are not finite. Source: Wavefront, "Object files (.obj)", Advanced Visualizer manual, app. B1.
+/// The mesh as .OBJ text: usemtl, o, v, vt, vn, f; indices count backwards from the last vertex, so
+/// that files can be joined. Throws InputError when it is larger than kMaxGeneratedBytes, and for
+/// numbers that are not finite. Source: Wavefront, "Object files (.obj)", Advanced Visualizer
+/// manual, app. B1.
 [[nodiscard]] std::string write_obj(std::span<const std::string> args, const std::string& material,
                                     const std::string& name, const PolygonMesh& mesh);
 

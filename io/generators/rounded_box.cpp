@@ -65,7 +65,8 @@ void Builder::add_faces() {
     }
 }
 
-/// A quadrilateral between the lines low[0] high[0] and low[1] high[1], whose outward normals are n.
+/// A quadrilateral between the lines low[0] high[0] and low[1] high[1], whose outward normals are
+/// n.
 void Builder::add_strip(const std::array<Vec3, 2>& low, const std::array<Vec3, 2>& high,
                         const std::array<Vec3, 2>& n) {
     std::array<Vec3, 4> p = {low[0], high[0], high[1], low[1]};

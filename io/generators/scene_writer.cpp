@@ -88,8 +88,10 @@ std::string quoted_for_shell(std::string_view word) {
     }
     std::string result = "'";
     for (const char c : word) {
-        if (c == '\'') result += "'\\''";
-        else result.push_back(c);
+        if (c == '\'')
+            result += "'\\''";
+        else
+            result.push_back(c);
     }
     return result + "'";
 }

@@ -27,7 +27,8 @@ class SceneWriter {
     void write(std::string_view modifier, std::string_view type, std::string_view name,
                std::span<const double> reals, std::span<const std::string> strings);
     void polygon(std::string_view modifier, std::string_view name, std::span<const Vec3> vertices);
-    void sphere(std::string_view modifier, std::string_view name, const Vec3& center, double radius);
+    void sphere(std::string_view modifier, std::string_view name, const Vec3& center,
+                double radius);
     void cylinder(std::string_view modifier, std::string_view name, const Vec3& p, const Vec3& q,
                   double radius);
 
@@ -43,7 +44,8 @@ class SceneWriter {
     std::string out_;
 };
 
-/// The comment line that echoes a command: "# program words...", words quoted as the shell needs them.
+/// The comment line that echoes a command: "# program words...", words quoted as the shell needs
+/// them.
 [[nodiscard]] std::string command_comment(std::span<const std::string> args);
 
 /// The word as the shell reads it back.

@@ -54,7 +54,9 @@ std::string direction_text(const Vec3& direction) {
     return fixed(direction.x, 6) + " " + fixed(direction.y, 6) + " " + fixed(direction.z, 6);
 }
 
-std::string time_comment(double hour) { return "# Local solar time: " + fixed(hour, 2) + "\n"; }
+std::string time_comment(double hour) {
+    return "# Local solar time: " + fixed(hour, 2) + "\n";
+}
 
 std::string angles_comment(const SolarAngles& angles) {
     return "# Solar altitude and azimuth: " + fixed(angles.altitude * 180 / kPi, 1) + " " +

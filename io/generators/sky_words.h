@@ -26,8 +26,10 @@ struct SkyMoment {
 /// Warn when the clock's meridian is more than 45 degrees from the site.
 void check_meridian(const std::string& program, const Site& site, WarningSink& warnings);
 
-/// The primitives "solar" and "sun"; `radiance` is written three times, `angle` is the full one [deg].
-[[nodiscard]] std::string sun_text(const std::string& radiance, const Vec3& direction, double angle);
+/// The primitives "solar" and "sun"; `radiance` is written three times, `angle` is the full one
+/// [deg].
+[[nodiscard]] std::string sun_text(const std::string& radiance, const Vec3& direction,
+                                   double angle);
 /// "x y z" with six decimals.
 [[nodiscard]] std::string direction_text(const Vec3& direction);
 /// The comment lines of local solar time, altitude and azimuth.

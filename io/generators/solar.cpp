@@ -10,7 +10,9 @@ namespace {
 constexpr double kDegree = kPi / 180;
 
 /// x modulo p with the sign of p.
-double modulo(double x, double p) { return x - p * std::floor(x / p); }
+double modulo(double x, double p) {
+    return x - p * std::floor(x / p);
+}
 
 SolarTime almanac_time(const SolarDate& date, const Site& site) {
     const int years = date.year - 1949;
@@ -21,15 +23,16 @@ SolarTime almanac_time(const SolarDate& date, const Site& site) {
                      2432916.5 - 2451545;
     const double mean_longitude = modulo(280.460 + 0.9856474 * d, 360) * kDegree;
     const double anomaly = modulo(357.528 + 0.9856003 * d, 360) * kDegree;
-    const double longitude = mean_longitude + (1.915 * std::sin(anomaly) +
-                                               0.020 * std::sin(2 * anomaly)) * kDegree;
+    const double longitude =
+        mean_longitude + (1.915 * std::sin(anomaly) + 0.020 * std::sin(2 * anomaly)) * kDegree;
     const double obliquity = (23.439 - 4e-7 * d) * kDegree;
     const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
     if (date.solar_time) return {declination, date.hour};
-    const double ascension = std::atan2(std::sin(longitude) * std::cos(obliquity), std::cos(longitude));
+    const double ascension =
+        std::atan2(std::sin(longitude) * std::cos(obliquity), std::cos(longitude));
     const double universal = 24 * modulo(d, 1) + 12;
-    const double hour_angle = 6.697375 + 0.0657098242 * d + universal -
-                              12 * (site.longitude + ascension) / kPi;
+    const double hour_angle =
+        6.697375 + 0.0657098242 * d + universal - 12 * (site.longitude + ascension) / kPi;
     return {declination, modulo(hour_angle + 12, 24)};
 }
 
@@ -38,7 +41,9 @@ double polynomial(const std::array<double, 5>& c, double x) {
     return c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * c[4])));
 }
 
-double normalised_altitude(double altitude) { return (altitude - kPi / 4) / (kPi / 4); }
+double normalised_altitude(double altitude) {
+    return (altitude - kPi / 4) / (kPi / 4);
+}
 
 }  // namespace
 
@@ -68,8 +73,9 @@ SolarAngles solar_angles(const SolarTime& time, const Site& site) {
     const double sin_dec = std::sin(time.declination);
     const double cos_dec = std::cos(time.declination);
     const double sine = sin_lat * sin_dec - cos_lat * cos_dec * std::cos(w);
-    return {std::asin(std::clamp(sine, -1.0, 1.0)),
-            -std::atan2(cos_dec * std::sin(w), -cos_lat * sin_dec - sin_lat * cos_dec * std::cos(w))};
+    return {
+        std::asin(std::clamp(sine, -1.0, 1.0)),
+        -std::atan2(cos_dec * std::sin(w), -cos_lat * sin_dec - sin_lat * cos_dec * std::cos(w))};
 }
 
 Vec3 solar_direction(const SolarAngles& angles) {

@@ -6,9 +6,9 @@ namespace lightwalk {
 
 /// A place and its clock. The defaults are gensky's: San Francisco.
 struct Site {
-    double latitude = 0.66;            ///< north
-    double longitude = 2.13;           ///< west
-    double meridian = 120 * kPi / 180; ///< standard meridian of the clock, west
+    double latitude = 0.66;             ///< north
+    double longitude = 2.13;            ///< west
+    double meridian = 120 * kPi / 180;  ///< standard meridian of the clock, west
 };
 
 struct SolarDate {
@@ -33,9 +33,10 @@ struct SolarAngles {
 /// Day of the year from 1; February has 28 days.
 [[nodiscard]] int day_of_year(int month, int day);
 
-/// With a year: the almanac's position, good to 0.01 degrees from 1950 to 2050 (Michalsky, "The Astronomical
-/// Almanac's algorithm for approximate solar position", Solar Energy 40 (1988), pp. 227-235). Without: the
-/// formulas of IES, "Recommended practice for the calculation of daylight availability", J. IES 13 (1984).
+/// With a year: the almanac's position, good to 0.01 degrees from 1950 to 2050 (Michalsky, "The
+/// Astronomical Almanac's algorithm for approximate solar position", Solar Energy 40 (1988), pp.
+/// 227-235). Without: the formulas of IES, "Recommended practice for the calculation of daylight
+/// availability", J. IES 13 (1984).
 [[nodiscard]] SolarTime solar_time(const SolarDate& date, const Site& site);
 [[nodiscard]] double simple_declination(int day_of_year);
 
@@ -44,8 +45,8 @@ struct SolarAngles {
 /// Unit vector toward the sun: x east, y north, z up.
 [[nodiscard]] Vec3 solar_direction(const SolarAngles& angles);
 
-/// Horizontal diffuse irradiance over pi times the zenith radiance: of the CIE's clear sky, and of the
-/// intermediate sky. `altitude` is the sun's. Source: Radiance manual page gensky(1).
+/// Horizontal diffuse irradiance over pi times the zenith radiance: of the CIE's clear sky, and of
+/// the intermediate sky. `altitude` is the sun's. Source: Radiance manual page gensky(1).
 struct ZenithModel {
     double shape = 0;  ///< the relative luminance toward the zenith that the model is divided by
     double diffuse_factor = 0;
@@ -54,6 +55,7 @@ struct ZenithModel {
 [[nodiscard]] ZenithModel intermediate_sky_zenith(double altitude);
 inline constexpr double kOvercastDiffuseFactor = 0.777778;
 
-inline constexpr double kMaxSkyAltitude = 87 * kPi / 180;  ///< beyond it the models do not hold [rad]
+inline constexpr double kMaxSkyAltitude =
+    87 * kPi / 180;  ///< beyond it the models do not hold [rad]
 
 }  // namespace lightwalk

@@ -23,7 +23,9 @@ Place place_of(double u, std::size_t count) {
     return {static_cast<std::size_t>(index), u - index};
 }
 
-double mix(double a, double b, double fraction) { return a * (1 - fraction) + b * fraction; }
+double mix(double a, double b, double fraction) {
+    return a * (1 - fraction) + b * fraction;
+}
 
 }  // namespace
 
@@ -41,8 +43,8 @@ std::vector<double> parse_numbers(std::string_view text, const std::string& wher
         const std::string_view word = text.substr(begin, at - begin);
         double value = 0;
         if (!parse_real(word, value)) {
-            throw InputError({where, line},
-                             "expected a number, found \"" + std::string(word.substr(0, 40)) + "\"");
+            throw InputError({where, line}, "expected a number, found \"" +
+                                                std::string(word.substr(0, 40)) + "\"");
         }
         if (numbers.size() == most) {
             throw InputError({where, line}, "more than " + std::to_string(most) + " numbers");
@@ -83,7 +85,8 @@ double SurfaceData::value(std::size_t channel, double s, double t) const {
     const auto at = [&](std::size_t column, std::size_t row) {
         return values_[((v.index + row) * columns_ + u.index + column) * channels_ + channel];
     };
-    return mix(mix(at(0, 0), at(1, 0), u.fraction), mix(at(0, 1), at(1, 1), u.fraction), v.fraction);
+    return mix(mix(at(0, 0), at(1, 0), u.fraction), mix(at(0, 1), at(1, 1), u.fraction),
+               v.fraction);
 }
 
 }  // namespace lightwalk

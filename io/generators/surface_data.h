@@ -7,7 +7,8 @@
 
 namespace lightwalk {
 
-/// Values at the vertices or the centres of an m x n grid, interpolated linearly and extrapolated so too.
+/// Values at the vertices or the centres of an m x n grid, interpolated linearly and extrapolated
+/// so too.
 class SurfaceData {
   public:
     /// `text` holds numbers separated by white space, `channels` for each point, s fastest. Throws
@@ -24,8 +25,8 @@ class SurfaceData {
     double scale_s_, scale_t_, offset_ = 0;
 };
 
-/// All numbers of a text, separated by white space. Throws InputError "WHERE:LINE: ...", also when there are
-/// more than `most`.
+/// All numbers of a text, separated by white space. Throws InputError "WHERE:LINE: ...", also when
+/// there are more than `most`.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text, const std::string& where,
                                                 std::size_t most);
 

@@ -6,7 +6,8 @@
 namespace lightwalk {
 namespace {
 
-/// Solve rows x = right by Gauss-Jordan elimination with row exchanges; false when a pivot vanishes.
+/// Solve rows x = right by Gauss-Jordan elimination with row exchanges; false when a pivot
+/// vanishes.
 bool solve(std::array<std::array<double, 4>, 4>& rows, std::array<Vec3, 4>& right) {
     for (std::size_t k = 0; k < 4; ++k) {
         std::size_t best = k;
@@ -38,7 +39,8 @@ SurfaceGrid::SurfaceGrid(std::size_t m, std::size_t n, bool border, PointAt poin
     points_.reserve(rows * columns);
     valid_.reserve(rows * columns);
     const auto parameter = [this](std::size_t at, std::size_t count) {
-        return (static_cast<double>(at) - static_cast<double>(border_)) / static_cast<double>(count);
+        return (static_cast<double>(at) - static_cast<double>(border_)) /
+               static_cast<double>(count);
     };
     for (std::size_t i = 0; i < rows; ++i) {
         for (std::size_t j = 0; j < columns; ++j) {

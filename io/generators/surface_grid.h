@@ -1,5 +1,6 @@
 #pragma once
-// Points of a parametric surface on a grid of its parameters, their normals, and the cells between them.
+// Points of a parametric surface on a grid of its parameters, their normals, and the cells between
+// them.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,9 +29,9 @@ class SurfaceGrid {
     [[nodiscard]] bool valid(std::size_t i, std::size_t j) const {
         return valid_[index(i + border_, j + border_)] != 0;
     }
-    /// Unit normals of all (m+1) x (n+1) points, j fastest, from central differences; one-sided where a
-    /// neighbour is not valid. Needs the border. A point that is not valid has the normal of the point
-    /// three rows before it, if any: this is what gensurf's smoothing sees.
+    /// Unit normals of all (m+1) x (n+1) points, j fastest, from central differences; one-sided
+    /// where a neighbour is not valid. Needs the border. A point that is not valid has the normal
+    /// of the point three rows before it, if any: this is what gensurf's smoothing sees.
     [[nodiscard]] std::vector<Vec3> normals() const;
 
   private:
@@ -55,8 +56,8 @@ struct SurfaceCell {
 /// The cell between (i, j) and (i+1, j+1), cut along a diagonal of valid points, else alternately.
 [[nodiscard]] SurfaceCell surface_cell(const SurfaceGrid& grid, std::size_t i, std::size_t j);
 
-/// The interpolation n(u, v) = c1 uv + c2 u + c3 v + c4 of four corners' normals over the plane of the two
-/// coordinates that follow `axis`.
+/// The interpolation n(u, v) = c1 uv + c2 u + c3 v + c4 of four corners' normals over the plane of
+/// the two coordinates that follow `axis`.
 struct NormalFit {
     std::size_t axis = 0;  ///< the dominant one of the normals' sum
     std::array<Vec3, 4> c;

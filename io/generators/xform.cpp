@@ -81,6 +81,8 @@ class Xform {
                     const std::string command = tokens.command();
                     if (line_.keep_commands) {
                         items_.push_back({std::nullopt, command});
+                    } else if (!context_.run_command) {
+                        throw InputError(location + "commands cannot be run here: expected -c");
                     } else {
                         read_text(context_.run_command(command, directory),
                                   location + abbreviate_command(command), directory, depth + 1);

@@ -19,6 +19,7 @@ struct Refined {
     std::vector<PixelValue> pixels;
     std::vector<int> stored;  ///< how often each pixel was
     std::size_t traced = 0;
+    std::size_t strays = 0;  ///< pixels stored outside their tile
     [[nodiscard]] const PixelValue& at(int x, int y, int width) const {
         return pixels[static_cast<std::size_t>(y * width + x)];
     }
@@ -38,10 +39,9 @@ Refined refine(const Image& image, int width, int height, const RefineOptions& o
                 result.traced += places.size();
             },
             [&](const PixelPlace& place, const PixelValue& value) {
-                REQUIRE(place.x >= tile.x0);
-                REQUIRE(place.x < tile.x1);
-                REQUIRE(place.y >= tile.y0);
-                REQUIRE(place.y < tile.y1);
+                const bool inside = place.x >= tile.x0 && place.x < tile.x1 && place.y >= tile.y0 &&
+                                    place.y < tile.y1;
+                if (!inside) ++result.strays;
                 const auto i = static_cast<std::size_t>(place.y * width + place.x);
                 result.pixels[i] = value;
                 ++result.stored[i];

@@ -37,7 +37,8 @@ struct Evaluated {
 };
 
 /// Several expressions, in the order given, in one tick.
-inline std::vector<Evaluated> evaluate_all(const std::vector<std::string>& expressions, const Setting& in) {
+inline std::vector<Evaluated> evaluate_all(const std::vector<std::string>& expressions,
+                                           const Setting& in) {
     FunctionEnvironment environment;
     environment.load("tt.cal", in.definitions);
     std::vector<ExpressionRequest> requests;

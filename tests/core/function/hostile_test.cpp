@@ -14,10 +14,13 @@ std::string repeat(const std::string& text, int n) {
     return all;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 /// A chain of definitions: the i-th made of `before`, the number i - 1, and `after`.
-std::string chain(const std::string& left, const std::string& before, const std::string& after, int n) {
+std::string chain(const std::string& left, const std::string& before, const std::string& after,
+                  int n) {
     std::string all;
     for (int i = 1; i <= n; ++i) {
         std::string body = before + std::to_string(i - 1) + after;
@@ -58,7 +61,8 @@ TEST_CASE("recursion ends with an error when nothing else ends it") {
     CHECK(contains(complaint("f(1)", "f(x) = f(x+1) + 1;"), "function file: "));
     CHECK(contains(complaint("f(Rdot)", "f(x) = if(x, f(x+1), 0) + 1;"), "recursion is too deep"));
     CHECK(contains(complaint("f(Rdot)", "f(x) = if(x, f(x)+f(x), 0);"), "recursion is too deep"));
-    CHECK(contains(complaint("f(Rdot)", "f(x) = g(x)+1; g(x) = if(Rdot, f(x), 0);"), "recursion is too deep"));
+    CHECK(contains(complaint("f(Rdot)", "f(x) = g(x)+1; g(x) = if(Rdot, f(x), 0);"),
+                   "recursion is too deep"));
     CHECK(contains(complaint("f(g)", "f(x) = x(x); g(x) = f(x) + 1;"), "recursion is too deep"));
     CHECK(contains(complaint("1", "f(n) : f(n)+1;\nk = f(1);"), "tt.cal:2: function file: "));
 }
@@ -67,7 +71,8 @@ TEST_CASE("work without end is an error") {
     const std::string fib = "fib(n) = if(n-1.5, fib(n-1)+fib(n-2), n);";
     CHECK(contains(complaint("fib(60)", fib), "takes too long"));
     CHECK(contains(complaint("fib(60*Rdot)", fib), "takes too long"));
-    CHECK(contains(complaint("1", "fib(n) : if(n-1.5, fib(n-1)+fib(n-2), n);\n\nk = fib(60);"), "tt.cal:3: "));
+    CHECK(contains(complaint("1", "fib(n) : if(n-1.5, fib(n-1)+fib(n-2), n);\n\nk = fib(60);"),
+                   "tt.cal:3: "));
     CHECK(value_of("fib(20*Rdot)", fib) == 6765);
 }
 
@@ -82,7 +87,8 @@ TEST_CASE("deep recursion that ends has a value") {
 TEST_CASE("inlining does not multiply the code without bound") {
     CHECK(contains(complaint("f60(Px)", "f0(x) = x+1;" + chain("f", "(x) = f#(x)+f", "(x+1);", 60)),
                    "takes too long"));
-    CHECK(value_of("f16(Px)", "f0(x) = x;" + chain("f", "(x) = f#(x)+f", "(x+1);", 16)) == 16 * 32768.0);
+    CHECK(value_of("f16(Px)", "f0(x) = x;" + chain("f", "(x) = f#(x)+f", "(x+1);", 16)) ==
+          16 * 32768.0);
     // Arguments used many times are computed once, however deep.
     CHECK(value_of("f200(Rdot)", "f0(x) = x;" + chain("f", "(x) = f", "((x+x)/2);", 200)) == 1);
     // A variable is computed once a tick.
@@ -97,7 +103,8 @@ TEST_CASE("chains of definitions may be as long as a file") {
     // Long arguments below long bodies.
     const std::string deep = repeat("(x-", 290) + "x" + repeat(")", 290);
     (void)value_of("f60(Rdot)", "f0(x) = x;" + chain("f", "(x) = f", "(" + deep + ");", 60));
-    (void)value_of("f60(Rdot)", "f0(x) = " + deep + ";" + chain("f", "(x) = f", "(" + deep + ")-x;", 60));
+    (void)value_of("f60(Rdot)",
+                   "f0(x) = " + deep + ";" + chain("f", "(x) = f", "(" + deep + ")-x;", 60));
     // Constants that the whole chain stands behind.
     CHECK(value_of("k3000", "k0 : 1;" + chain("k", " : 1+k", ";", 3000)) == 3001);
 }
@@ -124,8 +131,10 @@ TEST_CASE("bytes that are no text are errors with their place") {
     std::string all;
     for (int c = 1; c < 256; ++c) all += static_cast<char>(c);
     CHECK(contains(complaint("1", all), "tt.cal:"));
-    CHECK(contains(complaint("1", "a = 1;\nb = \xc3\xa4;"), "tt.cal:2: syntax error: found byte 195"));
-    CHECK(contains(complaint("1", std::string("a = 1;\0b = 2;", 13)), "tt.cal:1: syntax error: found byte 0"));
+    CHECK(contains(complaint("1", "a = 1;\nb = \xc3\xa4;"),
+                   "tt.cal:2: syntax error: found byte 195"));
+    CHECK(contains(complaint("1", std::string("a = 1;\0b = 2;", 13)),
+                   "tt.cal:1: syntax error: found byte 0"));
     CHECK(contains(complaint("$99999999999999999999"), "illegal channel"));
     CHECK(value_of("1e99999999999999999999", "") > 1e308);
     CHECK(value_of("1e-99999999999999999999", "") == 0);

@@ -26,13 +26,13 @@ struct GeneratorInput {
     std::string directory, text;
 };
 
-/// `command` as a shell takes it: words, quotes.
-inline Generated generate(const std::string& command, const GeneratorInput& input = {}) {
+/// What `command`, words as a shell takes them, writes; warnings go to `sink`.
+inline std::string generate_text(const std::string& command, const GeneratorInput& input,
+                                 Silence& sink) {
     const auto pipelines = split_command(command);
     REQUIRE(pipelines);
     std::vector<std::string> args;
     for (const CommandWord& word : pipelines->at(0).at(0)) args.push_back(word.text);
-    Silence sink;
     const LibraryPath library = LibraryPath({"."}).relative_to(input.directory);
     CommandRunner runner(LibraryPath({"."}), false, sink);
     GeneratorContext context{library, input.directory, input.text, !input.text.empty(), sink, {}};
@@ -40,9 +40,16 @@ inline Generated generate(const std::string& command, const GeneratorInput& inpu
         return runner.run(text, directory, {"outer.rad", 1});
     };
     const Generator generator = find_generator(args[0]);
-    REQUIRE(generator != nullptr);
+    const bool known = generator != nullptr;
+    REQUIRE(known);
+    return generator(args, context);
+}
+
+/// The same, read as a scene.
+inline Generated generate(const std::string& command, const GeneratorInput& input = {}) {
+    Silence sink;
     Generated result;
-    result.text = generator(args, context);
+    result.text = generate_text(command, input, sink);
     result.warnings = sink.messages;
     SceneTokenizer tokens(result.text, "generated");
     for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {

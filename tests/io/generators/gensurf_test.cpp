@@ -134,13 +134,8 @@ TEST_CASE("gensurf: tables of heights and of points") {
 
 TEST_CASE("gensurf: an object file has texture coordinates, and normals with -s") {
     const auto text = [](const std::string& command) {
-        const auto pipelines = split_command(command);
-        std::vector<std::string> args;
-        for (const CommandWord& word : pipelines->at(0).at(0)) args.push_back(word.text);
         test::Silence sink;
-        const LibraryPath library({"."});
-        GeneratorContext context{library, "", "", false, sink, {}};
-        return run_gensurf(args, context);
+        return test::generate_text(command, {}, sink);
     };
     const std::string plain = text("gensurf paint sheet s t 0 1 1 -o");
     CHECK(plain.find("usemtl paint\no sheet\n") != std::string::npos);

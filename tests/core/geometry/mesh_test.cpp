@@ -1,0 +1,163 @@
+// Triangle meshes, placed: smoothed normals, texture coordinates, materials by triangle.
+#include <doctest/doctest.h>
+
+#include "core/geometry/geometry.h"
+#include "tests/core/geometry/geometry_scenes.h"
+
+using namespace lightwalk;
+using namespace lightwalk::test;
+
+namespace {
+
+/// Two triangles that share a diagonal: the unit square at z = 0, materials 0 and 1.
+MeshModel two_triangles() {
+    MeshModel mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const double s = std::sqrt(0.5);
+    mesh.normals = {{-s, 0, s}, {s, 0, s}, {s, 0, s}, {-s, 0, s}};
+    mesh.us = {0, 1, 1, 0};
+    mesh.vs = {0, 0, 1, 1};
+    MeshModel::Triangle low, high;
+    low.v[0] = 0, low.v[1] = 1, low.v[2] = 2, low.material = 0;
+    high.v[0] = 0, high.v[1] = 2, high.v[2] = 3, high.material = 1;
+    low.has_normals = low.has_uvs = high.has_normals = high.has_uvs = true;
+    mesh.triangles = {low, high};
+    return mesh;
+}
+
+/// A scene with the mesh as model 1, placed by `transform`; surface 0 is the mesh's "M-Tri".
+TestModels placed(const MeshModel& mesh, const Transform& transform, bool overrides = false) {
+    TestModels scene;
+    scene.models.resize(2);
+    Surface triangles;
+    triangles.type = PrimitiveType::mesh;
+    triangles.where = {"m.rtm", 0};
+    scene.surfaces.push_back(triangles);
+    MeshPart part;
+    part.mesh = &mesh;
+    part.materials = {ModifierId{20}, ModifierId{21}};
+    part.traits = {kOpaque, kGlass};
+    part.surface = SurfaceId{0};
+    scene.models[1].meshes.push_back(part);
+    scene.place(1, 0, transform, overrides, overrides ? 30 : -1);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a mesh hit has its triangle's material, interpolated coordinates and the smoothed normal") {
+    const MeshModel mesh = two_triangles();
+    const TestModels scene = placed(mesh, Transform{});
+    const Geometry geometry = scene.build();
+    const Hit low = geometry.intersect({{0.75, 0.25, 1}, {0, 0, -1}});
+    REQUIRE(low.exists());
+    CHECK(low.surface == SurfaceId{0});
+    CHECK(low.modifier == ModifierId{20});
+    CHECK(low.frame == FrameId{0});
+    CHECK(low.normal == Vec3{0, 0, 1});
+    CHECK(low.u == doctest::Approx(0.75));
+    CHECK(low.v == doctest::Approx(0.25));
+    CHECK(length(low.perturbation - (normalize(Vec3{0.5, 0, 1}) - Vec3{0, 0, 1})) < 1e-12);
+    const Hit high = geometry.intersect({{0.25, 0.75, -1}, {0, 0, 1}});
+    CHECK(high.modifier == ModifierId{21});
+    CHECK(high.rod == -1);
+    CHECK(high.u == doctest::Approx(0.25));
+    CHECK(geometry.visibility({{0.75, 0.25, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
+    CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::special);
+    CHECK_FALSE(geometry.intersect({{1.1, 0.5, 1}, {0, 0, -1}}).exists());
+}
+
+TEST_CASE("normals and perturbations turn, mirror and keep their length with the placement") {
+    const MeshModel mesh = two_triangles();
+    const TestModels scene = placed(mesh, similarity(3, true, {0, 1, 0}, kPi / 2, {0, 0, 7}));
+    const Geometry geometry = scene.build();
+    const Transform& to_world = geometry.frame(FrameId{0});
+    const Vec3 target = to_world.forward.point({0.75, 0.25, 0});
+    const Vec3 normal = to_world.forward.vector({0, 0, 1}) / 3;
+    const Hit hit = geometry.intersect({target + normal * 5, -normal});
+    REQUIRE(hit.exists());
+    CHECK(hit.t == doctest::Approx(5));
+    CHECK(hit.rod == doctest::Approx(1));
+    CHECK(length(hit.normal - normal) < 1e-12);
+    const Vec3 smooth = to_world.forward.vector(normalize(Vec3{0.5, 0, 1})) / 3;
+    CHECK(length(hit.normal + hit.perturbation - smooth) < 1e-12);
+    CHECK(hit.u == doctest::Approx(0.75));
+}
+
+TEST_CASE("a placement with a modifier shades the whole mesh in the scene's space") {
+    const MeshModel mesh = two_triangles();
+    const TestModels scene = placed(mesh, Transform{}, true);
+    const Geometry geometry = scene.build();
+    const Hit hit = geometry.intersect({{0.25, 0.75, 1}, {0, 0, -1}});
+    CHECK(hit.surface == SurfaceId{1});
+    CHECK(hit.modifier == ModifierId{30});
+    CHECK(hit.frame == kWorld);
+    CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
+}
+
+TEST_CASE("no ray slips between the triangles of a closed mesh") {
+    // an octahedron, hit at its corners, edges and faces from all sides
+    MeshModel mesh;
+    mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (const std::uint32_t x : {0U, 1U}) {
+        for (const std::uint32_t y : {2U, 3U}) {
+            for (const std::uint32_t z : {4U, 5U}) {
+                MeshModel::Triangle t;
+                t.v[0] = x, t.v[1] = y, t.v[2] = z;
+                mesh.triangles.push_back(t);
+            }
+        }
+    }
+    const Transform turned = similarity(0.3, false, {1, 2, 3}, 1.1, {5, -3, 2});
+    const TestModels scene = placed(mesh, turned);
+    const Geometry geometry = scene.build();
+    Random random(4);
+    for (int i = 0; i < 3000; ++i) {
+        Vec3 p = random.direction();
+        if (i % 3 == 0) p[static_cast<std::size_t>(random.below(3))] = 0;  // towards an edge
+        if (i % 30 == 0) p = {0, 0, p.z < 0 ? -1.0 : 1.0};                 // towards a corner
+        p = p / (std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+        const Vec3 center = turned.forward.point({}), at = turned.forward.point(p);
+        const Hit outward = geometry.intersect({center, normalize(at - center)});
+        REQUIRE(outward.exists());
+        CHECK(length(outward.position - at) < 1e-9);
+        CHECK(outward.modifier == kVoid);  // no material: shading lets the ray pass
+    }
+}
+
+TEST_CASE("damaged meshes are refused") {
+    const auto build = [](const MeshModel& mesh) {
+        return placed(mesh, Transform{}).build().frame_count();
+    };
+    MeshModel mesh = two_triangles();
+    CHECK(build(mesh) == 1);
+    mesh.triangles[1].v[2] = 4;
+    CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such vertex", InputError);
+    mesh = two_triangles();
+    mesh.triangles[0].material = 2;
+    CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 0: no such material", InputError);
+    mesh = two_triangles();
+    mesh.normals.pop_back();
+    CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such vertex normal", InputError);
+    mesh = two_triangles();
+    mesh.vs.pop_back();
+    CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such texture coordinate",
+                         InputError);
+    mesh = two_triangles();
+    mesh.positions[0].x = std::nan("");
+    CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 0: vertex out of range", InputError);
+}
+
+TEST_CASE("triangles without area and thin ones are never hit by accident") {
+    MeshModel mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 0}};
+    MeshModel::Triangle line, point;
+    line.v[1] = 1, line.v[2] = 2;
+    point.v[1] = 3;
+    mesh.triangles = {line, point};
+    const TestModels scene = placed(mesh, Transform{});
+    const Geometry geometry = scene.build();
+    for (const double x : {0.0, 0.5, 1.0})
+        CHECK_FALSE(geometry.intersect({{x, 0, 1}, {0, 0, -1}}).exists());
+}
