@@ -21,9 +21,9 @@ std::optional<std::string> library_file(const std::string& name) {
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// Points and directions that no two iterations share: nothing can be remembered, and branches
-/// vary.
-std::vector<ChannelValues> rays() {
+/// Directions all over the sphere, and points that jump about: nothing can be remembered, and
+/// branches vary. With `stride` [m] the points are those of neighbouring pixels instead.
+std::vector<ChannelValues> rays(double stride) {
     std::vector<ChannelValues> all(1024);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double t = static_cast<double>(i);
@@ -32,21 +32,27 @@ std::vector<ChannelValues> rays() {
             r * std::cos(azimuth), r * std::sin(azimuth),    z,       0, 0, 1,
             10.37 * std::cos(t),   7.91 * std::sin(1.3 * t), 0.61 * t};
         for (std::size_t c = 0; c < values.size(); ++c) all[i][c + 1] = values[c];
+        if (stride <= 0) continue;
+        all[i][7] = stride * t;
+        all[i][8] = 3.7 + stride * .3 * t;
+        all[i][9] = 1.3;
     }
     return all;
 }
 
 void evaluate(benchmark::State& state, const std::string& file, const std::string& text,
-              const std::vector<std::string>& expressions, const std::vector<double>& reals) {
+              const std::vector<std::string>& expressions, const std::vector<double>& reals,
+              double stride = 0) {
     FunctionEnvironment environment;
     environment.load(file, text);
     std::vector<ExpressionRequest> requests;
+    requests.reserve(expressions.size());
     for (const std::string& e : expressions) requests.push_back({e, -1});
     const Program program = environment.compile(file, requests, reals, 0, {"bench.rad", 1});
-    const std::vector<ChannelValues> channels = rays();
+    const std::vector<ChannelValues> channels = rays(stride);
     EvalState eval;
     std::size_t i = 0;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         program.begin(eval, channels[i++ & 1023u]);
         eval.clear_error();
         double sum = 0;
@@ -56,13 +62,13 @@ void evaluate(benchmark::State& state, const std::string& file, const std::strin
 }
 
 void evaluate_file(benchmark::State& state, const std::string& file, const std::string& expression,
-                   const std::vector<double>& reals) {
+                   const std::vector<double>& reals, double stride = 0) {
     const std::optional<std::string> text = library_file(file);
     if (!text) {
         state.SkipWithError("the reference library is not here");
         return;
     }
-    evaluate(state, file, *text, {expression}, reals);
+    evaluate(state, file, *text, {expression}, reals, stride);
 }
 
 // A clear sky of 21 June, as gensky writes it.
@@ -76,6 +82,9 @@ void wood_zgrain(benchmark::State& state) {
 }
 void wood_xgrain(benchmark::State& state) {
     evaluate_file(state, "woodpat.cal", "xgrain", {.3});
+}
+void wood_neighbours(benchmark::State& state) {
+    evaluate_file(state, "woodpat.cal", "zgrain", {.3}, .05);  // 3 mm on the cabin's wall
 }
 void marble(benchmark::State& state) {
     evaluate_file(state, "marble.cal", "marble", {.5});
@@ -109,14 +118,14 @@ void compile_sky(benchmark::State& state) {
     FunctionEnvironment environment;
     environment.load("skybright.cal", *text);
     const std::array<ExpressionRequest, 1> request{ExpressionRequest{"skybr", -1}};
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const Program program =
             environment.compile("skybright.cal", request, kSky, 0, {"bench.rad", 1});
         benchmark::DoNotOptimize(program.outputs());
     }
 }
 void load_initial_definitions(benchmark::State& state) {
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const FunctionEnvironment environment;
         benchmark::DoNotOptimize(environment.loaded("."));
     }
@@ -130,6 +139,7 @@ BENCHMARK(noise_texture);
 BENCHMARK(clear_sky);
 BENCHMARK(wood_zgrain);
 BENCHMARK(wood_xgrain);
+BENCHMARK(wood_neighbours);
 BENCHMARK(marble);
 BENCHMARK(recursion);
 BENCHMARK(compile_sky);

@@ -78,8 +78,8 @@ std::vector<RaySegment> primary_rays() {
     for (int by = 0; by < kHeight; by += kBlock) {
         for (int bx = 0; bx < kWidth; bx += kBlock) {
             for (int i = 0; i < kBlock * kBlock; ++i) {
-                const double x = (bx + i % kBlock + 0.5) / kWidth - 0.5,
-                             y = (by + i / kBlock + 0.5) / kHeight - 0.5;
+                const int column = bx + i % kBlock, row = by + i / kBlock;
+                const double x = (column + 0.5) / kWidth - 0.5, y = (row + 0.5) / kHeight - 0.5;
                 rays.push_back({kEye, normalize(Vec3{1, 1.6 * x + 0.6, 0.8 * y - 0.1})});
             }
         }
@@ -164,6 +164,7 @@ void shadow_packet(benchmark::State& state) {
     const Geometry geometry = room.build();
     const std::vector<RaySegment> rays = secondary_rays(geometry, true);
     std::vector<ShadowQuery> queries;
+    queries.reserve(rays.size());
     for (const RaySegment& ray : rays) queries.push_back({ray, kNoSurface, Visibility::clear});
     for ([[maybe_unused]] auto iteration : state) {
         geometry.visibility(queries);

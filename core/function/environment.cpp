@@ -28,7 +28,7 @@ class ConstantFolder {
     explicit ConstantFolder(const SymbolTable& symbols) : symbols_(symbols) {}
 
     double operator()(const Expr& e, const SourceLocation& where) {
-        const function::Specialisation specialisation{symbols_, {}, 0, true};
+        const function::Specialisation specialisation{symbols_, {}, 0, true, where};
         const std::array<function::OutputRequest, 1> request{function::OutputRequest{e, 0}};
         const function::Graph graph = function::build_graph(specialisation, request, effort_);
         const function::Node& root = graph.nodes[graph.outputs[0]];
@@ -148,7 +148,8 @@ Program FunctionEnvironment::compile(std::string_view file,
     std::vector<function::OutputRequest> outputs;
     for (const ExpressionRequest& request : requests)
         outputs.push_back(impl_->output(request, context, where));
-    const function::Specialisation specialisation{impl_->symbols, reals, material_channels, false};
+    const function::Specialisation specialisation{impl_->symbols, reals, material_channels, false,
+                                                  where};
     std::uint64_t effort = 0;
     const function::Graph graph = function::build_graph(specialisation, outputs, effort);
     Program::Code code = function::CodeGenerator(graph).generate();

@@ -80,6 +80,7 @@ struct Specialisation {
     std::span<const double> reals;
     ChannelMask material_channels = 0;
     bool constant = false;  ///< evaluated while parsing: channels and arg(n) are errors
+    SourceLocation where;   ///< for messages
 };
 
 /// One output: an expression of the values $0, $1, .. that it is called with (as parameters).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <utility>
 
 namespace lightwalk::function {
@@ -137,6 +138,7 @@ NodeId GraphBuilder::channel(std::uint32_t index) {
 }
 
 NodeId GraphBuilder::parameter(const Expr& e, const Activation* in) {
+    assert(in);  // only definitions of functions have parameters
     if (in->instance != kNoNode) return make(NodeKind::parameter, e.index, {});
     if (e.index >= in->bindings.size()) {
         const std::string name = in->symbol == kNoSymbol ? e.name : with_.symbols[in->symbol].name;
@@ -202,6 +204,7 @@ GraphBuilder::Callee GraphBuilder::callee(const Expr& e, const Activation* in) c
     const Expr* name = &e;
     const Activation* at = in;
     for (;;) {
+        assert(at);
         if (at->instance != kNoNode) {
             const std::vector<SymbolId>& functions = graph_.instances[at->instance].functions;
             const bool given =
@@ -291,8 +294,9 @@ std::uint32_t GraphBuilder::instance(SymbolId symbol, std::vector<SymbolId> func
     const auto [found, is_new] = instances_.try_emplace({symbol, functions}, id);
     if (is_new) {
         if (instances_.size() > InlineLimits::kInstances) {
-            throw InputError("expression too complicated: it needs more than " +
-                             std::to_string(InlineLimits::kInstances) + " functions");
+            throw InputError(with_.where, "expression too complicated: it needs more than " +
+                                              std::to_string(InlineLimits::kInstances) +
+                                              " functions");
         }
         graph_.instances.push_back({symbol, std::move(functions), kNoNode});
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -111,7 +112,9 @@ namespace function {
 
 double noise3(double x, double y, double z, NoiseMemory& memory) {
     const std::array<double, 3> p{x, y, z};
-    if (std::memcmp(p.data(), memory.point.data(), sizeof p) != 0) {
+    // Equal bits: -0 is another point than 0.
+    using Bits = std::array<std::uint64_t, 3>;
+    if (std::bit_cast<Bits>(p) != std::bit_cast<Bits>(memory.point)) {
         memory = {p, lightwalk::noise3(x, y, z)};
     }
     return memory.value;

@@ -65,9 +65,11 @@ std::string run_genworm(std::span<const std::string> args, GeneratorContext& con
     for (std::size_t i = 0; i <= segments; ++i) {
         const std::array<double, 1> t = {static_cast<double>(i) / static_cast<double>(segments)};
         const Bead bead{{curve(0, t), curve(1, t), curve(2, t)}, curve(3, t)};
-        const std::string number = std::to_string(i);
-        if (i > 0) write_joint(material, name + ".c" + number, last, bead, out);
-        out.sphere(material, name + ".s" + number, bead.center, bead.radius);
+        const auto part = [&name, i](const char* kind) {
+            return std::string(name).append(kind).append(std::to_string(i));
+        };
+        if (i > 0) write_joint(material, part(".c"), last, bead, out);
+        out.sphere(material, part(".s"), bead.center, bead.radius);
         last = bead;
     }
     expressions.report(words.program(), curve);

@@ -42,6 +42,7 @@ inline std::vector<Evaluated> evaluate_all(const std::vector<std::string>& expre
     FunctionEnvironment environment;
     environment.load("tt.cal", in.definitions);
     std::vector<ExpressionRequest> requests;
+    requests.reserve(expressions.size());
     for (const std::string& e : expressions) requests.push_back({e, -1});
     const Program program =
         environment.compile("tt.cal", requests, in.reals, in.material_channels, {"scene.rad", 7});

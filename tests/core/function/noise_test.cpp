@@ -93,7 +93,7 @@ std::vector<std::array<double, 3>> walk() {
 TEST_CASE("noise has the values that Radiance prints") {
     for (const NoiseRow& row : kNoise) {
         CAPTURE(row.p);
-        const auto [x, y, z] = row.p;
+        const double x = row.p[0], y = row.p[1], z = row.p[2];
         CHECK(std::abs(noise3(x, y, z) - row.values[0]) <= 1e-15);
         for (int axis = 0; axis < 3; ++axis) {
             CHECK(std::abs(slope(axis, row.p) - row.values[static_cast<std::size_t>(axis) + 1]) <=
@@ -104,7 +104,8 @@ TEST_CASE("noise has the values that Radiance prints") {
 }
 
 TEST_CASE("rand has the values that Radiance prints") {
-    for (const auto& [x, value] : kRand) {
+    for (const auto& row : kRand) {
+        const double x = row[0], value = row[1];
         CAPTURE(x);
         ChannelValues channels{};
         set(channels, Channel::Px, x);
@@ -137,7 +138,7 @@ TEST_CASE("noise does not depend on what was asked before") {
     function::NoiseMemory noise;
     function::FractalMemory fractal;
     for (const auto& p : walk()) {
-        const auto [x, y, z] = p;
+        const double x = p[0], y = p[1], z = p[2];
         CHECK(function::noise3(x, y, z, noise) == noise3(x, y, z));
         CHECK(function::fnoise3(x, y, z, fractal) == fnoise3(x, y, z));
         CHECK(function::noise3_difference(1, x, y, z, noise) == slope(1, p));

@@ -94,7 +94,8 @@ TEST_CASE("the nearest hit is the one that trying every surface gives") {
                 REQUIRE(hit.frame == expected.frame);
                 CHECK(length(hit.normal - expected.normal) < 1e-12);
                 CHECK(std::abs(length(hit.normal) - 1) < 1e-12);
-                CHECK(length(hit.position - (ray.origin + ray.direction * hit.t)) < 1e-15 * (hit.t + 10));
+                CHECK(length(hit.position - (ray.origin + ray.direction * hit.t)) <
+                      1e-15 * (hit.t + 10));
                 CHECK(hit.rod == doctest::Approx(-dot(ray.direction, hit.normal)));
             }
             CHECK(hits > 40);

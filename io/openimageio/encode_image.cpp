@@ -1,0 +1,48 @@
+// The module that holds OpenImageIO; see io/picture/image_encoder.h.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <array>
+
+#include "io/picture/image_encoder.h"
+
+namespace {
+
+constexpr int kJpegQuality = 95;
+
+OIIO::ImageSpec describe(const lightwalk::ImageRequest& request) {
+    OIIO::ImageSpec spec(request.width, request.height, request.channels,
+                         request.is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
+    if (request.channels == 1) {
+        spec.channelnames = {"Z"};
+        spec.z_channel = 0;
+        return spec;
+    }
+    if (!request.is_float) {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        if (std::string(request.format) == "jpeg") spec.attribute("CompressionQuality", kJpegQuality);
+        return spec;
+    }
+    constexpr std::array<float, 8> kPrimaries{0.64f, 0.33f, 0.29f, 0.6f, 0.15f, 0.06f, 1 / 3.0f, 1 / 3.0f};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kPrimaries.data());
+    if (*request.date != '\0') spec.attribute("DateTime", std::string(request.date));  // else it writes its own
+    spec.attribute("comments", std::string(request.history));
+    return spec;
+}
+
+}  // namespace
+
+extern "C" void lightwalk_encode_image(const lightwalk::ImageRequest& request, std::vector<unsigned char>& bytes,
+                                       std::string& error) {
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(request.format);
+    if (!output) {
+        error = OIIO::geterror();
+        return;
+    }
+    const OIIO::ImageSpec spec = describe(request);
+    const bool written = output->set_ioproxy(&memory) && output->open(request.format, spec) &&
+                         output->write_image(spec.format, request.pixels) && output->close();
+    if (!written) error = output->geterror();
+    if (!written && error.empty()) error = "unknown error";
+}
