@@ -88,12 +88,12 @@ int RayRecords::components() const {
     return count;
 }
 
-void RayRecords::append(const TracedRay& traced, const Scene& scene, std::string& output) const {
+void RayRecords::append(const RayRecord& traced, const Scene& scene, std::string& output) const {
     for (const char letter : letters_) append_field(letter, traced, scene, output);
     if (format_ == NumberFormat::text) output += '\n';
 }
 
-void RayRecords::append_field(char letter, const TracedRay& traced, const Scene& scene,
+void RayRecords::append_field(char letter, const RayRecord& traced, const Scene& scene,
                               std::string& output) const {
     const Ray& ray = traced.ray;
     const bool hit = ray.hit.exists() && !traced.sensor;

@@ -18,7 +18,7 @@ enum class ColorOutput {
 };
 
 /// A finished ray as a record sees it.
-struct TracedRay {
+struct RayRecord {
     const Ray& ray;
     const Hit& first;     ///< the nearest hit before shading turned anything over
     bool sensor = false;  ///< irradiance at a given point (-I): nothing was hit
@@ -44,14 +44,14 @@ class RayRecords {
     /// Numbers in a record, a name counting as one.
     [[nodiscard]] int components() const;
 
-    void append(const TracedRay& traced, const Scene& scene, std::string& output) const;
+    void append(const RayRecord& traced, const Scene& scene, std::string& output) const;
 
     /// The lines NCOMP=, BigEndian= and FORMAT= with the empty line that ends the header. Binary
     /// data start at a multiple of their size when `bytes_before` precede these lines.
     [[nodiscard]] std::string header_end(std::size_t bytes_before) const;
 
   private:
-    void append_field(char letter, const TracedRay& traced, const Scene& scene,
+    void append_field(char letter, const RayRecord& traced, const Scene& scene,
                       std::string& output) const;
     void append_number(double value, std::string& output) const;
     void append_vector(const Vec3& v, std::string& output) const;

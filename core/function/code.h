@@ -24,9 +24,9 @@ enum class Op : std::uint8_t {
     lesser, greater,      ///< b if it is less (greater) than a, else a
     divide_tested,        ///< a / b; a range error when b is 0
     guard_divisor,        ///< if a is 0: dst = 0, range error, go to b
-    power, min, max, rand, floor, ceil, sqrt, exp, log, log10, sin, cos, tan, asin, acos, atan, atan2,
-    erf, erfc, noise3, noise3x, noise3y, noise3z, fnoise3, arg, source_theta, source_phi, source_corr,
-    fprism_val,           ///< checked
+    power, min, max, rand, floor, ceil, sqrt, exp, log, log10, sin, cos, tan, asin, acos, atan,
+    atan2, erf, erfc, noise3, noise3x, noise3y, noise3z, fnoise3, arg, source_theta, source_phi,
+    source_corr, fprism_val,  ///< checked
     modulo, fraction,     ///< a - floor(a / b) * b; a - floor(a); floor checked
     absolute,             ///< max(a, -a), checked
     check,                ///< dst = a, checked

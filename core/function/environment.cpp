@@ -1,6 +1,7 @@
 #include "core/function/environment.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_set>
 #include <utility>
 

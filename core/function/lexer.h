@@ -9,16 +9,15 @@
 
 namespace lightwalk::function {
 
-/// Walks over a text. White space and comments before a word belong to nobody.
+/// Walks over a text, past white space and comments; one that does not end throws InputError.
 class Lexer {
   public:
     /// `where` is the place of the first character; lines are counted from there on when it has
     /// one.
     Lexer(std::string_view text, SourceLocation where);
 
-    /// Next character of a word; 0 at the end. Throws InputError for a comment that does not end.
+    /// The next character that is neither white space nor comment; 0 at the end.
     [[nodiscard]] char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-    /// The character after the present one, without skipping anything.
     [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
     /// Take one character of punctuation.
     void advance();

@@ -8,7 +8,7 @@
 namespace lightwalk::test {
 namespace {
 
-const std::string kScene = R"(# a room with a bit of everything
+const std::string kScene = R"rad(# a room with a bit of everything
 void plastic white 0 0 5 .7 .7 .7 .05 .02
 void light bulb 0 0 3 100 90 80
 void glow sky 0 0 4 1 1 1 0
@@ -35,7 +35,7 @@ silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
 !xform -n a -a 3 -t .2 0 0 -
 !genworm white w "cos(t)" "sin(t)" t .1 5
 !gensky 6 21 12 +s
-)";
+)rad";
 
 const std::string kFunctions = R"({ comments { nest } }
 a = if(Px - .5, noise3(Px,Py,Pz)*k, sqrt(max(0, Dz)));

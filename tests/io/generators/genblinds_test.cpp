@@ -50,6 +50,13 @@ TEST_CASE("genblinds: curved slats are arcs of the radius over the same depth") 
     }
 }
 
+TEST_CASE("genblinds: pieces span at most 3 degrees") {
+    // Depths of arcs of 60, 60.5 and 2 degrees, radius 2.
+    CHECK(generate("genblinds m b 2 1 0 1 0 +r 2").primitives.size() == 20);
+    CHECK(generate("genblinds m b 2.01510 1 0 1 0 +r 2").primitives.size() == 21);
+    CHECK(generate("genblinds m b .06981 1 0 1 0 +r 2").primitives.size() == 1);
+}
+
 TEST_CASE("genblinds: a negative radius bends the other way, radius 0 does not bend") {
     const auto arched = generate("genblinds m b 2 10 6 2 20 +r 3");
     const auto sagging = generate("genblinds m b 2 10 6 2 20 -r -3");
