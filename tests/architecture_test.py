@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The arrows of the design: apps -> parallel, io -> core. core knows no threads, sockets, MPI or files."""
+"""The arrows of the design: apps -> parallel, io -> core. core knows no threads, sockets, MPI or files.
+Also: test names that CTest can find."""
 import pathlib, re, sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -23,10 +24,18 @@ def wrong_includes():
                     yield f"{path.relative_to(ROOT)}: includes {name}"
 
 
+def lost_tests():
+    """CMake would cut such names apart, and CTest would run none of the pieces."""
+    for path in sorted((ROOT / "tests").rglob("*_test.cpp")):
+        for name in re.findall(r'TEST_CASE\(\s*"((?:[^"\\]|\\.)*)"', path.read_text()):
+            if re.search(r"[;\[\]\\]", name):
+                yield f"{path.relative_to(ROOT)}: test name with ; [ ] or \\: {name}"
+
+
 def main():
     files = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.h")]
     embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.cpp") if "embree3/" in p.read_text()]
-    problems = list(wrong_includes())
+    problems = [*wrong_includes(), *lost_tests()]
     if len(files) < 20:
         problems.append("the headers were not found: is this the project's root?")
     if len(embree) != 1:

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.h"
+
 namespace lightwalk::test {
 
 struct ProgramResult {
@@ -31,22 +33,6 @@ class RunningProgram {
 
   private:
     int process_ = -1, in_ = -1, out_ = -1, err_ = -1;
-};
-
-/// A folder for one test, removed with all that is in it.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    [[nodiscard]] std::string path(const std::string& name) const { return path_ + "/" + name; }
-    /// Write a file; returns its path.
-    std::string write(const std::string& name, const std::string& text) const;
-    [[nodiscard]] std::vector<std::string> files() const;  ///< names, sorted
-
-  private:
-    std::string path_;
 };
 
 [[nodiscard]] std::string read_whole(const std::string& path);

@@ -214,7 +214,7 @@ TEST_CASE("render: --stats tells times, rays by kind, threads and memory") {
     CHECK(json["version"].is_string());
 }
 
-TEST_CASE("render: -ab > 0 warns once; -w- keeps it silent") {
+TEST_CASE("render: -ab > 0 warns once, -w- keeps it silent") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string loud = run_program(line({"-ab", "2", scene})).err;

@@ -33,7 +33,7 @@ TEST_CASE("trace: one record a ray, in order, without header on -h") {
 }
 
 TEST_CASE(
-    "trace: the header tells history, NCOMP and FORMAT; a resolution line follows even without "
+    "trace: the header tells history, NCOMP and FORMAT, a resolution line follows even without "
     "header") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("floor.rad", kFloor);

@@ -45,7 +45,7 @@ long peak_memory() {
 
 void endure(const NamedTarget& target) {
     const auto seeds = seeds_of(target.run);
-    for (const std::string& seed : seeds) CHECK_MESSAGE(target.run(seed), target.name << ": a seed is refused");
+    for (const std::string& seed : seeds) CHECK_MESSAGE(target.run(seed), std::string(target.name) << ": a seed is refused");
     std::mt19937 random(20261121);
     int accepted = 0;
     double longest = 0;
@@ -58,7 +58,7 @@ void endure(const NamedTarget& target) {
         longest = std::max(longest, took.count());
     }
     alarm(0);
-    MESSAGE(target.name << ": " << accepted << " of " << kMutants << " mutants accepted, slowest " << longest << " s");
+    MESSAGE(std::string(target.name) << ": " << accepted << " of " << kMutants << " mutants accepted, slowest " << longest << " s");
     CHECK(accepted < kMutants);
     CHECK(longest < kHangSeconds);
     CHECK(peak_memory() < kMaxMemory);

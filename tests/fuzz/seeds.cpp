@@ -111,7 +111,7 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     static const std::vector<std::string> functions{kFunctions};
     static const std::vector<std::string> pictures{
         encode_hdr(gradient(), {{"VIEW= -vtv -vp 0 0 0", "EXPOSURE=2"}}),
-        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n\n+X 2 -Y 3\n" + std::string("abcdabcdabcd\1\1\1\2abcd")};
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n\n+X 2 -Y 3\n" + std::string("abcd\1\1\1\2abcdabcdabcd")};
     static const std::vector<std::string> data{kData1, kFont, mesh()};
     if (target == read_scene_text) return scenes;
     if (target == read_octree) return octrees;

@@ -21,7 +21,7 @@ bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
 
 struct NamedTarget {
-    const char* name;
+    std::string_view name;
     FuzzTarget run;
 };
 inline constexpr NamedTarget kFuzzTargets[] = {{"scene", read_scene_text},

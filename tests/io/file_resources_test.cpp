@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/io/scene/binary_writer.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwalk {
 namespace {

@@ -119,7 +119,7 @@ TEST_CASE("numbers are strict: message with option, what was found, what was exp
     CHECK_THROWS_AS((void)seed.unsigned_integer(), UsageError);
 }
 
-TEST_CASE("a bare switch toggles; + 1 - 0 attached set it; anything else is another option") {
+TEST_CASE("a bare switch toggles, + 1 - 0 attached set it, anything else is another option") {
     const auto toggled = [](const std::string& word, bool current) {
         OptionWords words({word});
         REQUIRE(words.at_option());

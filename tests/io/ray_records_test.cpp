@@ -62,7 +62,7 @@ TEST_CASE("a hit: geometry and names, each field with a tab, each record with a 
     CHECK(record("c", kAbove, kDown) == "0.000000e+00\t0.000000e+00\t\n");
 }
 
-TEST_CASE("a miss prints stars and zeros; lengths are 1e10") {
+TEST_CASE("a miss prints stars and zeros, lengths are 1e10") {
     CHECK(record("vnNsmM", {0, 0, 5}, kAside) ==
           "0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0.000000e+00\t0."
           "000000e+00\t"
@@ -79,7 +79,7 @@ TEST_CASE("a source at infinity: its names, its radiance, normals against the ra
     CHECK(record("N", kAbove, kUp).ends_with("-1.000000e+00\t\n"));
 }
 
-TEST_CASE("colours can be one number or CIE XYZ; luminance is 179 times the brightness of grey") {
+TEST_CASE("colours can be one number or CIE XYZ, luminance is 179 times the brightness of grey") {
     CHECK(record("v", kAbove, kUp, NumberFormat::text, ColorOutput::mean) == "9.000000e+00\t\n");
     const auto luminance =
         std::stod(record("v", kAbove, kUp, NumberFormat::text, ColorOutput::luminance));
@@ -122,7 +122,7 @@ TEST_CASE("wrong output specifications are usage errors") {
     CHECK(usage_error("r", NumberFormat::rgbe).empty());
 }
 
-TEST_CASE("the header ends with NCOMP and FORMAT; binary data start at a multiple of their size") {
+TEST_CASE("the header ends with NCOMP and FORMAT, binary data start at a multiple of their size") {
     CHECK(RayRecords("v", NumberFormat::text, ColorOutput::rgb).header_end(5) ==
           "NCOMP=3\nFORMAT=ascii\n\n");
     const RayRecords doubles("vL", NumberFormat::real64, ColorOutput::rgb);

@@ -9,7 +9,7 @@
 #include "io/scene/command_runner.h"
 #include "io/scene/primitive_text.h"
 #include "io/scene/tokenizer.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk {
@@ -273,7 +273,7 @@ TEST_CASE("numbers are rounded to 12 digits") {
           0.123456789012);
 }
 
-TEST_CASE("commands inside are run and transformed; -c passes them on") {
+TEST_CASE("commands inside are run and transformed, -c passes them on") {
     const TemporaryFolder folder;
     folder.write("parts/two.rad", "!cat one.rad\n!xform -t 0 1 0 one.rad\n");
     folder.write("parts/one.rad", kSphere);

@@ -147,7 +147,7 @@ TEST_CASE("wider spacing traces fewer rays and stays near the full picture") {
 }
 
 TEST_CASE(
-    "outside the view's domain pixels are black at distance 0; beyond the aft plane at distance "
+    "outside the view's domain pixels are black at distance 0, beyond the aft plane at distance "
     "1e10") {
     const TestScene scene("void glow g 0 0 4 1 1 1 0\ng source all 0 0 4 0 0 1 360\n");
     View fisheye;

@@ -201,7 +201,7 @@ TEST_CASE("a surface that ends less than a millionth of the distance before the 
     CHECK(geometry.intersect({{0.3, 0.4, 1.001e-6}, {0, 0, -1}}).exists());
 }
 
-TEST_CASE("a placed model wins only where it is strictly nearer; its own ties are its own") {
+TEST_CASE("a placed model wins only where it is strictly nearer, its own ties are its own") {
     TestModels scene;
     scene.models.resize(2);
     scene.add(surface(PrimitiveType::polygon, square(0), 0, kGlass));
@@ -253,7 +253,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the light's own surface does not shadow it; a coincident one does where it would be seen "
+    "the light's own surface does not shadow it, a coincident one does where it would be seen "
     "instead") {
     TestModels scene;
     const SurfaceId light = scene.add(surface(PrimitiveType::polygon, square(0), 3, kOpaque));

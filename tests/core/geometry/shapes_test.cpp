@@ -214,7 +214,7 @@ TEST_CASE("hits lie on the surface and normals are its gradient, from near and f
     CHECK(hits > 1000);
 }
 
-TEST_CASE("cones are open tubes with closed ends of their interval; cups and tubes face inward") {
+TEST_CASE("cones are open tubes with closed ends of their interval, cups and tubes face inward") {
     const ValidatedShape pipe = make(cylinder, {0, 0, 0, 0, 0, 2, 1});
     CHECK_FALSE(hit(pipe, {0.5, 0, 5}, {0, 0, -1}));  // through both ends
     CHECK(hit(pipe, {5, 0, 0}, {-1, 0, 0})->t == 4);  // the rim belongs to it

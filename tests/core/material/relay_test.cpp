@@ -27,7 +27,7 @@ TEST_CASE("a mirror shows what is before it, dimmed, at its unfolded distance") 
     CHECK(scene.trace({9, 0, 2}, {-1, 0, 0}).value == Rgb{});  // its back
 }
 
-TEST_CASE("a mirror's alternate is what the eye sees; void is nothing") {
+TEST_CASE("a mirror's alternate is what the eye sees, void is nothing") {
     TestScene painted("void glow paint 0 0 4 5 5 5 0\nvoid mirror m 1 paint 0 3 .9 .9 .9\n" +
                       kWalls);
     CHECK(painted.trace({0, 0, 2}, {1, 0, 0}).value.r == 5);

@@ -29,7 +29,7 @@ std::string message_of(const auto& action) {
     return "no error";
 }
 
-TEST_CASE("a name means its latest definition; what was read before keeps the older one") {
+TEST_CASE("a name means its latest definition, what was read before keeps the older one") {
     ModelBuilder builder;
     const auto old = builder.add(plastic("paint", 0.1));
     CHECK(builder.modifier("paint", kHere) == old);

@@ -149,7 +149,7 @@ TEST_CASE("the aft surface clips at the ray's limit, the fore surface at its ori
     }
 }
 
-TEST_CASE("a point behind a perspective view is not in front; the view point has no image") {
+TEST_CASE("a point behind a perspective view is not in front, the view point has no image") {
     const Camera camera(view_of('v', 60, 40));
     CHECK_FALSE(camera.locate({1, 1, 3}).in_front);
     CHECK(camera.locate({1, 3, 3}).in_front);

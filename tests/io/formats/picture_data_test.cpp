@@ -55,7 +55,7 @@ TEST_CASE("all eight orientations become rows from the bottom") {
     }
 }
 
-TEST_CASE("the shorter side has length 1, with the pixel aspect; exposure does not matter") {
+TEST_CASE("the shorter side has length 1, with the pixel aspect, exposure does not matter") {
     const auto extents = [](const char* resolution, const std::string& variables) {
         const PictureData data = decode_picture(picture(resolution, variables), "t.hdr");
         return std::array{data.axes[1].extent, data.axes[0].extent};  // u, v

@@ -110,7 +110,7 @@ TEST_CASE("genbox -r -n: flat pieces close up, and approach the rounded volume q
     }
 }
 
-TEST_CASE("genbox -n: rounded up to a power of two; when boxes are segmented at all") {
+TEST_CASE("genbox -n: rounded up to a power of two, when boxes are segmented at all") {
     CHECK(generate("genbox m b 1 1 1 -r .1 -n 3").primitives.size() == 6 + 12 * 4 + 8 * 16);
     CHECK(count_of(generate("genbox m b 1 1 1 -r .1 -n 2"), "sphere") == 8);
     CHECK(count_of(generate("genbox m b 1 1 1 -r .1 -i -n 2"), "sphere") == 8);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/io/generators/generated.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwalk {
 namespace {

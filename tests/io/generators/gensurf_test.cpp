@@ -6,7 +6,7 @@
 
 #include "core/function/environment.h"
 #include "tests/io/generators/generated.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwalk {
 namespace {

@@ -215,7 +215,7 @@ TEST_CASE("perezlum_c.cal: the coloured sky is as bright, and bluer where it is 
     }
 }
 
-TEST_CASE("illum.cal: azimuths in (0, 2 pi], squared cosine of the hemisphere") {
+TEST_CASE("illum.cal: azimuths above 0 up to 2 pi, squared cosine of the hemisphere") {
     const LibraryFile library = own_library_file("illum.cal");
     const Reals axes = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const RayValues ray{{.36, -.48, -.8}, {0, 0, 1}, {}, 0};

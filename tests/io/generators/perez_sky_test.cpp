@@ -69,7 +69,7 @@ TEST_CASE("Perez sky: coefficients and efficacies of the eight classes") {
     }
 }
 
-TEST_CASE("Perez sky: classes begin at their bounds; hazy skies count as at least 0.2 bright") {
+TEST_CASE("Perez sky: classes begin at their bounds, hazy skies count as at least 0.2 bright") {
     CHECK(clearness_class(1) == 0U);
     CHECK(clearness_class(1.0649) == 0U);
     CHECK(clearness_class(1.065) == 1U);

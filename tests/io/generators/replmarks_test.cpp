@@ -5,7 +5,7 @@
 
 #include "core/scene/transform_args.h"
 #include "tests/io/generators/generated.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwalk {
 namespace {
@@ -67,7 +67,7 @@ TEST_CASE("replmarks: words have six decimals, turns by nothing are left out") {
                                    "3.000000"});
 }
 
-TEST_CASE("replmarks: groups; everything else is copied") {
+TEST_CASE("replmarks: groups, everything else is copied") {
     const std::string scene =
         "# note\nvoid plastic paint\n0\n0\n5 .123456789012345 .5 .5 0 0\n"
         "other polygon floor\n0\n0\n9 0 0 0 1 0 0 0 1 0\n"

@@ -139,7 +139,7 @@ TEST_CASE("readers take the new form of any width, with empty literals") {
     CHECK(pixels[7] == Rgbe{5, 4, 7, 128});
 }
 
-TEST_CASE("in the old form 1 1 1 k repeats; directly following counts are the higher bytes") {
+TEST_CASE("in the old form 1 1 1 k repeats, directly following counts are the higher bytes") {
     const std::string once = bytes_of({9, 8, 7, 128, 1, 1, 1, 2, 5, 5, 5, 129});
     CHECK(decode(once, 4) ==
           std::vector<Rgbe>{{9, 8, 7, 128}, {9, 8, 7, 128}, {9, 8, 7, 128}, {5, 5, 5, 129}});

@@ -127,7 +127,7 @@ TEST_CASE("the same picture and header give the same .exr, whenever it is writte
     CHECK(bytes.find("chromaticities") != std::string::npos);
 }
 
-TEST_CASE("raw depth is native floats from the top row; .exr has one channel Z") {
+TEST_CASE("raw depth is native floats from the top row, .exr has one channel Z") {
     const Folder folder;
     const std::vector<float> depth{1, 2.5f, 1e10f, 0, 4, 5};
     write_depth(folder.file("depth.z"), 3, 2, depth);

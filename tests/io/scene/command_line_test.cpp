@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwalk {
 namespace {

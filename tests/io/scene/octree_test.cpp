@@ -6,7 +6,7 @@
 #include "io/scene/binary_models.h"
 #include "io/scene/scene_reader.h"
 #include "tests/io/scene/binary_writer.h"
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk {
@@ -66,7 +66,7 @@ TEST_CASE("an octree is told from scene text by its header") {
     CHECK_FALSE(is_octree(""));
 }
 
-TEST_CASE("a frozen octree holds its objects; types go by name, aliases rename or replace") {
+TEST_CASE("a frozen octree holds its objects, types go by name, aliases rename or replace") {
     const OctreeContents contents = decode_octree(frozen_octree(), "x.oct");
     REQUIRE(contents.model);
     const std::vector<Primitive>& objects = contents.model->primitives;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/io/scene/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk {
@@ -181,7 +181,7 @@ TEST_CASE("commands are replaced by what they write, and keep their place in mes
           "room.rad:2: !cat bad.rad:3: undefined modifier \"blue\"");
 }
 
-TEST_CASE("a failed command is a warning and reading goes on; a file without objects is one, too") {
+TEST_CASE("a failed command is a warning and reading goes on, a file without objects is one, too") {
     const Parsed scene =
         parse(kPlastic + "!xform -t 1 0 no_such_file\n!cat no_such_file\n" + kBall);
     CHECK(scene.size() == 2);
@@ -240,7 +240,7 @@ TEST_CASE("a file that reads itself ends with an error") {
     CHECK(parse("!cat twice.rad", inside(folder.path())).error != "");
 }
 
-TEST_CASE("files share one name space in order; they are opened as given, without a search") {
+TEST_CASE("files share one name space in order, they are opened as given, without a search") {
     const TemporaryFolder folder;
     folder.write("mat.rad", kPlastic);
     folder.write("geo.rad", kBall);

@@ -41,7 +41,7 @@ TEST_CASE("# and ! begin an item wherever an item may begin") {
     CHECK_FALSE(tokens.word());
 }
 
-TEST_CASE("a command ends at LF, CR LF or CR; a backslash before it keeps it and joins the lines") {
+TEST_CASE("a command ends at LF, CR LF or CR, a backslash before it keeps it and joins the lines") {
     const auto command = [](const std::string& text) {
         return SceneTokenizer(text, "t").command();
     };

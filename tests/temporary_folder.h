@@ -1,18 +1,20 @@
 #pragma once
-// A folder that lives as long as a test.
+// A folder that lives as long as a test, with all that is in it.
 #include <doctest/doctest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace lightwalk::test {
 
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "lightwalk_XXXXXX").string();
+        std::string name = (std::filesystem::temp_directory_path() / "lightwalk-XXXXXX").string();
         REQUIRE(mkdtemp(name.data()) != nullptr);
         path_ = name;
     }
@@ -31,6 +33,14 @@ class TemporaryFolder {
         return file.string();
     }
     [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::string path(const std::string& name) const { return path_ + "/" + name; }
+    /// Names of what is in it, sorted.
+    [[nodiscard]] std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
 
   private:
     std::string path_;
