@@ -39,7 +39,7 @@ inline constexpr double kMinCosine = 1e-3;
 
 /// Direction of a mirror reflection; `cosine` is -v . n.
 [[nodiscard]] inline Vec3 mirror_direction(const Vec3& v, const Vec3& n, double cosine) {
-    return normalize(v + n * (2 * cosine));
+    return normalize(fused_advance(v, n, 2 * cosine));
 }
 
 /// Where a sheet sends transmitted light: straight on along v, or bent by the texture unless that

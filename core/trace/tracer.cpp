@@ -74,9 +74,9 @@ Tracer::~Tracer() = default;
 Ray Tracer::primary(const Vec3& origin, const Vec3& direction, double limit, RandomStream random) const {
     Ray ray;
     ray.origin = origin;
-    const double squared = dot(direction, direction);
+    const double squared = fused_dot(direction, direction);
     // Normalising twice would change the last bits of a direction that is unit already.
-    ray.direction = std::abs(squared - 1) <= 1e-15 ? direction : direction * (1 / std::sqrt(squared));
+    ray.direction = std::abs(squared - 1) <= 1e-15 ? direction : normalize(direction);
     ray.limit = limit;
     ray.medium = {options_.extinction, options_.albedo, static_cast<float>(options_.eccentricity), nullptr};
     ray.random = random;

@@ -60,6 +60,9 @@ bool finite(const View& view) {
 /// Unit vector along `a`, also where the squares of its components would overflow or vanish.
 Vec3 unit(const Vec3& a) {
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+    // Twice, as views are set up twice in Radiance: the bits of view rays decide on which side of a lattice plane a
+    // pattern is looked up.
+    if (largest > 1e-100 && largest < 1e100) return normalize(normalize(a));
     return largest > 0 ? normalize({a.x / largest, a.y / largest, a.z / largest}) : Vec3{};
 }
 
@@ -172,7 +175,7 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
                               upward_ * height_, v + (view_.lift - 0.5));
             break;
     }
-    const double stretch = length(q);
+    const double stretch = std::sqrt(fused_dot(q, q));
     return ViewRay{view_.position + view_.fore * q, q * (1 / stretch),
                    clipped ? (view_.aft - view_.fore) * stretch : 0};
 }

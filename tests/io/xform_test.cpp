@@ -186,7 +186,8 @@ std::string spheres(const std::string& command, const Setting& setting) {
     for (const PrimitiveText& p : primitives(xform(command, setting))) {
         std::ostringstream line;
         line << p.name << "@" << p.reals[0] << "," << p.reals[1];
-        text += (text.empty() ? "" : " ") + line.str();
+        if (!text.empty()) text += " ";
+        text += line.str();
     }
     return text;
 }
