@@ -34,7 +34,7 @@ def lost_tests():
 
 def main():
     files = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.h")]
-    embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.cpp") if "embree3/" in p.read_text()]
+    embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.[hc]*") if "embree3/" in p.read_text()]
     problems = [*wrong_includes(), *lost_tests()]
     if len(files) < 20:
         problems.append("the headers were not found: is this the project's root?")

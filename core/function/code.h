@@ -24,6 +24,7 @@ enum class Op : std::uint8_t {
     lesser, greater,      ///< b if it is less (greater) than a, else a
     divide_tested,        ///< a / b; a range error when b is 0
     guard_divisor,        ///< if a is 0: dst = 0, range error, go to b
+    half_power,           ///< a to the power of half the integer b (not a cell), checked
     power, min, max, rand, floor, ceil, sqrt, exp, log, log10, sin, cos, tan, asin, acos, atan,
     atan2, erf, erfc, noise3, noise3x, noise3y, noise3z, fnoise3, arg, source_theta, source_phi,
     source_corr, fprism_val,  ///< checked

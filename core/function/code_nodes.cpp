@@ -46,6 +46,15 @@ Op operation(LibraryFunction f) {
     return Op::fatal;
 }
 
+/// Twice the exponent, where it is a constant that half_power takes.
+std::optional<std::int32_t> halves_of(const Node& exponent) {
+    const double halves = 2 * exponent.value;
+    if (exponent.kind != NodeKind::constant || std::abs(halves) > kMostHalves || halves != std::floor(halves)) {
+        return std::nullopt;
+    }
+    return static_cast<std::int32_t>(halves);
+}
+
 }  // namespace
 
 CodeGenerator::Cell CodeGenerator::leaf(Cell cell, Cell want) {
@@ -316,6 +325,15 @@ std::uint8_t CodeGenerator::begin_checked(std::span<const NodeId> arguments) {
 CodeGenerator::Cell CodeGenerator::power(const Node& n, Cell want) {
     const Cell mark = next_cell_;
     const std::uint8_t keep = begin_checked(n.kids);
+    const std::optional<std::int32_t> halves = halves_of(graph_.nodes[n.kids[1]]);
+    if (halves && quiet(n.kids[1])) {
+        const Cell base = node(n.kids[0]);
+        next_cell_ = mark;
+        const Cell d = result(want);
+        emit(Op::half_power, d, base, static_cast<std::uint32_t>(*halves), 0, keep);
+        error_clear_ = false;
+        return d;
+    }
     const Cell y = node(n.kids[1]);
     const Cell x = node(n.kids[0]);
     next_cell_ = mark;

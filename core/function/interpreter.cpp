@@ -234,6 +234,7 @@ class Machine {
             case Op::lesser: plain(b() < a() ? b() : a()); break;
             case Op::greater: plain(b() > a() ? b() : a()); break;
             case Op::guard_divisor: guard_divisor(); break;
+            case Op::half_power: checked(half_power(a(), static_cast<std::int32_t>(i_->b))); break;
             case Op::power: checked(std::pow(a(), b())); break;
             case Op::min: checked(b() < a() ? b() : a()); break;
             case Op::max: checked(b() > a() ? b() : a()); break;

@@ -1,7 +1,5 @@
 #include "core/geometry/geometry.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -14,8 +12,7 @@
 #include <utility>
 
 #include "core/geometry/bounds.h"
-#include "core/geometry/placed_scene.h"
-#include "core/geometry/search_space.h"
+#include "core/geometry/embree_search.h"
 
 // Embree proposes, doubles decide. Every surface is a user geometry whose box is a little too
 // large, so that no rounding of Embree's single precision can hide a true crossing; PlacedScene
@@ -29,101 +26,18 @@ namespace {
 struct ReleaseDevice {
     void operator()(RTCDeviceTy* device) const noexcept { rtcReleaseDevice(device); }
 };
-struct ReleaseScene {
-    void operator()(RTCSceneTy* scene) const noexcept { rtcReleaseScene(scene); }
-};
 struct ReleaseGeometry {
     void operator()(RTCGeometryTy* geometry) const noexcept { rtcReleaseGeometry(geometry); }
 };
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
-constexpr unsigned kPacket = 16;
-constexpr unsigned kOwnSurfaces =
-    0;  ///< geometry id in every Embree scene; instances have FrameId + 1
-
-/// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's
-/// inverse.
-constexpr double kFarthest = 4e10;
 constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
-
-float round_down(double x) {
-    const auto f = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
-    return std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-float round_up(double x) {
-    return -round_down(-x);
-}
 
 /// False for NaN as well.
 bool is_within_reach(const Vec3& v) {
     return std::abs(v.x) < kUnreachable && std::abs(v.y) < kUnreachable &&
            std::abs(v.z) < kUnreachable;
-}
-
-/// A model's primitives in an Embree scene.
-struct Hierarchy {
-    const ModelPrimitives* primitives = nullptr;
-    SearchSpace space;
-    ScenePtr scene;
-};
-
-void primitive_bounds(const RTCBoundsFunctionArguments* args) {
-    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const Bounds box = model.space.box(model.primitives->hit_bounds(args->primID));
-    *args->bounds_o = {
-        round_down(box.lower.x), round_down(box.lower.y), round_down(box.lower.z), 0,
-        round_up(box.upper.x),   round_up(box.upper.y),   round_up(box.upper.z),   0};
-}
-
-/// One traversal: what Embree hands to the callbacks. Ray i of a packet has the id i.
-struct NearestQuery : RTCIntersectContext {
-    const PlacedScene* placed = nullptr;
-    NearestRay* rays = nullptr;
-    std::array<double, kPacket> start{};  ///< distance of Embree's origin from the true one [m]
-};
-struct ShadowQueries : RTCIntersectContext {
-    const PlacedScene* placed = nullptr;
-    ShadowRay* rays = nullptr;
-};
-
-FrameId frame_of(const RTCIntersectContext* context) {
-    const unsigned instance = context->instID[0];
-    return instance == RTC_INVALID_GEOMETRY_ID ? kWorld
-                                               : FrameId{static_cast<std::int32_t>(instance) - 1};
-}
-
-/// End of Embree's ray: nothing up to `limit` may be lost in rounding.
-float embree_end(double limit, double start) {
-    constexpr double kRoundUp = 1 + 0x1p-20;  // 16 half units in the last place
-    return static_cast<float>(std::max(limit - start, 0.0) * kRoundUp);
-}
-
-void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
-    auto& query = *static_cast<NearestQuery*>(args->context);
-    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
-    const PrimitiveRef what{frame_of(args->context), args->primID};
-    for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0) continue;
-        const unsigned i = RTCRayN_id(rays, args->N, lane);
-        NearestRay& ray = query.rays[i];
-        if (query.placed->propose(ray, what)) {
-            RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
-        }
-    }
-}
-
-void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
-    auto& query = *static_cast<ShadowQueries*>(args->context);
-    const PrimitiveRef what{frame_of(args->context), args->primID};
-    for (unsigned lane = 0; lane < args->N; ++lane) {
-        if (args->valid[lane] == 0) continue;
-        ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];
-        if (query.placed->propose(ray, what)) {
-            RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
-        }
-    }
 }
 
 /// A ray as Embree takes it.
@@ -151,13 +65,16 @@ struct Geometry::Impl {
     PlacedScene placed;
     DevicePtr device;  ///< outlives the scenes below
     std::vector<Hierarchy> models;
+    Copies copies;
     Bounds box;  ///< of all geometry, relative to models[0].space.center, margins included
 
   private:
     void open_device();
     void check(const char* doing) const;
     void build(Hierarchy& model);
-    void add_instances();
+    [[nodiscard]] std::optional<Copy> copy_of(std::size_t frame) const;
+    [[nodiscard]] RTCBounds box_of(const PlacedModel& frame) const;
+    void add_copies();
 };
 
 Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
@@ -178,15 +95,11 @@ Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
         check("building a model's search tree");
     }
     build(models[0]);
-    add_instances();
+    add_copies();
     rtcCommitScene(models[0].scene.get());
     check("building the scene's search tree");
-    RTCBounds b{};
-    rtcGetSceneBounds(models[0].scene.get(), &b);
-    box.lower = {static_cast<double>(b.lower_x), static_cast<double>(b.lower_y),
-                 static_cast<double>(b.lower_z)};
-    box.upper = {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y),
-                 static_cast<double>(b.upper_z)};
+    copies.boxes = {};
+    box = bounds_of_tree(models[0].scene.get());
 }
 
 /// Embree's own default for threads: a number would limit oneTBB in the whole process.
@@ -236,29 +149,51 @@ void Geometry::Impl::build(Hierarchy& model) {
     check("adding the surfaces");
 }
 
-void Geometry::Impl::add_instances() {
-    for (std::size_t i = 0; i < placed.frames().size(); ++i) {
-        const PlacedModel& frame = placed.frames()[i];
-        const Hierarchy& model = models[frame.model];
-        if (!model.scene) continue;
-        const Matrix& matrix = frame.to_world.forward;
-        const Vec3 origin = matrix.point(model.space.center) - models[0].space.center;
-        if (!is_within_reach(origin)) continue;
-        std::array<float, 12> columns{};
-        for (std::size_t row = 0; row < 4; ++row) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                columns[3 * row + k] = static_cast<float>(row < 3 ? matrix.row[row][k] : origin[k]);
-            }
-        }
-        const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-        check("creating an instance");
-        rtcSetGeometryInstancedScene(geometry.get(), model.scene.get());
-        rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                                columns.data());
-        rtcCommitGeometry(geometry.get());
-        rtcAttachGeometryByID(models[0].scene.get(), geometry.get(), static_cast<unsigned>(i) + 1);
-        check("adding an instance");
+/// From the scene's search coordinates to those of a placed model; nothing when it is too far away.
+std::optional<Copy> Geometry::Impl::copy_of(std::size_t i) const {
+    const PlacedModel& frame = placed.frames()[i];
+    const Hierarchy& model = models[frame.model];
+    if (!model.scene) return std::nullopt;
+    const Vec3 center = frame.to_world.forward.point(model.space.center) - models[0].space.center;
+    if (!is_within_reach(center)) return std::nullopt;
+    const Matrix& inverse = frame.to_world.inverse;
+    const std::array<Vec3, 4> rows{inverse.row[0], inverse.row[1], inverse.row[2], -inverse.vector(center)};
+    Copy copy;
+    for (std::size_t row = 0; row < 4; ++row) {
+        for (std::size_t k = 0; k < 3; ++k) copy.inverse[3 * row + k] = static_cast<float>(rows[row][k]);
     }
+    copy.scene = model.scene.get();
+    copy.frame = static_cast<std::int32_t>(i);
+    return copy;
+}
+
+/// In the scene's search coordinates: around what the model's own search tree can find.
+RTCBounds Geometry::Impl::box_of(const PlacedModel& frame) const {
+    const Hierarchy& model = models[frame.model];
+    Matrix matrix = frame.to_world.forward;
+    matrix.row[3] = matrix.point(model.space.center) - models[0].space.center;
+    const Bounds bounds = transformed(bounds_of_tree(model.scene.get()), matrix);
+    return rounded(grown(bounds, models[0].space.relative * magnitude(bounds)));
+}
+
+void Geometry::Impl::add_copies() {
+    for (std::size_t i = 0; i < placed.frames().size(); ++i) {
+        const std::optional<Copy> copy = copy_of(i);
+        if (!copy) continue;
+        copies.all.push_back(*copy);
+        copies.boxes.push_back(box_of(placed.frames()[i]));
+    }
+    if (copies.all.empty()) return;
+    const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    check("creating the instances");
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(copies.all.size()));
+    rtcSetGeometryUserData(geometry.get(), &copies);
+    rtcSetGeometryBoundsFunction(geometry.get(), copy_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), intersect_copy);
+    rtcSetGeometryOccludedFunction(geometry.get(), occlude_copy);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(models[0].scene.get(), geometry.get(), kCopies);
+    check("adding the instances");
 }
 
 namespace {

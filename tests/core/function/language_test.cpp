@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -292,6 +294,20 @@ TEST_CASE("functions are passed by name through any number of levels") {
     CHECK(value_of("down(sqrt,4*Rdot)", down) ==
           doctest::Approx(1 + std::sqrt(2) + std::sqrt(3) + 2));
     CHECK(complaint("down(Rdot,3*Rdot)", down) == "scene.rad:7: f(): undefined function");
+}
+
+TEST_CASE("powers by constant halves agree with pow, and fail where it does") {
+    for (int halves = -34; halves <= 34; ++halves) {
+        std::ostringstream text;
+        text << "(1.37*Rdot)^" << (halves < 0 ? "-" : "") << std::abs(halves) / 2. << std::setprecision(17);
+        CAPTURE(text.str());
+        CHECK(value_of(text.str(), "") == doctest::Approx(std::pow(1.37, halves / 2.)).epsilon(1e-14));
+    }
+    CHECK(value_of("(Rdot-1)^.5", "") == 0);
+    CHECK(value_of("(Rdot-1)^0", "") == 1);
+    CHECK(value_of("7+(Rdot-1)^-1", "") == 7);  // an error: the value is 0
+    CHECK(value_of("7+(Rdot-3)^.5", "") == 7);
+    CHECK(value_of("(-2*Rdot)^3", "") == -8);
 }
 
 }  // namespace lightwalk::test

@@ -1,0 +1,199 @@
+#include "core/geometry/embree_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/bounds.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr unsigned kFewRays = 4;  ///< of a packet that reach a copy: up to so many go on singly
+
+/// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's
+/// inverse.
+constexpr double kFarthest = 4e10;
+float round_down(double x) {
+    const auto f = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
+    return std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+float round_up(double x) {
+    return -round_down(-x);
+}
+
+FrameId frame_of(const RTCIntersectContext* context) {
+    const unsigned instance = context->instID[0];
+    return instance == RTC_INVALID_GEOMETRY_ID ? kWorld
+                                               : FrameId{static_cast<std::int32_t>(instance) - 1};
+}
+
+/// The ray of a lane, in the model's space. The direction keeps its scale: distances stay.
+RTCRay local_ray(const Copy& copy, RTCRayN* rays, unsigned count, unsigned lane) {
+    const std::array<float, 12>& m = copy.inverse;
+    const float x = RTCRayN_org_x(rays, count, lane), y = RTCRayN_org_y(rays, count, lane),
+                z = RTCRayN_org_z(rays, count, lane);
+    const float u = RTCRayN_dir_x(rays, count, lane), v = RTCRayN_dir_y(rays, count, lane),
+                w = RTCRayN_dir_z(rays, count, lane);
+    RTCRay ray;
+    ray.org_x = m[0] * x + m[3] * y + m[6] * z + m[9];
+    ray.org_y = m[1] * x + m[4] * y + m[7] * z + m[10];
+    ray.org_z = m[2] * x + m[5] * y + m[8] * z + m[11];
+    ray.dir_x = m[0] * u + m[3] * v + m[6] * w;
+    ray.dir_y = m[1] * u + m[4] * v + m[7] * w;
+    ray.dir_z = m[2] * u + m[5] * v + m[8] * w;
+    ray.tnear = 0;
+    ray.time = 0;
+    ray.tfar = RTCRayN_tfar(rays, count, lane);
+    ray.mask = ~0U;
+    ray.id = RTCRayN_id(rays, count, lane);
+    ray.flags = 0;
+    return ray;
+}
+
+void set_lane(RTCRay16& rays, unsigned lane, const RTCRay& ray) {
+    rays.org_x[lane] = ray.org_x;
+    rays.org_y[lane] = ray.org_y;
+    rays.org_z[lane] = ray.org_z;
+    rays.tnear[lane] = ray.tnear;
+    rays.dir_x[lane] = ray.dir_x;
+    rays.dir_y[lane] = ray.dir_y;
+    rays.dir_z[lane] = ray.dir_z;
+    rays.time[lane] = ray.time;
+    rays.tfar[lane] = ray.tfar;
+    rays.mask[lane] = ray.mask;
+    rays.id[lane] = ray.id;
+    rays.flags[lane] = ray.flags;
+}
+
+/// Says which frame the callbacks are in while a copy is searched.
+class InFrame {
+  public:
+    InFrame(RTCIntersectContext& context, const Copy& copy) : context_(context) {
+        context_.instID[0] = static_cast<unsigned>(copy.frame) + 1;
+    }
+    ~InFrame() { context_.instID[0] = RTC_INVALID_GEOMETRY_ID; }
+    InFrame(const InFrame&) = delete;
+    InFrame& operator=(const InFrame&) = delete;
+
+  private:
+    RTCIntersectContext& context_;
+};
+
+unsigned active_lanes(const int* valid, unsigned count) {
+    return static_cast<unsigned>(std::count_if(valid, valid + count, [](int v) { return v != 0; }));
+}
+
+}  // namespace
+
+/// End of Embree's ray: nothing up to `limit` may be lost in rounding.
+float embree_end(double limit, double start) {
+    constexpr double kRoundUp = 1 + 0x1p-20;  // 16 half units in the last place
+    return static_cast<float>(std::max(limit - start, 0.0) * kRoundUp);
+}
+
+RTCBounds rounded(const Bounds& box) {
+    return {round_down(box.lower.x), round_down(box.lower.y), round_down(box.lower.z), 0,
+            round_up(box.upper.x),   round_up(box.upper.y),   round_up(box.upper.z),   0};
+}
+
+Bounds bounds_of_tree(RTCSceneTy* scene) {
+    RTCBounds b{};
+    rtcGetSceneBounds(scene, &b);
+    return {{static_cast<double>(b.lower_x), static_cast<double>(b.lower_y), static_cast<double>(b.lower_z)},
+            {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y), static_cast<double>(b.upper_z)}};
+}
+
+void primitive_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    const Bounds box = model.space.box(model.primitives->hit_bounds(args->primID));
+    *args->bounds_o = rounded(box);
+}
+
+void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
+    auto& query = *static_cast<NearestQuery*>(args->context);
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    const PrimitiveRef what{frame_of(args->context), args->primID};
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        const unsigned i = RTCRayN_id(rays, args->N, lane);
+        NearestRay& ray = query.rays[i];
+        if (query.placed->propose(ray, what)) {
+            RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
+        }
+    }
+}
+
+void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
+    auto& query = *static_cast<ShadowQueries*>(args->context);
+    const PrimitiveRef what{frame_of(args->context), args->primID};
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];
+        if (query.placed->propose(ray, what)) {
+            RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
+        }
+    }
+}
+
+void copy_bounds(const RTCBoundsFunctionArguments* args) {
+    *args->bounds_o = static_cast<const Copies*>(args->geometryUserPtr)->boxes[args->primID];
+}
+
+void intersect_copy(const RTCIntersectFunctionNArguments* args) {
+    const Copy& copy = static_cast<const Copies*>(args->geometryUserPtr)->all[args->primID];
+    const InFrame in_frame(*args->context, copy);
+    const unsigned count = args->N;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, count);
+    if (active_lanes(args->valid, count) <= kFewRays) {
+        for (unsigned lane = 0; lane < count; ++lane) {
+            if (args->valid[lane] == 0) continue;
+            RTCRayHit hit;
+            hit.ray = local_ray(copy, rays, count, lane);
+            hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(copy.scene, args->context, &hit);
+            RTCRayN_tfar(rays, count, lane) = hit.ray.tfar;
+        }
+        return;
+    }
+    alignas(64) std::array<int, kPacket> valid{};
+    RTCRayHit16 hits;
+    for (unsigned lane = 0; lane < count; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        valid[lane] = -1;
+        set_lane(hits.ray, lane, local_ray(copy, rays, count, lane));
+        hits.hit.geomID[lane] = hits.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid.data(), copy.scene, args->context, &hits);
+    for (unsigned lane = 0; lane < count; ++lane) {
+        if (valid[lane] != 0) RTCRayN_tfar(rays, count, lane) = hits.ray.tfar[lane];
+    }
+}
+
+void occlude_copy(const RTCOccludedFunctionNArguments* args) {
+    const Copy& copy = static_cast<const Copies*>(args->geometryUserPtr)->all[args->primID];
+    const InFrame in_frame(*args->context, copy);
+    const unsigned count = args->N;
+    if (active_lanes(args->valid, count) <= kFewRays) {
+        for (unsigned lane = 0; lane < count; ++lane) {
+            if (args->valid[lane] == 0) continue;
+            RTCRay ray = local_ray(copy, args->ray, count, lane);
+            rtcOccluded1(copy.scene, args->context, &ray);
+            RTCRayN_tfar(args->ray, count, lane) = ray.tfar;
+        }
+        return;
+    }
+    alignas(64) std::array<int, kPacket> valid{};
+    RTCRay16 rays;
+    for (unsigned lane = 0; lane < count; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        valid[lane] = -1;
+        set_lane(rays, lane, local_ray(copy, args->ray, count, lane));
+    }
+    rtcOccluded16(valid.data(), copy.scene, args->context, &rays);
+    for (unsigned lane = 0; lane < count; ++lane) {
+        if (valid[lane] != 0) RTCRayN_tfar(args->ray, count, lane) = rays.tfar[lane];
+    }
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,68 @@
+#pragma once
+// How Embree searches a placed scene: the records that it hands to the callbacks, and these.
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/geometry/placed_scene.h"
+#include "core/geometry/search_space.h"
+
+namespace lightwalk {
+
+struct ReleaseScene {
+    void operator()(RTCSceneTy* scene) const noexcept { rtcReleaseScene(scene); }
+};
+using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+inline constexpr unsigned kPacket = 16;
+inline constexpr unsigned kOwnSurfaces = 0, kCopies = 1;  ///< geometry ids in Embree's scenes
+
+/// A model's primitives in an Embree scene.
+struct Hierarchy {
+    const ModelPrimitives* primitives = nullptr;
+    SearchSpace space;
+    ScenePtr scene;
+};
+
+/// A placed model in the scene's search tree. An Embree instance each would need half a kilobyte.
+struct Copy {
+    std::array<float, 12> inverse{};  ///< images of the axes and of the origin, scene to model
+    RTCSceneTy* scene = nullptr;
+    std::int32_t frame = 0;
+};
+
+struct Copies {
+    std::vector<Copy> all;
+    std::vector<RTCBounds> boxes;  ///< in the scene's search coordinates, while the tree is built
+};
+
+/// One traversal: what Embree hands to the callbacks. Ray i of a packet has the id i.
+struct NearestQuery : RTCIntersectContext {
+    const PlacedScene* placed = nullptr;
+    NearestRay* rays = nullptr;
+    std::array<double, kPacket> start{};  ///< distance of Embree's origin from the true one [m]
+};
+struct ShadowQueries : RTCIntersectContext {
+    const PlacedScene* placed = nullptr;
+    ShadowRay* rays = nullptr;
+};
+
+/// End of Embree's ray: nothing up to `limit` may be lost in rounding.
+[[nodiscard]] float embree_end(double limit, double start);
+
+/// The box in Embree's numbers, rounded outwards.
+[[nodiscard]] RTCBounds rounded(const Bounds& box);
+/// Of a committed scene, in its search coordinates.
+[[nodiscard]] Bounds bounds_of_tree(RTCSceneTy* scene);
+
+// Callbacks of a model's own surfaces (user data: Hierarchy) and of the copies of models (user data: Copies).
+void primitive_bounds(const RTCBoundsFunctionArguments* args);
+void intersect_primitive(const RTCIntersectFunctionNArguments* args);
+void occlude_primitive(const RTCOccludedFunctionNArguments* args);
+void copy_bounds(const RTCBoundsFunctionArguments* args);
+void intersect_copy(const RTCIntersectFunctionNArguments* args);
+void occlude_copy(const RTCOccludedFunctionNArguments* args);
+
+}  // namespace lightwalk
