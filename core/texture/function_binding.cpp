@@ -60,7 +60,7 @@ ToFunction world_to_function(const Transform& own, bool transformed, FrameId fra
 
 void fill_scalars(ChannelValues& out, const Ray& ray, double sigma) {
     set(out, Channel::T, sigma * (ray.path_length + ray.hit.t));
-    set(out, Channel::Ts, ray.in(kShadow) ? sigma * (ray.shadow_length + ray.hit.t) : 0.0);
+    set(out, Channel::Ts, sigma * (ray.shadow_length + ray.hit.t));
     set(out, Channel::Rdot, std::clamp(ray.hit.rod, -1.0, 1.0));
     set(out, Channel::Lu, ray.hit.u);
     set(out, Channel::Lv, ray.hit.v);
