@@ -230,7 +230,7 @@ int run(int argc, char** argv) {
         diffuse.push_back({p, normalize(Vec3{uniform(random), uniform(random), uniform(random)}), 1e30f});
     }
     report("primary, packets of 16", primary, [&] { trace_packets<false>(scene.get(), primary, nullptr, true); });
-    report("shadow, packets of 16", shadow, [&] { trace_packets<true>(scene.get(), shadow, nullptr, true); });
+    report("shadow, packets of 16", shadow, [&] { trace_packets<true>(scene.get(), shadow, nullptr, false); });
     report("diffuse, singly", diffuse, [&] { trace_singly(scene.get(), diffuse); });
     return 0;
 }

@@ -125,6 +125,10 @@ ModelGeometry Scene::Impl::model_geometry(const LoadedModel& loaded) const {
         geometry_of.meshes.push_back(std::move(part));
         return geometry_of;
     }
+    if (const std::optional<ModelCube>& cube = loaded.model->cube) {
+        const Vec3 corner{cube->x, cube->y, cube->z};
+        geometry_of.cube = Bounds{corner, corner + Vec3{cube->size, cube->size, cube->size}};
+    }
     std::int32_t next = loaded.surface_base;
     std::size_t placement = 0;
     for (const Primitive& primitive : loaded.model->primitives) {
@@ -176,6 +180,7 @@ ModifierId Scene::lambertian() const { return impl_->lambertian_modifier; }
 SurfaceId Scene::lambertian_surface() const { return impl_->lambertian_surface; }
 
 SceneCube Scene::cube() const {
+    if (const std::optional<ModelCube>& cube = model().cube) return {{cube->x, cube->y, cube->z}, cube->size};
     const Bounds bounds = impl_->geometry->bounds();
     if (bounds.empty()) return {};
     constexpr double kMargin = 1e-5;  // [m], on each side

@@ -142,4 +142,9 @@ Vec3 FunctionBinding::to_function(const Vec3& d, const Ray& ray, const TraceCont
         .direction(d);
 }
 
+std::vector<ExpressionRequest> three_expressions(const Primitive& primitive) {
+    require_arguments(primitive, 4);
+    return {{primitive.strings[0], -1}, {primitive.strings[1], -1}, {primitive.strings[2], -1}};
+}
+
 }  // namespace lightwalk

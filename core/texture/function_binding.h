@@ -58,4 +58,7 @@ class FunctionBinding {
     ChannelMask channels_ = 0;
 };
 
+/// The first three string arguments, as of colorfunc and texfunc, which need four. Throws InputError for fewer.
+[[nodiscard]] std::vector<ExpressionRequest> three_expressions(const Primitive& primitive);
+
 }  // namespace lightwalk

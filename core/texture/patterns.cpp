@@ -31,7 +31,7 @@ class BrightnessFunction final : public Modifier {
 
 class ColorFunction final : public Modifier {
   public:
-    explicit ColorFunction(const ModifierBuild& build) : binding_(build, 3, requests(build.primitive), 4) {}
+    explicit ColorFunction(const ModifierBuild& build) : binding_(build, 3, three_expressions(build.primitive), 4) {}
 
     bool shade(Ray& ray, TraceContext& context) const override {
         EvalState& state = binding_.begin(ray, context);
@@ -43,10 +43,6 @@ class ColorFunction final : public Modifier {
     }
 
   private:
-    static std::vector<ExpressionRequest> requests(const Primitive& primitive) {
-        require_arguments(primitive, 4);
-        return {{primitive.strings[0], -1}, {primitive.strings[1], -1}, {primitive.strings[2], -1}};
-    }
     FunctionBinding binding_;
 };
 

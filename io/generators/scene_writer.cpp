@@ -80,22 +80,6 @@ std::string command_comment(std::span<const std::string> args) {
     return line + "\n";
 }
 
-std::string quoted_for_shell(std::string_view word) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_+-.,/:=@%";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) {
-        return std::string(word);
-    }
-    std::string result = "'";
-    for (const char c : word) {
-        if (c == '\'')
-            result += "'\\''";
-        else
-            result.push_back(c);
-    }
-    return result + "'";
-}
-
 std::string general(double value, int digits) {
     return number(value, std::chars_format::general, digits);
 }

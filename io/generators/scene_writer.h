@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/math/vec3.h"
+#include "io/scene/command_line.h"
 #include "io/scene/primitive_text.h"
 
 namespace lightwalk {
@@ -47,9 +48,6 @@ class SceneWriter {
 /// The comment line that echoes a command: "# program words...", words quoted as the shell needs
 /// them.
 [[nodiscard]] std::string command_comment(std::span<const std::string> args);
-
-/// The word as the shell reads it back.
-[[nodiscard]] std::string quoted_for_shell(std::string_view word);
 
 /// `value` as printf's %.Ng, %.Nf and %.Ne write it in the C locale.
 [[nodiscard]] std::string general(double value, int digits);

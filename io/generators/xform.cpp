@@ -6,6 +6,7 @@
 #include "io/generators/generator.h"
 #include "io/generators/xform_options.h"
 #include "io/generators/xform_primitive.h"
+#include "io/scene/command_line.h"
 #include "io/scene/command_runner.h"
 #include "io/scene/primitive_text.h"
 #include "io/scene/tokenizer.h"
@@ -22,22 +23,6 @@ struct Item {
 };
 
 /// The word as the shell reads it back.
-std::string shell_word(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyz"
-                                            "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789_+-.,/:=@%") == std::string::npos;
-    if (plain) return word;
-    std::string result = "'";
-    for (const char c : word) {
-        if (c == '\'')
-            result += "'\\''";
-        else
-            result.push_back(c);
-    }
-    return result + "'";
-}
-
 class Xform {
   public:
     Xform(std::span<const std::string> args, GeneratorContext& context)
@@ -46,7 +31,7 @@ class Xform {
     std::string run() {
         read_input();
         out_ = "# xform";
-        for (const std::string& word : line_.options) out_ += " " + shell_word(word);
+        for (const std::string& word : line_.options) out_ += " " + quoted_for_shell(word);
         out_ += "\n";
         const auto read = [this](const std::string& file) {
             if (file == "-") return context_.input;
@@ -109,9 +94,9 @@ class Xform {
     static std::string pipe_through(const XformStep& step) {
         std::string text = " | xform -e";
         if (step.invert) text += " -I";
-        if (!step.prefix.empty()) text += " -n " + shell_word(step.prefix);
-        if (!step.surface_modifier.empty()) text += " -m " + shell_word(step.surface_modifier);
-        for (const std::string& word : step.words) text += " " + shell_word(word);
+        if (!step.prefix.empty()) text += " -n " + quoted_for_shell(step.prefix);
+        if (!step.surface_modifier.empty()) text += " -m " + quoted_for_shell(step.surface_modifier);
+        for (const std::string& word : step.words) text += " " + quoted_for_shell(word);
         return text;
     }
 

@@ -40,6 +40,9 @@ extern "C" void lightwalk_encode_image(const lightwalk::ImageRequest& request, s
         error = OIIO::geterror();
         return;
     }
+    // One picture needs no pools of threads, which would outlive it.
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
     const OIIO::ImageSpec spec = describe(request);
     const bool written = output->set_ioproxy(&memory) && output->open(request.format, spec) &&
                          output->write_image(spec.format, request.pixels) && output->close();

@@ -177,4 +177,20 @@ std::vector<std::string> expand_patterns(const SimpleCommand& command,
     return words;
 }
 
+std::string quoted_for_shell(std::string_view word) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_+-.,/:=@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) {
+        return std::string(word);
+    }
+    std::string result = "'";
+    for (const char c : word) {
+        if (c == '\'')
+            result += "'\\''";
+        else
+            result.push_back(c);
+    }
+    return result + "'";
+}
+
 }  // namespace lightwalk

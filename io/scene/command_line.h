@@ -23,4 +23,7 @@ using Pipeline = std::vector<SimpleCommand>;     ///< each one's output is the n
 [[nodiscard]] std::vector<std::string> expand_patterns(const SimpleCommand& command,
                                                        const std::string& directory);
 
+/// The word as the shell reads it back.
+[[nodiscard]] std::string quoted_for_shell(std::string_view word);
+
 }  // namespace lightwalk

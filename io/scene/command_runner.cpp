@@ -54,17 +54,6 @@ std::optional<std::string> unknown_program(const std::vector<Pipeline>& pipeline
     return std::nullopt;
 }
 
-std::string shell_quoted(const std::string& word) {
-    std::string result = "'";
-    for (const char c : word) {
-        if (c == '\'')
-            result += "'\\''";
-        else
-            result.push_back(c);
-    }
-    return result + "'";
-}
-
 struct DepthGuard {
     explicit DepthGuard(int& value) : depth(value) { ++depth; }
     ~DepthGuard() { --depth; }
@@ -155,7 +144,7 @@ std::string CommandRunner::run_program(const SimpleCommand& words, GeneratorCont
 std::string CommandRunner::run_shell(const std::string& command, const std::string& directory,
                                      const SourceLocation& where) {
     std::string script = "exec </dev/null\n";
-    if (!directory.empty()) script += "cd -- " + shell_quoted(directory) + " || exit 1\n";
+    if (!directory.empty()) script += "cd -- " + quoted_for_shell(directory) + " || exit 1\n";
     script += command;
     std::FILE* const pipe = popen(script.c_str(), "r");  // NOLINT(cert-env33-c): only when allowed
     if (pipe == nullptr) throw CommandError(where, "cannot start the shell");

@@ -257,9 +257,10 @@ TEST_CASE("render: distances are raw floats from the top") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string depth = folder.path("a.z");
-    REQUIRE(
-        run_program(line({"-ps", "1", "-pj", "0", "-z", depth, "-o", folder.path("a.exr"), scene}))
-            .status == 0);
+    const ProgramResult exr =
+        run_program(line({"-ps", "1", "-pj", "0", "-z", depth, "-o", folder.path("a.exr"), scene}));
+    CAPTURE(exr.err);
+    REQUIRE(exr.status == 0);
     const std::string bytes = read_whole(depth);
     REQUIRE(bytes.size() == 48 * 32 * sizeof(float));
     std::vector<float> z(48 * 32);

@@ -1,0 +1,40 @@
+// The scene's cube: what ambient resolution and virtual sources are measured by.
+#include <doctest/doctest.h>
+
+#include "tests/test_scene.h"
+
+namespace lightwalk::test {
+namespace {
+
+const std::string kBall = "void plastic p 0 0 5 .5 .5 .5 0 0\np sphere s 0 0 4 0 0 0 1\n";
+
+std::shared_ptr<const Model> model_in_cube(const ModelCube& cube) {
+    Silence silence;
+    Model model = *parse_scene(kBall, "ball.rad", {LibraryPath(std::vector<std::string>{}), false}, silence);
+    model.cube = cube;
+    return std::make_shared<const Model>(std::move(model));
+}
+
+}  // namespace
+
+TEST_CASE("a scene's cube is the smallest around its surfaces, and a little more") {
+    const TestScene scene(kBall + "p sphere t 0 0 4 4 0 0 1\n");
+    const SceneCube cube = scene.scene.cube();
+    CHECK(cube.size == doctest::Approx(6 + 2e-5));
+    CHECK(cube.origin.x == doctest::Approx(-1 - 1e-5));
+    CHECK(cube.origin.y == doctest::Approx(-3 - 1e-5));
+}
+
+TEST_CASE("an octree's cube is the one that it states, also where it is an instance") {
+    MemoryResources files;
+    Silence silence;
+    const Scene alone(model_in_cube({-2, -3, -4, 10}), files, silence);
+    CHECK(alone.cube().origin == Vec3{-2, -3, -4});
+    CHECK(alone.cube().size == 10);
+    files.octrees["ball.oct"] = model_in_cube({-2, -3, -4, 10});
+    const TestScene placed("void instance i 5 ball.oct -t 100 0 0 0 0\n", TestScene::exact(), files);
+    CHECK(placed.scene.cube().origin.x == doctest::Approx(98 - 1e-5));
+    CHECK(placed.scene.cube().size == doctest::Approx(10 + 2e-5));
+}
+
+}  // namespace lightwalk::test
