@@ -7,7 +7,7 @@ root=$(pwd)
 width="${1:-960}"
 out="${2:-$root/out/demo}"
 sh apps/install_packages.sh
-cmake --preset release -DLIGHTWALK_TESTS=OFF -DLIGHTWALK_PERF=OFF
+cmake --preset release
 cmake --build --preset release --target lightwalk
 mkdir -p "$out"
 cd apps/scenes/lodge
