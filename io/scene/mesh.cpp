@@ -11,7 +11,7 @@
 #include "io/scene/binary_models.h"
 #include "io/scene/binary_objects.h"
 #include "io/scene/binary_reader.h"
-#include "io/scene/direction_code.h"
+#include "core/math/direction_code.h"
 
 namespace lightwalk {
 namespace {

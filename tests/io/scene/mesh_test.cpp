@@ -5,7 +5,7 @@
 
 #include "core/math/vec3.h"
 #include "io/scene/binary_models.h"
-#include "io/scene/direction_code.h"
+#include "core/math/direction_code.h"
 #include "tests/io/scene/binary_writer.h"
 
 namespace lightwalk {

@@ -1,4 +1,4 @@
-#include "io/scene/direction_code.h"
+#include "core/math/direction_code.h"
 
 #include <algorithm>
 #include <cmath>
