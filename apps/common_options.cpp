@@ -86,13 +86,8 @@ std::vector<std::string> common_option_names() {
             "--help", "--version", "-defaults"};
 }
 
-void settle_render_settings(RenderSettings& settings, WarningSink& warnings) {
+void settle_render_settings(RenderSettings& settings, WarningSink& /*warnings*/) {
     check_render_settings(settings);
-    if (settings.light.ambient_bounces <= 0) return;
-    warnings.warn(
-        "indirect light (-ab) is not computed yet; the constant ambient value (-av) stands in for "
-        "it");
-    settings.light.ambient_bounces = 0;
 }
 
 void redirect_messages(const CommonOptions& options, const std::string& history) {

@@ -37,7 +37,14 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink)
 void SceneSession::build(const RenderOptions& options) {
     const Stopwatch watch;
     built = std::make_unique<const Scene>(model, resources, warnings);
-    made = std::make_unique<const Tracer>(*built, options, warnings);
+    auto fresh = std::make_unique<Tracer>(*built, options, warnings);
+    if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {
+        const SceneCube cube = built->cube();
+        ambient = std::make_unique<ConcurrentCache>(
+            ambient_limits(cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
+        fresh->use_ambient_cache(ambient.get());
+    }
+    made = std::move(fresh);
     build_seconds = watch.seconds();
 }
 

@@ -8,6 +8,7 @@
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"
 #include "io/file_resources.h"
+#include "parallel/concurrent_cache.h"
 
 namespace lightwalk {
 
@@ -35,6 +36,7 @@ struct SceneSession {
     FileResources resources;
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;
+    std::unique_ptr<ConcurrentCache> ambient;  ///< with -ab and -aa; outlives the tracer
     std::unique_ptr<const Tracer> made;
     double read_seconds = 0, build_seconds = 0;
 };

@@ -168,7 +168,7 @@ bool parse_render_option(OptionWords& words, const LibraryPath& library, RenderS
     for (const Entry& entry : kEntries) {
         if (parse_entry(entry, words, settings.light)) return true;
     }
-    if (parse_ambient_selection(words, library, settings.ambient_surfaces)) return true;
+    if (parse_ambient_selection(words, library, settings.light.ambient_surfaces)) return true;
     if (const auto value = words.toggle("-u", settings.uncorrelated)) {
         settings.uncorrelated = *value;
         return true;
@@ -223,7 +223,7 @@ std::string describe_render_settings(const RenderSettings& settings) {
         text += option_line(text_of(entry, settings.light), entry.description);
     if (!settings.ambient_file.empty())
         text += option_line("-af " + settings.ambient_file, "ambient file");
-    const AmbientSelection& selection = settings.ambient_surfaces;
+    const AmbientSelection& selection = settings.light.ambient_surfaces;
     for (const std::string& name : selection.modifiers) {
         const bool include = selection.kind == AmbientSelection::Kind::include;
         text += option_line((include ? "-ai " : "-ae ") + name,

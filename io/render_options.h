@@ -10,19 +10,10 @@
 
 namespace lightwalk {
 
-/// Which surfaces take part in the ambient calculation, by the names of their modifiers.
-struct AmbientSelection {
-    enum class Kind { all, include, exclude };
-    Kind kind = Kind::all;
-    std::vector<std::string> modifiers;
-    friend bool operator==(const AmbientSelection&, const AmbientSelection&) = default;
-};
-
 /// All that these options set.
 struct RenderSettings {
-    RenderOptions light;                ///< what the core needs
-    AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
-    std::string ambient_file;           ///< -af, "" for none
+    RenderOptions light;       ///< what the core needs
+    std::string ambient_file;  ///< -af, "" for none
     bool uncorrelated = false;  ///< -u; every sample is independent anyway, so it changes nothing
     bool warnings = true;       ///< -w
 };

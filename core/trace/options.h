@@ -1,10 +1,20 @@
 #pragma once
 // Rendering options with rpict's defaults and names (see the manual page rpict(1)).
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/math/rgb.h"
 
 namespace lightwalk {
+
+/// Which surfaces take part in the ambient calculation, by the names of their modifiers.
+struct AmbientSelection {
+    enum class Kind { all, include, exclude };
+    Kind kind = Kind::all;
+    std::vector<std::string> modifiers;
+    friend bool operator==(const AmbientSelection&, const AmbientSelection&) = default;
+};
 
 struct RenderOptions {
     // direct
@@ -34,6 +44,7 @@ struct RenderOptions {
     int ambient_resolution = 64;      ///< -ar
     int ambient_divisions = 512;      ///< -ad
     int ambient_super_samples = 128;  ///< -as
+    AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
     // irradiance
     bool irradiance = false;          ///< -i
     std::uint64_t seed = 0;           ///< --seed

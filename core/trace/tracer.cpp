@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/ambient/ambient_calculation.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
 
@@ -54,6 +55,13 @@ RayCounters& RayCounters::operator+=(const RayCounters& o) {
     return *this;
 }
 
+AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& o) {
+    interpolated += o.interpolated;
+    computed += o.computed;
+    incomplete += o.incomplete;
+    return *this;
+}
+
 bool ClipSet::contains(ModifierId m) const {
     return std::binary_search(modifiers.begin(), modifiers.end(), m);
 }
@@ -67,6 +75,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
     if (options_.reflection_limit <= 0 && options_.weight_limit <= 0) {
         throw InputError("-lw must be positive when -lr is zero or negative (Russian roulette)");
     }
+    ambient_ = std::make_unique<AmbientCalculation>(*this);
     lights_->prepare(*this, warnings);
 }
 Tracer::~Tracer() = default;
@@ -213,9 +222,11 @@ void Tracer::pass_through(Ray& ray, TraceContext& context) const {
     ray.unmirrored_distance = ray.hit.t + child.unmirrored_distance;
 }
 
-Rgb Tracer::ambient(Ray& /*ray*/, const Rgb& coef, const Vec3& /*normal*/, TraceContext& /*context*/) const {
-    return coef * options_.ambient_value;
+Rgb Tracer::ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const {
+    return ambient_->add(ray, coef, normal, context);
 }
+
+void Tracer::use_ambient_cache(AmbientCache* cache) { ambient_->use_cache(cache); }
 
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const {
     lights_->add_direct(ray, coefficient, context);

@@ -15,6 +15,8 @@
 
 namespace lightwalk {
 
+class AmbientCache;
+class AmbientCalculation;
 class LightSources;
 class Tracer;
 
@@ -23,6 +25,14 @@ struct RayCounters {
     std::uint64_t primary = 0, shadow = 0, specular = 0, transmitted = 0, ambient = 0;
     RayCounters& operator+=(const RayCounters& o);
     [[nodiscard]] std::uint64_t total() const { return primary + shadow + specular + transmitted + ambient; }
+};
+
+/// Ambient values asked for, by how they were found.
+struct AmbientCounters {
+    std::uint64_t interpolated = 0;  ///< from the cache
+    std::uint64_t computed = 0;      ///< by a hemisphere of rays
+    std::uint64_t incomplete = 0;    ///< of these: some rays could not start, so that nothing was stored
+    AmbientCounters& operator+=(const AmbientCounters& o);
 };
 
 struct ClipSet {
@@ -50,6 +60,8 @@ struct TraceContext {
     ChannelValues channels{};
     std::unique_ptr<LightScratch> light;
     int depth = 0;  ///< nesting of rays, bounded by Tracer::kMaxDepth
+    int ambient_level = 0;  ///< ambient evaluations that are open
+    AmbientCounters ambient;
     // Sets made on the way (antimatter, mist); forgotten when a primary ray starts.
     std::deque<ClipSet> clip_sets;
     std::deque<ScatterList> scatter_lists;
@@ -107,6 +119,9 @@ class Tracer {
     /// Ignore the surface: the ray goes on, and what it brings back is taken over unchanged.
     void pass_through(Ray& ray, TraceContext& context) const;
 
+    /// Where -ab > 0 and -aa > 0 keep their values; it must outlive the tracer's use. Null: every value is computed
+    /// anew, as with -aa 0. Not while rays are traced.
+    void use_ambient_cache(AmbientCache* cache);
     /// Indirect light times `coef` at the hit about `normal` (the constant -av when there is no ambient calculation).
     [[nodiscard]] Rgb ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const;
 
@@ -120,6 +135,7 @@ class Tracer {
     const Scene& scene_;
     RenderOptions options_;
     std::unique_ptr<LightSources> lights_;
+    std::unique_ptr<AmbientCalculation> ambient_;
 };
 
 /// The perturbed normal and its cosine with the ray. `normal` and `rod` may have been flipped by the caller.
