@@ -1,4 +1,5 @@
 // lightwalk info: what a scene holds.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -9,6 +10,7 @@
 #include "apps/warnings.h"
 #include "core/light/light_sources.h"
 #include "core/scene/modifier.h"
+#include "io/ambient/ambient_file.h"
 
 namespace lightwalk {
 namespace {
@@ -73,6 +75,31 @@ void print_lights(const Scene& scene, const LightSources& lights) {
     }
 }
 
+/// Count, levels, radii and bounds of an ambient file.
+void print_ambient_file(const std::string& path) {
+    const AmbientFile file = decode_ambient_file(read_file(path), path);
+    std::map<int, std::size_t> levels;
+    Bounds bounds;
+    double least = kHuge, most = 0;
+    for (const AmbientRecord& record : file.records) {
+        ++levels[record.level];
+        bounds.extend({static_cast<double>(record.position[0]), static_cast<double>(record.position[1]),
+                       static_cast<double>(record.position[2])});
+        least = std::min(least, static_cast<double>(record.radius[0]));
+        most = std::max(most, static_cast<double>(record.radius[1]));
+    }
+    for (const std::string& line : file.header) std::printf("%s\n", line.c_str());
+    std::printf("values         %zu\n", file.records.size());
+    for (const auto& [level, count] : levels) std::printf("  level %-6d %zu\n", level, count);
+    if (!file.records.empty()) {
+        std::printf("radii [m]      %g to %g\n", least, most);
+        std::printf("bounds [m]\n");
+        print_vector("lower", bounds.lower);
+        print_vector("upper", bounds.upper);
+    }
+    if (!file.damage.empty()) std::printf("damage         %s\n", file.damage.c_str());
+}
+
 }  // namespace
 
 int run_info(const std::vector<std::string>& line) {
@@ -88,10 +115,14 @@ int run_info(const std::vector<std::string>& line) {
     settings.light.shadow_threshold = 0;  // no statistics of shadows: nothing is rendered
     StderrWarnings warnings("lightwalk info");
     warnings.enable(settings.warnings && !options.quiet);
+    if (options.scene_files.size() == 1 && options.scene_files[0].ends_with(".amb")) {
+        print_ambient_file(options.scene_files[0]);
+        return kSuccessStatus;
+    }
     SceneSession session(options, warnings);
     print_counts(*session.model);
     print_unsupported(*session.model);
-    session.build(settings.light);
+    session.build(settings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());
     std::printf("memory         %.1f MB geometry, %.1f MB in all at most\n",

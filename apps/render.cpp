@@ -85,7 +85,7 @@ class RenderRun {
     int run() {
         handle_interrupts();
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
-        session_->build(command_.settings.light);
+        session_->build(command_.settings);
         executor_ = make_executor(command_.common.executor, command_.common.workers);
         statistics_.command = "render";
         statistics_.read_seconds = session_->read_seconds;
@@ -94,6 +94,10 @@ class RenderRun {
         if (!(command_.first_frame > 0 ? render_sequence()
                                        : render_picture(command_.view, nullptr, 0))) {
             return kInterruptedStatus;
+        }
+        if (session_->ambient) {
+            statistics_.ambient_values = session_->ambient->size();
+            statistics_.ambient_bytes = session_->ambient->memory_bytes();
         }
         if (!command_.common.stats_file.empty())
             write_statistics(command_.common.stats_file, statistics_);
@@ -181,6 +185,7 @@ class RenderRun {
         ProgressMeter meter({bar, command_.report_interval, kProgram});
         warnings_.use_terminal_line(bar);
         const Stopwatch watch;
+        if (session_->freezable && !fill_cache(camera, options)) return std::nullopt;
         Frame frame = render_frame(session_->tracer(), camera, options, *executor_, warnings_,
                                    interrupt_flag(),
                                    [&](const FrameProgress& progress) { meter.update(progress); });
@@ -188,11 +193,37 @@ class RenderRun {
         meter.finish({frame.complete ? 1.0 : 0.0, frame.rays.total()});
         warnings_.use_terminal_line(false);
         statistics_.rays += frame.rays;
+        statistics_.ambient += frame.ambient;
         statistics_.width = options.width;
         statistics_.height = options.height;
         ++statistics_.frames;
         if (!frame.complete) return std::nullopt;
         return frame;
+    }
+
+    /// Coarse pictures that leave nothing but ambient values, so that the picture itself finds most of them. In
+    /// deterministic mode one thread makes them, finer and finer, and the cache is closed after. False: interrupted.
+    bool fill_cache(const Camera& camera, const FrameOptions& options) {
+        constexpr int kOverture = 6;
+        std::vector<int> steps{kOverture};
+        if (command_.deterministic) steps = {16, 8, 4, 2};
+        else if (!command_.overture) steps.clear();
+        const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
+        session_->freezable->freeze(false);
+        for (const int step : steps) {
+            FrameOptions coarse = options;
+            coarse.width = (options.width + step - 1) / step;
+            coarse.height = (options.height + step - 1) / step;
+            coarse.pixels.spacing = 1;
+            coarse.previous = nullptr;
+            const Frame frame = render_frame(session_->tracer(), camera, coarse, command_.deterministic ? *one : *executor_,
+                                             warnings_, interrupt_flag(), [](const FrameProgress&) {});
+            statistics_.rays += frame.rays;
+            statistics_.ambient += frame.ambient;
+            if (!frame.complete) return false;
+        }
+        session_->freezable->freeze(command_.deterministic);
+        return true;
     }
 
     void write(const Frame& frame, const PictureHeader& header, int number) {

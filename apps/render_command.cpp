@@ -11,7 +11,7 @@ const std::vector<std::string> kOwnNames{
     "-x",    "-y",   "-pa",  "-ps",   "-pt",      "-pj",       "-pd",       "-pm",  "-pc",
     "-pRGB", "-o",   "-z",   "-S",    "-t",       "-vp",       "-vd",       "-vu",  "-vh",
     "-vv",   "-vo",  "-va",  "-vs",   "-vl",      "-vf",       "-vtv",      "-vtl", "-vtc",
-    "-vth",  "-vta", "-vts", "-help", "-version", "-features", "--exposure"};
+    "-vth",  "-vta", "-vts", "-help", "-version", "-features", "--exposure", "--overture", "--deterministic"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -77,7 +77,14 @@ bool parse_output_option(OptionWords& words, RenderCommand& command) {
         command.report_interval = words.real();
     else if (word == "--exposure")
         command.tone = tone_mapping(words.text());
-    else if (word == "-S") {
+    else if (word == "--deterministic") {
+        command.deterministic = true;
+        words.skip(1);
+    } else if (word == "--overture") {
+        const std::string when = words.text();
+        if (when != "auto" && when != "off") throw UsageError("option --overture: expected auto or off, found \"" + when + "\"");
+        command.overture = when == "auto";
+    } else if (word == "-S") {
         command.first_frame = words.integer();
         if (command.first_frame < 1)
             throw UsageError("option -S: expected a frame number of at least 1");

@@ -23,6 +23,8 @@ struct RenderCommand {
     std::string depth;                               ///< -z; "" is none
     double report_interval = 0;                      ///< -t [s]
     ToneMapping tone;                                ///< --exposure
+    bool overture = true;                            ///< --overture auto|off
+    bool deterministic = false;                      ///< --deterministic
     int first_frame = 0;         ///< -S: number of the first frame of a sequence; 0: one picture
     bool show_defaults = false;  ///< -defaults
     std::string history;         ///< the command line for the picture's header

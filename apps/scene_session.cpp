@@ -34,15 +34,25 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink)
     read_seconds = watch.seconds();
 }
 
-void SceneSession::build(const RenderOptions& options) {
+void SceneSession::build(const RenderSettings& settings) {
     const Stopwatch watch;
     built = std::make_unique<const Scene>(model, resources, warnings);
-    auto fresh = std::make_unique<Tracer>(*built, options, warnings);
-    if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {
+    auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
+    const RenderOptions& options = settings.light;
+    const bool caches = options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon;
+    if (caches) {
         const SceneCube cube = built->cube();
         ambient = std::make_unique<ConcurrentCache>(
             ambient_limits(cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
-        fresh->use_ambient_cache(ambient.get());
+        AmbientCache* cache = ambient.get();
+        if (!settings.ambient_file.empty()) {
+            ambient_store = std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings);
+            cache = ambient_store.get();
+        }
+        freezable = std::make_unique<FreezableCache>(*cache);
+        fresh->use_ambient_cache(freezable.get());
+    } else if (!settings.ambient_file.empty()) {
+        warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
     }
     made = std::move(fresh);
     build_seconds = watch.seconds();
@@ -60,6 +70,11 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
     json["rays"] = {{"primary", s.rays.primary},   {"shadow", s.rays.shadow},
                     {"specular", s.rays.specular}, {"transmitted", s.rays.transmitted},
                     {"ambient", s.rays.ambient},   {"total", s.rays.total()}};
+    if (s.ambient_values > 0 || s.ambient.computed > 0) {
+        json["ambient"] = {{"interpolated", s.ambient.interpolated}, {"computed", s.ambient.computed},
+                           {"incomplete", s.ambient.incomplete},     {"cached", s.ambient_values},
+                           {"cache_bytes", s.ambient_bytes}};
+    }
     json["rays_per_second"] =
         static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);
     json["peak_memory_bytes"] = peak_memory_bytes();

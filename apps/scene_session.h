@@ -8,7 +8,9 @@
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"
 #include "io/file_resources.h"
+#include "io/ambient/ambient_store.h"
 #include "parallel/concurrent_cache.h"
+#include "parallel/freezable_cache.h"
 
 namespace lightwalk {
 
@@ -26,7 +28,7 @@ struct SceneSession {
     /// Reads the description. Throws InputError; UsageError when no scene is named.
     SceneSession(const CommonOptions& options, WarningSink& warnings);
     /// Compiles the scene, then the tracer. Throws InputError.
-    void build(const RenderOptions& options);
+    void build(const RenderSettings& settings);
 
     [[nodiscard]] const Scene& scene() const { return *built; }
     [[nodiscard]] const Tracer& tracer() const { return *made; }
@@ -36,7 +38,10 @@ struct SceneSession {
     FileResources resources;
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;
-    std::unique_ptr<ConcurrentCache> ambient;  ///< with -ab and -aa; outlives the tracer
+    // With -ab and -aa; they outlive the tracer.
+    std::unique_ptr<ConcurrentCache> ambient;
+    std::unique_ptr<AmbientStore> ambient_store;  ///< with -af
+    std::unique_ptr<FreezableCache> freezable;
     std::unique_ptr<const Tracer> made;
     double read_seconds = 0, build_seconds = 0;
 };
@@ -46,6 +51,8 @@ struct RunStatistics {
     std::string command;
     double read_seconds = 0, build_seconds = 0, render_seconds = 0;
     RayCounters rays;
+    AmbientCounters ambient;
+    std::size_t ambient_values = 0, ambient_bytes = 0;  ///< in the cache at the end
     int threads = 1;
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;

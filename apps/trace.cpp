@@ -143,7 +143,7 @@ class TraceRun {
 
     int run() {
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
-        session_->build(command_.settings.light);
+        session_->build(command_.settings);
         executor_ = make_executor(command_.common.executor, command_.common.workers);
         contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
                                                      executor_->concurrency());
@@ -237,6 +237,11 @@ class TraceRun {
         statistics.build_seconds = session_->build_seconds;
         statistics.render_seconds = seconds;
         statistics.rays = contexts_->rays();
+        statistics.ambient = contexts_->ambient();
+        if (session_->ambient) {
+            statistics.ambient_values = session_->ambient->size();
+            statistics.ambient_bytes = session_->ambient->memory_bytes();
+        }
         statistics.threads = executor_->concurrency();
         write_statistics(command_.common.stats_file, statistics);
     }

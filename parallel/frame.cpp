@@ -99,6 +99,7 @@ class FrameRenderer {
             },
             stop_);
         frame_.rays = contexts_.rays();
+        frame_.ambient = contexts_.ambient();
         frame_.complete = !stop_.requested();
         return std::move(frame_);
     }

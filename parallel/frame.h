@@ -27,6 +27,7 @@ struct Frame {
     std::vector<float>
         distance;  ///< along the pixel's ray, 1e10 for nothing, 0 where there is no ray [m]
     RayCounters rays;
+    AmbientCounters ambient;
     bool complete = false;  ///< false: stopped early; then some pixels are black
 };
 

@@ -30,6 +30,14 @@ class WorkerContexts {
         return sum;
     }
 
+    [[nodiscard]] AmbientCounters ambient() const {
+        AmbientCounters sum;
+        for (const auto& context : contexts_) {
+            if (context) sum += context->ambient;
+        }
+        return sum;
+    }
+
   private:
     const Tracer& tracer_;
     WarningSink& warnings_;

@@ -60,8 +60,9 @@ bool AmbientCalculation::takes_part(const Ray& ray) const {
 /// -av, or what -aw makes of it and of the values that are known: their logarithmic mean.
 Rgb AmbientCalculation::constant(const Rgb& coef) const {
     const RenderOptions& options = tracer_.options();
-    const AmbientLogMean known = cache_ ? cache_->log_mean() : AmbientLogMean{};
-    if (options.ambient_weight <= 0 || known.count == 0) return coef * options.ambient_value;
+    if (options.ambient_weight <= 0 || !cache_) return coef * options.ambient_value;
+    const AmbientLogMean known = cache_->log_mean();
+    if (known.count == 0) return coef * options.ambient_value;
     const auto b = static_cast<double>(brightness(options.ambient_value));
     const double k = static_cast<double>(known.count), w = options.ambient_weight, h = std::log(1 - kReflectance);
     if (b > kEpsilon) {

@@ -220,14 +220,52 @@ TEST_CASE("render: --stats tells times, rays by kind, threads and memory") {
     CHECK(json["version"].is_string());
 }
 
-TEST_CASE("render: -ab > 0 warns once, -w- keeps it silent") {
+TEST_CASE("render: -ab adds indirect light, --deterministic with the same bytes for any number of threads") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
-    const std::string loud = run_program(line({"-ab", "2", scene})).err;
-    const std::size_t first = loud.find("-ab");
-    CHECK(first != std::string::npos);
-    CHECK(loud.find("-ab", first + 1) == std::string::npos);
-    CHECK(run_program(line({"-ab", "2", "-w-", scene})).err.empty());
+    const auto render = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"-ad", "64", "-as", "0", scene});
+        const ProgramResult result = run_program(line(words));
+        CAPTURE(result.err);
+        REQUIRE(result.status == 0);
+        CHECK(result.err.empty());
+        return pixel_bytes(result.out);
+    };
+    const std::string direct = render({"-ab", "0"}), one = render({"-ab", "2", "-n", "1", "--deterministic"});
+    CHECK(one != direct);
+    CHECK(render({"-ab", "2", "-n", "2", "--deterministic"}) == one);
+    CHECK(render({"-ab", "2", "-n", "7", "--deterministic"}) == one);
+    CHECK(run_program(line({"--overture", "never", scene})).status == 2);
+}
+
+TEST_CASE("render: -af keeps values for the next run, and refuses those of other options") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom), file = folder.path("room.amb");
+    const auto render = [&](const std::string& accuracy) {
+        return run_program(line({"-ab", "1", "-ad", "64", "-as", "0", "-aa", accuracy, "-af", file, "-ps", "1",
+                                 "--stats", folder.path("s.json"), scene}));
+    };
+    const auto computed = [&] { return nlohmann::json::parse(read_whole(folder.path("s.json")))["ambient"]["computed"].get<int>(); };
+    CHECK(render(".1").status == 0);
+    CHECK(computed() > 10);
+    const std::size_t size = read_whole(file).size();
+    CHECK(render(".1").status == 0);
+    CHECK(computed() == 0);
+    CHECK(read_whole(file).size() == size);
+    const ProgramResult other = render(".2");
+    CHECK(other.status == 1);
+    CHECK(other.err.find("-aa 0.1, not 0.2") != std::string::npos);
+    std::filesystem::resize_file(file, size - 5);  // as a killed run may leave it
+    const ProgramResult torn = render(".1");
+    CHECK(torn.status == 0);
+    CHECK(torn.err.find("the last record is incomplete") != std::string::npos);
+    CHECK(computed() >= 1);
+    const ProgramResult info = run_program({"info", file});
+    CHECK(info.status == 0);
+    CHECK(info.out.find("values ") != std::string::npos);
+    CHECK(info.out.find("level 0") != std::string::npos);
+    folder.write("bad.amb", "what is this");
+    CHECK(run_program(line({"-ab", "1", "-af", folder.path("bad.amb"), scene})).status == 1);
 }
 
 TEST_CASE("render: -defaults shows every value after the options before it") {

@@ -110,9 +110,9 @@ TEST_CASE("words that are no rendering options are left alone") {
 
 TEST_CASE("one kind of ambient list at a time: the other kind starts anew") {
     using Kind = AmbientSelection::Kind;
-    CHECK(parse({"-ae", "a", "-ae", "b"}).ambient_surfaces ==
+    CHECK(parse({"-ae", "a", "-ae", "b"}).light.ambient_surfaces ==
           AmbientSelection{Kind::exclude, {"a", "b"}});
-    CHECK(parse({"-ae", "a", "-ai", "b"}).ambient_surfaces ==
+    CHECK(parse({"-ae", "a", "-ai", "b"}).light.ambient_surfaces ==
           AmbientSelection{Kind::include, {"b"}});
     std::vector<std::string> line;
     for (int i = 0; i < 513; ++i) line.insert(line.end(), {"-ai", "m"});

@@ -1,0 +1,172 @@
+#include "io/ambient/ambient_store.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+
+#include "io/ambient/ambient_file.h"
+
+namespace lightwalk {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& doing) {
+    throw InputError({path, 0}, doing + ": " + std::system_category().message(errno));
+}
+
+std::string text(const char* format, double value) {
+    std::array<char, 64> buffer{};
+    (void)std::snprintf(buffer.data(), buffer.size(), format, value);
+    return buffer.data();
+}
+
+/// Bytes of the file from `begin` to its end.
+std::string read_from(int file, std::size_t begin, const std::string& path) {
+    std::string bytes;
+    std::array<char, 1 << 16> chunk{};
+    for (;;) {
+        const ssize_t count = pread(file, chunk.data(), chunk.size(), static_cast<off_t>(begin + bytes.size()));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(path, "cannot read");
+        if (count == 0) return bytes;
+        bytes.append(chunk.data(), static_cast<std::size_t>(count));
+    }
+}
+
+void write_at(int file, std::size_t begin, const std::string& bytes, const std::string& path) {
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t count = pwrite(file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(begin + done));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail(path, "cannot write");
+        done += static_cast<std::size_t>(count);
+    }
+}
+
+}  // namespace
+
+/// The whole file, for this process alone (or shared, for reading).
+class AmbientStore::Lock {
+  public:
+    Lock(int file, bool exclusive, const std::string& path) : file_(file) {
+        if (!set(exclusive ? F_WRLCK : F_RDLCK)) fail(path, "cannot lock");
+    }
+    ~Lock() { (void)set(F_UNLCK); }
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
+
+  private:
+    bool set(int kind) const {
+        struct flock whole {};
+        whole.l_type = static_cast<short>(kind);
+        whole.l_whence = SEEK_SET;
+        int result = -1;
+        while ((result = fcntl(file_, F_SETLKW, &whole)) < 0 && errno == EINTR) {
+        }
+        return result == 0;
+    }
+    int file_;
+};
+
+AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
+                           WarningSink& warnings)
+    : path_(path), cache_(cache) {
+    file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+        file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        writable_ = false;
+        if (file_ < 0) fail(path, "cannot open the ambient file");
+        warnings.warn(path + ": the ambient file cannot be written; its values are used");
+    }
+    try {
+        const Lock lock(file_, writable_, path_);
+        load(options, warnings);
+    } catch (...) {
+        (void)close(file_);
+        throw;
+    }
+}
+
+AmbientStore::~AmbientStore() { (void)close(file_); }
+
+void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
+    struct stat status {};
+    if (fstat(file_, &status) != 0) fail(path_, "cannot read");
+    if (!S_ISREG(status.st_mode)) throw InputError({path_, 0}, "an ambient file must be a plain file");
+    const std::string bytes = read_from(file_, 0, path_);
+    if (bytes.empty() && writable_) {
+        const std::string header = encode_ambient_header({ambient_option_line(options)});
+        write_at(file_, 0, header, path_);
+        known_ = header.size();
+        return;
+    }
+    const AmbientFile contents = decode_ambient_file(bytes, path_);
+    if (const std::string difference = ambient_option_difference(contents.header, options); !difference.empty()) {
+        throw InputError({path_, 0}, "the ambient file was made with " + difference);
+    }
+    for (const AmbientRecord& record : contents.records) cache_.insert(record);
+    known_ = contents.size;
+    if (contents.damage.empty()) return;
+    warnings.warn(path_ + ": " + contents.damage + "; the " + std::to_string(contents.records.size()) +
+                  " values before are used" + (writable_ ? ", the rest is cut off" : ""));
+    if (writable_ && ftruncate(file_, static_cast<off_t>(known_)) != 0) fail(path_, "cannot cut off the damaged end");
+}
+
+/// Whole records that other processes have appended; the file is locked.
+void AmbientStore::take_over_appended() {
+    struct stat status {};
+    if (fstat(file_, &status) != 0) fail(path_, "cannot read");
+    if (static_cast<std::size_t>(status.st_size) < known_ + kAmbientRecordSize) return;
+    const std::string bytes = read_from(file_, known_, path_);
+    const AmbientFile contents = decode_ambient_file(encode_ambient_header({}) + bytes, path_);
+    for (const AmbientRecord& record : contents.records) cache_.insert(record);
+    known_ += contents.records.size() * kAmbientRecordSize;
+}
+
+void AmbientStore::insert(const AmbientRecord& record) {
+    cache_.insert(record);
+    if (!writable_) return;
+    const std::string bytes = encode_ambient_record(record);
+    const std::lock_guard guard(mutex_);
+    const Lock lock(file_, true, path_);
+    take_over_appended();
+    write_at(file_, known_, bytes, path_);
+    known_ += bytes.size();
+}
+
+std::string ambient_option_line(const RenderOptions& o) {
+    std::string line = "lightwalk -av";
+    for (std::size_t k = 0; k < 3; ++k) line += text(" %g", static_cast<double>(o.ambient_value[k]));
+    line += text(" -aw %.0f", o.ambient_weight) + text(" -ab %.0f", o.ambient_bounces) + text(" -aa %g", o.ambient_accuracy);
+    line += text(" -ad %.0f", o.ambient_divisions) + text(" -as %.0f", o.ambient_super_samples);
+    line += text(" -ar %.0f", o.ambient_resolution) + text(" -dt %g", o.shadow_threshold) + text(" -dc %g", o.shadow_certainty);
+    line += text(" -ss %g", o.specular_samples) + text(" -st %g", o.specular_threshold);
+    return line + text(" -lr %.0f", o.reflection_limit) + text(" -lw %g", o.weight_limit);
+}
+
+std::string ambient_option_difference(const std::vector<std::string>& header, const RenderOptions& o) {
+    const std::array<std::pair<const char*, double>, 5> wanted{
+        {{"-ab", o.ambient_bounces}, {"-aa", o.ambient_accuracy}, {"-ad", o.ambient_divisions},
+         {"-as", o.ambient_super_samples}, {"-ar", o.ambient_resolution}}};
+    for (const std::string& line : header) {
+        std::istringstream words(line);
+        for (std::string word, value; words >> word;) {
+            for (const auto& [name, number] : wanted) {
+                if (word != name || !(words >> value)) continue;
+                const double found = std::strtod(value.c_str(), nullptr);
+                if (std::abs(found - number) > 1e-4 * std::abs(number)) {
+                    return word + " " + value + ", not " + text("%g", number);
+                }
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,49 @@
+#pragma once
+// A cache that keeps its values in an ambient file, which other processes may use at the same time.
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/ambient/ambient_cache.h"
+#include "core/error.h"
+#include "core/trace/options.h"
+
+namespace lightwalk {
+
+/// Stands before another cache: what is stored there goes to the file as well, in whole records, at once; what other
+/// processes append is taken over. The file is locked (fcntl) while it is read or written, as Radiance's programs do.
+class AmbientStore final : public AmbientCache {
+  public:
+    /// Opens or makes the file, and fills `cache` with its values. A damaged end is reported and cut off. Where the file
+    /// cannot be written its values are used, with a warning, and it stays as it is.
+    /// Throws InputError for a file that is none, or was made with other ambient options.
+    AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache, WarningSink& warnings);
+    ~AmbientStore() override;
+
+    [[nodiscard]] const AmbientLimits& limits() const override { return cache_.limits(); }
+    [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override {
+        return cache_.lookup(query, leaks);
+    }
+    /// Throws InputError when the file cannot be written.
+    void insert(const AmbientRecord& record) override;
+    [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
+
+  private:
+    class Lock;
+    void load(const RenderOptions& options, WarningSink& warnings);
+    void take_over_appended();
+
+    std::string path_;
+    AmbientCache& cache_;
+    int file_ = -1;
+    bool writable_ = true;
+    std::mutex mutex_;       ///< guards the file
+    std::size_t known_ = 0;  ///< bytes of the file that are in the cache
+};
+
+/// The header line of a file made with these options, as Radiance orders them.
+[[nodiscard]] std::string ambient_option_line(const RenderOptions& options);
+/// What makes a file's values unfit for these options, as "-aa 0.1, not 0.2"; "" when nothing does.
+[[nodiscard]] std::string ambient_option_difference(const std::vector<std::string>& header, const RenderOptions& options);
+
+}  // namespace lightwalk

@@ -1,0 +1,27 @@
+#pragma once
+// A cache that can be closed to new values, so that what is looked up no longer depends on who computes what when.
+#include "core/ambient/ambient_cache.h"
+
+namespace lightwalk {
+
+class FreezableCache final : public AmbientCache {
+  public:
+    explicit FreezableCache(AmbientCache& cache) : cache_(cache) {}
+    /// New values are dropped from now on, or kept again. Not while rays are traced.
+    void freeze(bool frozen) { frozen_ = frozen; }
+
+    [[nodiscard]] const AmbientLimits& limits() const override { return cache_.limits(); }
+    [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override {
+        return cache_.lookup(query, leaks);
+    }
+    void insert(const AmbientRecord& record) override {
+        if (!frozen_) cache_.insert(record);
+    }
+    [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
+
+  private:
+    AmbientCache& cache_;
+    bool frozen_ = false;
+};
+
+}  // namespace lightwalk
