@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "io/ambient/ambient_file.h"
 #include "io/picture/picture.h"
 #include "tests/apps/program.h"
 
@@ -266,6 +267,41 @@ TEST_CASE("render: -af keeps values for the next run, and refuses those of other
     CHECK(info.out.find("level 0") != std::string::npos);
     folder.write("bad.amb", "what is this");
     CHECK(run_program(line({"-ab", "1", "-af", folder.path("bad.amb"), scene})).status == 1);
+}
+
+TEST_CASE("render: killed at twenty moments, every whole ambient value is there for the next run") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom), file = folder.path("room.amb");
+    const auto words = [&](const std::string& picture) {
+        return line({"--quiet", "-ab", "1", "-ad", "1024", "-as", "0", "-aa", ".05", "-ar", "256", "-ps", "1", "-pj", "0",
+                     "-x", "160", "-y", "120", "-af", file, "-o", folder.path(picture), scene});
+    };
+    std::size_t before = 0;
+    for (int i = 0; i < 20; ++i) {
+        {
+            const RunningProgram run(words("killed.hdr"));
+            std::this_thread::sleep_for(std::chrono::milliseconds(10 + 37 * i % 90));
+        }  // SIGKILL
+        const std::string bytes = std::filesystem::exists(file) ? read_whole(file) : std::string();
+        if (bytes.empty()) continue;
+        const AmbientFile contents = decode_ambient_file(bytes, file);
+        CHECK((contents.damage.empty() || contents.damage == "the last record is incomplete"));
+        CHECK(contents.records.size() >= before);
+        before = contents.records.size();
+    }
+    CHECK(before > 0);
+    const ProgramResult last = run_program(words("last.hdr"));
+    CAPTURE(last.err);
+    REQUIRE(last.status == 0);
+    CHECK(decode_ambient_file(read_whole(file), file).damage.empty());
+    std::filesystem::remove(file);
+    REQUIRE(run_program(words("fresh.hdr")).status == 0);
+    const Picture a = read_hdr(read_whole(folder.path("last.hdr")), "last.hdr"),
+                  b = read_hdr(read_whole(folder.path("fresh.hdr")), "fresh.hdr");
+    double sum_a = 0, sum_b = 0;
+    for (const Rgb& c : a.pixels) sum_a += static_cast<double>(c.g);
+    for (const Rgb& c : b.pixels) sum_b += static_cast<double>(c.g);
+    CHECK(sum_a == doctest::Approx(sum_b).epsilon(0.01));
 }
 
 TEST_CASE("render: -defaults shows every value after the options before it") {

@@ -3,8 +3,8 @@
 
   check_reference.py PROGRAM DATA KIND [NAME]
 
-KIND: cases (radiances of tiny scenes), distances, pixels, rays (single rays through real models), picture NAME,
-defaults NAME (the mean with default options). Exit 0: holds, 1: does not, 77: the data are not here (skipped).
+KIND: cases (radiances of tiny scenes), ambient_cases (with indirect light), distances, pixels, rays (single rays
+through real models), picture NAME, defaults NAME (the mean with default options). Exit 0: holds, 1: does not, 77: the data are not here (skipped).
 """
 import csv, gzip, os, pathlib, subprocess, sys, tempfile
 
@@ -55,6 +55,11 @@ def cases(program, data):
         print(f"FAILS {row['scene']} [{row['note']}]: got {got} want {want}")
     print(f"{exact} of {len(rows)} values are Radiance's, {near} with -dt > 0 are within 1.5 % of testing every light")
     return exact + near == len(rows) > 0
+
+
+def ambient_cases(program, data):
+    done = subprocess.run([sys.executable, data / "tools" / "check_cases.py", f"{program} trace", data / "spec" / "5-cases"])
+    return done.returncode == 0
 
 
 def distances(program, data):
@@ -145,7 +150,7 @@ def picture(program, data, name):
     with tempfile.TemporaryDirectory() as temp:
         out = os.path.join(temp, "mine.hdr")
         render(program, data, row, row["options"].split(), out)
-        done = subprocess.run([sys.executable, data / "tools" / "compare_pictures.py", "--kind", "deterministic", "--json",
+        done = subprocess.run([sys.executable, data / "tools" / "compare_pictures.py", "--kind", row["kind"], "--json",
                                data / "reference" / row["picture"], out], capture_output=True, text=True)
         print(name, done.stdout.strip(), done.stderr.strip())
         return done.returncode == 0
@@ -180,7 +185,7 @@ def main(argv):
     if not (data / "reference").is_dir():
         print("skipped: the reference data are not here")
         return SKIP
-    check = {"cases": cases, "distances": distances, "pixels": pixels, "rays": rays}.get(kind)
+    check = {"cases": cases, "ambient_cases": ambient_cases, "distances": distances, "pixels": pixels, "rays": rays}.get(kind)
     if check:
         return 0 if check(program, data) else 1
     return 0 if {"picture": picture, "defaults": defaults}[kind](program, data, argv[4]) else 1
