@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+"""Error against time of indirect light in the summer cabin; needs python3-numpy.
+
+  ambient_bench.py --scenes DIR [--lightwalk PROGRAM] --converged FILE.hdr [--threads 1,2] [--bounces 1] [--runs 1]
+
+DIR holds Radiance's sample models: DIR/cabin and DIR/lib. FILE.hdr is the picture without cache (-aa 0) that the others are
+compared with; where it is missing it is made, with --divisions hemisphere samples (default 4096: that takes hours on few cores).
+One line a picture, tab-separated: threads, -aa, -ad, seconds to render, values in the cache, 95th percentile of the relative
+error of 4x4 blocks, mean ratio. One curve is the lines of one number of threads.
+"""
+import argparse, json, os, pathlib, statistics, subprocess, sys, tempfile
+
+import numpy as np
+
+SCENE = "pattmats cabin bathroom furniture winpanes.rad mirrors.rad summerday landscape lights.off daywindows".split()
+VIEW = ("-vf vf/living -x 320 -y 240 -ps 1 -pj 0 -dj 0 -ss 0 -dt 0 -aE ../lib/tree.mat -av .1 .1 .1").split()
+SETTINGS = [(0.3, 128, 32, 64), (0.2, 256, 64, 96), (0.15, 512, 128, 128), (0.1, 1024, 256, 256)]  # -aa -ad -as -ar
+
+
+def read_hdr(path):
+    """Radiance picture, new run-length encoding: array of height, width, 3."""
+    data = pathlib.Path(path).read_bytes()
+    at = data.index(b"\n\n") + 2
+    end = data.index(b"\n", at)
+    words = data[at:end].split()
+    height, width, at = int(words[1]), int(words[3]), end + 1
+    rows = np.zeros((height, 4, width), np.uint8)
+    for row in rows:
+        at += 4
+        for channel in row:
+            filled = 0
+            while filled < width:
+                count = data[at]
+                at += 1
+                if count > 128:
+                    channel[filled:filled + count - 128] = data[at]
+                    count -= 128
+                    at += 1
+                else:
+                    channel[filled:filled + count] = np.frombuffer(data, np.uint8, count, at)
+                    at += count
+                filled += count
+    scale = np.where(rows[:, 3] > 0, np.exp2(rows[:, 3].astype(float) - 136), 0)
+    return (rows[:, :3].astype(float).transpose(0, 2, 1) + 0.5) * scale[:, :, None]
+
+
+def blocks(picture):
+    height, width = picture.shape[0] // 4 * 4, picture.shape[1] // 4 * 4
+    return picture[:height, :width].reshape(height // 4, 4, width // 4, 4, 3).mean((1, 3))
+
+
+def compare(picture, reference):
+    a, b = blocks(picture), blocks(reference)
+    error = np.abs(a - b).max(2) / np.maximum(b.max(2), 0.02 * b.mean())
+    return float(np.percentile(error, 95)), float(picture.mean() / reference.mean())
+
+
+def render(arguments, options, path):
+    with tempfile.TemporaryDirectory() as scratch:
+        stats = os.path.join(scratch, "stats.json")
+        subprocess.run([os.path.abspath(arguments.lightwalk), "render", "--quiet", *VIEW, "-ab", str(arguments.bounces), *options,
+                        "--stats", stats, "-o", os.path.abspath(path), *SCENE], check=True,
+                       cwd=os.path.join(arguments.scenes, "cabin"), env=dict(os.environ, RAYPATH=".:../lib"))
+        return json.loads(pathlib.Path(stats).read_text())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scenes", required=True, metavar="DIR")
+    parser.add_argument("--lightwalk", default="lightwalk", metavar="PROGRAM")
+    parser.add_argument("--converged", required=True, metavar="FILE.hdr")
+    parser.add_argument("--divisions", type=int, default=4096)
+    parser.add_argument("--bounces", type=int, default=1)
+    parser.add_argument("--threads", default="1,2")
+    parser.add_argument("--runs", type=int, default=1)
+    arguments = parser.parse_args()
+    if not os.path.exists(arguments.converged):
+        render(arguments, ["-aa", "0", "-ad", str(arguments.divisions), "-as", "0"], arguments.converged)
+    reference = read_hdr(arguments.converged)
+    print("threads\t-aa\t-ad\tseconds\tvalues\tblock p95\tmean ratio", flush=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        for threads in arguments.threads.split(","):
+            for aa, ad, extra, ar in SETTINGS:
+                path = os.path.join(scratch, "picture.hdr")
+                options = ["-aa", str(aa), "-ad", str(ad), "-as", str(extra), "-ar", str(ar), "-n", threads]
+                runs = [render(arguments, options, path) for _ in range(arguments.runs)]
+                p95, mean = compare(read_hdr(path), reference)
+                seconds = statistics.median(r["seconds"]["render"] for r in runs)
+                print(threads, aa, ad, f"{seconds:.2f}", runs[-1]["ambient"]["cached"], f"{p95:.4f}", f"{mean:.4f}", sep="\t", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
