@@ -51,7 +51,7 @@ Sampling
   -pt T              how much they may differ, as a share
   -pj J              jitter of a ray within its pixel, 0 to 1
   -pd D  -pm M       lens diameter, for depth of field; share of the frame time the shutter is open (with -S)
-  --seed N           other random numbers; the same seed gives the same bytes with any number of threads
+  --seed N           other random numbers; the same seed gives the same bytes (with -ab: see --deterministic)
   -n N               threads; default: all. --executor serial|threads|tbb: what runs them
   -S N               a picture for each view line on standard input, numbered from N; -o f%03d.hdr names them
 
@@ -89,7 +89,7 @@ switches work as in `lightwalk render`.
   -ld                a direction's length limits its ray
   -x N  -y N         picture size: flush after N rays, stop after N * N; a resolution line goes first
   -pRGB -pXYZ -pY -pA   colours as RGB, XYZ, luminance, mean
-  -n N               threads; default: all. The output does not depend on it
+  -n N               threads; default: all. Without -ab the output does not depend on it
   --seed N           other random numbers; equal rays of one run draw different ones
   --stats FILE.json  time and rays
   -e FILE            append messages to FILE

@@ -83,7 +83,8 @@ void print_ambient_file(const std::string& path) {
     double least = kHuge, most = 0;
     for (const AmbientRecord& record : file.records) {
         ++levels[record.level];
-        bounds.extend({static_cast<double>(record.position[0]), static_cast<double>(record.position[1]),
+        bounds.extend({static_cast<double>(record.position[0]),
+                       static_cast<double>(record.position[1]),
                        static_cast<double>(record.position[2])});
         least = std::min(least, static_cast<double>(record.radius[0]));
         most = std::max(most, static_cast<double>(record.radius[1]));

@@ -201,13 +201,16 @@ class RenderRun {
         return frame;
     }
 
-    /// Coarse pictures that leave nothing but ambient values, so that the picture itself finds most of them. In
-    /// deterministic mode one thread makes them, finer and finer, and the cache is closed after. False: interrupted.
+    /// Coarse pictures that leave nothing but ambient values, so that the picture itself finds most
+    /// of them. In deterministic mode one thread makes them, finer and finer, and the cache is
+    /// closed after. False: interrupted.
     bool fill_cache(const Camera& camera, const FrameOptions& options) {
         constexpr int kOverture = 6;
         std::vector<int> steps{kOverture};
-        if (command_.deterministic) steps = {16, 8, 4, 2};
-        else if (!command_.overture) steps.clear();
+        if (command_.deterministic)
+            steps = {16, 8, 4, 2};
+        else if (!command_.overture)
+            steps.clear();
         const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
         session_->freezable->freeze(false);
         for (const int step : steps) {
@@ -216,8 +219,9 @@ class RenderRun {
             coarse.height = (options.height + step - 1) / step;
             coarse.pixels.spacing = 1;
             coarse.previous = nullptr;
-            const Frame frame = render_frame(session_->tracer(), camera, coarse, command_.deterministic ? *one : *executor_,
-                                             warnings_, interrupt_flag(), [](const FrameProgress&) {});
+            const Frame frame = render_frame(session_->tracer(), camera, coarse,
+                                             command_.deterministic ? *one : *executor_, warnings_,
+                                             interrupt_flag(), [](const FrameProgress&) {});
             statistics_.rays += frame.rays;
             statistics_.ambient += frame.ambient;
             if (!frame.complete) return false;

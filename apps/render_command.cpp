@@ -8,10 +8,12 @@ namespace lightwalk {
 namespace {
 
 const std::vector<std::string> kOwnNames{
-    "-x",    "-y",   "-pa",  "-ps",   "-pt",      "-pj",       "-pd",       "-pm",  "-pc",
-    "-pRGB", "-o",   "-z",   "-S",    "-t",       "-vp",       "-vd",       "-vu",  "-vh",
-    "-vv",   "-vo",  "-va",  "-vs",   "-vl",      "-vf",       "-vtv",      "-vtl", "-vtc",
-    "-vth",  "-vta", "-vts", "-help", "-version", "-features", "--exposure", "--overture", "--deterministic"};
+    "-x",    "-y",       "-pa",       "-ps",        "-pt",        "-pj",
+    "-pd",   "-pm",      "-pc",       "-pRGB",      "-o",         "-z",
+    "-S",    "-t",       "-vp",       "-vd",        "-vu",        "-vh",
+    "-vv",   "-vo",      "-va",       "-vs",        "-vl",        "-vf",
+    "-vtv",  "-vtl",     "-vtc",      "-vth",       "-vta",       "-vts",
+    "-help", "-version", "-features", "--exposure", "--overture", "--deterministic"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -82,7 +84,8 @@ bool parse_output_option(OptionWords& words, RenderCommand& command) {
         words.skip(1);
     } else if (word == "--overture") {
         const std::string when = words.text();
-        if (when != "auto" && when != "off") throw UsageError("option --overture: expected auto or off, found \"" + when + "\"");
+        if (when != "auto" && when != "off")
+            throw UsageError("option --overture: expected auto or off, found \"" + when + "\"");
         command.overture = when == "auto";
     } else if (word == "-S") {
         command.first_frame = words.integer();

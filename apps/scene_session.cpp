@@ -42,11 +42,12 @@ void SceneSession::build(const RenderSettings& settings) {
     const bool caches = options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon;
     if (caches) {
         const SceneCube cube = built->cube();
-        ambient = std::make_unique<ConcurrentCache>(
-            ambient_limits(cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
+        ambient = std::make_unique<ConcurrentCache>(ambient_limits(
+            cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
         AmbientCache* cache = ambient.get();
         if (!settings.ambient_file.empty()) {
-            ambient_store = std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings);
+            ambient_store =
+                std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings);
             cache = ambient_store.get();
         }
         freezable = std::make_unique<FreezableCache>(*cache);
@@ -71,8 +72,10 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
                     {"specular", s.rays.specular}, {"transmitted", s.rays.transmitted},
                     {"ambient", s.rays.ambient},   {"total", s.rays.total()}};
     if (s.ambient_values > 0 || s.ambient.computed > 0) {
-        json["ambient"] = {{"interpolated", s.ambient.interpolated}, {"computed", s.ambient.computed},
-                           {"incomplete", s.ambient.incomplete},     {"cached", s.ambient_values},
+        json["ambient"] = {{"interpolated", s.ambient.interpolated},
+                           {"computed", s.ambient.computed},
+                           {"incomplete", s.ambient.incomplete},
+                           {"cached", s.ambient_values},
                            {"cache_bytes", s.ambient_bytes}};
     }
     json["rays_per_second"] =

@@ -10,7 +10,8 @@ constexpr double kEnough = 0.05;  ///< weight of small records that keeps larger
 }  // namespace
 
 ConcurrentCache::ConcurrentCache(const AmbientLimits& limits) : limits_(limits) {
-    (void)nodes_.add(8);  // the root, and seven that nobody uses: eight children never straddle blocks
+    (void)nodes_.add(
+        8);  // the root, and seven that nobody uses: eight children never straddle blocks
 }
 
 /// First child; made where it is missing. Who comes second leaves eight nodes unused.
@@ -19,7 +20,8 @@ std::uint32_t ConcurrentCache::children_of(std::uint32_t node) {
     std::uint32_t children = place.load(std::memory_order_acquire);
     if (children != 0) return children;
     const std::uint32_t fresh = nodes_.add(8);
-    return place.compare_exchange_strong(children, fresh, std::memory_order_acq_rel) ? fresh : children;
+    return place.compare_exchange_strong(children, fresh, std::memory_order_acq_rel) ? fresh
+                                                                                     : children;
 }
 
 void ConcurrentCache::insert(const AmbientRecord& record) {
@@ -57,15 +59,16 @@ AmbientSum ConcurrentCache::lookup(const AmbientQuery& query, LeakTest leaks) co
     return sum;
 }
 
-void ConcurrentCache::sum_node(std::uint32_t node, const CachePath& cube, const AmbientQuery& query, LeakTest leaks,
-                               AmbientSum& sum) const {
+void ConcurrentCache::sum_node(std::uint32_t node, const CachePath& cube, const AmbientQuery& query,
+                               LeakTest leaks, AmbientSum& sum) const {
     const Node& n = nodes_[node];
     const std::uint32_t children = n.children.load(std::memory_order_acquire);
     AmbientSum own;
     if (children != 0) {
         for (unsigned child = 0; child < 8; ++child) {
             const CachePath inside = child_cube(cube, child);
-            if (reaches(inside, query.position)) sum_node(children + child, inside, query, leaks, own);
+            if (reaches(inside, query.position))
+                sum_node(children + child, inside, query, leaks, own);
         }
     }
     const bool enough = children != 0 && own.weight >= kEnough &&
@@ -75,7 +78,8 @@ void ConcurrentCache::sum_node(std::uint32_t node, const CachePath& cube, const 
     for (std::size_t k = 0; k < 3; ++k) sum.sum[k] += own.sum[k];
 }
 
-/// The serial cache sorts by level and weight and stops at the first record that cannot serve; here each is asked.
+/// The serial cache sorts by level and weight and stops at the first record that cannot serve; here
+/// each is asked.
 void ConcurrentCache::sum_records(std::uint32_t first, const AmbientQuery& query, LeakTest leaks,
                                   AmbientSum& sum) const {
     if (first == kNone) return;
@@ -87,7 +91,8 @@ void ConcurrentCache::sum_records(std::uint32_t first, const AmbientQuery& query
     const double angle = largest_angle(limits_.accuracy, query.weight, true);
     for (std::uint32_t i = first; i != kNone; i = records_[i].next) {
         const DecodedRecord& record = records_[i];
-        if (record.serves(query.level, query.weight)) add_record(record, query, limits_, angle, leaks, sum);
+        if (record.serves(query.level, query.weight))
+            add_record(record, query, limits_, angle, leaks, sum);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// The ambient cache that all threads of a process share. Looking up takes no lock; storing takes that of one shard.
+// The ambient cache that all threads of a process share. Looking up takes no lock; storing takes
+// that of one shard.
 #include <array>
 #include <atomic>
 #include <memory>
@@ -9,7 +10,8 @@
 
 namespace lightwalk {
 
-/// Values in blocks that never move, by index. Blocks are made when they are first needed, and freed with the arena.
+/// Values in blocks that never move, by index. Blocks are made when they are first needed, and
+/// freed with the arena.
 template <class Value, unsigned kBlockBits>
 class BlockArena {
   public:
@@ -28,8 +30,8 @@ class BlockArena {
     [[nodiscard]] Value& operator[](std::uint32_t i) const {
         return (*blocks_)[i >> kBlockBits].load(std::memory_order_acquire)[i & (kBlock - 1)];
     }
-    /// First of `count` new values that lie in one block (`count` divides the block's size). Throws std::bad_alloc when
-    /// the arena is full.
+    /// First of `count` new values that lie in one block (`count` divides the block's size). Throws
+    /// std::bad_alloc when the arena is full.
     std::uint32_t add(std::uint32_t count) {
         const std::uint64_t first = used_.fetch_add(count, std::memory_order_relaxed);
         const std::uint64_t block = first >> kBlockBits;
@@ -38,7 +40,8 @@ class BlockArena {
         if (place.load(std::memory_order_acquire) == nullptr) {
             auto fresh = std::make_unique<Value[]>(kBlock);
             Value* none = nullptr;
-            if (place.compare_exchange_strong(none, fresh.get(), std::memory_order_acq_rel)) (void)fresh.release();
+            if (place.compare_exchange_strong(none, fresh.get(), std::memory_order_acq_rel))
+                (void)fresh.release();
         }
         return static_cast<std::uint32_t>(first);
     }
@@ -52,8 +55,8 @@ class BlockArena {
     std::atomic<std::uint64_t> used_{0};
 };
 
-/// Any number of threads may look up and insert at the same time. A lookup sees every record whose insertion had ended
-/// before it began. Records stay until the cache goes.
+/// Any number of threads may look up and insert at the same time. A lookup sees every record whose
+/// insertion had ended before it began. Records stay until the cache goes.
 class ConcurrentCache final : public AmbientCache {
   public:
     explicit ConcurrentCache(const AmbientLimits& limits);
@@ -63,23 +66,26 @@ class ConcurrentCache final : public AmbientCache {
     [[nodiscard]] AmbientLogMean log_mean() const override;
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     /// Of all records and nodes, used or set aside.
-    [[nodiscard]] std::size_t memory_bytes() const { return records_.memory_bytes() + nodes_.memory_bytes(); }
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return records_.memory_bytes() + nodes_.memory_bytes();
+    }
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffff;
     static constexpr std::size_t kShards = 64;
     struct Node {
-        std::atomic<std::uint32_t> children{0};  ///< first of eight; 0: none
-        std::atomic<std::uint32_t> first{kNone}; ///< record, newest first
+        std::atomic<std::uint32_t> children{0};   ///< first of eight; 0: none
+        std::atomic<std::uint32_t> first{kNone};  ///< record, newest first
     };
     struct alignas(64) Shard {
         mutable std::mutex mutex;
         AmbientLogMean log_mean;
     };
     std::uint32_t children_of(std::uint32_t node);
-    void sum_node(std::uint32_t node, const CachePath& cube, const AmbientQuery& query, LeakTest leaks,
-                  AmbientSum& sum) const;
-    void sum_records(std::uint32_t first, const AmbientQuery& query, LeakTest leaks, AmbientSum& sum) const;
+    void sum_node(std::uint32_t node, const CachePath& cube, const AmbientQuery& query,
+                  LeakTest leaks, AmbientSum& sum) const;
+    void sum_records(std::uint32_t first, const AmbientQuery& query, LeakTest leaks,
+                     AmbientSum& sum) const;
 
     AmbientLimits limits_;
     BlockArena<Node, 9> nodes_;

@@ -1,5 +1,6 @@
 #pragma once
-// A cache that can be closed to new values, so that what is looked up no longer depends on who computes what when.
+// A cache that can be closed to new values, so that what is looked up no longer depends on who
+// computes what when.
 #include "core/ambient/ambient_cache.h"
 
 namespace lightwalk {

@@ -20,15 +20,16 @@ class AmbientCache {
     AmbientCache& operator=(const AmbientCache&) = delete;
 
     [[nodiscard]] virtual const AmbientLimits& limits() const = 0;
-    /// What the records around a point say; the weight is at most kEpsilon where none does. `leaks` is called for
-    /// records behind something near.
+    /// What the records around a point say; the weight is at most kEpsilon where none does. `leaks`
+    /// is called for records behind something near.
     [[nodiscard]] virtual AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const = 0;
     virtual void insert(const AmbientRecord& record) = 0;
     [[nodiscard]] virtual AmbientLogMean log_mean() const = 0;
 };
 
 /// Limits of a scene's cube under -aa and -ar.
-[[nodiscard]] AmbientLimits ambient_limits(const Vec3& origin, double size, double accuracy, int resolution);
+[[nodiscard]] AmbientLimits ambient_limits(const Vec3& origin, double size, double accuracy,
+                                           int resolution);
 
 /// The way of a record or a query down the tree: cubes of half the edge at each step.
 struct CachePath {
@@ -57,7 +58,8 @@ struct CachePath {
 /// Whether records of the cube can reach a point: it lies within the cube grown by its edge.
 [[nodiscard]] inline bool reaches(const CachePath& cube, const Vec3& p) {
     for (std::size_t k = 0; k < 3; ++k) {
-        if (p[k] < cube.corner[k] - cube.edge || p[k] > cube.corner[k] + 2 * cube.edge) return false;
+        if (p[k] < cube.corner[k] - cube.edge || p[k] > cube.corner[k] + 2 * cube.edge)
+            return false;
     }
     return true;
 }

@@ -10,16 +10,19 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kReflectance = 0.5;  ///< that cached values assume of what lies between them and the eye
-constexpr int kFewestDivisions = 7;   ///< for gradients
-constexpr double kAligned = 0.9999;   ///< cosine of normals that count as one
-constexpr double kLeastFactor = 0.05; ///< a correction for a tilted normal that is smaller is left out
+constexpr double kReflectance =
+    0.5;  ///< that cached values assume of what lies between them and the eye
+constexpr int kFewestDivisions = 7;  ///< for gradients
+constexpr double kAligned = 0.9999;  ///< cosine of normals that count as one
+constexpr double kLeastFactor =
+    0.05;  ///< a correction for a tilted normal that is smaller is left out
 
 /// Random numbers of the hemisphere at a place: they do not depend on who asks first.
 RandomStream stream_of(const AmbientQuery& query, std::uint64_t seed) {
     std::uint64_t key = mix_bits(seed + static_cast<std::uint64_t>(query.level));
     for (const Vec3& v : {query.position, query.normal}) {
-        for (std::size_t k = 0; k < 3; ++k) key = mix_bits(key ^ std::bit_cast<std::uint64_t>(v[k]));
+        for (std::size_t k = 0; k < 3; ++k)
+            key = mix_bits(key ^ std::bit_cast<std::uint64_t>(v[k]));
     }
     return RandomStream(key);
 }
@@ -46,14 +49,16 @@ AmbientCalculation::AmbientCalculation(const Tracer& tracer) : tracer_(tracer) {
     listed_.resize(scene.modifier_count());
     for (std::size_t i = 0; i < listed_.size(); ++i) {
         const std::string& name = scene.modifier(ModifierId{static_cast<std::int32_t>(i)}).name;
-        listed_[i] = std::find(selection.modifiers.begin(), selection.modifiers.end(), name) != selection.modifiers.end();
+        listed_[i] = std::find(selection.modifiers.begin(), selection.modifiers.end(), name) !=
+                     selection.modifiers.end();
     }
 }
 
 bool AmbientCalculation::takes_part(const Ray& ray) const {
     if (listed_.empty() || ray.hit.surface == tracer_.scene().lambertian_surface()) return true;
     const bool include = tracer_.options().ambient_surfaces.kind == AmbientSelection::Kind::include;
-    const bool listed = ray.hit.modifier != kVoid && listed_[static_cast<std::size_t>(index(ray.hit.modifier))];
+    const bool listed =
+        ray.hit.modifier != kVoid && listed_[static_cast<std::size_t>(index(ray.hit.modifier))];
     return listed == include;
 }
 
@@ -64,7 +69,8 @@ Rgb AmbientCalculation::constant(const Rgb& coef) const {
     const AmbientLogMean known = cache_->log_mean();
     if (known.count == 0) return coef * options.ambient_value;
     const auto b = static_cast<double>(brightness(options.ambient_value));
-    const double k = static_cast<double>(known.count), w = options.ambient_weight, h = std::log(1 - kReflectance);
+    const double k = static_cast<double>(known.count), w = options.ambient_weight,
+                 h = std::log(1 - kReflectance);
     if (b > kEpsilon) {
         const double mean = std::exp((w * std::log(b) + known.sum + k * h) / (w + k));
         return coef * options.ambient_value * static_cast<float>(mean / b);
@@ -72,22 +78,31 @@ Rgb AmbientCalculation::constant(const Rgb& coef) const {
     return coef * static_cast<float>(std::exp(known.sum / k + h));
 }
 
-Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const {
+Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
+                            TraceContext& context) const {
     const RenderOptions& options = tracer_.options();
-    if (options.ambient_divisions <= 0 || context.ambient_level >= options.ambient_bounces || !takes_part(ray)) {
+    if (options.ambient_divisions <= 0 || context.ambient_level >= options.ambient_bounces ||
+        !takes_part(ray)) {
         return constant(coef);
     }
     const bool far_side = dot(normal, ray.hit.normal) < 0;
-    const Request request{ray, coef, {ray.hit.position, far_side ? -ray.hit.normal : ray.hit.normal, normal,
-                                      context.ambient_level, ray.weight}, far_side, context};
-    return cache_ && options.ambient_accuracy > kEpsilon ? with_cache(request) : without_cache(request);
+    const Request request{ray,
+                          coef,
+                          {ray.hit.position, far_side ? -ray.hit.normal : ray.hit.normal, normal,
+                           context.ambient_level, ray.weight},
+                          far_side,
+                          context};
+    return cache_ && options.ambient_accuracy > kEpsilon ? with_cache(request)
+                                                         : without_cache(request);
 }
 
-Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, double weight, bool cached) const {
+Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, double weight,
+                                      bool cached) const {
     const RenderOptions& options = tracer_.options();
     Ray& ray = request.ray;
     HemisphereSampling sampling;
-    const double divisions = std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
+    const double divisions =
+        std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
     sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
     sampling.extra = static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
     const float share = 1.0f / static_cast<float>(sampling.divisions * sampling.divisions);
@@ -121,23 +136,26 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     const auto peak = static_cast<double>(max_component(request.coef));
     if (peak <= kEpsilon) return constant(request.coef);
     const double weight = request.query.weight;
-    const double most = 0.8 * peak * weight / (options.ambient_divisions * options.weight_limit + 1e-20);
+    const double most =
+        0.8 * peak * weight / (options.ambient_divisions * options.weight_limit + 1e-20);
     const Hemisphere h = sample(request, request.coef, std::min(weight, most), false);
     if (h.succeeded == 0) return constant(request.coef);
     const Vec3& n = request.query.shading_normal;
-    if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions) return h.sum;
+    if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions)
+        return h.sum;
     const std::array<double, 2> rotation = rotation_gradient(h);
     const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
     return factor >= kLeastFactor ? h.sum * static_cast<float>(factor) : h.sum;
 }
 
 Rgb AmbientCalculation::with_cache(const Request& request) const {
-    const AmbientSum known =
-        cache_->lookup(request.query, [&](const Vec3& target) { return is_blocked(request.ray, target); });
+    const AmbientSum known = cache_->lookup(
+        request.query, [&](const Vec3& target) { return is_blocked(request.ray, target); });
     if (known.weight > kEpsilon) {
         ++request.context.ambient.interpolated;
         Rgb value;
-        for (std::size_t k = 0; k < 3; ++k) value[k] = static_cast<float>(known.sum[k] / known.weight);
+        for (std::size_t k = 0; k < 3; ++k)
+            value[k] = static_cast<float>(known.sum[k] / known.weight);
         return request.coef * value;
     }
     return new_value(request);
@@ -152,7 +170,8 @@ Rgb AmbientCalculation::new_value(const Request& request) const {
     const Rgb value = h.sum * static_cast<float>(1 / kReflectance);
     if (!h.complete()) return request.coef * value;
     const AmbientLimits& limits = cache_->limits();
-    const AmbientDerivatives d = derive(h, {limits.accuracy, limits.least_radius, limits.most_radius, weight});
+    const AmbientDerivatives d =
+        derive(h, {limits.accuracy, limits.least_radius, limits.most_radius, weight});
     if (!(d.radius[0] > kEpsilon)) return request.coef * value;
     AmbientRecord record;
     for (std::size_t k = 0; k < 3; ++k) record.position[k] = static_cast<float>(query.position[k]);
@@ -181,7 +200,8 @@ bool AmbientCalculation::is_blocked(const Ray& ray, const Vec3& target) const {
         const Hit hit = scene.geometry().intersect({from, direction, left});
         if (!hit.exists()) return false;
         const bool clipped = ray.clip && ray.clip->contains(hit.modifier);
-        if (!clipped && scene.material_of(hit.modifier) && !scene.is_transparent(hit.modifier)) return true;
+        if (!clipped && scene.material_of(hit.modifier) && !scene.is_transparent(hit.modifier))
+            return true;
         from = hit.position;
         left -= hit.t;
     }

@@ -14,8 +14,10 @@ class AmbientCalculation {
     explicit AmbientCalculation(const Tracer& tracer);
     void use_cache(AmbientCache* cache) { cache_ = cache; }
 
-    /// `coef` times the ambient value at the ray's hit. `normal` is the shading normal, on the side that is asked for.
-    [[nodiscard]] Rgb add(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const;
+    /// `coef` times the ambient value at the ray's hit. `normal` is the shading normal, on the side
+    /// that is asked for.
+    [[nodiscard]] Rgb add(Ray& ray, const Rgb& coef, const Vec3& normal,
+                          TraceContext& context) const;
 
   private:
     struct Request;
@@ -24,7 +26,8 @@ class AmbientCalculation {
     [[nodiscard]] Rgb without_cache(const Request& request) const;
     [[nodiscard]] Rgb with_cache(const Request& request) const;
     [[nodiscard]] Rgb new_value(const Request& request) const;
-    [[nodiscard]] Hemisphere sample(const Request& request, const Rgb& coef, double weight, bool cached) const;
+    [[nodiscard]] Hemisphere sample(const Request& request, const Rgb& coef, double weight,
+                                    bool cached) const;
     [[nodiscard]] bool is_blocked(const Ray& ray, const Vec3& target) const;
 
     const Tracer& tracer_;

@@ -16,17 +16,21 @@ std::array<float, 3> floats(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Where the record's normal, lengthened, is seen from the point 20 degrees above its horizon; nothing: nowhere.
-std::optional<double> height_above_horizon(const DecodedRecord& record, const AmbientQuery& query, const Vec3& to_record) {
+/// Where the record's normal, lengthened, is seen from the point 20 degrees above its horizon;
+/// nothing: nowhere.
+std::optional<double> height_above_horizon(const DecodedRecord& record, const AmbientQuery& query,
+                                           const Vec3& to_record) {
     constexpr double kCosine2 = 0.1169778;  // cos² 70°
     const double a = dot(record.n(), query.normal), b = dot(to_record, query.normal);
-    const Roots roots = solve_quadratic(a * a - kCosine2, 2 * (a * b - kCosine2 * dot(to_record, record.n())),
-                                        b * b - kCosine2 * length_squared(to_record));
+    const Roots roots =
+        solve_quadratic(a * a - kCosine2, 2 * (a * b - kCosine2 * dot(to_record, record.n())),
+                        b * b - kCosine2 * length_squared(to_record));
     if (roots.count < 2) return std::nullopt;
     return std::max(roots.root[0], roots.root[1]);
 }
 
-bool is_hidden(const DecodedRecord& record, const AmbientQuery& query, double a, double b, LeakTest leaks) {
+bool is_hidden(const DecodedRecord& record, const AmbientQuery& query, double a, double b,
+               LeakTest leaks) {
     double azimuth = std::atan2(b, a);
     if (azimuth < 0) azimuth += 2 * kPi;
     const auto flag = std::min(static_cast<unsigned>(azimuth * 16 / kPi), 31U);
@@ -69,17 +73,19 @@ double extrapolated(const DecodedRecord& record, const Vec3& offset, const Vec3&
     return std::clamp(factor, kLeastFactor, kMostFactor);
 }
 
-void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits, double most_angle,
-                LeakTest leaks, AmbientSum& sum) {
+void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits,
+                double most_angle, LeakTest leaks, AmbientSum& sum) {
     const Vec3 n = record.n();
     const double cosine = dot(n, query.normal);
     if (cosine <= 0) return;
     const double angle2 = std::max(0.0, 2 - 2 * cosine);
     if (angle2 >= most_angle * most_angle) return;
-    const Vec3 offset = query.position - Vec3{record.position[0], record.position[1], record.position[2]};
+    const Vec3 offset =
+        query.position - Vec3{record.position[0], record.position[1], record.position[2]};
     const double height = dot(offset, n), aa = limits.accuracy;
     if (height < -limits.least_radius * aa) return;
-    const double r0 = static_cast<double>(record.radius[0]), r1 = static_cast<double>(record.radius[1]);
+    const double r0 = static_cast<double>(record.radius[0]),
+                 r1 = static_cast<double>(record.radius[1]);
     double distance2 = height * height / (r0 * r0);
     if (distance2 >= aa * aa) return;
     const Vec3 u = record.u();
@@ -91,7 +97,8 @@ void add_record(const DecodedRecord& record, const AmbientQuery& query, const Am
     if (factor <= kLeastFactor) return;
     const double weight = (1 - std::sqrt(angle2) / most_angle) * (1 - std::sqrt(distance2) / aa);
     sum.weight += weight;
-    for (std::size_t k = 0; k < 3; ++k) sum.sum[k] += weight * factor * static_cast<double>(record.value[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+        sum.sum[k] += weight * factor * static_cast<double>(record.value[k]);
 }
 
 }  // namespace lightwalk

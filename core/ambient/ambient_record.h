@@ -10,27 +10,27 @@
 
 namespace lightwalk {
 
-/// Indirect irradiance / pi at a point, with its gradients and its validity ellipse. The frame is (u, n x u, n).
-/// Sources: Ward & Heckbert, "Irradiance Gradients", EGWR 1992; Schwarzhaupt, Jensen & Jarosz, "Practical
-/// Hessian-Based Error Control for Irradiance Caching", SIGGRAPH Asia 2012.
+/// Indirect irradiance / pi at a point, with its gradients and its validity ellipse. The frame is
+/// (u, n x u, n). Sources: Ward & Heckbert, "Irradiance Gradients", EGWR 1992; Schwarzhaupt, Jensen
+/// & Jarosz, "Practical Hessian-Based Error Control for Irradiance Caching", SIGGRAPH Asia 2012.
 struct AmbientRecord {
-    std::array<float, 3> position{};      ///< [m]
-    std::uint32_t normal = 0, axis = 0;   ///< n and u, as encode_direction codes them
-    std::array<float, 2> radius{};        ///< short and long, along u and v, per unit of -aa [m]
-    std::array<float, 2> translation{};   ///< relative change per metre along u and v [1/m]
-    std::array<float, 2> rotation{};      ///< relative change per radian about u and v
-    Rgb value;                            ///< [W/(m² sr)]
-    float weight = 1;                     ///< of the evaluation, in (0, 1]
-    std::uint32_t corral = 0;             ///< azimuths of 1/32 turn in which something near may hide the point
-    std::uint8_t level = 0;               ///< ambient evaluations that were open around this one
+    std::array<float, 3> position{};     ///< [m]
+    std::uint32_t normal = 0, axis = 0;  ///< n and u, as encode_direction codes them
+    std::array<float, 2> radius{};       ///< short and long, along u and v, per unit of -aa [m]
+    std::array<float, 2> translation{};  ///< relative change per metre along u and v [1/m]
+    std::array<float, 2> rotation{};     ///< relative change per radian about u and v
+    Rgb value;                           ///< [W/(m² sr)]
+    float weight = 1;                    ///< of the evaluation, in (0, 1]
+    std::uint32_t corral = 0;  ///< azimuths of 1/32 turn in which something near may hide the point
+    std::uint8_t level = 0;    ///< ambient evaluations that were open around this one
 };
 
 /// What a cache needs to know of scene and options.
 struct AmbientLimits {
-    Vec3 origin;             ///< of the scene's cube
-    double size = 1;         ///< its edge [m]
-    double accuracy = 0.1;   ///< -aa
-    double least_radius = 0; ///< from -ar [m]
+    Vec3 origin;              ///< of the scene's cube
+    double size = 1;          ///< its edge [m]
+    double accuracy = 0.1;    ///< -aa
+    double least_radius = 0;  ///< from -ar [m]
     double most_radius = 0;
 };
 
@@ -59,7 +59,8 @@ struct DecodedRecord {
     [[nodiscard]] Vec3 n() const { return {normal[0], normal[1], normal[2]}; }
     [[nodiscard]] Vec3 u() const { return {axis[0], axis[1], axis[2]}; }
     [[nodiscard]] bool serves(int query_level, double query_weight) const {
-        return level < query_level || (level == query_level && static_cast<double>(weight) >= 0.9 * query_weight);
+        return level < query_level ||
+               (level == query_level && static_cast<double>(weight) >= 0.9 * query_weight);
     }
 
     std::array<float, 3> position{}, normal{}, axis{};
@@ -71,14 +72,16 @@ struct DecodedRecord {
     std::uint8_t level = 0;
 };
 
-/// Largest angle between normals [rad] at a node; wider for light rays where the node holds a record of their level.
+/// Largest angle between normals [rad] at a node; wider for light rays where the node holds a
+/// record of their level.
 [[nodiscard]] double largest_angle(double accuracy, double query_weight, bool has_level);
 
 /// Add what the record says about the query's point; nothing when it is not valid there.
-void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits, double most_angle,
-                LeakTest leaks, AmbientSum& sum);
+void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits,
+                double most_angle, LeakTest leaks, AmbientSum& sum);
 
 /// Relative value of the record at an offset and another normal, in [0.05, 20].
-[[nodiscard]] double extrapolated(const DecodedRecord& record, const Vec3& offset, const Vec3& shading_normal);
+[[nodiscard]] double extrapolated(const DecodedRecord& record, const Vec3& offset,
+                                  const Vec3& shading_normal);
 
 }  // namespace lightwalk

@@ -25,7 +25,8 @@ struct Symmetric {
         zx += s * (a.z * b.x + a.x * b.z);
     }
     [[nodiscard]] double between(const Vec3& a, const Vec3& b) const {
-        const Vec3 m{xx * b.x + xy * b.y + zx * b.z, xy * b.x + yy * b.y + yz * b.z, zx * b.x + yz * b.y + zz * b.z};
+        const Vec3 m{xx * b.x + xy * b.y + zx * b.z, xy * b.x + yy * b.y + yz * b.z,
+                     zx * b.x + yz * b.y + zz * b.z};
         return dot(a, m);
     }
 };
@@ -39,10 +40,12 @@ class EdgeSum {
     void add(const Vec3& a, const Vec3& b, double g) {
         if (g == 0) return;
         const Vec3 e = b - a, c = cross(a, b);
-        const double aa = length_squared(a), bb = length_squared(b), ee = length_squared(e), cc = length_squared(c);
+        const double aa = length_squared(a), bb = length_squared(b), ee = length_squared(e),
+                     cc = length_squared(c);
         if (!(cc > 0) || !(ee > 0)) return;
         const double ea = dot(e, a), eb = dot(e, b);
-        const double i1 = std::acos(std::clamp(dot(a, b) / std::sqrt(aa * bb), -1.0, 1.0)) / std::sqrt(cc);
+        const double i1 =
+            std::acos(std::clamp(dot(a, b) / std::sqrt(aa * bb), -1.0, 1.0)) / std::sqrt(cc);
         const double i2 = (eb / bb - ea / aa + ee * i1) / (2 * cc);
         const double j2 = (0.5 * (1 / aa - 1 / bb) - ea * i2) / ee;
         const double i3 = (eb / (bb * bb) - ea / (aa * aa) + 3 * ee * i2) / (4 * cc);
@@ -95,16 +98,22 @@ struct CellIndex {
 /// A triangle shows what its farthest corner sees: what is nearer hides it.
 double shown(const Hemisphere& h, const Brightness& g, CellIndex a, CellIndex b, CellIndex c) {
     const CellIndex first = h.cell(b.i, b.j).nearness < h.cell(a.i, a.j).nearness ? b : a;
-    const CellIndex farthest = h.cell(c.i, c.j).nearness < h.cell(first.i, first.j).nearness ? c : first;
+    const CellIndex farthest =
+        h.cell(c.i, c.j).nearness < h.cell(first.i, first.j).nearness ? c : first;
     return g.at(farthest.i, farthest.j);
 }
 
-/// All edges of the samples' triangles; each is visited once, with the difference of its two triangles.
+/// All edges of the samples' triangles; each is visited once, with the difference of its two
+/// triangles.
 EdgeSum sum_edges(const Hemisphere& h, const Brightness& g) {
     EdgeSum sum(h.normal);
     const int n = h.divisions, m = n - 1;
-    const auto at = [m](int i, int j) { return static_cast<std::size_t>(i) * static_cast<std::size_t>(m) + static_cast<std::size_t>(j); };
-    std::vector<double> lower(static_cast<std::size_t>(m) * static_cast<std::size_t>(m)), upper(lower.size());
+    const auto at = [m](int i, int j) {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(m) +
+               static_cast<std::size_t>(j);
+    };
+    std::vector<double> lower(static_cast<std::size_t>(m) * static_cast<std::size_t>(m)),
+        upper(lower.size());
     for (int i = 0; i < m; ++i) {
         for (int j = 0; j < m; ++j) {
             lower[at(i, j)] = shown(h, g, {i, j}, {i, j + 1}, {i + 1, j});
@@ -116,14 +125,17 @@ EdgeSum sum_edges(const Hemisphere& h, const Brightness& g) {
         for (int j = 0; j < n; ++j) {
             const bool right = j < m, down = i < m;
             if (right) {
-                const double difference = (down ? lower[at(i, j)] : 0) - (i > 0 ? upper[at(i - 1, j)] : 0);
+                const double difference =
+                    (down ? lower[at(i, j)] : 0) - (i > 0 ? upper[at(i - 1, j)] : 0);
                 sum.add(vertex(i, j), vertex(i, j + 1), difference);
             }
             if (down) {
-                const double difference = (j > 0 ? upper[at(i, j - 1)] : 0) - (right ? lower[at(i, j)] : 0);
+                const double difference =
+                    (j > 0 ? upper[at(i, j - 1)] : 0) - (right ? lower[at(i, j)] : 0);
                 sum.add(vertex(i, j), vertex(i + 1, j), difference);
             }
-            if (right && down) sum.add(vertex(i, j + 1), vertex(i + 1, j), lower[at(i, j)] - upper[at(i, j)]);
+            if (right && down)
+                sum.add(vertex(i, j + 1), vertex(i + 1, j), lower[at(i, j)] - upper[at(i, j)]);
         }
     }
     return sum;
@@ -136,7 +148,8 @@ struct Axes {
 
 /// Radii from the eigenvalues of the Hessian in the tangent plane; axes along its eigenvectors.
 Axes principal_axes(const Hemisphere& h, const Symmetric& hessian, double most) {
-    const double h00 = hessian.between(h.u, h.u), h01 = hessian.between(h.u, h.v), h11 = hessian.between(h.v, h.v);
+    const double h00 = hessian.between(h.u, h.u), h01 = hessian.between(h.u, h.v),
+                 h11 = hessian.between(h.v, h.v);
     const Roots roots = solve_quadratic(1, -(h00 + h11), h00 * h11 - h01 * h01);
     const double a = std::abs(roots.root[0]), b = std::abs(roots.root[1]);
     if (roots.count == 0 || std::min(a, b) <= kEpsilon * kEpsilon) return {h.u, h.v, most, most};
@@ -151,7 +164,8 @@ Axes principal_axes(const Hemisphere& h, const Symmetric& hessian, double most) 
 }
 
 /// Azimuths towards which something near the horizon is closer than the record's ellipse.
-std::uint32_t corral_of(const Hemisphere& h, const Axes& axes, double r0, double r1, const RadiusLimits& limits) {
+std::uint32_t corral_of(const Hemisphere& h, const Axes& axes, double r0, double r1,
+                        const RadiusLimits& limits) {
     const int n = h.divisions;
     if (n < 8) return 0;
     const double most_nearness = 1 / (limits.least * limits.accuracy + 0.001);
@@ -182,7 +196,8 @@ std::uint32_t corral_of(const Hemisphere& h, const Axes& axes, double r0, double
     return flags;
 }
 
-std::array<double, 2> rotation_about(const Hemisphere& h, const Brightness& g, const Vec3& u, const Vec3& v) {
+std::array<double, 2> rotation_about(const Hemisphere& h, const Brightness& g, const Vec3& u,
+                                     const Vec3& v) {
     double about_u = 0, about_v = 0;
     for (int i = 0; i < h.divisions; ++i) {
         for (int j = 0; j < h.divisions; ++j) {
@@ -238,7 +253,8 @@ AmbientDerivatives derive(const Hemisphere& h, const RadiusLimits& limits) {
 
 std::array<double, 2> rotation_gradient(const Hemisphere& hemisphere) {
     const Brightness g(hemisphere);
-    return g.dark ? std::array<double, 2>{} : rotation_about(hemisphere, g, hemisphere.u, hemisphere.v);
+    return g.dark ? std::array<double, 2>{}
+                  : rotation_about(hemisphere, g, hemisphere.u, hemisphere.v);
 }
 
 }  // namespace lightwalk

@@ -9,14 +9,19 @@
 namespace lightwalk {
 namespace {
 
-constexpr int kFewestForTrading = 4;    ///< divisions from which close directions are avoided
-constexpr int kTrades = 20;             ///< tries before a position is accepted as it is
-constexpr int kFewestForExtras = 7;     ///< divisions above which extra samples make sense
+constexpr int kFewestForTrading = 4;  ///< divisions from which close directions are avoided
+constexpr int kTrades = 20;           ///< tries before a position is accepted as it is
+constexpr int kFewestForExtras = 7;   ///< divisions above which extra samples make sense
 
 class Sampler {
   public:
-    Sampler(Hemisphere& hemisphere, const HemisphereSampling& sampling, RandomStream& random, HemisphereTracer trace)
-        : h_(hemisphere), sampling_(sampling), random_(random), trace_(trace), pool_(random.child()) {}
+    Sampler(Hemisphere& hemisphere, const HemisphereSampling& sampling, RandomStream& random,
+            HemisphereTracer trace)
+        : h_(hemisphere),
+          sampling_(sampling),
+          random_(random),
+          trace_(trace),
+          pool_(random.child()) {}
 
     void first_pass() {
         for (int i = h_.divisions - 1; i >= 0; --i) {
@@ -48,13 +53,15 @@ class Sampler {
 
   private:
     HemisphereCell& cell(int i, int j) {
-        return h_.cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(h_.divisions) + static_cast<std::size_t>(j)];
+        return h_.cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(h_.divisions) +
+                        static_cast<std::size_t>(j)];
     }
     [[nodiscard]] DiskPoint disk(int i, int j, const SquarePosition& s) const {
         return square_to_disk((j + s.along_j) / h_.divisions, (i + s.along_i) / h_.divisions);
     }
 
-    /// Whether a sampled neighbour has nearly the same direction: its triangles would be degenerate.
+    /// Whether a sampled neighbour has nearly the same direction: its triangles would be
+    /// degenerate.
     bool collides(int i, int j, const DiskPoint& d) {
         const double least = kPi * 0.04 / (static_cast<double>(h_.divisions) * h_.divisions);
         for (int a = std::max(i - 1, 0); a <= std::min(i + 1, h_.divisions - 1); ++a) {
@@ -79,8 +86,8 @@ class Sampler {
     /// Sample number `m` of a cell.
     bool sample(int i, int j, const SquarePosition& s, int m) {
         const DiskPoint d = disk(i, j, s);
-        const Vec3 direction =
-            h_.u * d.x + h_.v * d.y + h_.normal * std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
+        const Vec3 direction = h_.u * d.x + h_.v * d.y +
+                               h_.normal * std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
         const std::optional<HemisphereAnswer> answer = trace_(direction);
         if (!answer || answer->distance <= kEpsilon) return false;
         HemisphereCell& c = cell(i, j);
@@ -97,7 +104,8 @@ class Sampler {
         return true;
     }
 
-    /// Where more samples are worth their while: differences of neighbours, scaled at the rim, blurred.
+    /// Where more samples are worth their while: differences of neighbours, scaled at the rim,
+    /// blurred.
     [[nodiscard]] std::vector<double> error_map() const;
 
     Hemisphere& h_;
@@ -110,12 +118,14 @@ class Sampler {
 std::vector<double> Sampler::error_map() const {
     const int n = h_.divisions;
     const auto at = [n](int i, int j) {
-        return static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(n) +
+               static_cast<std::size_t>(j);
     };
     std::vector<double> raw(h_.cells.size(), 0.0);
     const double scale = 1 / (sampling_.share + kEpsilon);
     const auto pair = [&](std::size_t p, std::size_t q) {
-        const double a = static_cast<double>(brightness(h_.cells[p].value)), b = static_cast<double>(brightness(h_.cells[q].value));
+        const double a = static_cast<double>(brightness(h_.cells[p].value)),
+                     b = static_cast<double>(brightness(h_.cells[q].value));
         const double error = scale * (a - b) * (a - b) / (a + b + kEpsilon);
         raw[p] += error;
         raw[q] += error;
@@ -138,7 +148,8 @@ std::vector<double> Sampler::error_map() const {
     std::vector<double> blurred(raw.size(), 0.0);
     for (int i = 0; i + 1 < n; ++i) {
         for (int j = 0; j + 1 < n; ++j) {
-            blurred[at(i, j)] += 0.5 * raw[at(i, j)] + 0.125 * (raw[at(i, j + 1)] + raw[at(i + 1, j)]);
+            blurred[at(i, j)] +=
+                0.5 * raw[at(i, j)] + 0.125 * (raw[at(i, j + 1)] + raw[at(i + 1, j)]);
             blurred[at(i, j + 1)] += 0.125 * raw[at(i, j)];
             blurred[at(i + 1, j)] += 0.125 * raw[at(i, j)];
         }
@@ -151,7 +162,8 @@ Vec3 random_tangent(const Vec3& n, RandomStream& random) {
     Vec3 seed{random.next() - 0.5, random.next() - 0.5, random.next() - 0.5};
     std::array<std::size_t, 3> order{0, 1, 2};
     for (std::size_t k = 2; k > 0; --k) {
-        std::swap(order[k], order[static_cast<std::size_t>(random.next() * static_cast<double>(k + 1))]);
+        std::swap(order[k],
+                  order[static_cast<std::size_t>(random.next() * static_cast<double>(k + 1))]);
     }
     for (std::size_t k = 3; k-- > 0;) {
         if (std::abs(n[order[k]]) >= 0.6) continue;
@@ -177,8 +189,8 @@ DiskPoint square_to_disk(double x, double y) {
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling, RandomStream random,
-                             HemisphereTracer trace) {
+Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,
+                             RandomStream random, HemisphereTracer trace) {
     Hemisphere h;
     h.normal = normal;
     h.u = random_tangent(normal, random);
@@ -187,7 +199,8 @@ Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampl
     h.cells.resize(static_cast<std::size_t>(h.divisions) * static_cast<std::size_t>(h.divisions));
     Sampler sampler(h, sampling, random, trace);
     sampler.first_pass();
-    if (h.complete() && h.divisions > kFewestForExtras && sampling.extra >= 4 * h.divisions) sampler.extra_pass();
+    if (h.complete() && h.divisions > kFewestForExtras && sampling.extra >= 4 * h.divisions)
+        sampler.extra_pass();
     return h;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// What is seen from a surface point: stratified samples of its hemisphere, and the change of their sum with place and tilt.
+// What is seen from a surface point: stratified samples of its hemisphere, and the change of their
+// sum with place and tilt.
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,31 +27,33 @@ struct HemisphereCell {
     Rgb value;            ///< mean of the samples
 };
 
-/// n x n cells of equal cosine-weighted solid angle around `normal`; row-major, the first index runs along v.
+/// n x n cells of equal cosine-weighted solid angle around `normal`; row-major, the first index
+/// runs along v.
 struct Hemisphere {
     Vec3 normal, u, v;
     int divisions = 0;
     std::vector<HemisphereCell> cells;
-    Rgb sum;             ///< of the cells' values: indirect irradiance / pi times the coefficient
-    int succeeded = 0;   ///< cells with a sample
+    Rgb sum;            ///< of the cells' values: indirect irradiance / pi times the coefficient
+    int succeeded = 0;  ///< cells with a sample
 
     [[nodiscard]] const HemisphereCell& cell(int i, int j) const {
-        return cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(divisions) + static_cast<std::size_t>(j)];
+        return cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(divisions) +
+                     static_cast<std::size_t>(j)];
     }
     [[nodiscard]] bool complete() const { return succeeded == divisions * divisions; }
 };
 
 struct HemisphereSampling {
-    int divisions = 1;         ///< per axis
-    int extra = 0;             ///< samples that go where neighbours differ; none where fewer than 4 divisions
-    double share = 1;          ///< brightness of one sample's coefficient
-    double farthest = kHuge;   ///< vertices are not farther than this [m]
+    int divisions = 1;  ///< per axis
+    int extra = 0;  ///< samples that go where neighbours differ; none where fewer than 4 divisions
+    double share = 1;         ///< brightness of one sample's coefficient
+    double farthest = kHuge;  ///< vertices are not farther than this [m]
 };
 
-/// Sample the hemisphere about the unit vector `normal`. Map: Shirley & Chiu, "A Low Distortion Map Between Disk and
-/// Square", JGT 1997. `random` alone decides the directions.
-[[nodiscard]] Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling, RandomStream random,
-                                           HemisphereTracer trace);
+/// Sample the hemisphere about the unit vector `normal`. Map: Shirley & Chiu, "A Low Distortion Map
+/// Between Disk and Square", JGT 1997. `random` alone decides the directions.
+[[nodiscard]] Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,
+                                           RandomStream random, HemisphereTracer trace);
 
 /// Point of the unit disk for a point of the unit square (Shirley & Chiu); areas keep their ratio.
 struct DiskPoint {

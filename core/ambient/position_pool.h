@@ -12,8 +12,8 @@ struct SquarePosition {
     double along_i = 0, along_j = 0;  ///< in [0, 1)
 };
 
-/// Swapping keeps the distribution: an unwanted position waits here for another cell. Those from corners do not go
-/// back to corners, where neighbours collide.
+/// Swapping keeps the distribution: an unwanted position waits here for another cell. Those from
+/// corners do not go back to corners, where neighbours collide.
 class PositionPool {
   public:
     explicit PositionPool(RandomStream random) : random_(random) {}
@@ -42,7 +42,8 @@ class PositionPool {
     };
 
     static std::size_t corner_of(const SquarePosition& s) {
-        const bool low_i = s.along_i < 0.2, high_i = s.along_i > 0.8, low_j = s.along_j < 0.2, high_j = s.along_j > 0.8;
+        const bool low_i = s.along_i<0.2, high_i = s.along_i> 0.8,
+                   low_j = s.along_j<0.2, high_j = s.along_j> 0.8;
         if (!(low_i || high_i) || !(low_j || high_j)) return kNoCorner;
         return (high_i ? 1U : 0U) + (high_j ? 2U : 0U);
     }

@@ -11,7 +11,8 @@ struct Roots {
     double root[2] = {0, 0};
 };
 
-/// Real roots of a x² + b x + c. Where |a| <= kEpsilon it is linear; half-discriminants within kEpsilon² of 0 are one root.
+/// Real roots of a x² + b x + c. Where |a| <= kEpsilon it is linear; half-discriminants within
+/// kEpsilon² of 0 are one root.
 [[nodiscard]] inline Roots solve_quadratic(double a, double b, double c) {
     if (std::abs(a) <= kEpsilon) {
         if (std::abs(b) <= kEpsilon) return {};

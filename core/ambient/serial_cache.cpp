@@ -35,7 +35,9 @@ void SerialCache::insert(const AmbientRecord& record) {
     std::uint32_t* link = &nodes_[at].first;
     while (*link != kNone) {
         DecodedRecord& other = records_[*link];
-        if (other.level > record.level || (other.level == record.level && other.weight <= record.weight)) break;
+        if (other.level > record.level ||
+            (other.level == record.level && other.weight <= record.weight))
+            break;
         link = &other.next;
     }
     DecodedRecord decoded(record);
@@ -54,13 +56,14 @@ AmbientSum SerialCache::lookup(const AmbientQuery& query, LeakTest leaks) const 
     return sum;
 }
 
-void SerialCache::sum_node(const Node& node, const CachePath& cube, const AmbientQuery& query, LeakTest leaks,
-                           AmbientSum& sum) const {
+void SerialCache::sum_node(const Node& node, const CachePath& cube, const AmbientQuery& query,
+                           LeakTest leaks, AmbientSum& sum) const {
     AmbientSum own;
     if (node.children != 0) {
         for (unsigned child = 0; child < 8; ++child) {
             const CachePath inside = child_cube(cube, child);
-            if (reaches(inside, query.position)) sum_node(nodes_[node.children + child], inside, query, leaks, own);
+            if (reaches(inside, query.position))
+                sum_node(nodes_[node.children + child], inside, query, leaks, own);
         }
     }
     const bool enough = node.children != 0 && own.weight >= kEnough &&
@@ -70,11 +73,13 @@ void SerialCache::sum_node(const Node& node, const CachePath& cube, const Ambien
     for (std::size_t k = 0; k < 3; ++k) sum.sum[k] += own.sum[k];
 }
 
-void SerialCache::sum_records(const Node& node, const AmbientQuery& query, LeakTest leaks, AmbientSum& sum) const {
+void SerialCache::sum_records(const Node& node, const AmbientQuery& query, LeakTest leaks,
+                              AmbientSum& sum) const {
     if (node.first == kNone) return;
     const double angle =
         largest_angle(limits_.accuracy, query.weight, records_[node.first].level <= query.level);
-    for (std::uint32_t i = node.first; i != kNone && records_[i].serves(query.level, query.weight); i = records_[i].next) {
+    for (std::uint32_t i = node.first; i != kNone && records_[i].serves(query.level, query.weight);
+         i = records_[i].next) {
         add_record(records_[i], query, limits_, angle, leaks, sum);
     }
 }

@@ -18,11 +18,13 @@ class SerialCache final : public AmbientCache {
   private:
     static constexpr std::uint32_t kNone = 0xffffffff;
     struct Node {
-        std::uint32_t children = 0;  ///< first of eight; 0: none
-        std::uint32_t first = kNone; ///< record; by level, then falling weight
+        std::uint32_t children = 0;   ///< first of eight; 0: none
+        std::uint32_t first = kNone;  ///< record; by level, then falling weight
     };
-    void sum_node(const Node& node, const CachePath& cube, const AmbientQuery& query, LeakTest leaks, AmbientSum& sum) const;
-    void sum_records(const Node& node, const AmbientQuery& query, LeakTest leaks, AmbientSum& sum) const;
+    void sum_node(const Node& node, const CachePath& cube, const AmbientQuery& query,
+                  LeakTest leaks, AmbientSum& sum) const;
+    void sum_records(const Node& node, const AmbientQuery& query, LeakTest leaks,
+                     AmbientSum& sum) const;
 
     AmbientLimits limits_;
     std::vector<Node> nodes_;

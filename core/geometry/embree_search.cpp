@@ -100,8 +100,10 @@ RTCBounds rounded(const Bounds& box) {
 Bounds bounds_of_tree(RTCSceneTy* scene) {
     RTCBounds b{};
     rtcGetSceneBounds(scene, &b);
-    return {{static_cast<double>(b.lower_x), static_cast<double>(b.lower_y), static_cast<double>(b.lower_z)},
-            {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y), static_cast<double>(b.upper_z)}};
+    return {{static_cast<double>(b.lower_x), static_cast<double>(b.lower_y),
+             static_cast<double>(b.lower_z)},
+            {static_cast<double>(b.upper_x), static_cast<double>(b.upper_y),
+             static_cast<double>(b.upper_z)}};
 }
 
 void primitive_bounds(const RTCBoundsFunctionArguments* args) {

@@ -57,7 +57,8 @@ struct ShadowQueries : RTCIntersectContext {
 /// Of a committed scene, in its search coordinates.
 [[nodiscard]] Bounds bounds_of_tree(RTCSceneTy* scene);
 
-// Callbacks of a model's own surfaces (user data: Hierarchy) and of the copies of models (user data: Copies).
+// Callbacks of a model's own surfaces (user data: Hierarchy) and of the copies of models (user
+// data: Copies).
 void primitive_bounds(const RTCBoundsFunctionArguments* args);
 void intersect_primitive(const RTCIntersectFunctionNArguments* args);
 void occlude_primitive(const RTCOccludedFunctionNArguments* args);

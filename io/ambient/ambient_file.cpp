@@ -35,7 +35,9 @@ void put_real(std::string& out, float value) {
     put_integer(out, static_cast<std::uint64_t>(exponent), 1);
 }
 
-bool within(double value, double least, double most) { return value >= least && value <= most; }
+bool within(double value, double least, double most) {
+    return value >= least && value <= most;
+}
 
 /// What is wrong with a record; nothing when it can be used.
 std::optional<std::string> problem(const AmbientRecord& r) {
@@ -47,10 +49,12 @@ std::optional<std::string> problem(const AmbientRecord& r) {
     for (const float radius : r.radius) {
         if (!(radius > 0 && static_cast<double>(radius) < kLargest)) return "a radius out of range";
     }
-    if (static_cast<double>(r.radius[0]) > static_cast<double>(r.radius[1]) + kEpsilon) return "radii in the wrong order";
+    if (static_cast<double>(r.radius[0]) > static_cast<double>(r.radius[1]) + kEpsilon)
+        return "radii in the wrong order";
     for (const auto& gradient : {r.translation, r.rotation}) {
         for (const float g : gradient) {
-            if (!within(static_cast<double>(g), -kLargest, kLargest)) return "a gradient out of range";
+            if (!within(static_cast<double>(g), -kLargest, kLargest))
+                return "a gradient out of range";
         }
     }
     for (std::size_t k = 0; k < 3; ++k) {
@@ -80,7 +84,8 @@ AmbientRecord read_record(BinaryReader& reader) {
 /// Channels of the header; three where it says nothing.
 int channels(const InfoHeader& header) {
     for (const std::string& line : header.lines) {
-        if (const auto value = header_variable(line, "NCOMP")) return std::atoi(std::string(*value).c_str());
+        if (const auto value = header_variable(line, "NCOMP"))
+            return std::atoi(std::string(*value).c_str());
     }
     return 3;
 }
@@ -89,12 +94,16 @@ int channels(const InfoHeader& header) {
 
 AmbientFile decode_ambient_file(std::string_view bytes, const std::string& name) {
     const InfoHeader header = decode_header(bytes, name);
-    if (header.format != kFormat) throw InputError({name, 0}, "not an ambient file, expected FORMAT=Radiance_ambval");
-    if (channels(header) != 3) throw InputError({name, 0}, "an ambient file of other than three channels is not supported");
+    if (header.format != kFormat)
+        throw InputError({name, 0}, "not an ambient file, expected FORMAT=Radiance_ambval");
+    if (channels(header) != 3)
+        throw InputError({name, 0},
+                         "an ambient file of other than three channels is not supported");
     AmbientFile file;
     file.header = header.lines;
     BinaryReader reader(bytes.substr(header.size), name, "ambient file");
-    if (reader.integer(2) != kMagic) throw InputError({name, 0}, "an ambient file of another version of Radiance");
+    if (reader.integer(2) != kMagic)
+        throw InputError({name, 0}, "an ambient file of another version of Radiance");
     file.size = header.size + 2;
     while (reader.remaining() >= kAmbientRecordSize) {
         const AmbientRecord record = read_record(reader);
@@ -129,7 +138,8 @@ std::string encode_ambient_record(const AmbientRecord& r) {
     }
     put_integer(out, r.corral, 4);
     const Rgbe pixel = encode_rgbe(r.value);
-    for (const std::uint8_t byte : {pixel.r, pixel.g, pixel.b, pixel.e}) out.push_back(static_cast<char>(byte));
+    for (const std::uint8_t byte : {pixel.r, pixel.g, pixel.b, pixel.e})
+        out.push_back(static_cast<char>(byte));
     return out;
 }
 

@@ -13,10 +13,10 @@ inline constexpr std::size_t kAmbientRecordSize = 67;  ///< bytes, with three ch
 
 /// What an ambient file holds. Whole records up to the first damaged one are taken.
 struct AmbientFile {
-    std::vector<std::string> header;      ///< without FORMAT
+    std::vector<std::string> header;  ///< without FORMAT
     std::vector<AmbientRecord> records;
-    std::size_t size = 0;                 ///< bytes up to the end of the last good record
-    std::string damage;                   ///< what is wrong with the rest; "" where nothing is
+    std::size_t size = 0;  ///< bytes up to the end of the last good record
+    std::string damage;    ///< what is wrong with the rest; "" where nothing is
 };
 
 /// Throws InputError for a file that is none, has not three channels, or is of another version.

@@ -32,7 +32,8 @@ std::string read_from(int file, std::size_t begin, const std::string& path) {
     std::string bytes;
     std::array<char, 1 << 16> chunk{};
     for (;;) {
-        const ssize_t count = pread(file, chunk.data(), chunk.size(), static_cast<off_t>(begin + bytes.size()));
+        const ssize_t count =
+            pread(file, chunk.data(), chunk.size(), static_cast<off_t>(begin + bytes.size()));
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) fail(path, "cannot read");
         if (count == 0) return bytes;
@@ -42,7 +43,8 @@ std::string read_from(int file, std::size_t begin, const std::string& path) {
 
 void write_at(int file, std::size_t begin, const std::string& bytes, const std::string& path) {
     for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t count = pwrite(file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(begin + done));
+        const ssize_t count = pwrite(file, bytes.data() + done, bytes.size() - done,
+                                     static_cast<off_t>(begin + done));
         if (count < 0 && errno == EINTR) continue;
         if (count <= 0) fail(path, "cannot write");
         done += static_cast<std::size_t>(count);
@@ -74,8 +76,8 @@ class AmbientStore::Lock {
     int file_;
 };
 
-AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
-                           WarningSink& warnings)
+AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options,
+                           AmbientCache& cache, WarningSink& warnings)
     : path_(path), cache_(cache) {
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) {
@@ -93,12 +95,15 @@ AmbientStore::AmbientStore(const std::string& path, const RenderOptions& options
     }
 }
 
-AmbientStore::~AmbientStore() { (void)close(file_); }
+AmbientStore::~AmbientStore() {
+    (void)close(file_);
+}
 
 void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
     struct stat status {};
     if (fstat(file_, &status) != 0) fail(path_, "cannot read");
-    if (!S_ISREG(status.st_mode)) throw InputError({path_, 0}, "an ambient file must be a plain file");
+    if (!S_ISREG(status.st_mode))
+        throw InputError({path_, 0}, "an ambient file must be a plain file");
     const std::string bytes = read_from(file_, 0, path_);
     if (bytes.empty() && writable_) {
         const std::string header = encode_ambient_header({ambient_option_line(options)});
@@ -107,15 +112,18 @@ void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
         return;
     }
     const AmbientFile contents = decode_ambient_file(bytes, path_);
-    if (const std::string difference = ambient_option_difference(contents.header, options); !difference.empty()) {
+    if (const std::string difference = ambient_option_difference(contents.header, options);
+        !difference.empty()) {
         throw InputError({path_, 0}, "the ambient file was made with " + difference);
     }
     for (const AmbientRecord& record : contents.records) cache_.insert(record);
     known_ = contents.size;
     if (contents.damage.empty()) return;
-    warnings.warn(path_ + ": " + contents.damage + "; the " + std::to_string(contents.records.size()) +
-                  " values before are used" + (writable_ ? ", the rest is cut off" : ""));
-    if (writable_ && ftruncate(file_, static_cast<off_t>(known_)) != 0) fail(path_, "cannot cut off the damaged end");
+    warnings.warn(path_ + ": " + contents.damage + "; the " +
+                  std::to_string(contents.records.size()) + " values before are used" +
+                  (writable_ ? ", the rest is cut off" : ""));
+    if (writable_ && ftruncate(file_, static_cast<off_t>(known_)) != 0)
+        fail(path_, "cannot cut off the damaged end");
 }
 
 /// Whole records that other processes have appended; the file is locked.
@@ -142,18 +150,24 @@ void AmbientStore::insert(const AmbientRecord& record) {
 
 std::string ambient_option_line(const RenderOptions& o) {
     std::string line = "lightwalk -av";
-    for (std::size_t k = 0; k < 3; ++k) line += text(" %g", static_cast<double>(o.ambient_value[k]));
-    line += text(" -aw %.0f", o.ambient_weight) + text(" -ab %.0f", o.ambient_bounces) + text(" -aa %g", o.ambient_accuracy);
+    for (std::size_t k = 0; k < 3; ++k)
+        line += text(" %g", static_cast<double>(o.ambient_value[k]));
+    line += text(" -aw %.0f", o.ambient_weight) + text(" -ab %.0f", o.ambient_bounces) +
+            text(" -aa %g", o.ambient_accuracy);
     line += text(" -ad %.0f", o.ambient_divisions) + text(" -as %.0f", o.ambient_super_samples);
-    line += text(" -ar %.0f", o.ambient_resolution) + text(" -dt %g", o.shadow_threshold) + text(" -dc %g", o.shadow_certainty);
+    line += text(" -ar %.0f", o.ambient_resolution) + text(" -dt %g", o.shadow_threshold) +
+            text(" -dc %g", o.shadow_certainty);
     line += text(" -ss %g", o.specular_samples) + text(" -st %g", o.specular_threshold);
     return line + text(" -lr %.0f", o.reflection_limit) + text(" -lw %g", o.weight_limit);
 }
 
-std::string ambient_option_difference(const std::vector<std::string>& header, const RenderOptions& o) {
-    const std::array<std::pair<const char*, double>, 5> wanted{
-        {{"-ab", o.ambient_bounces}, {"-aa", o.ambient_accuracy}, {"-ad", o.ambient_divisions},
-         {"-as", o.ambient_super_samples}, {"-ar", o.ambient_resolution}}};
+std::string ambient_option_difference(const std::vector<std::string>& header,
+                                      const RenderOptions& o) {
+    const std::array<std::pair<const char*, double>, 5> wanted{{{"-ab", o.ambient_bounces},
+                                                                {"-aa", o.ambient_accuracy},
+                                                                {"-ad", o.ambient_divisions},
+                                                                {"-as", o.ambient_super_samples},
+                                                                {"-ar", o.ambient_resolution}}};
     for (const std::string& line : header) {
         std::istringstream words(line);
         for (std::string word, value; words >> word;) {

@@ -10,14 +10,16 @@
 
 namespace lightwalk {
 
-/// Stands before another cache: what is stored there goes to the file as well, in whole records, at once; what other
-/// processes append is taken over. The file is locked (fcntl) while it is read or written, as Radiance's programs do.
+/// Stands before another cache: what is stored there goes to the file as well, in whole records, at
+/// once; what other processes append is taken over. The file is locked (fcntl) while it is read or
+/// written, as Radiance's programs do.
 class AmbientStore final : public AmbientCache {
   public:
-    /// Opens or makes the file, and fills `cache` with its values. A damaged end is reported and cut off. Where the file
-    /// cannot be written its values are used, with a warning, and it stays as it is.
-    /// Throws InputError for a file that is none, or was made with other ambient options.
-    AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache, WarningSink& warnings);
+    /// Opens or makes the file, and fills `cache` with its values. A damaged end is reported and
+    /// cut off. Where the file cannot be written its values are used, with a warning, and it stays
+    /// as it is. Throws InputError for a file that is none, or was made with other ambient options.
+    AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
+                 WarningSink& warnings);
     ~AmbientStore() override;
 
     [[nodiscard]] const AmbientLimits& limits() const override { return cache_.limits(); }
@@ -44,6 +46,7 @@ class AmbientStore final : public AmbientCache {
 /// The header line of a file made with these options, as Radiance orders them.
 [[nodiscard]] std::string ambient_option_line(const RenderOptions& options);
 /// What makes a file's values unfit for these options, as "-aa 0.1, not 0.2"; "" when nothing does.
-[[nodiscard]] std::string ambient_option_difference(const std::vector<std::string>& header, const RenderOptions& options);
+[[nodiscard]] std::string ambient_option_difference(const std::vector<std::string>& header,
+                                                    const RenderOptions& options);
 
 }  // namespace lightwalk

@@ -31,7 +31,8 @@ AmbientRecord random_record(RandomStream& random) {
     r.axis = encode_direction(perpendicular(n));
     r.radius[0] = static_cast<float>(kLimits.least_radius * (1 + 20 * random.next()));
     r.radius[1] = r.radius[0] * static_cast<float>(1 + random.next());
-    r.translation = {static_cast<float>(random.next() - 0.5), static_cast<float>(random.next() - 0.5)};
+    r.translation = {static_cast<float>(random.next() - 0.5),
+                     static_cast<float>(random.next() - 0.5)};
     r.value = {static_cast<float>(random.next()), static_cast<float>(random.next()), 0.5f};
     r.level = static_cast<std::uint8_t>(3 * random.next());
     r.weight = static_cast<float>(std::pow(0.5, r.level));
@@ -47,7 +48,9 @@ AmbientQuery random_query(RandomStream& random) {
 /// A record that only its own place finds, with content that tells who made it.
 AmbientRecord numbered_record(std::uint32_t id) {
     AmbientRecord r;
-    const auto axis = [id](unsigned shift) { return static_cast<float>(-0.99 + 1.98 / 1024 * ((id >> shift) & 1023)); };
+    const auto axis = [id](unsigned shift) {
+        return static_cast<float>(-0.99 + 1.98 / 1024 * ((id >> shift) & 1023));
+    };
     r.position = {axis(0), axis(10), 0};
     r.normal = encode_direction({0, 0, 1});
     r.axis = encode_direction({1, 0, 0});
@@ -82,7 +85,8 @@ TEST_CASE("the concurrent cache finds what the serial one finds") {
 }
 
 TEST_CASE("eight threads: every value that was stored is found, whole, and once") {
-    constexpr std::uint32_t kThreads = 8, kEach = 62500;  // as many lookups as insertions: a million in all
+    constexpr std::uint32_t kThreads = 8,
+                            kEach = 62500;  // as many lookups as insertions: a million in all
     ConcurrentCache cache(ambient_limits({-1, -1, -1}, 2, 0.1, 2000));
     std::atomic<int> torn{0}, lost{0};
     const auto check = [&](std::uint32_t id, bool must) {
@@ -96,7 +100,8 @@ TEST_CASE("eight threads: every value that was stored is found, whole, and once"
         const double value = sum.sum[0] / sum.weight;
         const bool whole = std::abs(value - id) <= 1e-6 * (1 + id) &&
                            std::abs(sum.sum[1] / sum.weight - 2 * value) <= 1e-6 * (1 + id) &&
-                           std::abs(sum.sum[2] / sum.weight - 3 * value) <= 1e-6 * (1 + id) && sum.weight < 1.01;
+                           std::abs(sum.sum[2] / sum.weight - 3 * value) <= 1e-6 * (1 + id) &&
+                           sum.weight < 1.01;
         torn += whole ? 0 : 1;
     };
     std::vector<std::thread> threads;

@@ -1,4 +1,5 @@
-// Radii, axes, gradients and corrals of hemispheres that Radiance sampled, held to the records that it made of them.
+// Radii, axes, gradients and corrals of hemispheres that Radiance sampled, held to the records that
+// it made of them.
 #include "core/ambient/derivatives.h"
 
 #include <doctest/doctest.h>
@@ -34,16 +35,19 @@ void read_header(const std::string& line, Sampled& s, Vec3& point) {
     in >> word;
     if (word == "ns") {
         std::string skip;
-        in >> s.hemisphere.divisions >> skip >> s.limits.weight >> skip >> s.limits.accuracy >> skip >> s.limits.least >>
-            skip >> s.limits.most;
+        in >> s.hemisphere.divisions >> skip >> s.limits.weight >> skip >> s.limits.accuracy >>
+            skip >> s.limits.least >> skip >> s.limits.most;
     } else if (word == "point") {
         Vec3& n = s.hemisphere.normal;
         Vec3& u = s.hemisphere.u;
-        in >> point.x >> point.y >> point.z >> name >> n.x >> n.y >> n.z >> name >> u.x >> u.y >> u.z;
+        in >> point.x >> point.y >> point.z >> name >> n.x >> n.y >> n.z >> name >> u.x >> u.y >>
+            u.z;
     } else if (word == "expect") {
         in >> name;
-        if (name == "corral") in >> std::hex >> s.corral;
-        else s.expected[name] = numbers(in);
+        if (name == "corral")
+            in >> std::hex >> s.corral;
+        else
+            s.expected[name] = numbers(in);
     }
 }
 
@@ -64,7 +68,9 @@ Sampled read_sampled(const std::string& path) {
         double distance = 0;
         Vec3 p;
         Rgb radiance;
-        if (!(in >> i >> j >> p.x >> p.y >> p.z >> distance >> radiance.r >> radiance.g >> radiance.b)) continue;
+        if (!(in >> i >> j >> p.x >> p.y >> p.z >> distance >> radiance.r >> radiance.g >>
+              radiance.b))
+            continue;
         HemisphereCell& cell = h.cells[i * n + j];
         cell.vertex = p - point;
         cell.nearness = 1 / distance;
@@ -76,10 +82,12 @@ Sampled read_sampled(const std::string& path) {
     return s;
 }
 
-void check_near(const std::array<double, 2>& found, const std::vector<double>& expected, double sign) {
+void check_near(const std::array<double, 2>& found, const std::vector<double>& expected,
+                double sign) {
     REQUIRE(expected.size() == 2);
     const double scale = std::max({std::abs(expected[0]), std::abs(expected[1]), 1e-6});
-    for (std::size_t k = 0; k < 2; ++k) CHECK(std::abs(sign * found[k] - expected[k]) <= 2e-3 * scale);
+    for (std::size_t k = 0; k < 2; ++k)
+        CHECK(std::abs(sign * found[k] - expected[k]) <= 2e-3 * scale);
 }
 
 }  // namespace
@@ -118,7 +126,8 @@ TEST_CASE("a closed room of one brightness has no gradients, however the walls s
         }
         return HemisphereAnswer{Rgb::grey(0.5f / 1024), t > 0 ? t : kHuge};
     };
-    const Hemisphere h = sample_hemisphere({0, 0, 1}, {32, 0, 0.5 / 1024, 100}, RandomStream(5), trace);
+    const Hemisphere h =
+        sample_hemisphere({0, 0, 1}, {32, 0, 0.5 / 1024, 100}, RandomStream(5), trace);
     REQUIRE(h.complete());
     CHECK(static_cast<double>(h.sum.g) == doctest::Approx(0.5));
     const AmbientDerivatives d = derive(h, {0.1, 0.01, 1, 1});

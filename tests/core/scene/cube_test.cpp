@@ -10,7 +10,8 @@ const std::string kBall = "void plastic p 0 0 5 .5 .5 .5 0 0\np sphere s 0 0 4 0
 
 std::shared_ptr<const Model> model_in_cube(const ModelCube& cube) {
     Silence silence;
-    Model model = *parse_scene(kBall, "ball.rad", {LibraryPath(std::vector<std::string>{}), false}, silence);
+    Model model =
+        *parse_scene(kBall, "ball.rad", {LibraryPath(std::vector<std::string>{}), false}, silence);
     model.cube = cube;
     return std::make_shared<const Model>(std::move(model));
 }
@@ -32,7 +33,8 @@ TEST_CASE("an octree's cube is the one that it states, also where it is an insta
     CHECK(alone.cube().origin == Vec3{-2, -3, -4});
     CHECK(alone.cube().size == 10);
     files.octrees["ball.oct"] = model_in_cube({-2, -3, -4, 10});
-    const TestScene placed("void instance i 5 ball.oct -t 100 0 0 0 0\n", TestScene::exact(), files);
+    const TestScene placed("void instance i 5 ball.oct -t 100 0 0 0 0\n", TestScene::exact(),
+                           files);
     CHECK(placed.scene.cube().origin.x == doctest::Approx(98 - 1e-5));
     CHECK(placed.scene.cube().size == doctest::Approx(10 + 2e-5));
 }

@@ -28,8 +28,8 @@ std::vector<LookupRow> read_rows(const std::string& path) {
     for (std::string line; std::getline(file, line);) {
         std::istringstream in(line);
         LookupRow r;
-        if (in >> r.file >> r.level >> r.weight >> r.point.x >> r.point.y >> r.point.z >> r.normal.x >> r.normal.y >>
-            r.normal.z >> r.result >> r.value >> r.weight_sum)
+        if (in >> r.file >> r.level >> r.weight >> r.point.x >> r.point.y >> r.point.z >>
+            r.normal.x >> r.normal.y >> r.normal.z >> r.result >> r.value >> r.weight_sum)
             rows.push_back(r);
     }
     return rows;
@@ -62,12 +62,16 @@ TEST_CASE("ambient files are read, written back byte by byte, and looked up as R
             if (row.file != name) continue;
             const auto leaks = [&](const Vec3& target) {
                 const double far = length(target - row.point);
-                return scene.scene.geometry().intersect({row.point, normalize(target - row.point), far}).exists();
+                return scene.scene.geometry()
+                    .intersect({row.point, normalize(target - row.point), far})
+                    .exists();
             };
-            const AmbientSum sum = cache.lookup({row.point, row.normal, row.normal, row.level, row.weight}, leaks);
+            const AmbientSum sum =
+                cache.lookup({row.point, row.normal, row.normal, row.level, row.weight}, leaks);
             const bool hit = sum.weight > kEpsilon;
             const double value = hit ? sum.sum[0] / sum.weight : 0;
-            const bool good = hit == (row.result == "HIT") && std::abs(value - row.value) <= 1e-3 * row.value + 1e-7 &&
+            const bool good = hit == (row.result == "HIT") &&
+                              std::abs(value - row.value) <= 1e-3 * row.value + 1e-7 &&
                               std::abs(sum.weight - row.weight_sum) <= 2e-3 * row.weight_sum + 1e-5;
             CAPTURE(row.point.x);
             CAPTURE(row.point.y);
@@ -87,7 +91,8 @@ TEST_CASE("a damaged ambient file gives what is whole") {
     record.normal = record.axis = 8;
     record.radius = {0.5f, 1};
     record.value = {1, 2, 3};
-    const std::string head = encode_ambient_header({"lightwalk -ab 1"}), body = encode_ambient_record(record);
+    const std::string head = encode_ambient_header({"lightwalk -ab 1"}),
+                      body = encode_ambient_record(record);
     CHECK(body.size() == kAmbientRecordSize);
     const AmbientFile whole = decode_ambient_file(head + body + body, "x.amb");
     CHECK(whole.records.size() == 2);
@@ -99,7 +104,8 @@ TEST_CASE("a damaged ambient file gives what is whole") {
     const AmbientFile zeros = decode_ambient_file(head + body + std::string(67, '\0'), "x.amb");
     CHECK(zeros.records.size() == 1);
     CHECK(zeros.damage == "record 2 has a direction that is none");
-    CHECK_THROWS_AS((void)decode_ambient_file(head.substr(0, head.size() - 1), "x.amb"), InputError);
+    CHECK_THROWS_AS((void)decode_ambient_file(head.substr(0, head.size() - 1), "x.amb"),
+                    InputError);
     CHECK_THROWS_AS((void)decode_ambient_file("#?RADIANCE\n\n\x02\x31", "x.amb"), InputError);
 }
 
