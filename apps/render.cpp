@@ -215,8 +215,7 @@ class RenderRun {
         session_->freezable->freeze(false);
         for (const int step : steps) {
             FrameOptions coarse = options;
-            coarse.width = (options.width + step - 1) / step;
-            coarse.height = (options.height + step - 1) / step;
+            coarse.step = step;
             coarse.pixels.spacing = 1;
             coarse.previous = nullptr;
             const Frame frame = render_frame(session_->tracer(), camera, coarse,

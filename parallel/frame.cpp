@@ -76,7 +76,7 @@ class FrameRenderer {
           stop_(stop),
           contexts_(tracer, warnings, executor.concurrency()),
           counted_(static_cast<std::size_t>(executor.concurrency())) {
-        if (rays.pinhole())
+        if (rays.pinhole() && options.step == 1)
             small_sources_.emplace(tracer, camera, options.width, options.height,
                                    options.pixels.spacing);
         const std::size_t pixels =
@@ -138,7 +138,7 @@ class FrameRenderer {
         std::array<PixelPlace, kPacketSide * kPacketSide> places;
         std::array<PixelValue, kPacketSide * kPacketSide> values;
         std::size_t count = 0;
-        for (int y = tile.y0; y < tile.y1; ++y) {
+        for (int y = tile.y1; y-- > tile.y0;) {  // from the top
             for (int x = tile.x0; x < tile.x1; ++x) places[count++] = {x, y};
         }
         trace({places.data(), count}, {values.data(), count});
@@ -198,8 +198,11 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
                    Executor& executor, WarningSink& warnings, const StopFlag& stop,
                    FunctionRef<void(const FrameProgress&)> progress) {
     const PixelRays rays(camera, options.previous, options.width, options.height, options.pixels,
-                         options.seed);
-    return FrameRenderer(tracer, camera, rays, options, executor, warnings, stop).run(progress);
+                         options.seed, options.step);
+    FrameOptions coarse = options;
+    coarse.width = (options.width + options.step - 1) / options.step;
+    coarse.height = (options.height + options.step - 1) / options.step;
+    return FrameRenderer(tracer, camera, rays, coarse, executor, warnings, stop).run(progress);
 }
 
 }  // namespace lightwalk

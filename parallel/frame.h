@@ -18,6 +18,7 @@ struct FrameOptions {
     bool use_distances =
         false;  ///< they count in refinement and in drawing small sources (rpict -z)
     const Camera* previous = nullptr;  ///< view of the frame before, for motion blur
+    int step = 1;  ///< more: trace one pixel out of step x step; the frame is so much smaller
 };
 
 /// Rows from the top, left to right.

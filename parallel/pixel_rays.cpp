@@ -20,19 +20,22 @@ double slant(const Camera& camera, const Vec3& direction) {
 }  // namespace
 
 PixelRays::PixelRays(const Camera& camera, const Camera* previous, int width, int height,
-                     const PixelOptions& options, std::uint64_t seed)
+                     const PixelOptions& options, std::uint64_t seed, int step)
     : camera_(camera),
       previous_(previous),
       width_(width),
       height_(height),
       options_(options),
-      seed_(seed) {}
+      seed_(seed),
+      step_(step) {}
 
 bool PixelRays::pinhole() const {
     return options_.aperture <= kEpsilon && (previous_ == nullptr || options_.motion <= kEpsilon);
 }
 
 PixelRay PixelRays::operator()(int x, int y) const {
+    x = std::min(x * step_ + step_ / 2, width_ - 1);
+    y = std::min(y * step_ + step_ / 2, height_ - 1);
     PixelRay pixel{std::nullopt, RandomStream::of_pixel(seed_, static_cast<std::uint32_t>(x),
                                                         static_cast<std::uint32_t>(y), 0)};
     double j1 = 0.5;

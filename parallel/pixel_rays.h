@@ -29,8 +29,9 @@ class PixelRays {
   public:
     /// @param previous  the view of the frame before, for motion blur; null: none
     /// The cameras must outlive this.
+    /// @param step      1, or more: (x, y) stands for a pixel in the middle of step x step of them
     PixelRays(const Camera& camera, const Camera* previous, int width, int height,
-              const PixelOptions& options, std::uint64_t seed);
+              const PixelOptions& options, std::uint64_t seed, int step = 1);
 
     /// Pixel (x, y), y from the bottom, goes through ((x + j1) / width, (y + j2) / height), j
     /// uniform in ½ ± jitter / 2. Source: Radiance manual page rpict(1), -pj, -pd and -pm.
@@ -51,6 +52,7 @@ class PixelRays {
     int width_, height_;
     PixelOptions options_;
     std::uint64_t seed_;
+    int step_;
 };
 
 }  // namespace lightwalk

@@ -108,14 +108,14 @@ Bounds bounds_of_tree(RTCSceneTy* scene) {
 
 void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const Bounds box = model.space.box(model.primitives->hit_bounds(args->primID));
-    *args->bounds_o = rounded(box);
+    *args->bounds_o = rounded(model.space.box(model.pieces[args->primID].box));
 }
 
 void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
-    const PrimitiveRef what{frame_of(args->context), args->primID};
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    const PrimitiveRef what{frame_of(args->context), model.pieces[args->primID].primitive};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
@@ -128,7 +128,8 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
 
 void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
-    const PrimitiveRef what{frame_of(args->context), args->primID};
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    const PrimitiveRef what{frame_of(args->context), model.pieces[args->primID].primitive};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];

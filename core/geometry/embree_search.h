@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/geometry/pieces.h"
 #include "core/geometry/placed_scene.h"
 #include "core/geometry/search_space.h"
 
@@ -23,6 +24,7 @@ inline constexpr unsigned kOwnSurfaces = 0, kCopies = 1;  ///< geometry ids in E
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
+    std::vector<Piece> pieces;  ///< what Embree calls the primitives
     ScenePtr scene;
 };
 

@@ -138,8 +138,8 @@ void Geometry::Impl::build(Hierarchy& model) {
     if (model.primitives->size() == 0) return;
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
-    rtcSetGeometryUserPrimitiveCount(geometry.get(),
-                                     static_cast<unsigned>(model.primitives->size()));
+    model.pieces = divide_primitives(*model.primitives);
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(model.pieces.size()));
     rtcSetGeometryUserData(geometry.get(), &model);
     rtcSetGeometryBoundsFunction(geometry.get(), primitive_bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), intersect_primitive);

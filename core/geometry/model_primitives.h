@@ -54,6 +54,11 @@ class ModelPrimitives {
                                                             double t_max) const;
     /// Box of every point that `intersect` can report, before rounding.
     [[nodiscard]] Bounds hit_bounds(std::uint32_t primitive) const;
+    /// The primitive's shape where it is a polygon, else null.
+    [[nodiscard]] const PolygonShape* polygon(std::uint32_t primitive) const {
+        return is_triangle(primitive) ? nullptr
+                                      : std::get_if<PolygonShape>(&own_surface(primitive).shape);
+    }
     /// Box around all surfaces and triangles themselves.
     [[nodiscard]] Bounds bounds() const;
 

@@ -28,30 +28,41 @@ DirectCalculation::~DirectCalculation() {
     scratch_.tails.resize(first_tail_);
 }
 
-void DirectCalculation::gather(DirectCoefficient coefficient) {
+void DirectCalculation::gather(DirectCoefficient coefficient, bool lazily) {
     for (const std::int32_t source : lights_.sampled()) {
-        if (!out_of_reach(lights_[source], ray_.hit.position)) gather(source, coefficient);
+        if (!out_of_reach(lights_[source], ray_.hit.position)) gather(source, coefficient, lazily);
     }
 }
 
-void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient) {
+void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient, bool lazily) {
     const LightSource& source = lights_[index];
     const RenderOptions& options = tracer_.options();
     const bool constant = is_constant(source);
+    const bool lazy = lazily && !constant && !source.is_virtual && !needs_tracing(source);
     sample_source(source, ray_.hit.position, {options.source_subdivision, options.source_jitter},
                   aimed_.weight, aimed_.random, scratch_.parts, scratch_.samples);
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
         const SourceSample sample = scratch_.samples[i];
-        const Rgb k = coefficient(sample.direction, sample.solid_angle);
-        if (!(max_component(k) > 0)) continue;
-        const Emission emitted = constant ? constant_emission(source, sample.direction)
-                                          : traced_emission(index, sample.direction);
-        const Rgb v = k * emitted.radiance;
-        const float b = brightness(v);
-        if (!(b > 0) || !std::isfinite(b)) continue;
-        const auto order = static_cast<std::uint32_t>(count());
-        scratch_.candidates.push_back(
-            {index, order, sample.direction, emitted.distance, k, v, b, false});
+        LightCandidate candidate;
+        candidate.source = index;
+        candidate.order = static_cast<std::uint32_t>(count());
+        candidate.direction = sample.direction;
+        candidate.coefficient = coefficient(sample.direction, sample.solid_angle);
+        if (!(max_component(candidate.coefficient) > 0)) continue;
+        if (lazy) {
+            const std::optional<double> distance = front_distance(source, sample.direction);
+            if (!distance) continue;
+            candidate.distance = *distance;
+            candidate.lazy = true;
+        } else {
+            const Emission emitted = constant ? constant_emission(source, sample.direction)
+                                              : traced_emission(index, sample.direction);
+            candidate.distance = emitted.distance;
+            candidate.contribution = candidate.coefficient * emitted.radiance;
+            candidate.brightness = brightness(candidate.contribution);
+            if (!(candidate.brightness > 0) || !std::isfinite(candidate.brightness)) continue;
+        }
+        scratch_.candidates.push_back(candidate);
     }
     scratch_.samples.resize(first_sample_);
 }
@@ -64,15 +75,22 @@ bool DirectCalculation::is_constant(const LightSource& source) const {
 /// meets its front.
 DirectCalculation::Emission DirectCalculation::constant_emission(const LightSource& source,
                                                                  const Vec3& direction) const {
+    const std::optional<double> distance = front_distance(source, direction);
+    return distance ? Emission{source.radiance, *distance} : Emission{};
+}
+
+/// How far the front of a source is; nothing when the direction misses it or meets its back.
+std::optional<double> DirectCalculation::front_distance(const LightSource& source,
+                                                        const Vec3& direction) const {
     if (source.distant) {
         const bool inside =
             2 * kPi * (1 - dot(source.center, direction)) <= static_cast<double>(source.size);
-        return inside ? Emission{source.radiance, kHuge} : Emission{};
+        return inside ? std::optional(kHuge) : std::nullopt;
     }
     const Surface& surface = tracer_.scene().surface(source.object);
     const auto hit = intersect(surface.shape, ray_.hit.position, direction, kHuge);
-    if (!hit || dot(hit->normal, direction) > 0) return {};
-    return {source.radiance, hit->t};
+    if (!hit || dot(hit->normal, direction) > 0) return std::nullopt;
+    return hit->t;
 }
 
 /// The radiance that arrives from a source when nothing else is in the scene.
@@ -99,8 +117,8 @@ void DirectCalculation::sort() {
     }
 }
 
-bool DirectCalculation::needs_tracing(const LightCandidate& candidate) const {
-    return lights_[candidate.source].follow || ray_.clip || ray_.next_clip;
+bool DirectCalculation::needs_tracing(const LightSource& source) const {
+    return source.follow || ray_.clip || ray_.next_clip;
 }
 
 /// Whether the light is behind the true surface.
@@ -128,7 +146,7 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
     scratch_.queries.resize(first_query_);
     scratch_.queried.resize(first_query_);
     for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
-        if (needs_tracing(scratch_.candidates[i])) continue;
+        if (needs_tracing(lights_[scratch_.candidates[i].source])) continue;
         scratch_.queries.push_back(query(scratch_.candidates[i]));
         scratch_.queried.push_back(static_cast<std::uint32_t>(i));
     }
@@ -149,11 +167,22 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
             trace_shadow(i);
         } else {
             scratch_.candidates[i].visible = result == Visibility::clear;
+            if (scratch_.candidates[i].visible && scratch_.candidates[i].lazy) add_radiance(i);
         }
     }
     for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
         if (!scratch_.candidates[i].visible) scratch_.candidates[i].contribution = Rgb{};
     }
+}
+
+/// The contribution of a lazy candidate that nothing hides.
+void DirectCalculation::add_radiance(std::size_t i) {
+    const Emission emitted =
+        traced_emission(scratch_.candidates[i].source, scratch_.candidates[i].direction);
+    LightCandidate& candidate = scratch_.candidates[i];
+    candidate.contribution = candidate.coefficient * emitted.radiance;
+    candidate.brightness = brightness(candidate.contribution);
+    candidate.visible = candidate.brightness > 0 && std::isfinite(candidate.brightness);
 }
 
 /// Follow one shadow ray through whatever is in the way.
@@ -179,8 +208,9 @@ void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient,
                               TraceContext& context) const {
     if (sampled_.empty()) return;
     DirectCalculation direct(*this, ray, context);
-    direct.gather(coefficient);
-    if (options_.shadow_threshold <= 0) {
+    const bool test_all = options_.shadow_threshold <= 0;
+    direct.gather(coefficient, test_all);
+    if (test_all) {
         direct.test(0, direct.count());
         for (const LightCandidate& candidate : direct.candidates())
             ray.value += candidate.contribution;

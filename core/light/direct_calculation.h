@@ -3,6 +3,7 @@
 // them.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "core/light/light_scratch.h"
@@ -60,8 +61,10 @@ class DirectCalculation {
     DirectCalculation(const DirectCalculation&) = delete;
     DirectCalculation& operator=(const DirectCalculation&) = delete;
 
-    /// Sample all sources; keep what can bring light to the surface.
-    void gather(DirectCoefficient coefficient);
+    /// Sample all sources; keep what can bring light to the surface. `lazily`: find the radiance of
+    /// patterned sources only where test() finds that they are seen; until then brightness and
+    /// contribution mean nothing, so that sort() is not to be called.
+    void gather(DirectCoefficient coefficient, bool lazily);
 
     /// Brightest candidates first; fills tails().
     void sort();
@@ -85,12 +88,15 @@ class DirectCalculation {
         Rgb radiance;
         double distance = kHuge;  ///< to the source's surface [m]
     };
-    void gather(std::int32_t source, DirectCoefficient coefficient);
+    void gather(std::int32_t source, DirectCoefficient coefficient, bool lazily);
     [[nodiscard]] bool is_constant(const LightSource& source) const;
+    [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
+                                                       const Vec3& direction) const;
+    void add_radiance(std::size_t candidate);
     [[nodiscard]] Emission constant_emission(const LightSource& source,
                                              const Vec3& direction) const;
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
-    [[nodiscard]] bool needs_tracing(const LightCandidate& candidate) const;
+    [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
     [[nodiscard]] ShadowQuery query(const LightCandidate& candidate) const;
     void trace_shadow(std::size_t candidate);

@@ -73,10 +73,12 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
     ray.hit = hit;
     ray.hit.t = ray.hit.rod = 1;
     DirectCalculation direct(lights, ray, context);
-    direct.gather([&hit](const Vec3& l, double omega) {
-        const double cosine = dot(hit.normal, l);
-        return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
-    });
+    direct.gather(
+        [&hit](const Vec3& l, double omega) {
+            const double cosine = dot(hit.normal, l);
+            return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
+        },
+        false);
     direct.sort();
     direct.test(0, direct.count());
     MeasuredPoint point;

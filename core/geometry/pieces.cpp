@@ -1,0 +1,287 @@
+#include "core/geometry/pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "core/geometry/bounds.h"
+#include "core/geometry/polygon.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kDivisions = 20000;   ///< of all polygons of a model, and half as many as it
+                                            ///< has primitives
+constexpr int kMostPieces = 64;             ///< of one polygon
+constexpr std::size_t kMostVertices = 128;  ///< of a polygon that is divided
+constexpr double kLeastGain = 1e-5;         ///< of a division, relative to the model's box
+constexpr double kThickness = 1.0 / 16;     ///< of slanted pieces, relative to their polygon
+constexpr double kMargin = 4 * kEpsilon;    ///< that boxes are grown by [m]
+constexpr double kRim = 3 * kEpsilon;       ///< of cells, that the boxes around reach into [m]
+
+struct Point {
+    std::array<double, 2> at{};
+};
+
+/// A rectangle in the polygon's projection.
+struct Cell {
+    std::array<double, 2> lower{}, upper{};
+    [[nodiscard]] double side(std::size_t k) const { return upper[k] - lower[k]; }
+    [[nodiscard]] double area() const { return side(0) * side(1); }
+};
+
+double cross(const Point& a, const Point& b, const Point& p) {
+    return (b.at[0] - a.at[0]) * (p.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (p.at[0] - a.at[0]);
+}
+
+/// Sutherland & Hodgman: the part of the polygon with sign * coordinate <= sign * limit.
+std::vector<Point> clipped(const std::vector<Point>& polygon, std::size_t k, double limit,
+                           double sign) {
+    std::vector<Point> out;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point &a = polygon[i == 0 ? polygon.size() - 1 : i - 1], &b = polygon[i];
+        const double da = sign * (limit - a.at[k]), db = sign * (limit - b.at[k]);
+        if ((da < 0) != (db < 0)) {
+            Point on = a;
+            const double t = da / (da - db);
+            on.at[1 - k] += t * (b.at[1 - k] - a.at[1 - k]);
+            on.at[k] = limit;
+            out.push_back(on);
+        }
+        if (db >= 0) out.push_back(b);
+    }
+    return out;
+}
+
+double area_of(const std::vector<Point>& polygon) {
+    double twice = 0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        twice += cross(polygon[0], polygon[i - 1], polygon[i]);
+    return 0.5 * std::abs(twice);
+}
+
+/// A polygon as it is divided: its projection along the axis that the inside test ignores.
+class Projection {
+  public:
+    explicit Projection(const PolygonShape& polygon)
+        : polygon_(&polygon),
+          z_(static_cast<std::size_t>(polygon.drop_axis)),
+          axes_{(z_ + 1) % 3, (z_ + 2) % 3} {
+        points_.reserve(polygon.vertices.size());
+        for (const Vec3& v : polygon.vertices) points_.push_back({{v[axes_[0]], v[axes_[1]]}});
+        whole_.lower = whole_.upper = points_[0].at;
+        for (const Point& p : points_) {
+            for (std::size_t k = 0; k < 2; ++k) {
+                whole_.lower[k] = std::min(whole_.lower[k], p.at[k]);
+                whole_.upper[k] = std::max(whole_.upper[k], p.at[k]);
+            }
+        }
+    }
+
+    [[nodiscard]] const Cell& whole() const { return whole_; }
+    [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+
+    /// Whether no hit can lie in the cell, but those so near its rim that the boxes of the cells
+    /// around hold them.
+    [[nodiscard]] bool is_empty(Cell cell) const {
+        for (std::size_t k = 0; k < 2; ++k) {
+            cell.lower[k] += kRim;
+            cell.upper[k] -= kRim;
+            if (cell.side(k) <= 0) return false;
+        }
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (may_touch(points_[i == 0 ? points_.size() - 1 : i - 1], points_[i], cell))
+                return false;
+        }
+        const double x = 0.5 * (cell.lower[0] + cell.upper[0]),
+                     y = 0.5 * (cell.lower[1] + cell.upper[1]);
+        return !contains(*polygon_, on_plane(x, y), nullptr);
+    }
+
+    /// Area of the cell that the polygon leaves free. A guess for polygons that cross themselves.
+    [[nodiscard]] double waste(const Cell& cell) const {
+        std::vector<Point> part = points_;
+        for (std::size_t k = 0; k < 2; ++k) {
+            part = clipped(part, k, cell.upper[k], 1);
+            part = clipped(part, k, cell.lower[k], -1);
+        }
+        const double free = cell.area() - area_of(part);
+        return free > 1e-6 * cell.area() ? free : 0;
+    }
+
+    /// Extent along the axis of projection.
+    [[nodiscard]] double thickness(const Cell& cell) const {
+        return cell.side(0) * slope(0) + cell.side(1) * slope(1);
+    }
+    [[nodiscard]] double slope(std::size_t k) const {
+        return std::abs(polygon_->normal[axes_[k]] / polygon_->normal[z_]);
+    }
+
+    /// Box of the hits in the cell.
+    [[nodiscard]] Bounds box(const Cell& cell) const {
+        Bounds bounds;
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            bounds.extend(on_plane((corner & 1U) != 0 ? cell.upper[0] : cell.lower[0],
+                                   (corner & 2U) != 0 ? cell.upper[1] : cell.lower[1]));
+        }
+        return grown(bounds, kMargin);
+    }
+
+  private:
+    [[nodiscard]] Vec3 on_plane(double x, double y) const {
+        Vec3 p;
+        p[axes_[0]] = x;
+        p[axes_[1]] = y;
+        p[z_] = (polygon_->offset - dot(polygon_->normal, p)) / polygon_->normal[z_];
+        return p;
+    }
+
+    /// Whether the inside test may accept a point of the cell for being on the edge. Its tolerance
+    /// is an area within the edge's rectangle, a length elsewhere.
+    [[nodiscard]] static bool may_touch(const Point& a, const Point& b, const Cell& cell) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            if (std::max(a.at[k], b.at[k]) < cell.lower[k] - 0.5 * kRim ||
+                std::min(a.at[k], b.at[k]) > cell.upper[k] + 0.5 * kRim)
+                return false;
+        }
+        const double tolerance =
+            2 * kMargin * (1 + std::abs(b.at[0] - a.at[0]) + std::abs(b.at[1] - a.at[1]));
+        int left = 0, right = 0;
+        for (unsigned corner = 0; corner < 4; ++corner) {
+            const double side = cross(a, b,
+                                      {{(corner & 1U) != 0 ? cell.upper[0] : cell.lower[0],
+                                        (corner & 2U) != 0 ? cell.upper[1] : cell.lower[1]}});
+            left += side > tolerance ? 1 : 0;
+            right += side < -tolerance ? 1 : 0;
+        }
+        return left < 4 && right < 4;
+    }
+
+    const PolygonShape* polygon_;
+    std::size_t z_;
+    std::array<std::size_t, 2> axes_;
+    std::vector<Point> points_;
+    Cell whole_;
+};
+
+/// Where a cell is cut.
+struct Cut {
+    std::size_t axis = 0;
+    double at = 0;
+};
+
+std::array<Cell, 2> halves(const Cell& cell, const Cut& cut) {
+    std::array<Cell, 2> parts{cell, cell};
+    parts[0].upper[cut.axis] = parts[1].lower[cut.axis] = cut.at;
+    return parts;
+}
+
+/// The cut at a vertex that settles most (parts without waste, or without any of the polygon);
+/// where none does, the middle.
+Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful) {
+    Cut best;
+    const std::array<double, 2> steep{cell.side(0) * (1 + polygon.slope(0)),
+                                      cell.side(1) * (1 + polygon.slope(1))};
+    best.axis = steep[0] >= steep[1] ? 0 : 1;
+    if (!wasteful)
+        best.axis = cell.side(0) * polygon.slope(0) >= cell.side(1) * polygon.slope(1) ? 0 : 1;
+    best.at = 0.5 * (cell.lower[best.axis] + cell.upper[best.axis]);
+    if (!wasteful) return best;
+    double settled = 0;
+    for (const Point& p : polygon.points()) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double sliver = 0.01 * cell.side(k);
+            if (!(p.at[k] > cell.lower[k] + sliver && p.at[k] < cell.upper[k] - sliver)) continue;
+            double gain = 0;
+            for (const Cell& part : halves(cell, {k, p.at[k]})) {
+                if (polygon.waste(part) == 0 || polygon.is_empty(part)) gain += part.area();
+            }
+            if (gain > settled) {
+                settled = gain;
+                best = {k, p.at[k]};
+            }
+        }
+    }
+    return best;
+}
+
+/// A cell that might be divided further.
+struct Task {
+    double gain = 0;
+    std::size_t polygon = 0;
+    Cell cell;
+    bool wasteful = false;
+    friend bool operator<(const Task& a, const Task& b) { return a.gain < b.gain; }
+};
+
+Task task_for(const Projection& polygon, std::size_t number, const Cell& cell) {
+    Task task{0, number, cell, false};
+    const double waste = polygon.waste(cell);
+    const double thickness = polygon.thickness(cell);
+    const double allowed = kThickness * std::max(polygon.whole().side(0), polygon.whole().side(1));
+    task.wasteful = waste > 0.1 * cell.area();
+    if (task.wasteful) task.gain = waste;
+    if (thickness > allowed) task.gain += thickness * std::max(cell.side(0), cell.side(1));
+    return task;
+}
+
+double half_area(const Bounds& bounds) {
+    if (bounds.empty()) return 0;
+    const Vec3 size = bounds.upper - bounds.lower;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
+}  // namespace
+
+std::vector<Piece> divide_primitives(const ModelPrimitives& model) {
+    std::vector<Piece> pieces;
+    std::vector<Projection> polygons;
+    std::vector<std::uint32_t> primitives;  // of the polygons
+    std::vector<int> count;                 // pieces of each polygon so far
+    std::priority_queue<Task> tasks;
+    const double least = kLeastGain * half_area(model.bounds());
+    for (std::uint32_t i = 0; i < model.size(); ++i) {
+        const PolygonShape* shape = model.polygon(i);
+        if (shape && shape->vertices.size() <= kMostVertices &&
+            half_area(model.hit_bounds(i)) > least) {
+            Projection polygon(*shape);
+            const Task task = task_for(polygon, polygons.size(), polygon.whole());
+            if (task.gain > least) {
+                polygons.push_back(std::move(polygon));
+                primitives.push_back(i);
+                count.push_back(1);
+                tasks.push(task);
+                continue;
+            }
+        }
+        pieces.push_back({i, model.hit_bounds(i)});
+    }
+    std::size_t budget = kDivisions + model.size() / 2;
+    while (!tasks.empty()) {
+        const Task task = tasks.top();
+        tasks.pop();
+        const Projection& polygon = polygons[task.polygon];
+        int& used = count[task.polygon];
+        if (budget == 0 || used >= kMostPieces || task.gain <= least) {
+            Bounds box = polygon.box(task.cell);
+            const Bounds whole = model.hit_bounds(primitives[task.polygon]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.lower[k] = std::max(box.lower[k], whole.lower[k]);
+                box.upper[k] = std::min(box.upper[k], whole.upper[k]);
+            }
+            pieces.push_back({primitives[task.polygon], box});
+            continue;
+        }
+        --used;
+        for (const Cell& part : halves(task.cell, best_cut(polygon, task.cell, task.wasteful))) {
+            if (polygon.is_empty(part)) continue;
+            tasks.push(task_for(polygon, task.polygon, part));
+            ++used;
+        }
+        --budget;
+    }
+    return pieces;
+}
+
+}  // namespace lightwalk
