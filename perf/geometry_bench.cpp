@@ -159,19 +159,6 @@ void shadow_single(benchmark::State& state) {
     }
     count_rays(state, rays);
 }
-void shadow_packet(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
-    const Geometry geometry = room.build();
-    const std::vector<RaySegment> rays = secondary_rays(geometry, true);
-    std::vector<ShadowQuery> queries;
-    queries.reserve(rays.size());
-    for (const RaySegment& ray : rays) queries.push_back({ray, kNoSurface, Visibility::clear});
-    for ([[maybe_unused]] auto iteration : state) {
-        geometry.visibility(queries);
-        benchmark::DoNotOptimize(queries.data());
-    }
-    count_rays(state, rays);
-}
 void build_room(benchmark::State& state) {
     const Room room(static_cast<int>(state.range(0)));
     std::size_t bytes = 0;
@@ -187,7 +174,6 @@ BENCHMARK(primary_packet)->Arg(kBoxes[0])->Arg(kBoxes[1]);
 BENCHMARK(diffuse_single)->Arg(kBoxes[0])->Arg(kBoxes[1]);
 BENCHMARK(diffuse_packet)->Arg(kBoxes[0])->Arg(kBoxes[1]);
 BENCHMARK(shadow_single)->Arg(kBoxes[0])->Arg(kBoxes[1]);
-BENCHMARK(shadow_packet)->Arg(kBoxes[0])->Arg(kBoxes[1]);
 BENCHMARK(build_room)->Arg(kBoxes[0])->Arg(kBoxes[1])->Unit(benchmark::kMillisecond);
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 

@@ -176,26 +176,11 @@ void intersect_copy(const RTCIntersectFunctionNArguments* args) {
 void occlude_copy(const RTCOccludedFunctionNArguments* args) {
     const Copy& copy = static_cast<const Copies*>(args->geometryUserPtr)->all[args->primID];
     const InFrame in_frame(*args->context, copy);
-    const unsigned count = args->N;
-    if (active_lanes(args->valid, count) <= kFewRays) {
-        for (unsigned lane = 0; lane < count; ++lane) {
-            if (args->valid[lane] == 0) continue;
-            RTCRay ray = local_ray(copy, args->ray, count, lane);
-            rtcOccluded1(copy.scene, args->context, &ray);
-            RTCRayN_tfar(args->ray, count, lane) = ray.tfar;
-        }
-        return;
-    }
-    alignas(64) std::array<int, kPacket> valid{};
-    RTCRay16 rays;
-    for (unsigned lane = 0; lane < count; ++lane) {
+    for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
-        valid[lane] = -1;
-        set_lane(rays, lane, local_ray(copy, args->ray, count, lane));
-    }
-    rtcOccluded16(valid.data(), copy.scene, args->context, &rays);
-    for (unsigned lane = 0; lane < count; ++lane) {
-        if (valid[lane] != 0) RTCRayN_tfar(args->ray, count, lane) = rays.tfar[lane];
+        RTCRay ray = local_ray(copy, args->ray, args->N, lane);
+        rtcOccluded1(copy.scene, args->context, &ray);
+        RTCRayN_tfar(args->ray, args->N, lane) = ray.tfar;
     }
 }
 

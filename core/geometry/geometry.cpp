@@ -56,7 +56,6 @@ struct Geometry::Impl {
     void trace(NearestRay& ray) const;
     void trace(std::span<NearestRay> rays) const;
     void trace(ShadowRay& ray) const;
-    void trace(std::span<ShadowRay> rays) const;
     [[nodiscard]] Hit finish(const RaySegment& segment, const NearestRay& ray) const;
 
     std::atomic<std::ptrdiff_t> embree_bytes{
@@ -320,22 +319,6 @@ void Geometry::Impl::trace(ShadowRay& ray) const {
     rtcOccluded1(models[0].scene.get(), &query, &embree);
 }
 
-void Geometry::Impl::trace(std::span<ShadowRay> rays) const {
-    assert(rays.size() <= kPacket);
-    alignas(64) std::array<int, kPacket> valid{};
-    RTCRay16 embree;
-    ShadowQueries query;
-    rtcInitIntersectContext(&query);
-    query.placed = &placed;
-    query.rays = rays.data();
-    for (unsigned i = 0; i < kPacket; ++i) {
-        const std::optional<EmbreeRay> from = i < rays.size() ? embree_ray(rays[i]) : std::nullopt;
-        set_ray(embree, i, from.value_or(EmbreeRay{}));
-        if (from) valid[i] = -1;
-    }
-    rtcOccluded16(valid.data(), models[0].scene.get(), &query, &embree);
-}
-
 Hit Geometry::Impl::finish(const RaySegment& segment, const NearestRay& ray) const {
     if (!ray.nearest) return {};
     if (!placed.is_ambiguous(ray)) return placed.hit_of(segment, *ray.nearest);
@@ -371,19 +354,6 @@ Visibility Geometry::visibility(const RaySegment& ray, SurfaceId target) const {
     impl_->placed.begin(search, ray, target);
     impl_->trace(search);
     return search.result;
-}
-
-void Geometry::visibility(std::span<ShadowQuery> queries) const {
-    std::array<ShadowRay, kPacket> searches;
-    for (std::size_t first = 0; first < queries.size(); first += kPacket) {
-        const std::span<ShadowQuery> some =
-            queries.subspan(first, std::min<std::size_t>(kPacket, queries.size() - first));
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            impl_->placed.begin(searches[i], some[i].segment, some[i].target);
-        }
-        impl_->trace(std::span(searches).first(some.size()));
-        for (std::size_t i = 0; i < some.size(); ++i) some[i].result = searches[i].result;
-    }
 }
 
 }  // namespace lightwalk

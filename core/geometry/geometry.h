@@ -73,13 +73,6 @@ struct RaySegment {
     double t_max = kHuge;    ///< hits beyond it do not count [m]
 };
 
-/// One shadow query of a packet: common origin is usual but not required.
-struct ShadowQuery {
-    RaySegment segment;
-    SurfaceId target = kNoSurface;  ///< surface that does not shadow (the light itself)
-    Visibility result = Visibility::clear;
-};
-
 /// Immutable after building; every method may be called from many threads at once.
 class Geometry {
   public:
@@ -99,11 +92,9 @@ class Geometry {
     /// Nearest hit with one given finite surface of the scene itself (not inside an instance).
     [[nodiscard]] Hit intersect_surface(SurfaceId surface, const RaySegment& ray) const;
 
-    /// Visibility between the origin and t_max.
+    /// Visibility between the origin and t_max. `target` does not shadow: it is the light itself. One ray at a time:
+    /// measured on interiors, that is faster than packets of the rays to all lights.
     [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target) const;
-
-    /// The same for many queries at once; sets `result` of each.
-    void visibility(std::span<ShadowQuery> queries) const;
 
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
     void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;

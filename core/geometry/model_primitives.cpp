@@ -72,6 +72,10 @@ ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelG
         if (polygon && polygon->vertices.size() > kLargePolygon) {
             large_polygons_.emplace(index(id), EdgeIndex(*polygon));
         }
+        const bool packed = polygon && polygon->vertices.size() <= kLargePolygon;
+        packed_number_.push_back(packed ? packed_.size() : kNotPacked);
+        if (packed) packed_.add(*polygon);
+        shadow_.push_back(surfaces[static_cast<std::size_t>(index(id))].traits.shadow);
         own_.push_back(id);
     }
     size_ = own_.size();
@@ -192,7 +196,8 @@ ModelPrimitives::Smoothing ModelPrimitives::smoothing(std::uint32_t primitive, c
 }
 
 std::size_t ModelPrimitives::memory_bytes() const {
-    std::size_t bytes = own_.capacity() * sizeof(SurfaceId);
+    std::size_t bytes = own_.capacity() * sizeof(SurfaceId) + packed_.memory_bytes() +
+                        packed_number_.capacity() * sizeof(std::uint32_t) + shadow_.capacity();
     for (const auto& [surface, edges] : large_polygons_)
         bytes += sizeof(surface) + edges.memory_bytes();
     return bytes;

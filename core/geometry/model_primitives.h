@@ -44,9 +44,10 @@ class ModelPrimitives {
     /// Nearest crossing with t in (kEpsilon, t_max]; the direction is unit.
     [[nodiscard]] std::optional<ShapeHit> intersect(std::uint32_t primitive, const Vec3& origin,
                                                     const Vec3& direction, double t_max) const {
-        return is_triangle(primitive)
-                   ? intersect_triangle(primitive, origin, direction, t_max)
-                   : intersect_surface(own_[primitive], origin, direction, t_max);
+        if (is_triangle(primitive)) return intersect_triangle(primitive, origin, direction, t_max);
+        const std::uint32_t polygon = packed_number_[primitive];
+        return polygon != kNotPacked ? packed_.intersect(polygon, origin, direction, t_max)
+                                     : intersect_surface(own_[primitive], origin, direction, t_max);
     }
     /// The same for a surface of this model.
     [[nodiscard]] std::optional<ShapeHit> intersect_surface(SurfaceId surface, const Vec3& origin,
@@ -63,6 +64,9 @@ class ModelPrimitives {
     [[nodiscard]] Bounds bounds() const;
 
     [[nodiscard]] const SurfaceTraits& traits(std::uint32_t primitive) const;
+    [[nodiscard]] ShadowClass shadow(std::uint32_t primitive) const {
+        return is_triangle(primitive) ? traits(primitive).shadow : shadow_[primitive];
+    }
     [[nodiscard]] SurfaceId surface(std::uint32_t primitive) const;
     [[nodiscard]] ModifierId modifier(std::uint32_t primitive) const;
 
@@ -92,6 +96,11 @@ class ModelPrimitives {
 
     std::span<const Surface> surfaces_;
     std::vector<SurfaceId> own_;  ///< surfaces of this model that have a shape
+    static constexpr std::uint32_t kNotPacked = ~std::uint32_t{0};
+    // What the search asks of every candidate, apart from the rest of the surfaces.
+    PackedPolygons packed_;                     ///< all but the large ones
+    std::vector<std::uint32_t> packed_number_;  ///< by own primitive
+    std::vector<ShadowClass> shadow_;           ///< by own primitive
     std::span<const MeshPart> meshes_;
     std::unordered_map<std::int32_t, EdgeIndex> large_polygons_;  ///< by index of the surface
     std::size_t size_ = 0;

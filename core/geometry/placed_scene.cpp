@@ -218,7 +218,7 @@ ShadowClass PlacedScene::shadow_class(PrimitiveRef what) const {
         if (placed.override_surface != kNoSurface)
             return surface(placed.override_surface).traits.shadow;
     }
-    return model_of(what.frame).traits(what.primitive).shadow;
+    return model_of(what.frame).shadow(what.primitive);
 }
 
 bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) const {

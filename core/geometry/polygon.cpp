@@ -150,4 +150,44 @@ std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origi
     return ShapeHit{t, polygon.normal, cosine < 0};
 }
 
+void PackedPolygons::add(const PolygonShape& polygon) {
+    const auto [x, y] = remaining_axes(polygon);
+    Plane plane;
+    plane.normal = polygon.normal;
+    plane.offset = polygon.offset;
+    plane.axis = static_cast<std::uint32_t>(polygon.drop_axis);
+    plane.first = static_cast<std::uint32_t>(points_.size());
+    for (const Vec3& v : polygon.vertices) points_.push_back({v.*x, v.*y});
+    plane.last = static_cast<std::uint32_t>(points_.size());
+    planes_.push_back(plane);
+}
+
+std::optional<ShapeHit> PackedPolygons::intersect(std::uint32_t number, const Vec3& origin,
+                                                  const Vec3& direction, double t_max) const {
+    const Plane& plane = planes_[number];
+    const double cosine = fused_dot(plane.normal, direction);
+    if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
+    const double t = (plane.offset - fused_dot(plane.normal, origin)) / cosine;
+    if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
+    const auto [x_axis, y_axis] = kRemaining[plane.axis];
+    const double x = origin.*x_axis + direction.*x_axis * t,
+                 y = origin.*y_axis + direction.*y_axis * t;
+    const Point *p = &points_[plane.first], *end = p + (plane.last - plane.first);
+    bool inside = false;
+    double ax = end[-1].x - x, ay = end[-1].y - y;
+    for (; p != end; ++p) {
+        const double bx = p->x - x, by = p->y - y;
+        const EdgeTest result = test_edge(ax, ay, bx, by);
+        if (result == EdgeTest::touches) {
+            inside = true;
+            break;
+        }
+        if (result == EdgeTest::crosses) inside = !inside;
+        ax = bx;
+        ay = by;
+    }
+    if (!inside) return std::nullopt;
+    return ShapeHit{t, plane.normal, cosine < 0};
+}
+
 }  // namespace lightwalk

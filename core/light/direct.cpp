@@ -14,7 +14,6 @@ DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, Trace
       scratch_(*context.light),
       first_sample_(scratch_.samples.size()),
       first_candidate_(scratch_.candidates.size()),
-      first_query_(scratch_.queries.size()),
       first_tail_(scratch_.tails.size()) {
     (void)tracer_.spawn(aimed_, kShadow, ray, nullptr);
     aimed_.aimed = true;
@@ -23,8 +22,6 @@ DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, Trace
 DirectCalculation::~DirectCalculation() {
     scratch_.samples.resize(first_sample_);
     scratch_.candidates.resize(first_candidate_);
-    scratch_.queries.resize(first_query_);
-    scratch_.queried.resize(first_query_);
     scratch_.tails.resize(first_tail_);
 }
 
@@ -126,51 +123,31 @@ bool DirectCalculation::goes_through(const Vec3& direction) const {
     return (ray_.hit.rod > 0) != (dot(direction, ray_.hit.normal) > 0);
 }
 
-ShadowQuery DirectCalculation::query(const LightCandidate& candidate) const {
+/// What a ray that only asks for opaque surfaces finds between the point and the light.
+Visibility DirectCalculation::visibility(const LightCandidate& candidate) const {
     const LightSource& source = lights_[candidate.source];
     const bool local = !source.distant || source.is_virtual;
-    ShadowQuery query;
-    query.segment = {ray_.hit.position, candidate.direction,
-                     local ? candidate.distance - kEpsilon : kHuge};
-    query.target = local ? source.object : kNoSurface;
+    RaySegment segment{ray_.hit.position, candidate.direction,
+                       local ? candidate.distance - kEpsilon : kHuge};
     // Rays through the surface keep what is left to the aft clipping plane.
     if (ray_.limit > kEpsilon && ray_.limit - ray_.hit.t > kEpsilon &&
         goes_through(candidate.direction)) {
-        query.segment.t_max = std::min(query.segment.t_max, ray_.limit - ray_.hit.t);
+        segment.t_max = std::min(segment.t_max, ray_.limit - ray_.hit.t);
     }
-    return query;
+    return tracer_.scene().geometry().visibility(segment, local ? source.object : kNoSurface);
 }
 
 void DirectCalculation::test(std::size_t first, std::size_t last) {
     context_.counters.shadow += last - first;
-    scratch_.queries.resize(first_query_);
-    scratch_.queried.resize(first_query_);
     for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
-        if (needs_tracing(lights_[scratch_.candidates[i].source])) continue;
-        scratch_.queries.push_back(query(scratch_.candidates[i]));
-        scratch_.queried.push_back(static_cast<std::uint32_t>(i));
-    }
-    const std::span<ShadowQuery> packet = std::span(scratch_.queries).subspan(first_query_);
-    const Geometry& geometry = tracer_.scene().geometry();
-    if (packet.size() == 1) {
-        packet[0].result = geometry.visibility(packet[0].segment, packet[0].target);
-    } else if (!packet.empty()) {
-        geometry.visibility(packet);
-    }
-    std::size_t next_query = first_query_;
-    for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
-        Visibility result = Visibility::special;
-        if (next_query < scratch_.queried.size() && scratch_.queried[next_query] == i) {
-            result = scratch_.queries[next_query++].result;
-        }
-        if (result == Visibility::special) {
-            trace_shadow(i);
-        } else {
-            scratch_.candidates[i].visible = result == Visibility::clear;
-            if (scratch_.candidates[i].visible && scratch_.candidates[i].lazy) add_radiance(i);
-        }
-    }
-    for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
+        LightCandidate& candidate = scratch_.candidates[i];
+        const Visibility found =
+            needs_tracing(lights_[candidate.source]) ? Visibility::special : visibility(candidate);
+        candidate.visible = found == Visibility::clear;
+        if (found == Visibility::special)
+            trace_shadow(i);  // may move the candidates
+        else if (candidate.visible && candidate.lazy)
+            add_radiance(i);
         if (!scratch_.candidates[i].visible) scratch_.candidates[i].contribution = Rgb{};
     }
 }

@@ -22,8 +22,8 @@ struct ShadowTally {
 };
 
 inline constexpr std::size_t kFirstBlock =
-    4;  ///< candidates that are always tested (one small packet)
-inline constexpr std::size_t kNextBlocks = 16;  ///< candidates per later packet
+    4;  ///< candidates that are always tested
+inline constexpr std::size_t kNextBlocks = 16;  ///< candidates per later block
 
 /// Test candidates, brightest first and block by block, until the next ones cannot matter.
 /// @param tails      brightness[i] + brightness[i+1] + ... for each candidate, then 0
@@ -69,7 +69,7 @@ class DirectCalculation {
     /// Brightest candidates first; fills tails().
     void sort();
 
-    /// Test visibility of the candidates [first, last), in packets where a packet query can tell.
+    /// Test visibility of the candidates [first, last).
     void test(std::size_t first, std::size_t last);
 
     [[nodiscard]] std::size_t count() const {
@@ -98,7 +98,7 @@ class DirectCalculation {
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
-    [[nodiscard]] ShadowQuery query(const LightCandidate& candidate) const;
+    [[nodiscard]] Visibility visibility(const LightCandidate& candidate) const;
     void trace_shadow(std::size_t candidate);
 
     const LightSources& lights_;
@@ -107,7 +107,7 @@ class DirectCalculation {
     TraceContext& context_;
     LightScratch& scratch_;
     Ray aimed_;  ///< what rays to candidates start from
-    std::size_t first_sample_, first_candidate_, first_query_, first_tail_;
+    std::size_t first_sample_, first_candidate_, first_tail_;
 };
 
 }  // namespace lightwalk

@@ -29,8 +29,6 @@ struct LightScratch {
     SourceParts parts;                  ///< of the source being sampled
     std::vector<SourceSample> samples;  ///< of the source being looked at
     std::vector<LightCandidate> candidates;
-    std::vector<ShadowQuery> queries;    ///< the packet being tested
-    std::vector<std::uint32_t> queried;  ///< candidate of each query
     std::vector<float> tails;            ///< brightness still untested, by candidate
 };
 

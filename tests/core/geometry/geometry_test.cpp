@@ -121,14 +121,6 @@ TEST_CASE("packets give the same bits as single rays, whatever travels beside th
                 REQUIRE(same_bits(hits[i], geometry.intersect(rays[i + offset])));
             }
         }
-        std::vector<ShadowQuery> queries;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            queries.push_back(
-                {rays[i], SurfaceId{static_cast<std::int32_t>(i % 40)}, Visibility::clear});
-        }
-        geometry.visibility(queries);
-        for (const ShadowQuery& q : queries)
-            REQUIRE(q.result == geometry.visibility(q.segment, q.target));
     }
 }
 
