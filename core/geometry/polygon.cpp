@@ -23,7 +23,7 @@ enum class EdgeTest { passes, crosses, touches };
 
 /// What the edge a -> b means for the origin: does the positive x axis cross it, or does it touch
 /// the origin?
-inline EdgeTest test_edge(double ax, double ay, double bx, double by) {
+[[gnu::always_inline]] inline EdgeTest test_edge(double ax, double ay, double bx, double by) {
     const bool a_right = ax > 0, b_right = bx > 0;
     const bool spans = (ay > 0) != (by > 0);
     if (a_right == b_right) {

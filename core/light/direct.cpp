@@ -25,9 +25,12 @@ DirectCalculation::~DirectCalculation() {
     scratch_.tails.resize(first_tail_);
 }
 
-void DirectCalculation::gather(DirectCoefficient coefficient, bool lazily) {
+void DirectCalculation::gather(DirectCoefficient coefficient, bool lazily, const Vec3* front) {
     for (const std::int32_t source : lights_.sampled()) {
-        if (!out_of_reach(lights_[source], ray_.hit.position)) gather(source, coefficient, lazily);
+        const LightSource& light = lights_[source];
+        if (out_of_reach(light, ray_.hit.position)) continue;
+        if (front && is_behind(light, ray_.hit.position, *front)) continue;
+        gather(source, coefficient, lazily);
     }
 }
 
@@ -182,11 +185,11 @@ void DirectCalculation::trace_shadow(std::size_t i) {
 }
 
 void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient,
-                              TraceContext& context) const {
+                              TraceContext& context, const Vec3* front) const {
     if (sampled_.empty()) return;
     DirectCalculation direct(*this, ray, context);
     const bool test_all = options_.shadow_threshold <= 0;
-    direct.gather(coefficient, test_all);
+    direct.gather(coefficient, test_all, front);
     if (test_all) {
         direct.test(0, direct.count());
         for (const LightCandidate& candidate : direct.candidates())

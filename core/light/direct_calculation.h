@@ -64,7 +64,8 @@ class DirectCalculation {
     /// Sample all sources; keep what can bring light to the surface. `lazily`: find the radiance of
     /// patterned sources only where test() finds that they are seen; until then brightness and
     /// contribution mean nothing, so that sort() is not to be called.
-    void gather(DirectCoefficient coefficient, bool lazily);
+    /// `front`: as for Tracer::add_direct.
+    void gather(DirectCoefficient coefficient, bool lazily, const Vec3* front);
 
     /// Brightest candidates first; fills tails().
     void sort();

@@ -48,7 +48,8 @@ class LightSources {
                                    const Vec3& direction) const;
 
     /// Add direct light to ray.value (source loop, candidates, shadow tests).
-    void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const;
+    void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
+                    const Vec3* front) const;
 
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;

@@ -127,6 +127,14 @@ bool out_of_reach(const LightSource& source, const Vec3& point) {
     return length_squared(point - source.center) > reach * reach;
 }
 
+bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal) {
+    constexpr double kRound = 1.5;  // squeezed samples leave the box by less
+    const double reach = std::abs(dot(normal, source.u)) + std::abs(dot(normal, source.v)) +
+                         std::abs(dot(normal, source.w));
+    const Vec3 towards = source.distant ? source.center : source.center - point;
+    return dot(normal, towards) + kRound * reach < 0;
+}
+
 void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,
                SourceParts& parts) {
     parts.count = 0;

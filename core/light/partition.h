@@ -43,6 +43,10 @@ struct SourceSample {
 /// Whether the point is beyond a local glow's radius of influence.
 [[nodiscard]] bool out_of_reach(const LightSource& source, const Vec3& point);
 
+/// Whether all samples of a source lie behind the plane through `point`. May be false though they
+/// do.
+[[nodiscard]] bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal);
+
 /// Cut a source into parts no larger than `subdivision` / `weight` times their distance from
 /// `point`. No parts when the source turns away (flat sources) or the point is in it (cylinders).
 void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,

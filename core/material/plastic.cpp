@@ -82,7 +82,8 @@ bool Plastic::shade(Ray& ray, TraceContext& context) const {
     const double jitter = context.tracer.options().source_jitter;
     const Vec3 v = ray.direction;
     context.tracer.add_direct(
-        ray, [&](const Vec3& l, double omega) { return direct(s, v, l, omega, jitter); }, context);
+        ray, [&](const Vec3& l, double omega) { return direct(s, v, l, omega, jitter); }, context,
+        s.tau <= kEpsilon ? &s.facing.normal : nullptr);
     return true;
 }
 

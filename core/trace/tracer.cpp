@@ -228,8 +228,9 @@ Rgb Tracer::ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext&
 
 void Tracer::use_ambient_cache(AmbientCache* cache) { ambient_->use_cache(cache); }
 
-void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const {
-    lights_->add_direct(ray, coefficient, context);
+void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
+                        const Vec3* front) const {
+    lights_->add_direct(ray, coefficient, context, front);
 }
 
 void Tracer::apply_medium(Ray& ray, TraceContext& context) const {

@@ -125,8 +125,10 @@ class Tracer {
     /// Indirect light times `coef` at the hit about `normal` (the constant -av when there is no ambient calculation).
     [[nodiscard]] Rgb ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const;
 
-    /// Add direct light of all sources to ray.value.
-    void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context) const;
+    /// Add direct light of all sources to ray.value. `front`: where given, the coefficient is 0 for light from behind
+    /// it, so that sources that lie there need not be looked at.
+    void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
+                    const Vec3* front = nullptr) const;
 
     /// Apply the medium to the segment of a finished ray.
     void apply_medium(Ray& ray, TraceContext& context) const;
