@@ -75,6 +75,8 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
         json["ambient"] = {{"interpolated", s.ambient.interpolated},
                            {"computed", s.ambient.computed},
                            {"incomplete", s.ambient.incomplete},
+                           {"waits", s.ambient.waits},
+                           {"duplicates", s.ambient.duplicates},
                            {"cached", s.ambient_values},
                            {"cache_bytes", s.ambient_bytes}};
     }

@@ -9,7 +9,8 @@ constexpr double kEnough = 0.05;  ///< weight of small records that keeps larger
 
 }  // namespace
 
-ConcurrentCache::ConcurrentCache(const AmbientLimits& limits) : limits_(limits) {
+ConcurrentCache::ConcurrentCache(const AmbientLimits& limits)
+    : limits_(limits), claims_(limits.accuracy * limits.least_radius) {
     (void)nodes_.add(
         8);  // the root, and seven that nobody uses: eight children never straddle blocks
 }

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/ambient/ambient_cache.h"
+#include "parallel/claim_table.h"
 
 namespace lightwalk {
 
@@ -64,6 +65,11 @@ class ConcurrentCache final : public AmbientCache {
     [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override;
     void insert(const AmbientRecord& record) override;
     [[nodiscard]] AmbientLogMean log_mean() const override;
+    [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {
+        return claims_.claim(query);
+    }
+    void release(const AmbientClaim& claim) override { claims_.release(claim); }
+    [[nodiscard]] std::size_t open_claims() const { return claims_.open(); }
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     /// Of all records and nodes, used or set aside.
     [[nodiscard]] std::size_t memory_bytes() const {
@@ -91,6 +97,7 @@ class ConcurrentCache final : public AmbientCache {
     BlockArena<Node, 9> nodes_;
     BlockArena<DecodedRecord, 8> records_;
     std::array<Shard, kShards> shards_;
+    ClaimTable claims_;
 };
 
 }  // namespace lightwalk

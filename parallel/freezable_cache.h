@@ -20,6 +20,11 @@ class FreezableCache final : public AmbientCache {
     }
     [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
 
+    [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {
+        return frozen_ ? AmbientClaim{} : cache_.claim(query);
+    }
+    void release(const AmbientClaim& claim) override { cache_.release(claim); }
+
   private:
     AmbientCache& cache_;
     bool frozen_ = false;

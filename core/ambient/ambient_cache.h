@@ -12,6 +12,12 @@ struct AmbientLogMean {
     double sum = 0;  ///< of the logarithms of their brightness
 };
 
+/// A value that somebody computes.
+struct AmbientClaim {
+    std::uint64_t number = 0;  ///< 0: none
+    bool waited = false;       ///< for another value, that may serve: look again
+};
+
 class AmbientCache {
   public:
     AmbientCache() = default;
@@ -25,6 +31,11 @@ class AmbientCache {
     [[nodiscard]] virtual AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const = 0;
     virtual void insert(const AmbientRecord& record) = 0;
     [[nodiscard]] virtual AmbientLogMean log_mean() const = 0;
+
+    /// Before a value is computed because a lookup found nothing: tells others, and may wait for a
+    /// value that somebody computes close by. Every claim is to be released.
+    [[nodiscard]] virtual AmbientClaim claim(const AmbientQuery&) { return {}; }
+    virtual void release(const AmbientClaim&) {}
 };
 
 /// Limits of a scene's cube under -aa and -ar.

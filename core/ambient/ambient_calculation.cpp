@@ -31,6 +31,21 @@ std::array<float, 2> floats(const std::array<double, 2>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1])};
 }
 
+/// A claim, for as long as this lives.
+class Claimed {
+  public:
+    Claimed(AmbientCache& cache, const AmbientQuery& query)
+        : cache_(cache), claim_(cache.claim(query)) {}
+    ~Claimed() { cache_.release(claim_); }
+    Claimed(const Claimed&) = delete;
+    Claimed& operator=(const Claimed&) = delete;
+    [[nodiscard]] bool waited() const { return claim_.waited; }
+
+  private:
+    AmbientCache& cache_;
+    AmbientClaim claim_;
+};
+
 }  // namespace
 
 /// One ambient value that a surface asks for.
@@ -66,16 +81,16 @@ bool AmbientCalculation::takes_part(const Ray& ray) const {
 Rgb AmbientCalculation::constant(const Rgb& coef) const {
     const RenderOptions& options = tracer_.options();
     if (options.ambient_weight <= 0 || !cache_) return coef * options.ambient_value;
-    const AmbientLogMean known = cache_->log_mean();
-    if (known.count == 0) return coef * options.ambient_value;
+    const AmbientLogMean stored = cache_->log_mean();
+    if (stored.count == 0) return coef * options.ambient_value;
     const auto b = static_cast<double>(brightness(options.ambient_value));
-    const double k = static_cast<double>(known.count), w = options.ambient_weight,
+    const double k = static_cast<double>(stored.count), w = options.ambient_weight,
                  h = std::log(1 - kReflectance);
     if (b > kEpsilon) {
-        const double mean = std::exp((w * std::log(b) + known.sum + k * h) / (w + k));
+        const double mean = std::exp((w * std::log(b) + stored.sum + k * h) / (w + k));
         return coef * options.ambient_value * static_cast<float>(mean / b);
     }
-    return coef * static_cast<float>(std::exp(known.sum / k + h));
+    return coef * static_cast<float>(std::exp(stored.sum / k + h));
 }
 
 Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
@@ -148,15 +163,24 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     return factor >= kLeastFactor ? h.sum * static_cast<float>(factor) : h.sum;
 }
 
+AmbientSum AmbientCalculation::known(const Request& request) const {
+    return cache_->lookup(request.query,
+                          [&](const Vec3& target) { return is_blocked(request.ray, target); });
+}
+
 Rgb AmbientCalculation::with_cache(const Request& request) const {
-    const AmbientSum known = cache_->lookup(
-        request.query, [&](const Vec3& target) { return is_blocked(request.ray, target); });
-    if (known.weight > kEpsilon) {
-        ++request.context.ambient.interpolated;
+    AmbientCounters& counters = request.context.ambient;
+    const auto interpolated = [&](const AmbientSum& sum) {
+        ++counters.interpolated;
         Rgb value;
-        for (std::size_t k = 0; k < 3; ++k)
-            value[k] = static_cast<float>(known.sum[k] / known.weight);
+        for (std::size_t k = 0; k < 3; ++k) value[k] = static_cast<float>(sum.sum[k] / sum.weight);
         return request.coef * value;
+    };
+    if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
+    const Claimed claimed(*cache_, request.query);
+    if (claimed.waited()) {
+        ++counters.waits;
+        if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
     }
     return new_value(request);
 }
@@ -184,6 +208,7 @@ Rgb AmbientCalculation::new_value(const Request& request) const {
     record.weight = static_cast<float>(weight);
     record.corral = d.corral;
     record.level = static_cast<std::uint8_t>(std::min(query.level, 255));
+    if (known(request).weight > kEpsilon) ++request.context.ambient.duplicates;
     cache_->insert(record);
     if (dot(h.normal, query.shading_normal) >= kAligned) return request.coef * value;
     const double factor = extrapolated(DecodedRecord(record), {}, query.shading_normal);

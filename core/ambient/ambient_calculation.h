@@ -24,6 +24,7 @@ class AmbientCalculation {
     [[nodiscard]] bool takes_part(const Ray& ray) const;
     [[nodiscard]] Rgb constant(const Rgb& coef) const;
     [[nodiscard]] Rgb without_cache(const Request& request) const;
+    [[nodiscard]] AmbientSum known(const Request& request) const;
     [[nodiscard]] Rgb with_cache(const Request& request) const;
     [[nodiscard]] Rgb new_value(const Request& request) const;
     [[nodiscard]] Hemisphere sample(const Request& request, const Rgb& coef, double weight,

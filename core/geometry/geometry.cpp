@@ -349,10 +349,15 @@ void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) c
     }
 }
 
-Visibility Geometry::visibility(const RaySegment& ray, SurfaceId target) const {
+Visibility Geometry::visibility(const RaySegment& ray, SurfaceId target, Blocker* last) const {
     ShadowRay search;
     impl_->placed.begin(search, ray, target);
+    if (last && last->primitive != Blocker::kNone &&
+        impl_->placed.propose(search, {last->frame, last->primitive}))
+        return Visibility::blocked;
     impl_->trace(search);
+    if (last && search.result == Visibility::blocked)
+        *last = {search.blocker.frame, search.blocker.primitive};
     return search.result;
 }
 

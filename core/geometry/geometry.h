@@ -73,6 +73,13 @@ struct RaySegment {
     double t_max = kHuge;    ///< hits beyond it do not count [m]
 };
 
+/// An opaque surface that blocked a ray, to be tried first for the next one.
+struct Blocker {
+    FrameId frame = kWorld;
+    std::uint32_t primitive = kNone;
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+};
+
 /// Immutable after building; every method may be called from many threads at once.
 class Geometry {
   public:
@@ -93,8 +100,9 @@ class Geometry {
     [[nodiscard]] Hit intersect_surface(SurfaceId surface, const RaySegment& ray) const;
 
     /// Visibility between the origin and t_max. `target` does not shadow: it is the light itself. One ray at a time:
-    /// measured on interiors, that is faster than packets of the rays to all lights.
-    [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target) const;
+    /// measured on interiors, that is faster than packets of the rays to all lights. `last` (or null) is what
+    /// blocked an earlier ray, and is brought up to date; it changes the speed only.
+    [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target, Blocker* last = nullptr) const;
 
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
     void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;

@@ -240,8 +240,13 @@ bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
     const std::optional<Candidate> candidate = cross(ray, what);
     if (!candidate || !is_in_the_way(ray, *candidate)) return false;
-    ray.result = shadow == ShadowClass::blocks ? Visibility::blocked : Visibility::special;
-    return ray.result == Visibility::blocked;
+    if (shadow != ShadowClass::blocks) {
+        ray.result = Visibility::special;
+        return false;
+    }
+    ray.result = Visibility::blocked;
+    ray.blocker = what;
+    return true;
 }
 
 }  // namespace lightwalk

@@ -59,6 +59,7 @@ struct ShadowRay : TracedRay {
     double t_max = kHuge;
     SurfaceId target = kNoSurface;
     Visibility result = Visibility::clear;
+    PrimitiveRef blocker;  ///< where blocked
     std::optional<Precedence>
         target_precedence;  ///< filled when something coincides with the target
 };

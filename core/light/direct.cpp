@@ -127,7 +127,7 @@ bool DirectCalculation::goes_through(const Vec3& direction) const {
 }
 
 /// What a ray that only asks for opaque surfaces finds between the point and the light.
-Visibility DirectCalculation::visibility(const LightCandidate& candidate) const {
+Visibility DirectCalculation::visibility(const LightCandidate& candidate) {
     const LightSource& source = lights_[candidate.source];
     const bool local = !source.distant || source.is_virtual;
     RaySegment segment{ray_.hit.position, candidate.direction,
@@ -137,7 +137,10 @@ Visibility DirectCalculation::visibility(const LightCandidate& candidate) const 
         goes_through(candidate.direction)) {
         segment.t_max = std::min(segment.t_max, ray_.limit - ray_.hit.t);
     }
-    return tracer_.scene().geometry().visibility(segment, local ? source.object : kNoSurface);
+    const auto i = static_cast<std::size_t>(candidate.source);
+    if (i >= scratch_.blockers.size()) scratch_.blockers.resize(lights_.all().size());
+    return tracer_.scene().geometry().visibility(segment, local ? source.object : kNoSurface,
+                                                 &scratch_.blockers[i]);
 }
 
 void DirectCalculation::test(std::size_t first, std::size_t last) {
@@ -184,8 +187,8 @@ void DirectCalculation::trace_shadow(std::size_t i) {
     if (candidate.visible) candidate.contribution = candidate.coefficient * shadow.value;
 }
 
-void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient,
-                              TraceContext& context, const Vec3* front) const {
+void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
+                              const Vec3* front) const {
     if (sampled_.empty()) return;
     DirectCalculation direct(*this, ray, context);
     const bool test_all = options_.shadow_threshold <= 0;

@@ -21,8 +21,7 @@ struct ShadowTally {
     [[nodiscard]] double factor() const { return expected > kEpsilon ? hits / expected : 0.5; }
 };
 
-inline constexpr std::size_t kFirstBlock =
-    4;  ///< candidates that are always tested
+inline constexpr std::size_t kFirstBlock = 4;   ///< candidates that are always tested
 inline constexpr std::size_t kNextBlocks = 16;  ///< candidates per later block
 
 /// Test candidates, brightest first and block by block, until the next ones cannot matter.
@@ -99,7 +98,7 @@ class DirectCalculation {
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
-    [[nodiscard]] Visibility visibility(const LightCandidate& candidate) const;
+    [[nodiscard]] Visibility visibility(const LightCandidate& candidate);
     void trace_shadow(std::size_t candidate);
 
     const LightSources& lights_;

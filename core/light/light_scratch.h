@@ -29,7 +29,8 @@ struct LightScratch {
     SourceParts parts;                  ///< of the source being sampled
     std::vector<SourceSample> samples;  ///< of the source being looked at
     std::vector<LightCandidate> candidates;
-    std::vector<float> tails;            ///< brightness still untested, by candidate
+    std::vector<Blocker> blockers;  ///< what hid each source last; stays
+    std::vector<float> tails;       ///< brightness still untested, by candidate
 };
 
 }  // namespace lightwalk

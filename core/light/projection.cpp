@@ -125,9 +125,9 @@ std::optional<RelayDisk> relay_disk(const Shape& shape) {
 }
 
 bool is_before_mirror(const LightSource& source, const Plane& plane) {
-    // Radiance steps along each half axis by comparing its projection with the plane's offset, not with zero. The
-    // point that is reached is not always the foremost one: a lamp that is sunk into a mirror's plane may get no
-    // image. Its pictures show that, so ours do.
+    // Radiance steps along each half axis by comparing its projection with the plane's offset, not
+    // with zero. The point that is reached is not always the foremost one: a lamp that is sunk into
+    // a mirror's plane may get no image. Its pictures show that, so ours do.
     const double offset = source.distant ? 0 : plane.offset;
     double reached = dot(plane.normal, source.center);
     const auto step = [&](const Vec3& axis) {

@@ -59,6 +59,8 @@ AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& o) {
     interpolated += o.interpolated;
     computed += o.computed;
     incomplete += o.incomplete;
+    waits += o.waits;
+    duplicates += o.duplicates;
     return *this;
 }
 

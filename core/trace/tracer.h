@@ -32,6 +32,8 @@ struct AmbientCounters {
     std::uint64_t interpolated = 0;  ///< from the cache
     std::uint64_t computed = 0;      ///< by a hemisphere of rays
     std::uint64_t incomplete = 0;    ///< of these: some rays could not start, so that nothing was stored
+    std::uint64_t waits = 0;         ///< for a value that another thread computed
+    std::uint64_t duplicates = 0;    ///< computed, though by then another thread's value would have served
     AmbientCounters& operator+=(const AmbientCounters& o);
 };
 

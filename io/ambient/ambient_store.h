@@ -29,6 +29,11 @@ class AmbientStore final : public AmbientCache {
     /// Throws InputError when the file cannot be written.
     void insert(const AmbientRecord& record) override;
     [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
+    /// Within this process.
+    [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {
+        return cache_.claim(query);
+    }
+    void release(const AmbientClaim& claim) override { cache_.release(claim); }
 
   private:
     class Lock;
