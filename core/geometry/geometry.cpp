@@ -132,7 +132,6 @@ void Geometry::Impl::check(const char* doing) const {
 void Geometry::Impl::build(Hierarchy& model) {
     model.scene.reset(rtcNewScene(device.get()));
     check("creating a scene");
-    rtcSetSceneFlags(model.scene.get(), RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(model.scene.get(), RTC_BUILD_QUALITY_HIGH);
     if (model.primitives->size() == 0) return;
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));

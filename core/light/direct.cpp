@@ -39,44 +39,53 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
     const RenderOptions& options = tracer_.options();
     const bool constant = is_constant(source);
     const bool lazy = lazily && !constant && !source.is_virtual && !needs_tracing(source);
-    sample_source(source, ray_.hit.position, {options.source_subdivision, options.source_jitter},
-                  aimed_.weight, aimed_.random, scratch_.parts, scratch_.samples);
+    partition(source, ray_.hit.position, options.source_subdivision, aimed_.weight, scratch_.parts);
+    if (constant || lazy) {
+        for (int i = 0; i < scratch_.parts.count; ++i) {
+            const auto sample = sample_part(
+                source, scratch_.parts.part[static_cast<std::size_t>(i)], scratch_.parts.count,
+                ray_.hit.position, options.source_jitter, aimed_.random);
+            if (!sample) continue;
+            const Rgb k = coefficient(sample->direction, sample->solid_angle);
+            if (!(max_component(k) > 0)) continue;
+            const std::optional<double> distance = lazy ? plane_distance(source, sample->direction)
+                                                        : front_distance(source, sample->direction);
+            if (!distance) continue;
+            add_candidate(index, sample->direction, k, {source.radiance, *distance}, lazy);
+        }
+        return;
+    }
+    // Tracing the emission may need the parts for a calculation of its own.
+    for (int i = 0; i < scratch_.parts.count; ++i) {
+        const auto sample = sample_part(source, scratch_.parts.part[static_cast<std::size_t>(i)],
+                                        scratch_.parts.count, ray_.hit.position,
+                                        options.source_jitter, aimed_.random);
+        if (sample) scratch_.samples.push_back(*sample);
+    }
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
         const SourceSample sample = scratch_.samples[i];
-        LightCandidate candidate;
-        candidate.source = index;
-        candidate.order = static_cast<std::uint32_t>(count());
-        candidate.direction = sample.direction;
-        candidate.coefficient = coefficient(sample.direction, sample.solid_angle);
-        if (!(max_component(candidate.coefficient) > 0)) continue;
-        if (lazy) {
-            const std::optional<double> distance = front_distance(source, sample.direction);
-            if (!distance) continue;
-            candidate.distance = *distance;
-            candidate.lazy = true;
-        } else {
-            const Emission emitted = constant ? constant_emission(source, sample.direction)
-                                              : traced_emission(index, sample.direction);
-            candidate.distance = emitted.distance;
-            candidate.contribution = candidate.coefficient * emitted.radiance;
-            candidate.brightness = brightness(candidate.contribution);
-            if (!(candidate.brightness > 0) || !std::isfinite(candidate.brightness)) continue;
-        }
-        scratch_.candidates.push_back(candidate);
+        const Rgb k = coefficient(sample.direction, sample.solid_angle);
+        if (!(max_component(k) > 0)) continue;
+        add_candidate(index, sample.direction, k, traced_emission(index, sample.direction), false);
     }
     scratch_.samples.resize(first_sample_);
 }
 
-bool DirectCalculation::is_constant(const LightSource& source) const {
-    return source.uniform && !source.is_virtual && max_component(ray_.medium.extinction) <= 1e-10f;
+/// Unless nothing arrives. The radiance of a lazy candidate is not known yet.
+void DirectCalculation::add_candidate(std::int32_t source, const Vec3& direction,
+                                      const Rgb& coefficient, const Emission& emitted, bool lazy) {
+    const Rgb contribution = coefficient * emitted.radiance;
+    const float b = brightness(contribution);
+    if (!lazy && (!(b > 0) || !std::isfinite(b))) return;
+    const auto order = static_cast<std::uint32_t>(count());
+    scratch_.candidates.push_back(
+        {source, order, direction, emitted.distance, coefficient, contribution, b, false, lazy});
 }
 
-/// The radiance of a source without patterns in clear air: its material's colour where the ray
-/// meets its front.
-DirectCalculation::Emission DirectCalculation::constant_emission(const LightSource& source,
-                                                                 const Vec3& direction) const {
-    const std::optional<double> distance = front_distance(source, direction);
-    return distance ? Emission{source.radiance, *distance} : Emission{};
+/// Whether a source has no patterns and the air is clear: its radiance is its material's colour
+/// where a ray meets its front.
+bool DirectCalculation::is_constant(const LightSource& source) const {
+    return source.uniform && !source.is_virtual && max_component(ray_.medium.extinction) <= 1e-10f;
 }
 
 /// How far the front of a source is; nothing when the direction misses it or meets its back.
@@ -91,6 +100,20 @@ std::optional<double> DirectCalculation::front_distance(const LightSource& sourc
     const auto hit = intersect(surface.shape, ray_.hit.position, direction, kHuge);
     if (!hit || dot(hit->normal, direction) > 0) return std::nullopt;
     return hit->t;
+}
+
+/// The same for polygons without asking whether the direction meets the outline: traced_emission
+/// does, where it matters.
+std::optional<double> DirectCalculation::plane_distance(const LightSource& source,
+                                                        const Vec3& direction) const {
+    const auto* polygon =
+        source.distant ? nullptr
+                       : std::get_if<PolygonShape>(&tracer_.scene().surface(source.object).shape);
+    if (!polygon) return front_distance(source, direction);
+    const double cosine = fused_dot(polygon->normal, direction);
+    if (!(cosine < -kEpsilon)) return std::nullopt;
+    const double t = (polygon->offset - fused_dot(polygon->normal, ray_.hit.position)) / cosine;
+    return t > kEpsilon ? std::optional(t) : std::nullopt;
 }
 
 /// The radiance that arrives from a source when nothing else is in the scene.

@@ -93,8 +93,10 @@ class DirectCalculation {
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
                                                        const Vec3& direction) const;
     void add_radiance(std::size_t candidate);
-    [[nodiscard]] Emission constant_emission(const LightSource& source,
-                                             const Vec3& direction) const;
+    [[nodiscard]] std::optional<double> plane_distance(const LightSource& source,
+                                                       const Vec3& direction) const;
+    void add_candidate(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
+                       const Emission& emitted, bool lazy);
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;

@@ -190,15 +190,4 @@ std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& 
     return sample_part(source, kWholeBox, 1, point, jitter, random);
 }
 
-void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling,
-                   double weight, RandomStream& random, SourceParts& parts,
-                   std::vector<SourceSample>& samples) {
-    partition(source, point, sampling.subdivision, weight, parts);
-    for (int i = 0; i < parts.count; ++i) {
-        const SourcePart& part = parts.part[static_cast<std::size_t>(i)];
-        const auto sample = sample_part(source, part, parts.count, point, sampling.jitter, random);
-        if (sample) samples.push_back(*sample);
-    }
-}
-
 }  // namespace lightwalk

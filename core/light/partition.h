@@ -24,13 +24,6 @@ struct SourceParts {
     int count = 0;
 };
 
-/// How sources are cut up and where in a part the sample lies.
-struct SourceSampling {
-    double subdivision =
-        0;              ///< -ds: largest size of a part over its distance; 0: one part a source
-    double jitter = 0;  ///< -dj: share of a part's width that a sample may move in
-};
-
 /// One sample of a source: unit direction, distance of the sampled point and solid angle it stands
 /// for.
 struct SourceSample {
@@ -62,12 +55,5 @@ void partition(const LightSource& source, const Vec3& point, double subdivision,
 /// Sample the whole source as one part.
 [[nodiscard]] std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,
                                                        double jitter, RandomStream& random);
-
-/// Append the samples of all parts.
-/// @param weight  of the ray that is shaded: faint rays get coarser parts
-/// @param parts   scratch memory
-void sample_source(const LightSource& source, const Vec3& point, const SourceSampling& sampling,
-                   double weight, RandomStream& random, SourceParts& parts,
-                   std::vector<SourceSample>& samples);
 
 }  // namespace lightwalk

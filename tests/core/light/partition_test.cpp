@@ -44,11 +44,13 @@ int part_count(const LightSource& source, const Vec3& point, double subdivision,
 /// samples.
 double irradiance(const LightSource& source, const Vec3& point, double subdivision) {
     RandomStream random(1);
-    std::vector<SourceSample> samples;
     SourceParts parts;
-    sample_source(source, point, {subdivision, 0}, 1, random, parts, samples);
+    partition(source, point, subdivision, 1, parts);
     double sum = 0;
-    for (const SourceSample& s : samples) sum += s.solid_angle * s.direction.z;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(parts.count); ++i) {
+        if (const auto s = sample_part(source, parts.part[i], parts.count, point, 0, random))
+            sum += s->solid_angle * s->direction.z;
+    }
     return sum;
 }
 
