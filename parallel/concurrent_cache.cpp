@@ -1,5 +1,6 @@
 #include "parallel/concurrent_cache.h"
 
+#include <bit>
 #include <cmath>
 
 namespace lightwalk {
@@ -54,46 +55,73 @@ AmbientLogMean ConcurrentCache::log_mean() const {
     return all;
 }
 
+/// A lookup on its way through the tree.
+struct ConcurrentCache::Search {
+    const AmbientQuery& query;
+    LeakTest leaks;
+    double angle;  ///< largest between normals
+};
+
 AmbientSum ConcurrentCache::lookup(const AmbientQuery& query, LeakTest leaks) const {
+    const Search search{query, leaks, largest_angle(limits_.accuracy, query.weight, true)};
     AmbientSum sum;
-    sum_node(0, {limits_.origin, limits_.size}, query, leaks, sum);
+    sum_node(nodes_[0], {limits_.origin, limits_.size}, search, sum);
     return sum;
 }
 
-void ConcurrentCache::sum_node(std::uint32_t node, const CachePath& cube, const AmbientQuery& query,
-                               LeakTest leaks, AmbientSum& sum) const {
-    const Node& n = nodes_[node];
-    const std::uint32_t children = n.children.load(std::memory_order_acquire);
+/// Children whose records can reach a point, a bit each: it lies within their cube grown by its
+/// edge.
+unsigned ConcurrentCache::reaching_children(const CachePath& cube, const Vec3& p) {
+    constexpr std::array<std::array<unsigned, 2>, 3> kSides{
+        {{0x55, 0xaa}, {0x33, 0xcc}, {0x0f, 0xf0}}};
+    const double edge = 0.5 * cube.edge;
+    unsigned mask = 0xff;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double at = p[k] - cube.corner[k];
+        mask &= (at >= -edge && at <= 2 * edge ? kSides[k][0] : 0) |
+                (at >= 0 && at <= 3 * edge ? kSides[k][1] : 0);
+    }
+    return mask;
+}
+
+void ConcurrentCache::sum_node(const Node& node, const CachePath& cube, const Search& search,
+                               AmbientSum& sum) const {
+    const std::uint32_t children = node.children.load(std::memory_order_acquire);
     AmbientSum own;
     if (children != 0) {
-        for (unsigned child = 0; child < 8; ++child) {
-            const CachePath inside = child_cube(cube, child);
-            if (reaches(inside, query.position))
-                sum_node(children + child, inside, query, leaks, own);
+        const Node* child = &nodes_[children];  // eight, in one block
+        for (unsigned left = reaching_children(cube, search.query.position); left != 0;
+             left &= left - 1) {
+            const auto i = static_cast<unsigned>(std::countr_zero(left));
+            const Node& n = child[i];
+            if (n.first.load(std::memory_order_relaxed) == kNone &&
+                n.children.load(std::memory_order_relaxed) == 0)
+                continue;
+            sum_node(n, child_cube(cube, i), search, own);
         }
     }
     const bool enough = children != 0 && own.weight >= kEnough &&
                         cube.edge * 0.5 * limits_.accuracy > limits_.least_radius;
-    if (!enough) sum_records(n.first.load(std::memory_order_acquire), query, leaks, own);
+    if (!enough) sum_records(node.first.load(std::memory_order_acquire), search, own);
     sum.weight += own.weight;
     for (std::size_t k = 0; k < 3; ++k) sum.sum[k] += own.sum[k];
 }
 
 /// The serial cache sorts by level and weight and stops at the first record that cannot serve; here
 /// each is asked.
-void ConcurrentCache::sum_records(std::uint32_t first, const AmbientQuery& query, LeakTest leaks,
+void ConcurrentCache::sum_records(std::uint32_t first, const Search& search,
                                   AmbientSum& sum) const {
     if (first == kNone) return;
+    const AmbientQuery& query = search.query;
     bool has_level = false;
     for (std::uint32_t i = first; i != kNone && !has_level; i = records_[i].next) {
         has_level = records_[i].level <= query.level;
     }
     if (!has_level) return;
-    const double angle = largest_angle(limits_.accuracy, query.weight, true);
     for (std::uint32_t i = first; i != kNone; i = records_[i].next) {
         const DecodedRecord& record = records_[i];
         if (record.serves(query.level, query.weight))
-            add_record(record, query, limits_, angle, leaks, sum);
+            add_record(record, query, limits_, search.angle, search.leaks, sum);
     }
 }
 

@@ -88,10 +88,11 @@ class ConcurrentCache final : public AmbientCache {
         AmbientLogMean log_mean;
     };
     std::uint32_t children_of(std::uint32_t node);
-    void sum_node(std::uint32_t node, const CachePath& cube, const AmbientQuery& query,
-                  LeakTest leaks, AmbientSum& sum) const;
-    void sum_records(std::uint32_t first, const AmbientQuery& query, LeakTest leaks,
-                     AmbientSum& sum) const;
+    struct Search;
+    static unsigned reaching_children(const CachePath& cube, const Vec3& p);
+    void sum_node(const Node& node, const CachePath& cube, const Search& search,
+                  AmbientSum& sum) const;
+    void sum_records(std::uint32_t first, const Search& search, AmbientSum& sum) const;
 
     AmbientLimits limits_;
     BlockArena<Node, 9> nodes_;
