@@ -115,7 +115,7 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(args->context), model.pieces[args->primID].primitive};
+    const PrimitiveRef what{frame_of(args->context), model.primitive_of[args->primID]};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
@@ -129,7 +129,7 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
 void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(args->context), model.pieces[args->primID].primitive};
+    const PrimitiveRef what{frame_of(args->context), model.primitive_of[args->primID]};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];

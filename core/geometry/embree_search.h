@@ -24,7 +24,8 @@ inline constexpr unsigned kOwnSurfaces = 0, kCopies = 1;  ///< geometry ids in E
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
-    std::vector<Piece> pieces;  ///< what Embree calls the primitives
+    std::vector<Piece> pieces;  ///< what Embree calls primitives; while the tree is built
+    std::vector<std::uint32_t> primitive_of;  ///< each piece
     ScenePtr scene;
 };
 

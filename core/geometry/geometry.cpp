@@ -98,6 +98,7 @@ Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
     rtcCommitScene(models[0].scene.get());
     check("building the scene's search tree");
     copies.boxes = {};
+    for (Hierarchy& model : models) model.pieces = {};
     box = bounds_of_tree(models[0].scene.get());
 }
 
@@ -137,6 +138,7 @@ void Geometry::Impl::build(Hierarchy& model) {
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
     model.pieces = divide_primitives(*model.primitives);
+    for (const Piece& piece : model.pieces) model.primitive_of.push_back(piece.primitive);
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(model.pieces.size()));
     rtcSetGeometryUserData(geometry.get(), &model);
     rtcSetGeometryBoundsFunction(geometry.get(), primitive_bounds, nullptr);
@@ -265,8 +267,11 @@ std::size_t Geometry::frame_count() const {
 }
 std::size_t Geometry::memory_bytes() const {
     const std::ptrdiff_t embree = impl_->embree_bytes.load(std::memory_order_relaxed);
-    return impl_->placed.memory_bytes() +
-           static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
+    std::size_t bytes = impl_->placed.memory_bytes() +
+                        static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
+    for (const Hierarchy& model : impl_->models)
+        bytes += model.primitive_of.capacity() * sizeof(std::uint32_t);
+    return bytes;
 }
 
 Hit Geometry::intersect_surface(SurfaceId surface, const RaySegment& ray) const {

@@ -232,55 +232,84 @@ double half_area(const Bounds& bounds) {
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
+Bounds common(Bounds a, const Bounds& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        a.lower[k] = std::max(a.lower[k], b.lower[k]);
+        a.upper[k] = std::min(a.upper[k], b.upper[k]);
+    }
+    return a;
+}
+
+/// Divides the polygons of a model, always where most is won next.
+class Division {
+  public:
+    explicit Division(const ModelPrimitives& model)
+        : model_(model),
+          least_(kLeastGain * half_area(model.bounds())),
+          budget_(kDivisions + model.size() / 2) {}
+
+    /// False: the primitive is not worth dividing.
+    bool add(std::uint32_t primitive) {
+        const PolygonShape* shape = model_.polygon(primitive);
+        if (!shape || shape->vertices.size() > kMostVertices ||
+            half_area(model_.hit_bounds(primitive)) <= least_)
+            return false;
+        Projection polygon(*shape);
+        const Task task = task_for(polygon, polygons_.size(), polygon.whole());
+        if (task.gain <= least_) return false;
+        polygons_.push_back({std::move(polygon), primitive, 1});
+        tasks_.push(task);
+        return true;
+    }
+
+    void run(std::vector<Piece>& pieces) {
+        while (!tasks_.empty()) {
+            const Task task = tasks_.top();
+            tasks_.pop();
+            Divided& polygon = polygons_[task.polygon];
+            if (budget_ == 0 || polygon.pieces >= kMostPieces || task.gain <= least_) {
+                pieces.push_back({polygon.primitive, common(polygon.projection.box(task.cell),
+                                                            model_.hit_bounds(polygon.primitive))});
+                continue;
+            }
+            divide(task, polygon);
+        }
+    }
+
+  private:
+    struct Divided {
+        Projection projection;
+        std::uint32_t primitive = 0;
+        int pieces = 0;  ///< so far
+    };
+
+    void divide(const Task& task, Divided& polygon) {
+        --budget_;
+        --polygon.pieces;
+        const Cut cut = best_cut(polygon.projection, task.cell, task.wasteful);
+        for (const Cell& part : halves(task.cell, cut)) {
+            if (polygon.projection.is_empty(part)) continue;
+            tasks_.push(task_for(polygon.projection, task.polygon, part));
+            ++polygon.pieces;
+        }
+    }
+
+    const ModelPrimitives& model_;
+    double least_;  ///< gain [m²]
+    std::size_t budget_;
+    std::vector<Divided> polygons_;
+    std::priority_queue<Task> tasks_;
+};
+
 }  // namespace
 
 std::vector<Piece> divide_primitives(const ModelPrimitives& model) {
     std::vector<Piece> pieces;
-    std::vector<Projection> polygons;
-    std::vector<std::uint32_t> primitives;  // of the polygons
-    std::vector<int> count;                 // pieces of each polygon so far
-    std::priority_queue<Task> tasks;
-    const double least = kLeastGain * half_area(model.bounds());
+    Division division(model);
     for (std::uint32_t i = 0; i < model.size(); ++i) {
-        const PolygonShape* shape = model.polygon(i);
-        if (shape && shape->vertices.size() <= kMostVertices &&
-            half_area(model.hit_bounds(i)) > least) {
-            Projection polygon(*shape);
-            const Task task = task_for(polygon, polygons.size(), polygon.whole());
-            if (task.gain > least) {
-                polygons.push_back(std::move(polygon));
-                primitives.push_back(i);
-                count.push_back(1);
-                tasks.push(task);
-                continue;
-            }
-        }
-        pieces.push_back({i, model.hit_bounds(i)});
+        if (!division.add(i)) pieces.push_back({i, model.hit_bounds(i)});
     }
-    std::size_t budget = kDivisions + model.size() / 2;
-    while (!tasks.empty()) {
-        const Task task = tasks.top();
-        tasks.pop();
-        const Projection& polygon = polygons[task.polygon];
-        int& used = count[task.polygon];
-        if (budget == 0 || used >= kMostPieces || task.gain <= least) {
-            Bounds box = polygon.box(task.cell);
-            const Bounds whole = model.hit_bounds(primitives[task.polygon]);
-            for (std::size_t k = 0; k < 3; ++k) {
-                box.lower[k] = std::max(box.lower[k], whole.lower[k]);
-                box.upper[k] = std::min(box.upper[k], whole.upper[k]);
-            }
-            pieces.push_back({primitives[task.polygon], box});
-            continue;
-        }
-        --used;
-        for (const Cell& part : halves(task.cell, best_cut(polygon, task.cell, task.wasteful))) {
-            if (polygon.is_empty(part)) continue;
-            tasks.push(task_for(polygon, task.polygon, part));
-            ++used;
-        }
-        --budget;
-    }
+    division.run(pieces);
     return pieces;
 }
 
