@@ -205,7 +205,7 @@ class RenderRun {
     /// of them. In deterministic mode one thread makes them, finer and finer, and the cache is
     /// closed after. False: interrupted.
     bool fill_cache(const Camera& camera, const FrameOptions& options) {
-        constexpr int kOverture = 8;
+        constexpr int kOverture = 6;
         std::vector<int> steps{kOverture};
         if (command_.deterministic)
             steps = {16, 8, 4, 2};

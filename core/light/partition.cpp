@@ -129,10 +129,12 @@ bool out_of_reach(const LightSource& source, const Vec3& point) {
 
 bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal) {
     constexpr double kRound = 1.5;  // squeezed samples leave the box by less
+    const double height =
+        dot(normal, source.distant ? source.center : source.center - point);  // of the centre
+    if (height >= 0) return false;
     const double reach = std::abs(dot(normal, source.u)) + std::abs(dot(normal, source.v)) +
                          std::abs(dot(normal, source.w));
-    const Vec3 towards = source.distant ? source.center : source.center - point;
-    return dot(normal, towards) + kRound * reach < 0;
+    return height + kRound * reach < 0;
 }
 
 void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,

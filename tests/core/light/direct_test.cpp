@@ -113,7 +113,7 @@ TEST_CASE("a medium absorbs on the way from the light") {
           doctest::Approx(0.5 * 100 * 0.0625 / 16 * std::exp(-0.1 * 3.75) * std::exp(-0.1 * 0.5)));
 }
 
-TEST_CASE("packets of shadow rays give what single lamps give") {
+TEST_CASE("many lamps at once give what single lamps give") {
     TestScene all(many_lamps(40));
     for (const double x : {-0.7, 0.0, 0.9}) {
         double sum = 0;
