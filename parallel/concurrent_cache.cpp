@@ -2,44 +2,66 @@
 
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace lightwalk {
 namespace {
 
 constexpr double kEnough = 0.05;  ///< weight of small records that keeps larger ones out
+constexpr double kSlack = 0.01;   ///< of the long radius: more than coded axes tilt the ellipse
+
+/// Corners of the box that holds all points which the record may serve: an ellipsoid, cut off below
+/// the surface.
+std::pair<Vec3, Vec3> reach_of(const DecodedRecord& record, const AmbientLimits& limits) {
+    const double r0 = limits.accuracy * static_cast<double>(record.radius[0]),
+                 r1 = limits.accuracy * static_cast<double>(record.radius[1]);
+    const double below = std::min(limits.accuracy * limits.least_radius, r0);
+    const Vec3 n = record.n(), u = record.u(), v = cross(n, u);
+    Vec3 low, high;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double wide = std::hypot(r0 * u[k], r1 * v[k]) + kSlack * r1;
+        const double at = static_cast<double>(record.position[k]);
+        low[k] = at - wide + std::min(-below * n[k], r0 * n[k]);
+        high[k] = at + wide + std::max(-below * n[k], r0 * n[k]);
+    }
+    return {low, high};
+}
 
 }  // namespace
 
 ConcurrentCache::ConcurrentCache(const AmbientLimits& limits)
     : limits_(limits), claims_(limits.accuracy * limits.least_radius) {
-    (void)nodes_.add(
-        8);  // the root, and seven that nobody uses: eight children never straddle blocks
+    (void)families_.add(1);
 }
 
-/// First child; made where it is missing. Who comes second leaves eight nodes unused.
-std::uint32_t ConcurrentCache::children_of(std::uint32_t node) {
-    std::atomic<std::uint32_t>& place = nodes_[node].children;
-    std::uint32_t children = place.load(std::memory_order_acquire);
+/// The family below; made where it is missing. Who comes second leaves one unused.
+std::uint32_t ConcurrentCache::children_of(Node& node) {
+    std::uint32_t children = node.children.load(std::memory_order_acquire);
     if (children != 0) return children;
-    const std::uint32_t fresh = nodes_.add(8);
-    return place.compare_exchange_strong(children, fresh, std::memory_order_acq_rel) ? fresh
-                                                                                     : children;
+    const std::uint32_t fresh = families_.add(1);
+    return node.children.compare_exchange_strong(children, fresh, std::memory_order_acq_rel)
+               ? fresh
+               : children;
 }
 
 void ConcurrentCache::insert(const AmbientRecord& record) {
-    CachePath cube{limits_.origin, limits_.size};
-    std::uint32_t at = 0;
-    while (cube.edge / 2 > limits_.accuracy * static_cast<double>(record.radius[1])) {
-        at = children_of(at) + descend(cube, record.position);
-    }
     const std::uint32_t place = records_.add(1);
     DecodedRecord& decoded = records_[place];
     decoded = DecodedRecord(record);
+    const auto [low, high] = reach_of(decoded, limits_);
+    CachePath cube{limits_.origin, limits_.size};
+    Node* at = &families_[0].child[0];
+    std::uint32_t family = 0;
+    while (cube.edge / 2 > limits_.accuracy * static_cast<double>(record.radius[1])) {
+        family = children_of(*at);
+        at = &families_[family].child[descend(cube, record.position)];
+        at->reach.grow(ReachGrid(cube), low, high);
+    }
     const auto bright = static_cast<double>(brightness(record.value));
-    Shard& shard = shards_[at % kShards];
+    Shard& shard = shards_[family % kShards];
     const std::lock_guard lock(shard.mutex);
-    decoded.next = nodes_[at].first.load(std::memory_order_relaxed);
-    nodes_[at].first.store(place, std::memory_order_release);
+    decoded.next = at->first.load(std::memory_order_relaxed);
+    at->first.store(place, std::memory_order_release);
     if (bright <= kEpsilon) return;
     ++shard.log_mean.count;
     shard.log_mean.sum += std::log(bright);
@@ -65,23 +87,33 @@ struct ConcurrentCache::Search {
 AmbientSum ConcurrentCache::lookup(const AmbientQuery& query, LeakTest leaks) const {
     const Search search{query, leaks, largest_angle(limits_.accuracy, query.weight, true)};
     AmbientSum sum;
-    sum_node(nodes_[0], {limits_.origin, limits_.size}, search, sum);
+    sum_node(families_[0].child[0], {limits_.origin, limits_.size}, search, sum);
     return sum;
 }
 
-/// Children whose records can reach a point, a bit each: it lies within their cube grown by its
-/// edge.
-unsigned ConcurrentCache::reaching_children(const CachePath& cube, const Vec3& p) {
+/// Calls visit(child, cube) for those whose records may reach a point.
+template <class Visit>
+void ConcurrentCache::for_reaching(const Family& family, const CachePath& parent, const Vec3& p,
+                                   Visit visit) {
+    std::array<std::array<std::uint64_t, 2>, 3> steps{};  // in each axis, of either half
+    unsigned mask = 0xff;
     constexpr std::array<std::array<unsigned, 2>, 3> kSides{
         {{0x55, 0xaa}, {0x33, 0xcc}, {0x0f, 0xf0}}};
-    const double edge = 0.5 * cube.edge;
-    unsigned mask = 0xff;
+    const ReachGrid low(child_cube(parent, 0)), high(child_cube(parent, 7));
+    const double edge = 0.5 * parent.edge;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double at = p[k] - cube.corner[k];
+        const double at = p[k] - parent.corner[k];
         mask &= (at >= -edge && at <= 2 * edge ? kSides[k][0] : 0) |
                 (at >= 0 && at <= 3 * edge ? kSides[k][1] : 0);
+        steps[k] = {low.step(k, p[k]), high.step(k, p[k])};
     }
-    return mask;
+    for (; mask != 0; mask &= mask - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(mask));
+        const Node& child = family.child[i];
+        if (child.reach.holds(
+                ReachBox::place(steps[0][i & 1], steps[1][i >> 1 & 1], steps[2][i >> 2])))
+            visit(child, child_cube(parent, i));
+    }
 }
 
 void ConcurrentCache::sum_node(const Node& node, const CachePath& cube, const Search& search,
@@ -89,16 +121,10 @@ void ConcurrentCache::sum_node(const Node& node, const CachePath& cube, const Se
     const std::uint32_t children = node.children.load(std::memory_order_acquire);
     AmbientSum own;
     if (children != 0) {
-        const Node* child = &nodes_[children];  // eight, in one block
-        for (unsigned left = reaching_children(cube, search.query.position); left != 0;
-             left &= left - 1) {
-            const auto i = static_cast<unsigned>(std::countr_zero(left));
-            const Node& n = child[i];
-            if (n.first.load(std::memory_order_relaxed) == kNone &&
-                n.children.load(std::memory_order_relaxed) == 0)
-                continue;
-            sum_node(n, child_cube(cube, i), search, own);
-        }
+        for_reaching(families_[children], cube, search.query.position,
+                     [&](const Node& child, const CachePath& inside) {
+                         sum_node(child, inside, search, own);
+                     });
     }
     const bool enough = children != 0 && own.weight >= kEnough &&
                         cube.edge * 0.5 * limits_.accuracy > limits_.least_radius;
@@ -111,13 +137,7 @@ void ConcurrentCache::sum_node(const Node& node, const CachePath& cube, const Se
 /// each is asked.
 void ConcurrentCache::sum_records(std::uint32_t first, const Search& search,
                                   AmbientSum& sum) const {
-    if (first == kNone) return;
     const AmbientQuery& query = search.query;
-    bool has_level = false;
-    for (std::uint32_t i = first; i != kNone && !has_level; i = records_[i].next) {
-        has_level = records_[i].level <= query.level;
-    }
-    if (!has_level) return;
     for (std::uint32_t i = first; i != kNone; i = records_[i].next) {
         const DecodedRecord& record = records_[i];
         if (record.serves(query.level, query.weight))

@@ -8,6 +8,7 @@
 
 #include "core/ambient/ambient_cache.h"
 #include "parallel/claim_table.h"
+#include "parallel/reach_box.h"
 
 namespace lightwalk {
 
@@ -73,29 +74,35 @@ class ConcurrentCache final : public AmbientCache {
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     /// Of all records and nodes, used or set aside.
     [[nodiscard]] std::size_t memory_bytes() const {
-        return records_.memory_bytes() + nodes_.memory_bytes();
+        return records_.memory_bytes() + families_.memory_bytes();
     }
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffff;
     static constexpr std::size_t kShards = 64;
     struct Node {
-        std::atomic<std::uint32_t> children{0};   ///< first of eight; 0: none
+        std::atomic<std::uint32_t> children{0};   ///< family; 0: none
         std::atomic<std::uint32_t> first{kNone};  ///< record, newest first
+        ReachBox reach;                           ///< of its records and its children's
+    };
+    struct alignas(128) Family {
+        std::array<Node, 8> child;
     };
     struct alignas(64) Shard {
         mutable std::mutex mutex;
         AmbientLogMean log_mean;
     };
-    std::uint32_t children_of(std::uint32_t node);
+    std::uint32_t children_of(Node& node);
     struct Search;
-    static unsigned reaching_children(const CachePath& cube, const Vec3& p);
+    template <class Visit>
+    static void for_reaching(const Family& family, const CachePath& parent, const Vec3& p,
+                             Visit visit);
     void sum_node(const Node& node, const CachePath& cube, const Search& search,
                   AmbientSum& sum) const;
     void sum_records(std::uint32_t first, const Search& search, AmbientSum& sum) const;
 
     AmbientLimits limits_;
-    BlockArena<Node, 9> nodes_;
+    BlockArena<Family, 6> families_;  ///< the first child of the first is the root
     BlockArena<DecodedRecord, 8> records_;
     std::array<Shard, kShards> shards_;
     ClaimTable claims_;
