@@ -40,28 +40,30 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
     const bool constant = is_constant(source);
     const bool lazy = lazily && !constant && !source.is_virtual && !needs_tracing(source);
     partition(source, ray_.hit.position, options.source_subdivision, aimed_.weight, scratch_.parts);
-    if (constant || lazy) {
+    const auto for_each_sample = [&](auto&& use) {
         for (int i = 0; i < scratch_.parts.count; ++i) {
             const auto sample = sample_part(
                 source, scratch_.parts.part[static_cast<std::size_t>(i)], scratch_.parts.count,
                 ray_.hit.position, options.source_jitter, aimed_.random);
-            if (!sample) continue;
-            const Rgb k = coefficient(sample->direction, sample->solid_angle);
-            if (!(max_component(k) > 0)) continue;
-            const std::optional<double> distance = lazy ? plane_distance(source, sample->direction)
-                                                        : front_distance(source, sample->direction);
-            if (!distance) continue;
-            add_candidate(index, sample->direction, k, {source.radiance, *distance}, lazy);
+            if (sample) use(*sample);
         }
+    };
+    if (constant || lazy) {
+        for_each_sample([&](const SourceSample& sample) {
+            const Rgb k = coefficient(sample.direction, sample.solid_angle);
+            if (!(max_component(k) > 0)) return;
+            const std::optional<double> distance = lazy ? plane_distance(source, sample.direction)
+                                                        : front_distance(source, sample.direction);
+            if (distance)
+                add_candidate(index, sample.direction, k, {source.radiance, *distance}, lazy);
+        });
         return;
     }
     // Tracing the emission may need the parts for a calculation of its own.
-    for (int i = 0; i < scratch_.parts.count; ++i) {
-        const auto sample = sample_part(source, scratch_.parts.part[static_cast<std::size_t>(i)],
-                                        scratch_.parts.count, ray_.hit.position,
-                                        options.source_jitter, aimed_.random);
-        if (sample) scratch_.samples.push_back(*sample);
-    }
+    for_each_sample([&](const SourceSample& sample) {
+        if (!source.is_virtual || meets_relay(source, sample.direction))
+            scratch_.samples.push_back(sample);
+    });
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
         const SourceSample sample = scratch_.samples[i];
         const Rgb k = coefficient(sample.direction, sample.solid_angle);
@@ -80,6 +82,14 @@ void DirectCalculation::add_candidate(std::int32_t source, const Vec3& direction
     const auto order = static_cast<std::uint32_t>(count());
     scratch_.candidates.push_back(
         {source, order, direction, emitted.distance, coefficient, contribution, b, false, lazy});
+}
+
+/// Most samples of a virtual source pass its mirror by: the outline says so before a ray is traced.
+bool DirectCalculation::meets_relay(const LightSource& source, const Vec3& direction) const {
+    return tracer_.scene()
+        .geometry()
+        .intersect_surface(source.object, {ray_.hit.position, direction, kHuge})
+        .exists();
 }
 
 /// Whether a source has no patterns and the air is clear: its radiance is its material's colour

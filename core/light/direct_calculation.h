@@ -89,6 +89,7 @@ class DirectCalculation {
         double distance = kHuge;  ///< to the source's surface [m]
     };
     void gather(std::int32_t source, DirectCoefficient coefficient, bool lazily);
+    [[nodiscard]] bool meets_relay(const LightSource& source, const Vec3& direction) const;
     [[nodiscard]] bool is_constant(const LightSource& source) const;
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
                                                        const Vec3& direction) const;
