@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/light/relay_beam.h"
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
 #include "core/scene/ids.h"
@@ -37,10 +38,11 @@ struct LightSource {
     bool transparent_illum = false;  ///< illum that shows nothing of its own
     bool distant = false, flat = false, round = false, cylinder = false;
     bool is_virtual = false, follow = false;
-    bool unusable = false;     ///< visible, but never sampled
-    std::int32_t parent = -1;  ///< virtual: what it relays
-    int branch = 0;            ///< virtual: projection of the relay (prism2)
-    float hit_rate = 0.5f;     ///< frozen share of shadow tests that get through
+    bool unusable = false;          ///< visible, but never sampled
+    std::int32_t parent = -1;       ///< virtual: what it relays
+    int branch = 0;                 ///< virtual: projection of the relay (prism2)
+    std::optional<RelayBeam> beam;  ///< virtual: where its samples meet the relay
+    float hit_rate = 0.5f;          ///< frozen share of shadow tests that get through
 };
 
 }  // namespace lightwalk

@@ -122,6 +122,7 @@ double form_factor(const LightSource& source, const SourcePart& part, const Vec3
 }  // namespace
 
 bool out_of_reach(const LightSource& source, const Vec3& point) {
+    if (source.beam && !source.beam->may_reach(point)) return true;
     if (source.distant || source.material_type != PrimitiveType::glow) return false;
     const double reach = static_cast<double>(source.proximity) + static_cast<double>(source.radius);
     return length_squared(point - source.center) > reach * reach;

@@ -33,7 +33,8 @@ struct SourceSample {
     double solid_angle = 0;  ///< [sr]
 };
 
-/// Whether the point is beyond a local glow's radius of influence.
+/// Whether the point is beyond a local glow's radius of influence, or beside the beam of a virtual
+/// source's relay.
 [[nodiscard]] bool out_of_reach(const LightSource& source, const Vec3& point);
 
 /// Whether all samples of a source lie behind the plane through `point`. May be false though they

@@ -5,14 +5,9 @@
 
 #include "core/geometry/surface.h"
 #include "core/light/light_source.h"
+#include "core/math/plane.h"
 
 namespace lightwalk {
-
-struct Plane {
-    Vec3 normal;        ///< unit
-    double offset = 0;  ///< normal . x of its points [m]
-    [[nodiscard]] double height(const Vec3& point) const { return dot(normal, point) - offset; }
-};
 
 /// The plane of a polygon or ring; nothing for other shapes.
 [[nodiscard]] std::optional<Plane> plane_of(const Shape& shape);

@@ -90,6 +90,7 @@ void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& nex
     made.is_virtual = made.follow = true;
     made.parent = parent_index;
     made.branch = branch;
+    made.beam = RelayBeam::make(made, tracer_.scene().surface(next.surface).shape);
     if (tracer_.options().relay_pretest > 0) {
         const Pretest outcome = pretest(parent_index, next, relayed.disk);
         if (outcome == Pretest::discard) return;
