@@ -5,6 +5,13 @@
 #include "core/light/direct_calculation.h"
 
 namespace lightwalk {
+namespace {
+
+bool brings_light(float brightness) {
+    return brightness > 0 && std::isfinite(brightness);
+}
+
+}  // namespace
 
 DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, TraceContext& context)
     : lights_(lights),
@@ -25,20 +32,20 @@ DirectCalculation::~DirectCalculation() {
     scratch_.tails.resize(first_tail_);
 }
 
-void DirectCalculation::gather(DirectCoefficient coefficient, bool lazily, const Vec3* front) {
+void DirectCalculation::gather(DirectCoefficient coefficient, const Vec3* front) {
     for (const std::int32_t source : lights_.sampled()) {
         const LightSource& light = lights_[source];
         if (out_of_reach(light, ray_.hit.position)) continue;
         if (front && is_behind(light, ray_.hit.position, *front)) continue;
-        gather(source, coefficient, lazily);
+        gather(source, coefficient);
     }
 }
 
-void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient, bool lazily) {
+void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient) {
     const LightSource& source = lights_[index];
     const RenderOptions& options = tracer_.options();
     const bool constant = is_constant(source);
-    const bool lazy = lazily && !constant && !source.is_virtual && !needs_tracing(source);
+    const bool lazy = !constant && !source.is_virtual && !needs_tracing(source);
     partition(source, ray_.hit.position, options.source_subdivision, aimed_.weight, scratch_.parts);
     const auto for_each_sample = [&](auto&& use) {
         for (int i = 0; i < scratch_.parts.count; ++i) {
@@ -78,7 +85,7 @@ void DirectCalculation::add_candidate(std::int32_t source, const Vec3& direction
                                       const Rgb& coefficient, const Emission& emitted, bool lazy) {
     const Rgb contribution = coefficient * emitted.radiance;
     const float b = brightness(contribution);
-    if (!lazy && (!(b > 0) || !std::isfinite(b))) return;
+    if (!lazy && !brings_light(b)) return;
     const auto order = static_cast<std::uint32_t>(count());
     scratch_.candidates.push_back(
         {source, order, direction, emitted.distance, coefficient, contribution, b, false, lazy});
@@ -137,11 +144,16 @@ DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t sour
 }
 
 void DirectCalculation::sort() {
-    const auto first = scratch_.candidates.begin() + static_cast<std::ptrdiff_t>(first_candidate_);
-    std::sort(
-        first, scratch_.candidates.end(), [](const LightCandidate& a, const LightCandidate& b) {
-            return a.brightness != b.brightness ? a.brightness > b.brightness : a.order < b.order;
-        });
+    for (std::size_t i = first_candidate_; i < scratch_.candidates.size(); ++i) {
+        if (scratch_.candidates[i].lazy) add_radiance(i);
+    }
+    auto& all = scratch_.candidates;
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(first_candidate_);
+    const auto is_dark = [](const LightCandidate& c) { return !brings_light(c.brightness); };
+    all.erase(std::remove_if(first, all.end(), is_dark), all.end());
+    std::sort(first, all.end(), [](const LightCandidate& a, const LightCandidate& b) {
+        return a.brightness != b.brightness ? a.brightness > b.brightness : a.order < b.order;
+    });
     scratch_.tails.resize(first_tail_);
     scratch_.tails.resize(first_tail_ + count() + 1, 0.0f);
     for (std::size_t i = count(); i-- > 0;) {
@@ -191,14 +203,20 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
     }
 }
 
-/// The contribution of a lazy candidate that nothing hides.
+bool DirectCalculation::is_lazy() const {
+    return std::any_of(candidates().begin(), candidates().end(),
+                       [](const LightCandidate& candidate) { return candidate.lazy; });
+}
+
+/// The contribution of a lazy candidate.
 void DirectCalculation::add_radiance(std::size_t i) {
     const Emission emitted =
         traced_emission(scratch_.candidates[i].source, scratch_.candidates[i].direction);
     LightCandidate& candidate = scratch_.candidates[i];
     candidate.contribution = candidate.coefficient * emitted.radiance;
     candidate.brightness = brightness(candidate.contribution);
-    candidate.visible = candidate.brightness > 0 && std::isfinite(candidate.brightness);
+    candidate.lazy = false;
+    candidate.visible = brings_light(candidate.brightness);
 }
 
 /// Follow one shadow ray through whatever is in the way.
@@ -224,9 +242,9 @@ void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceCont
                               const Vec3* front) const {
     if (sampled_.empty()) return;
     DirectCalculation direct(*this, ray, context);
-    const bool test_all = options_.shadow_threshold <= 0;
-    direct.gather(coefficient, test_all, front);
-    if (test_all) {
+    direct.gather(coefficient, front);
+    if (options_.shadow_threshold <= 0 || direct.count() <= kFirstBlock ||
+        (direct.is_lazy() && direct.count() <= kFewPatterned)) {
         direct.test(0, direct.count());
         for (const LightCandidate& candidate : direct.candidates())
             ray.value += candidate.contribution;

@@ -23,6 +23,9 @@ struct ShadowTally {
 
 inline constexpr std::size_t kFirstBlock = 4;   ///< candidates that are always tested
 inline constexpr std::size_t kNextBlocks = 16;  ///< candidates per later block
+/// Up to so many candidates are all tested when some have patterns: to sort them all patterns would
+/// have to be evaluated, which costs more than a shadow test.
+inline constexpr std::size_t kFewPatterned = kFirstBlock + kNextBlocks;
 
 /// Test candidates, brightest first and block by block, until the next ones cannot matter.
 /// @param tails      brightness[i] + brightness[i+1] + ... for each candidate, then 0
@@ -60,13 +63,15 @@ class DirectCalculation {
     DirectCalculation(const DirectCalculation&) = delete;
     DirectCalculation& operator=(const DirectCalculation&) = delete;
 
-    /// Sample all sources; keep what can bring light to the surface. `lazily`: find the radiance of
-    /// patterned sources only where test() finds that they are seen; until then brightness and
-    /// contribution mean nothing, so that sort() is not to be called.
-    /// `front`: as for Tracer::add_direct.
-    void gather(DirectCoefficient coefficient, bool lazily, const Vec3* front);
+    /// Sample all sources; keep what can bring light to the surface. What patterned sources bring
+    /// is found later: by sort() for all, by test() only where they are seen. `front`: as for
+    /// Tracer::add_direct.
+    void gather(DirectCoefficient coefficient, const Vec3* front);
 
-    /// Brightest candidates first; fills tails().
+    /// Whether what some candidates bring is still to be found.
+    [[nodiscard]] bool is_lazy() const;
+
+    /// Brightest candidates first; those that bring nothing go. Fills tails().
     void sort();
 
     /// Test visibility of the candidates [first, last).
@@ -88,7 +93,7 @@ class DirectCalculation {
         Rgb radiance;
         double distance = kHuge;  ///< to the source's surface [m]
     };
-    void gather(std::int32_t source, DirectCoefficient coefficient, bool lazily);
+    void gather(std::int32_t source, DirectCoefficient coefficient);
     [[nodiscard]] bool meets_relay(const LightSource& source, const Vec3& direction) const;
     [[nodiscard]] bool is_constant(const LightSource& source) const;
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,

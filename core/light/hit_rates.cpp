@@ -78,7 +78,7 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
             const double cosine = dot(hit.normal, l);
             return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
         },
-        false, nullptr);
+        nullptr);
     direct.sort();
     direct.test(0, direct.count());
     MeasuredPoint point;

@@ -20,7 +20,7 @@ struct LightCandidate {
     Rgb contribution;         ///< V = K E; once tested, 0 when blocked
     float brightness = 0;     ///< of the untested contribution
     bool visible = false;     ///< once tested
-    bool lazy = false;        ///< the contribution is found when nothing is in the way
+    bool lazy = false;        ///< the contribution has not been found yet
 };
 
 /// Each calculation uses what lies above the sizes that it found, and truncates to them when it
