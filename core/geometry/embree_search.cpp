@@ -86,6 +86,15 @@ unsigned active_lanes(const int* valid, unsigned count) {
 
 }  // namespace
 
+void close_lanes(RTCRayHit16& packet) {
+    RTCRay closed{};
+    closed.tnear = 1;
+    for (unsigned lane = 0; lane < kPacket; ++lane) {
+        set_lane(packet.ray, lane, closed);
+        packet.hit.geomID[lane] = packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
 /// End of Embree's ray: nothing up to `limit` may be lost in rounding.
 float embree_end(double limit, double start) {
     constexpr double kRoundUp = 1 + 0x1p-20;  // 16 half units in the last place
@@ -161,11 +170,11 @@ void intersect_copy(const RTCIntersectFunctionNArguments* args) {
     }
     alignas(64) std::array<int, kPacket> valid{};
     RTCRayHit16 hits;
+    close_lanes(hits);
     for (unsigned lane = 0; lane < count; ++lane) {
         if (args->valid[lane] == 0) continue;
         valid[lane] = -1;
         set_lane(hits.ray, lane, local_ray(copy, rays, count, lane));
-        hits.hit.geomID[lane] = hits.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
     rtcIntersect16(valid.data(), copy.scene, args->context, &hits);
     for (unsigned lane = 0; lane < count; ++lane) {

@@ -52,6 +52,10 @@ struct ShadowQueries : RTCIntersectContext {
     ShadowRay* rays = nullptr;
 };
 
+/// Make all rays of a packet ones that Embree skips: without AVX-512 it does not look at the mask
+/// of valid lanes, only at whether a ray ends before it begins.
+void close_lanes(RTCRayHit16& packet);
+
 /// End of Embree's ray: nothing up to `limit` may be lost in rounding.
 [[nodiscard]] float embree_end(double limit, double start);
 

@@ -50,7 +50,7 @@ struct EmbreeRay {
 }  // namespace
 
 struct Geometry::Impl {
-    explicit Impl(GeometryInput input);
+    Impl(GeometryInput input, const std::string& embree_options);
 
     [[nodiscard]] std::optional<EmbreeRay> embree_ray(const TracedRay& ray) const;
     void trace(NearestRay& ray) const;
@@ -68,7 +68,7 @@ struct Geometry::Impl {
     Bounds box;  ///< of all geometry, relative to models[0].space.center, margins included
 
   private:
-    void open_device();
+    void open_device(const std::string& options);
     void check(const char* doing) const;
     void build(Hierarchy& model);
     [[nodiscard]] std::optional<Copy> copy_of(std::size_t frame) const;
@@ -76,8 +76,9 @@ struct Geometry::Impl {
     void add_copies();
 };
 
-Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
-    open_device();
+Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options)
+    : placed(std::move(input)) {
+    open_device(embree_options);
     models.resize(placed.model_count());
     std::vector<bool> used(models.size(), false);
     used[0] = true;
@@ -103,8 +104,8 @@ Geometry::Impl::Impl(GeometryInput input) : placed(std::move(input)) {
 }
 
 /// Embree's own default for threads: a number would limit oneTBB in the whole process.
-void Geometry::Impl::open_device() {
-    device.reset(rtcNewDevice(nullptr));
+void Geometry::Impl::open_device(const std::string& options) {
+    device.reset(rtcNewDevice(options.c_str()));
     if (!device) throw std::runtime_error("Embree does not start on this machine");
     rtcSetDeviceErrorFunction(
         device.get(),
@@ -157,10 +158,12 @@ std::optional<Copy> Geometry::Impl::copy_of(std::size_t i) const {
     const Vec3 center = frame.to_world.forward.point(model.space.center) - models[0].space.center;
     if (!is_within_reach(center)) return std::nullopt;
     const Matrix& inverse = frame.to_world.inverse;
-    const std::array<Vec3, 4> rows{inverse.row[0], inverse.row[1], inverse.row[2], -inverse.vector(center)};
+    const std::array<Vec3, 4> rows{inverse.row[0], inverse.row[1], inverse.row[2],
+                                   -inverse.vector(center)};
     Copy copy;
     for (std::size_t row = 0; row < 4; ++row) {
-        for (std::size_t k = 0; k < 3; ++k) copy.inverse[3 * row + k] = static_cast<float>(rows[row][k]);
+        for (std::size_t k = 0; k < 3; ++k)
+            copy.inverse[3 * row + k] = static_cast<float>(rows[row][k]);
     }
     copy.scene = model.scene.get();
     copy.frame = static_cast<std::int32_t>(i);
@@ -251,7 +254,8 @@ std::optional<EmbreeRay> Geometry::Impl::embree_ray(const TracedRay& ray) const 
     return result;
 }
 
-Geometry::Geometry(GeometryInput input) : impl_(std::make_unique<Impl>(std::move(input))) {}
+Geometry::Geometry(GeometryInput input, const std::string& embree_options)
+    : impl_(std::make_unique<Impl>(std::move(input), embree_options)) {}
 Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
@@ -300,11 +304,11 @@ void Geometry::Impl::trace(std::span<NearestRay> rays) const {
     rtcInitIntersectContext(&query);
     query.placed = &placed;
     query.rays = rays.data();
-    for (unsigned i = 0; i < kPacket; ++i) {
-        hits.hit.geomID[i] = hits.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        const std::optional<EmbreeRay> from = i < rays.size() ? embree_ray(rays[i]) : std::nullopt;
-        set_ray(hits.ray, i, from.value_or(EmbreeRay{}));
+    close_lanes(hits);
+    for (unsigned i = 0; i < rays.size(); ++i) {
+        const std::optional<EmbreeRay> from = embree_ray(rays[i]);
         if (!from) continue;
+        set_ray(hits.ray, i, *from);
         valid[i] = -1;
         query.start[i] = from->start;
     }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/geometry/surface.h"
@@ -87,7 +88,8 @@ class Geometry {
     /// less than 1e-7 or more than 1e7 in all, and for damaged meshes. Builds on oneTBB's default threads.
     /// Answers are bit-identical for single rays and packets; they need no flush-to-zero mode of the caller.
     /// A placed model wins over what is not in it only where it is strictly nearer; inside it has its own ties.
-    explicit Geometry(GeometryInput input);
+    /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines without AVX-512 do.
+    explicit Geometry(GeometryInput input, const std::string& embree_options = {});
     ~Geometry();
     Geometry(Geometry&&) noexcept;
     Geometry& operator=(Geometry&&) noexcept;

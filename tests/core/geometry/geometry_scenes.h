@@ -79,7 +79,9 @@ struct TestModels {
         models[in].placements.push_back(
             {static_cast<std::uint32_t>(model), transform, id, overrides});
     }
-    [[nodiscard]] Geometry build() const { return Geometry(GeometryInput{surfaces, models}); }
+    [[nodiscard]] Geometry build(const std::string& embree_options = {}) const {
+        return Geometry({surfaces, models}, embree_options);
+    }
 };
 
 class Random {
