@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lightwalk {
 namespace {
@@ -39,12 +40,13 @@ enum class EdgeTest { passes, crosses, touches };
     return (by > ay) != (a > b) ? EdgeTest::crosses : EdgeTest::passes;
 }
 
-template <Coordinate X, Coordinate Y>
-bool contains_by_all_edges(const std::vector<Vec3>& vertices, const Vec3& point) {
+/// Whether the origin lies within an outline; corner(i) gives x and y of its corners.
+template <class Corner>
+[[gnu::always_inline]] inline bool holds_origin(std::size_t count, const Corner& corner) {
     bool inside = false;
-    double ax = vertices.back().*X - point.*X, ay = vertices.back().*Y - point.*Y;
-    for (const Vec3& b : vertices) {
-        const double bx = b.*X - point.*X, by = b.*Y - point.*Y;
+    auto [ax, ay] = corner(count - 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [bx, by] = corner(i);
         const EdgeTest result = test_edge(ax, ay, bx, by);
         if (result == EdgeTest::touches) return true;
         if (result == EdgeTest::crosses) inside = !inside;
@@ -52,6 +54,22 @@ bool contains_by_all_edges(const std::vector<Vec3>& vertices, const Vec3& point)
         ay = by;
     }
     return inside;
+}
+
+/// Where a point lies, by how far at least it is within all sides: more than the edges' tolerance,
+/// and the even-odd test would say the same.
+[[gnu::always_inline]] inline double depth_in(const OutlineRectangle& r, double x, double y) {
+    return std::min(std::min(x - r.low_x, r.high_x - x), std::min(y - r.low_y, r.high_y - y));
+}
+
+template <Coordinate X, Coordinate Y>
+bool contains_by_all_edges(const PolygonShape& polygon, const Vec3& point) {
+    const double x = point.*X, y = point.*Y, depth = depth_in(polygon.rectangle, x, y);
+    if (std::abs(depth) > kEpsilon) return depth > 0;
+    return holds_origin(polygon.vertices.size(), [&](std::size_t i) {
+        const Vec3& corner = polygon.vertices[i];
+        return std::pair(corner.*X - x, corner.*Y - y);
+    });
 }
 
 bool contains_by_index(const PolygonShape& polygon, const Vec3& point, const EdgeIndex& index) {
@@ -71,6 +89,18 @@ bool contains_by_index(const PolygonShape& polygon, const Vec3& point, const Edg
 }
 
 }  // namespace
+
+OutlineRectangle rectangle_of(const PolygonShape& polygon) {
+    const auto [x, y] = remaining_axes(polygon);
+    const std::vector<Vec3>& v = polygon.vertices;
+    if (v.size() != 4) return {};
+    const Coordinate first = v[0].*y == v[1].*y ? x : y, second = first == x ? y : x;
+    const bool straight = v[0].*second == v[1].*second && v[1].*first == v[2].*first &&
+                          v[2].*second == v[3].*second && v[3].*first == v[0].*first;
+    if (!straight) return {};
+    return {std::min(v[0].*x, v[2].*x), std::max(v[0].*x, v[2].*x), std::min(v[0].*y, v[2].*y),
+            std::max(v[0].*y, v[2].*y)};
+}
 
 EdgeIndex::EdgeIndex(const PolygonShape& polygon) {
     const Coordinate y = remaining_axes(polygon).y;
@@ -132,11 +162,11 @@ bool contains(const PolygonShape& polygon, const Vec3& point, const EdgeIndex* i
     if (index) return contains_by_index(polygon, point, *index);
     switch (polygon.drop_axis) {
         case 0:
-            return contains_by_all_edges<&Vec3::y, &Vec3::z>(polygon.vertices, point);
+            return contains_by_all_edges<&Vec3::y, &Vec3::z>(polygon, point);
         case 1:
-            return contains_by_all_edges<&Vec3::z, &Vec3::x>(polygon.vertices, point);
+            return contains_by_all_edges<&Vec3::z, &Vec3::x>(polygon, point);
         default:
-            return contains_by_all_edges<&Vec3::x, &Vec3::y>(polygon.vertices, point);
+            return contains_by_all_edges<&Vec3::x, &Vec3::y>(polygon, point);
     }
 }
 
@@ -156,6 +186,7 @@ void PackedPolygons::add(const PolygonShape& polygon) {
     plane.normal = polygon.normal;
     plane.offset = polygon.offset;
     plane.axis = static_cast<std::uint32_t>(polygon.drop_axis);
+    plane.rectangle = polygon.rectangle;
     plane.first = static_cast<std::uint32_t>(points_.size());
     for (const Vec3& v : polygon.vertices) points_.push_back({v.*x, v.*y});
     plane.last = static_cast<std::uint32_t>(points_.size());
@@ -172,20 +203,13 @@ std::optional<ShapeHit> PackedPolygons::intersect(std::uint32_t number, const Ve
     const auto [x_axis, y_axis] = kRemaining[plane.axis];
     const double x = origin.*x_axis + direction.*x_axis * t,
                  y = origin.*y_axis + direction.*y_axis * t;
-    const Point *p = &points_[plane.first], *end = p + (plane.last - plane.first);
-    bool inside = false;
-    double ax = end[-1].x - x, ay = end[-1].y - y;
-    for (; p != end; ++p) {
-        const double bx = p->x - x, by = p->y - y;
-        const EdgeTest result = test_edge(ax, ay, bx, by);
-        if (result == EdgeTest::touches) {
-            inside = true;
-            break;
-        }
-        if (result == EdgeTest::crosses) inside = !inside;
-        ax = bx;
-        ay = by;
-    }
+    const double depth = depth_in(plane.rectangle, x, y);
+    const bool inside =
+        std::abs(depth) > kEpsilon
+            ? depth > 0
+            : holds_origin(plane.last - plane.first, [&, p = &points_[plane.first]](std::size_t i) {
+                  return std::pair(p[i].x - x, p[i].y - y);
+              });
     if (!inside) return std::nullopt;
     return ShapeHit{t, plane.normal, cosine < 0};
 }

@@ -35,6 +35,9 @@ class EdgeIndex {
 /// Outlines with more vertices than this are worth an EdgeIndex.
 inline constexpr std::size_t kLargePolygon = 64;
 
+/// The outline of a polygon whose normal and dropped axis are known.
+[[nodiscard]] OutlineRectangle rectangle_of(const PolygonShape& polygon);
+
 /// Whether a point of the polygon's plane lies inside its outline: even-odd rule, edges within
 /// kEpsilon count as inside, so that the seam to a hole is solid. `index` may be null; else it must
 /// be the polygon's own.
@@ -64,6 +67,7 @@ class PackedPolygons {
         double offset = 0;
         std::uint32_t first = 0, last = 0;  ///< into points_
         std::uint32_t axis = 0;             ///< dropped
+        OutlineRectangle rectangle;
     };
     struct Point {
         double x = 0, y = 0;  ///< the remaining coordinates, in cyclic order

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/polygon.h"
 #include "core/geometry/shapes.h"
 
 namespace lightwalk {
@@ -129,6 +130,7 @@ ValidatedShape make_polygon(const Primitive& primitive) {
     for (const Vec3& vertex : vertices) polygon.offset += dot(polygon.normal, vertex);
     polygon.offset /= static_cast<double>(vertices.size());
     polygon.drop_axis = longest_axis(polygon.normal);
+    polygon.rectangle = rectangle_of(polygon);
     ValidatedShape result{std::monostate{}, primitive.type, {}};
     if (!is_planar(vertices, polygon.normal)) result.warning = "non-planar vertex";
     result.shape = std::move(polygon);

@@ -1,5 +1,6 @@
 #pragma once
 // The exact shapes of Radiance's surfaces in double precision, validated from their real arguments.
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,12 +21,19 @@ struct SphereShape {
     bool inward = false;  ///< bubble: the normal points to the centre
 };
 
+/// A polygon's outline in the two coordinates of the inside test, where it is a rectangle along them; else not numbers.
+struct OutlineRectangle {
+    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    double low_x = kNone, high_x = kNone, low_y = kNone, high_y = kNone;  ///< [m]
+};
+
 struct PolygonShape {
     std::vector<Vec3> vertices;  ///< closing duplicate dropped
     Vec3 normal;                 ///< unit, right-hand rule
     double offset = 0;           ///< normal . p of the plane [m]
     double area = 0;             ///< [m²]
     int drop_axis = 2;           ///< coordinate that the inside test ignores
+    OutlineRectangle rectangle;
 };
 
 /// Cone, cup, cylinder, tube: an open surface of revolution with its smaller end first.

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/core/geometry/geometry_scenes.h"
 
 using namespace lightwalk;
@@ -34,6 +37,37 @@ TEST_CASE("a concave outline leaves its notch out") {
     CHECK(inside(notched, 0.5, 2));
     CHECK(inside(notched, 3.5, 2));
     CHECK_FALSE(inside(notched, 4.5, 1));
+}
+
+TEST_CASE("a rectangle along the axes holds what its four edges say, also beside them") {
+    Random random(3);
+    for (int turn = 0; turn < 8; ++turn) {
+        // Any first corner, either way round.
+        std::vector<std::pair<double, double>> corners{{1, -2}, {4.5, -2}, {4.5, 0.25}, {1, 0.25}};
+        std::rotate(corners.begin(), corners.begin() + turn % 4, corners.end());
+        if (turn >= 4) std::reverse(corners.begin(), corners.end());
+        const PolygonShape quick = flat(corners);
+        PolygonShape slow = quick;
+        slow.rectangle = {};
+        REQUIRE(quick.rectangle.low_x == 1);
+        REQUIRE(quick.rectangle.high_y == 0.25);
+        int within = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const auto near = [&](double edge) {
+                return edge + (random.below(4) == 0 ? 0 : random.uniform(-3e-6, 3e-6));
+            };
+            const double x =
+                random.below(2) == 0 ? near(random.below(2) == 0 ? 1 : 4.5) : random.uniform(0, 6);
+            const double y = random.below(2) == 0 ? near(random.below(2) == 0 ? -2 : 0.25)
+                                                  : random.uniform(-3, 1);
+            REQUIRE(inside(quick, x, y) == inside(slow, x, y));
+            within += inside(quick, x, y) ? 1 : 0;
+        }
+        CHECK(within > 4000);
+        CHECK(within < 16000);
+    }
+    CHECK(std::isnan(flat({{0, 0}, {4, 0.1}, {4, 3}, {0, 3}}).rectangle.low_x));
+    CHECK(std::isnan(flat({{0, 0}, {4, 0}, {4, 3}}).rectangle.low_x));
 }
 
 TEST_CASE("a hole is open and the seam that leads to it is solid") {
