@@ -61,8 +61,11 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
             if (!(max_component(k) > 0)) return;
             const std::optional<double> distance = lazy ? plane_distance(source, sample.direction)
                                                         : front_distance(source, sample.direction);
-            if (distance)
-                add_candidate(index, sample.direction, k, {source.radiance, *distance}, lazy);
+            if (!distance) return;
+            if (lazy)
+                add_unknown(index, sample.direction, k, *distance);
+            else
+                add_candidate(index, sample.direction, k, {source.radiance, *distance});
         });
         return;
     }
@@ -75,20 +78,28 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
         const SourceSample sample = scratch_.samples[i];
         const Rgb k = coefficient(sample.direction, sample.solid_angle);
         if (!(max_component(k) > 0)) continue;
-        add_candidate(index, sample.direction, k, traced_emission(index, sample.direction), false);
+        add_candidate(index, sample.direction, k, traced_emission(index, sample.direction));
     }
     scratch_.samples.resize(first_sample_);
 }
 
-/// Unless nothing arrives. The radiance of a lazy candidate is not known yet.
-void DirectCalculation::add_candidate(std::int32_t source, const Vec3& direction,
-                                      const Rgb& coefficient, const Emission& emitted, bool lazy) {
-    const Rgb contribution = coefficient * emitted.radiance;
-    const float b = brightness(contribution);
-    if (!lazy && !brings_light(b)) return;
+/// A candidate whose radiance is not known yet.
+void DirectCalculation::add_unknown(std::int32_t source, const Vec3& direction,
+                                    const Rgb& coefficient, double distance) {
     const auto order = static_cast<std::uint32_t>(count());
     scratch_.candidates.push_back(
-        {source, order, direction, emitted.distance, coefficient, contribution, b, false, lazy});
+        {source, order, direction, distance, coefficient, {}, 0, false, true});
+}
+
+/// Unless nothing arrives.
+void DirectCalculation::add_candidate(std::int32_t source, const Vec3& direction,
+                                      const Rgb& coefficient, const Emission& emitted) {
+    const Rgb contribution = coefficient * emitted.radiance;
+    const float b = brightness(contribution);
+    if (!brings_light(b)) return;
+    const auto order = static_cast<std::uint32_t>(count());
+    scratch_.candidates.push_back(
+        {source, order, direction, emitted.distance, coefficient, contribution, b, false, false});
 }
 
 /// Most samples of a virtual source pass its mirror by: the outline says so before a ray is traced.

@@ -102,7 +102,9 @@ class DirectCalculation {
     [[nodiscard]] std::optional<double> plane_distance(const LightSource& source,
                                                        const Vec3& direction) const;
     void add_candidate(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
-                       const Emission& emitted, bool lazy);
+                       const Emission& emitted);
+    void add_unknown(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
+                     double distance);
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
