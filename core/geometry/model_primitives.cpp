@@ -73,10 +73,9 @@ ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelG
             large_polygons_.emplace(index(id), EdgeIndex(*polygon));
         }
         const bool packed = polygon && polygon->vertices.size() <= kLargePolygon;
-        packed_number_.push_back(packed ? packed_.size() : kNotPacked);
+        own_.push_back({id, packed ? packed_.size() : kNotPacked,
+                        surfaces[static_cast<std::size_t>(index(id))].traits.shadow});
         if (packed) packed_.add(*polygon);
-        shadow_.push_back(surfaces[static_cast<std::size_t>(index(id))].traits.shadow);
-        own_.push_back(id);
     }
     size_ = own_.size();
     for (const MeshPart& part : meshes_) {
@@ -141,8 +140,8 @@ Bounds ModelPrimitives::hit_bounds(std::uint32_t primitive) const {
 
 Bounds ModelPrimitives::bounds() const {
     Bounds bounds;
-    for (const SurfaceId id : own_) {
-        extend(bounds, bounds_of(surfaces_[static_cast<std::size_t>(index(id))].shape));
+    for (const Own& own : own_) {
+        extend(bounds, bounds_of(surfaces_[static_cast<std::size_t>(index(own.surface))].shape));
     }
     for (const MeshPart& part : meshes_) {
         for (const MeshModel::Vertex& vertex : part.mesh->positions)
@@ -157,10 +156,6 @@ const SurfaceTraits& ModelPrimitives::traits(std::uint32_t primitive) const {
     const std::int32_t material = ref.triangle->material;
     return material < 0 ? ref.part->void_traits
                         : ref.part->traits[static_cast<std::size_t>(material)];
-}
-
-SurfaceId ModelPrimitives::surface(std::uint32_t primitive) const {
-    return is_triangle(primitive) ? triangle(primitive).part->surface : own_[primitive];
 }
 
 ModifierId ModelPrimitives::modifier(std::uint32_t primitive) const {
@@ -196,8 +191,7 @@ ModelPrimitives::Smoothing ModelPrimitives::smoothing(std::uint32_t primitive, c
 }
 
 std::size_t ModelPrimitives::memory_bytes() const {
-    std::size_t bytes = own_.capacity() * sizeof(SurfaceId) + packed_.memory_bytes() +
-                        packed_number_.capacity() * sizeof(std::uint32_t) + shadow_.capacity();
+    std::size_t bytes = own_.capacity() * sizeof(Own) + packed_.memory_bytes();
     for (const auto& [surface, edges] : large_polygons_)
         bytes += sizeof(surface) + edges.memory_bytes();
     return bytes;

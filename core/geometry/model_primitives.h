@@ -45,9 +45,9 @@ class ModelPrimitives {
     [[nodiscard]] std::optional<ShapeHit> intersect(std::uint32_t primitive, const Vec3& origin,
                                                     const Vec3& direction, double t_max) const {
         if (is_triangle(primitive)) return intersect_triangle(primitive, origin, direction, t_max);
-        const std::uint32_t polygon = packed_number_[primitive];
-        return polygon != kNotPacked ? packed_.intersect(polygon, origin, direction, t_max)
-                                     : intersect_surface(own_[primitive], origin, direction, t_max);
+        const Own& own = own_[primitive];
+        return own.packed != kNotPacked ? packed_.intersect(own.packed, origin, direction, t_max)
+                                        : intersect_surface(own.surface, origin, direction, t_max);
     }
     /// The same for a surface of this model.
     [[nodiscard]] std::optional<ShapeHit> intersect_surface(SurfaceId surface, const Vec3& origin,
@@ -65,9 +65,11 @@ class ModelPrimitives {
 
     [[nodiscard]] const SurfaceTraits& traits(std::uint32_t primitive) const;
     [[nodiscard]] ShadowClass shadow(std::uint32_t primitive) const {
-        return is_triangle(primitive) ? traits(primitive).shadow : shadow_[primitive];
+        return is_triangle(primitive) ? traits(primitive).shadow : own_[primitive].shadow;
     }
-    [[nodiscard]] SurfaceId surface(std::uint32_t primitive) const;
+    [[nodiscard]] SurfaceId surface(std::uint32_t primitive) const {
+        return is_triangle(primitive) ? triangle(primitive).part->surface : own_[primitive].surface;
+    }
     [[nodiscard]] ModifierId modifier(std::uint32_t primitive) const;
 
     /// Smoothed normal minus normal [1] and texture coordinates at a triangle's hit.
@@ -86,7 +88,7 @@ class ModelPrimitives {
         [[nodiscard]] Vec3 corner(int i) const;
     };
     [[nodiscard]] const Surface& own_surface(std::uint32_t primitive) const {
-        return surfaces_[static_cast<std::size_t>(index(own_[primitive]))];
+        return surfaces_[static_cast<std::size_t>(index(own_[primitive].surface))];
     }
     [[nodiscard]] TriangleRef triangle(std::uint32_t primitive) const;
     [[nodiscard]] std::optional<ShapeHit> intersect_triangle(std::uint32_t primitive,
@@ -95,12 +97,15 @@ class ModelPrimitives {
                                                              double t_max) const;
 
     std::span<const Surface> surfaces_;
-    std::vector<SurfaceId> own_;  ///< surfaces of this model that have a shape
     static constexpr std::uint32_t kNotPacked = ~std::uint32_t{0};
-    // What the search asks of every candidate, apart from the rest of the surfaces.
-    PackedPolygons packed_;                     ///< all but the large ones
-    std::vector<std::uint32_t> packed_number_;  ///< by own primitive
-    std::vector<ShadowClass> shadow_;           ///< by own primitive
+    /// What the search asks of every candidate, apart from the rest of its surface.
+    struct Own {
+        SurfaceId surface;
+        std::uint32_t packed;  ///< number among the packed polygons
+        ShadowClass shadow;
+    };
+    std::vector<Own> own_;   ///< surfaces of this model that have a shape
+    PackedPolygons packed_;  ///< all polygons but the large ones
     std::span<const MeshPart> meshes_;
     std::unordered_map<std::int32_t, EdgeIndex> large_polygons_;  ///< by index of the surface
     std::size_t size_ = 0;

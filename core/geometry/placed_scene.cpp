@@ -234,10 +234,10 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
 }
 
 bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
+    if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
     const ShadowClass shadow = shadow_class(what);
     if (shadow == ShadowClass::ignored) return false;
     if (shadow == ShadowClass::special && ray.result == Visibility::special) return false;
-    if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
     const std::optional<Candidate> candidate = cross(ray, what);
     if (!candidate || !is_in_the_way(ray, *candidate)) return false;
     if (shadow != ShadowClass::blocks) {
