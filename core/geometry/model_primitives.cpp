@@ -73,9 +73,8 @@ ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelG
             large_polygons_.emplace(index(id), EdgeIndex(*polygon));
         }
         const bool packed = polygon && polygon->vertices.size() <= kLargePolygon;
-        own_.push_back({id, packed ? packed_.size() : kNotPacked,
+        own_.push_back({id, packed ? packed_.add(*polygon) : kNotPacked,
                         surfaces[static_cast<std::size_t>(index(id))].traits.shadow});
-        if (packed) packed_.add(*polygon);
     }
     size_ = own_.size();
     for (const MeshPart& part : meshes_) {

@@ -101,7 +101,7 @@ class ModelPrimitives {
     /// What the search asks of every candidate, apart from the rest of its surface.
     struct Own {
         SurfaceId surface;
-        std::uint32_t packed;  ///< number among the packed polygons
+        std::uint32_t packed;  ///< handle of a packed polygon
         ShadowClass shadow;
     };
     std::vector<Own> own_;   ///< surfaces of this model that have a shape

@@ -180,37 +180,34 @@ std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origi
     return ShapeHit{t, polygon.normal, cosine < 0};
 }
 
-void PackedPolygons::add(const PolygonShape& polygon) {
+std::uint32_t PackedPolygons::add(const PolygonShape& polygon) {
     const auto [x, y] = remaining_axes(polygon);
-    Plane plane;
-    plane.normal = polygon.normal;
-    plane.offset = polygon.offset;
-    plane.axis = static_cast<std::uint32_t>(polygon.drop_axis);
-    plane.rectangle = polygon.rectangle;
-    plane.first = static_cast<std::uint32_t>(points_.size());
+    const auto number = static_cast<std::uint32_t>(planes_.size());
+    planes_.push_back({polygon.normal, polygon.offset, polygon.rectangle});
     for (const Vec3& v : polygon.vertices) points_.push_back({v.*x, v.*y});
-    plane.last = static_cast<std::uint32_t>(points_.size());
-    planes_.push_back(plane);
+    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
+    return number << 2 | static_cast<std::uint32_t>(polygon.drop_axis);
 }
 
-std::optional<ShapeHit> PackedPolygons::intersect(std::uint32_t number, const Vec3& origin,
+bool PackedPolygons::contains(std::uint32_t number, double x, double y) const {
+    const Point* first = &points_[ends_[number]];
+    return holds_origin(ends_[number + 1] - ends_[number],
+                        [&](std::size_t i) { return std::pair(first[i].x - x, first[i].y - y); });
+}
+
+std::optional<ShapeHit> PackedPolygons::intersect(std::uint32_t handle, const Vec3& origin,
                                                   const Vec3& direction, double t_max) const {
-    const Plane& plane = planes_[number];
+    const Plane& plane = planes_[handle >> 2];
     const double cosine = fused_dot(plane.normal, direction);
     if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
     const double t = (plane.offset - fused_dot(plane.normal, origin)) / cosine;
     if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
-    const auto [x_axis, y_axis] = kRemaining[plane.axis];
+    const auto [x_axis, y_axis] = kRemaining[handle & 3];
     const double x = origin.*x_axis + direction.*x_axis * t,
                  y = origin.*y_axis + direction.*y_axis * t;
     const double depth = depth_in(plane.rectangle, x, y);
-    const bool inside =
-        std::abs(depth) > kEpsilon
-            ? depth > 0
-            : holds_origin(plane.last - plane.first, [&, p = &points_[plane.first]](std::size_t i) {
-                  return std::pair(p[i].x - x, p[i].y - y);
-              });
-    if (!inside) return std::nullopt;
+    if (!(std::abs(depth) > kEpsilon ? depth > 0 : contains(handle >> 2, x, y)))
+        return std::nullopt;
     return ShapeHit{t, plane.normal, cosine < 0};
 }
 
