@@ -43,14 +43,15 @@ class EdgeSum {
         const double aa = length_squared(a), bb = length_squared(b), ee = length_squared(e),
                      cc = length_squared(c);
         if (!(cc > 0) || !(ee > 0)) return;
+        const double ia = 1 / aa, ib = 1 / bb, ie = 1 / ee, ic = 0.5 / cc;
         const double ea = dot(e, a), eb = dot(e, b);
         const double i1 =
             std::acos(std::clamp(dot(a, b) / std::sqrt(aa * bb), -1.0, 1.0)) / std::sqrt(cc);
-        const double i2 = (eb / bb - ea / aa + ee * i1) / (2 * cc);
-        const double j2 = (0.5 * (1 / aa - 1 / bb) - ea * i2) / ee;
-        const double i3 = (eb / (bb * bb) - ea / (aa * aa) + 3 * ee * i2) / (4 * cc);
-        const double j3 = (1 / (aa * aa) - 1 / (bb * bb)) / (4 * ee) - ea * i3 / ee;
-        const double k3 = (i2 - aa * i3 - 2 * ea * j3) / ee;
+        const double i2 = (eb * ib - ea * ia + ee * i1) * ic;
+        const double j2 = (0.5 * (ia - ib) - ea * i2) * ie;
+        const double i3 = 0.5 * (eb * (ib * ib) - ea * (ia * ia) + 3 * ee * i2) * ic;
+        const double j3 = 0.25 * (ia * ia - ib * ib) * ie - ea * i3 * ie;
+        const double k3 = (i2 - aa * i3 - 2 * ea * j3) * ie;
         const Vec3 w = a * i2 + e * j2, ne = cross(normal_, e);
         const double nc = dot(normal_, c);
         if (!std::isfinite(i3 + j3 + k3 + w.x + w.y + w.z)) return;

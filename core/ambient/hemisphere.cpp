@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/ambient/position_pool.h"
 
@@ -21,14 +22,16 @@ class Sampler {
           sampling_(sampling),
           random_(random),
           trace_(trace),
-          pool_(random.child()) {}
+          pool_(random.child()),
+          places_(hemisphere.cells.size()) {}
 
     void first_pass() {
         for (int i = h_.divisions - 1; i >= 0; --i) {
             for (int j = h_.divisions - 1; j >= 0; --j) {
-                SquarePosition s{random_.next(), random_.next()};
-                if (h_.divisions >= kFewestForTrading) s = apart(i, j, s);
-                if (sample(i, j, s, 0)) ++h_.succeeded;
+                const SquarePosition s{random_.next(), random_.next()};
+                const DiskPoint place =
+                    h_.divisions >= kFewestForTrading ? apart(i, j, s) : disk(i, j, s);
+                if (sample(i, j, place, 0)) ++h_.succeeded;
             }
         }
     }
@@ -44,7 +47,7 @@ class Sampler {
                 if (left <= kEpsilon || budget <= 0) return;
                 const auto wanted = static_cast<int>(errors[k] * budget / left + random_.next());
                 for (int m = 1; m <= wanted && budget > 0; ++m, --budget) {
-                    if (!sample(i, j, {random_.next(), random_.next()}, m)) break;
+                    if (!sample(i, j, disk(i, j, {random_.next(), random_.next()}), m)) break;
                 }
                 left -= errors[k];
             }
@@ -52,9 +55,9 @@ class Sampler {
     }
 
   private:
-    HemisphereCell& cell(int i, int j) {
-        return h_.cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(h_.divisions) +
-                        static_cast<std::size_t>(j)];
+    [[nodiscard]] std::size_t at(int i, int j) const {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(h_.divisions) +
+               static_cast<std::size_t>(j);
     }
     [[nodiscard]] DiskPoint disk(int i, int j, const SquarePosition& s) const {
         return square_to_disk((j + s.along_j) / h_.divisions, (i + s.along_i) / h_.divisions);
@@ -62,38 +65,38 @@ class Sampler {
 
     /// Whether a sampled neighbour has nearly the same direction: its triangles would be
     /// degenerate.
-    bool collides(int i, int j, const DiskPoint& d) {
+    [[nodiscard]] bool collides(int i, int j, const DiskPoint& d) const {
         const double least = kPi * 0.04 / (static_cast<double>(h_.divisions) * h_.divisions);
         for (int a = std::max(i - 1, 0); a <= std::min(i + 1, h_.divisions - 1); ++a) {
             for (int b = std::max(j - 1, 0); b <= std::min(j + 1, h_.divisions - 1); ++b) {
-                const HemisphereCell& other = cell(a, b);
-                if ((a == i && b == j) || other.nearness <= 0.5 / kHuge) continue;
-                const Vec3 direction = normalize(other.vertex);
-                const double x = dot(direction, h_.u) - d.x, y = dot(direction, h_.v) - d.y;
+                if ((a == i && b == j) || h_.cells[at(a, b)].nearness <= 0.5 / kHuge) continue;
+                const DiskPoint& other = places_[at(a, b)];
+                const double x = other.x - d.x, y = other.y - d.y;
                 if (x * x + y * y < least) return true;
             }
         }
         return false;
     }
-    SquarePosition apart(int i, int j, SquarePosition s) {
+    DiskPoint apart(int i, int j, SquarePosition s) {
         for (int trade = 0; trade <= kTrades; ++trade) {
-            if (!collides(i, j, disk(i, j, s))) return s;
+            const DiskPoint d = disk(i, j, s);
+            if (!collides(i, j, d)) return d;
             if (trade < kTrades) s = pool_.trade(s);
         }
-        return {0.2 + 0.6 * random_.next(), 0.2 + 0.6 * random_.next()};
+        return disk(i, j, {0.2 + 0.6 * random_.next(), 0.2 + 0.6 * random_.next()});
     }
 
     /// Sample number `m` of a cell.
-    bool sample(int i, int j, const SquarePosition& s, int m) {
-        const DiskPoint d = disk(i, j, s);
+    bool sample(int i, int j, const DiskPoint& d, int m) {
         const Vec3 direction = h_.u * d.x + h_.v * d.y +
                                h_.normal * std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
         const std::optional<HemisphereAnswer> answer = trace_(direction);
         if (!answer || answer->distance <= kEpsilon) return false;
-        HemisphereCell& c = cell(i, j);
+        HemisphereCell& c = h_.cells[at(i, j)];
         c.nearness = std::max(c.nearness, 1 / answer->distance);
         h_.sum -= c.value;
         if (m == 0) {
+            places_[at(i, j)] = d;
             c.vertex = direction * std::min(answer->distance, sampling_.farthest);
             c.value = answer->value;
         } else {
@@ -113,14 +116,11 @@ class Sampler {
     RandomStream& random_;
     HemisphereTracer trace_;
     PositionPool pool_;
+    std::vector<DiskPoint> places_;  ///< of the cells' first samples
 };
 
 std::vector<double> Sampler::error_map() const {
     const int n = h_.divisions;
-    const auto at = [n](int i, int j) {
-        return static_cast<std::size_t>(i) * static_cast<std::size_t>(n) +
-               static_cast<std::size_t>(j);
-    };
     std::vector<double> raw(h_.cells.size(), 0.0);
     const double scale = 1 / (sampling_.share + kEpsilon);
     const auto pair = [&](std::size_t p, std::size_t q) {
