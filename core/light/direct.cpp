@@ -146,12 +146,17 @@ std::optional<double> DirectCalculation::plane_distance(const LightSource& sourc
 
 /// The radiance that arrives from a source when nothing else is in the scene.
 DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t source,
-                                                               const Vec3& direction) const {
-    Ray to_source = aimed_;
-    to_source.direction = direction;
-    to_source.target = source;
-    tracer_.trace(to_source, context_);
-    return {to_source.value, to_source.hit.t};
+                                                               const Vec3& direction) {
+    const RandomStream random = aimed_.random;
+    const Medium medium = aimed_.medium;  // a dielectric would change it
+    aimed_.direction = direction;
+    aimed_.target = source;
+    aimed_.coef = aimed_.pattern = {1, 1, 1};
+    aimed_.value = aimed_.mirrored = {};
+    tracer_.trace(aimed_, context_);
+    aimed_.random = random;
+    aimed_.medium = medium;
+    return {aimed_.value, aimed_.hit.t};
 }
 
 void DirectCalculation::sort() {

@@ -105,7 +105,7 @@ class DirectCalculation {
                        const Emission& emitted);
     void add_unknown(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
                      double distance);
-    [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
+    [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction);
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
     [[nodiscard]] Visibility visibility(const LightCandidate& candidate);
@@ -116,7 +116,7 @@ class DirectCalculation {
     Ray& ray_;
     TraceContext& context_;
     LightScratch& scratch_;
-    Ray aimed_;  ///< what rays to candidates start from
+    Ray aimed_;  ///< asks sources for their radiance
     std::size_t first_sample_, first_candidate_, first_tail_;
 };
 
