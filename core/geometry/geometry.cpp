@@ -357,7 +357,8 @@ void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) c
     }
 }
 
-Visibility Geometry::visibility(const RaySegment& ray, SurfaceId target, Blocker* last) const {
+[[gnu::flatten]] Visibility Geometry::visibility(const RaySegment& ray, SurfaceId target,
+                                                 Blocker* last) const {
     ShadowRay search;
     impl_->placed.begin(search, ray, target);
     if (last && last->primitive != Blocker::kNone &&
