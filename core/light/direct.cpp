@@ -47,38 +47,22 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
     const bool constant = is_constant(source);
     const bool lazy = !constant && !source.is_virtual && !needs_tracing(source);
     partition(source, ray_.hit.position, options.source_subdivision, aimed_.weight, scratch_.parts);
-    const auto for_each_sample = [&](auto&& use) {
-        for (int i = 0; i < scratch_.parts.count; ++i) {
-            const auto sample = sample_part(
-                source, scratch_.parts.part[static_cast<std::size_t>(i)], scratch_.parts.count,
-                ray_.hit.position, options.source_jitter, aimed_.random);
-            if (sample) use(*sample);
-        }
-    };
-    if (constant || lazy) {
-        for_each_sample([&](const SourceSample& sample) {
-            const Rgb k = coefficient(sample.direction, sample.solid_angle);
-            if (!(max_component(k) > 0)) return;
-            const std::optional<double> distance = lazy ? plane_distance(source, sample.direction)
-                                                        : front_distance(source, sample.direction);
-            if (!distance) return;
-            if (lazy)
-                add_unknown(index, sample.direction, k, *distance);
-            else
-                add_candidate(index, sample.direction, k, {source.radiance, *distance});
-        });
-        return;
-    }
-    // Tracing the emission may need the parts for a calculation of its own.
-    for_each_sample([&](const SourceSample& sample) {
-        if (!source.is_virtual || meets_relay(source, sample.direction))
-            scratch_.samples.push_back(sample);
-    });
+    sample_parts(source, scratch_.parts, ray_.hit.position, options.source_jitter, aimed_.random,
+                 scratch_.samples);
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
-        const SourceSample sample = scratch_.samples[i];
+        const SourceSample sample = scratch_.samples[i];  // tracing may move them
+        if (source.is_virtual && !meets_relay(source, sample.direction)) continue;
         const Rgb k = coefficient(sample.direction, sample.solid_angle);
         if (!(max_component(k) > 0)) continue;
-        add_candidate(index, sample.direction, k, traced_emission(index, sample.direction));
+        if (constant) {
+            if (const auto distance = front_distance(source, sample.direction))
+                add_candidate(index, sample.direction, k, {source.radiance, *distance});
+        } else if (lazy) {
+            if (const auto distance = plane_distance(source, sample.direction))
+                add_unknown(index, sample.direction, k, *distance);
+        } else {
+            add_candidate(index, sample.direction, k, traced_emission(index, sample.direction));
+        }
     }
     scratch_.samples.resize(first_sample_);
 }

@@ -188,6 +188,15 @@ std::optional<SourceSample> sample_part(const LightSource& source, const SourceP
     return sample;
 }
 
+[[gnu::flatten]] void sample_parts(const LightSource& source, const SourceParts& parts, const Vec3& point,
+                  double jitter, RandomStream& random, std::vector<SourceSample>& samples) {
+    for (int i = 0; i < parts.count; ++i) {
+        const auto sample = sample_part(source, parts.part[static_cast<std::size_t>(i)],
+                                        parts.count, point, jitter, random);
+        if (sample) samples.push_back(*sample);
+    }
+}
+
 std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,
                                          double jitter, RandomStream& random) {
     return sample_part(source, kWholeBox, 1, point, jitter, random);

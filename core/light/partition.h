@@ -53,6 +53,10 @@ void partition(const LightSource& source, const Vec3& point, double subdivision,
                                                       const Vec3& point, double jitter,
                                                       RandomStream& random);
 
+/// Sample all parts; `samples` grows by those that may bring light.
+void sample_parts(const LightSource& source, const SourceParts& parts, const Vec3& point,
+                  double jitter, RandomStream& random, std::vector<SourceSample>& samples);
+
 /// Sample the whole source as one part.
 [[nodiscard]] std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,
                                                        double jitter, RandomStream& random);
