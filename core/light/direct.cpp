@@ -229,8 +229,7 @@ void DirectCalculation::trace_shadow(std::size_t i) {
     shadow.target = scratch_.candidates[i].source;
     tracer_.trace(shadow, context_);
     LightCandidate& candidate = scratch_.candidates[i];
-    if (!shadow.hit
-             .exists()) {  // it reached the aft clipping plane: what lies beyond does not shadow
+    if (!shadow.hit.exists()) {  // at the aft clipping plane: what lies beyond does not shadow
         candidate.visible = true;
         return;
     }

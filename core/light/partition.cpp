@@ -188,8 +188,9 @@ std::optional<SourceSample> sample_part(const LightSource& source, const SourceP
     return sample;
 }
 
-[[gnu::flatten]] void sample_parts(const LightSource& source, const SourceParts& parts, const Vec3& point,
-                  double jitter, RandomStream& random, std::vector<SourceSample>& samples) {
+[[gnu::flatten]] void sample_parts(const LightSource& source, const SourceParts& parts,
+                                   const Vec3& point, double jitter, RandomStream& random,
+                                   std::vector<SourceSample>& samples) {
     for (int i = 0; i < parts.count; ++i) {
         const auto sample = sample_part(source, parts.part[static_cast<std::size_t>(i)],
                                         parts.count, point, jitter, random);

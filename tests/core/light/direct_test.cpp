@@ -153,6 +153,33 @@ TEST_CASE(
     CHECK(floor_at(quick, 0.3, 0.2) == floor_at(again, 0.3, 0.2));
 }
 
+TEST_CASE("-dt: lamps with patterns bring half of what they bring without, few or many") {
+    RenderOptions options = TestScene::exact();
+    options.shadow_threshold = 0.05;
+    options.shadow_certainty = 0.5;
+    test::MemoryResources files;
+    files.functions["half.cal"] = "half = if(Dz, .5, .25);";
+    for (const int count : {3, 15, 40}) {  // of which all are tested, all, and some
+        const std::string plain = many_lamps(count);
+        std::string patterned = "void brightfunc half\n2 half half.cal\n0\n0\n" + plain;
+        for (std::size_t at = 0; (at = patterned.find("void light", at)) != std::string::npos;)
+            patterned.replace(at, 4, "half");
+        TestScene exact(plain), quick(patterned, options, files);
+        double exact_sum = 0, quick_sum = 0;
+        for (int i = 0; i < 40; ++i) {
+            for (int k = 0; k < 40; ++k) {
+                const double x = -3 + 0.15 * i, y = -3 + 0.15 * k;
+                exact_sum += static_cast<double>(floor_at(exact, x, y).r);
+                quick_sum += static_cast<double>(floor_at(quick, x, y).r);
+            }
+        }
+        const std::uint64_t tested = quick.context.counters.shadow,
+                            all = exact.context.counters.shadow;
+        CHECK((count < 20 ? tested == all : tested < all));
+        CHECK(quick_sum / exact_sum == doctest::Approx(0.5).epsilon(count < 20 ? 1e-5 : 0.005));
+    }
+}
+
 TEST_CASE("shadow rays are counted") {
     TestScene scene(many_lamps(10));
     (void)floor_at(scene, 0, 0);
