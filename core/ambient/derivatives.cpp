@@ -31,19 +31,27 @@ struct Symmetric {
     }
 };
 
+/// A sample's place, from the point, with its squared length and the inverse of that.
+struct Corner {
+    explicit Corner(const Vec3& place)
+        : at(place), squared(length_squared(place)), inverse(1 / squared) {}
+    Vec3 at;
+    double squared, inverse;
+};
+
 /// First and second derivatives of a sum of triangles' form factors, edge by edge.
 class EdgeSum {
   public:
     explicit EdgeSum(const Vec3& normal) : normal_(normal) {}
 
     /// The directed edge a -> b times `g`.
-    void add(const Vec3& a, const Vec3& b, double g) {
+    void add(const Corner& from, const Corner& to, double g) {
         if (g == 0) return;
-        const Vec3 e = b - a, c = cross(a, b);
-        const double aa = length_squared(a), bb = length_squared(b), ee = length_squared(e),
+        const Vec3 &a = from.at, &b = to.at, e = b - a, c = cross(a, b);
+        const double aa = from.squared, bb = to.squared, ee = length_squared(e),
                      cc = length_squared(c);
         if (!(cc > 0) || !(ee > 0)) return;
-        const double ia = 1 / aa, ib = 1 / bb, ie = 1 / ee, ic = 0.5 / cc;
+        const double ia = from.inverse, ib = to.inverse, ie = 1 / ee, ic = 0.5 / cc;
         const double ea = dot(e, a), eb = dot(e, b);
         const double i1 =
             std::acos(std::clamp(dot(a, b) / std::sqrt(aa * bb), -1.0, 1.0)) / std::sqrt(cc);
@@ -121,22 +129,28 @@ EdgeSum sum_edges(const Hemisphere& h, const Brightness& g) {
             upper[at(i, j)] = shown(h, g, {i + 1, j + 1}, {i + 1, j}, {i, j + 1});
         }
     }
-    const auto vertex = [&h](int i, int j) -> const Vec3& { return h.cell(i, j).vertex; };
+    std::vector<Corner> corners;
+    corners.reserve(h.cells.size());
+    for (const HemisphereCell& cell : h.cells) corners.emplace_back(cell.vertex);
+    const auto corner = [&](int i, int j) -> const Corner& {
+        return corners[static_cast<std::size_t>(i) * static_cast<std::size_t>(n) +
+                       static_cast<std::size_t>(j)];
+    };
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
             const bool right = j < m, down = i < m;
             if (right) {
                 const double difference =
                     (down ? lower[at(i, j)] : 0) - (i > 0 ? upper[at(i - 1, j)] : 0);
-                sum.add(vertex(i, j), vertex(i, j + 1), difference);
+                sum.add(corner(i, j), corner(i, j + 1), difference);
             }
             if (down) {
                 const double difference =
                     (j > 0 ? upper[at(i, j - 1)] : 0) - (right ? lower[at(i, j)] : 0);
-                sum.add(vertex(i, j), vertex(i + 1, j), difference);
+                sum.add(corner(i, j), corner(i + 1, j), difference);
             }
             if (right && down)
-                sum.add(vertex(i, j + 1), vertex(i + 1, j), lower[at(i, j)] - upper[at(i, j)]);
+                sum.add(corner(i, j + 1), corner(i + 1, j), lower[at(i, j)] - upper[at(i, j)]);
         }
     }
     return sum;
