@@ -139,6 +139,7 @@ void Geometry::Impl::build(Hierarchy& model) {
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
     model.pieces = divide_primitives(*model.primitives);
+    model.primitive_of.reserve(model.pieces.size());
     for (const Piece& piece : model.pieces) model.primitive_of.push_back(piece.primitive);
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(model.pieces.size()));
     rtcSetGeometryUserData(geometry.get(), &model);

@@ -48,8 +48,9 @@ inline constexpr std::size_t kLargePolygon = 64;
                                                 const Vec3& direction, double t_max,
                                                 const EdgeIndex* index);
 
-/// Polygons as the search reads them: a cache line each, and the corners of those that are no
-/// rectangles along the axes. Same answers, to the bit, as `intersect` without an index.
+/// Polygons as the search reads them: a cache line each; the corners lie apart, and rectangles
+/// along the axes need theirs only near an edge. Same answers, to the bit, as `intersect` without
+/// an index.
 class PackedPolygons {
   public:
     /// The handle by which the polygon is asked for.

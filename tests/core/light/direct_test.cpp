@@ -26,6 +26,16 @@ Rgb floor_at(TestScene& scene, double x, double y, std::uint32_t sample = 0) {
     return scene.trace({x, y, 0.5}, {0, 0, -1}, sample).value;
 }
 
+/// Sum of the floor's red over a square grid of points around the origin.
+double floor_sum(TestScene& scene, int points, double step) {
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+        for (int k = 0; k < points; ++k)
+            sum += static_cast<double>(floor_at(scene, -3 + step * i, -3 + step * k).r);
+    }
+    return sum;
+}
+
 /// A grid of small lamps over the floor, each dimmer than the one before, with a wall among
 /// them.
 std::string many_lamps(int count) {
@@ -140,14 +150,7 @@ TEST_CASE(
     options.shadow_threshold = 0.05;
     options.shadow_certainty = 0.5;
     TestScene exact(many_lamps(40)), quick(many_lamps(40), options), again(many_lamps(40), options);
-    double exact_sum = 0, quick_sum = 0;
-    for (int i = 0; i < 60; ++i) {
-        for (int k = 0; k < 60; ++k) {
-            const double x = -3 + 0.1 * i, y = -3 + 0.1 * k;
-            exact_sum += static_cast<double>(floor_at(exact, x, y).r);
-            quick_sum += static_cast<double>(floor_at(quick, x, y).r);
-        }
-    }
+    const double exact_sum = floor_sum(exact, 60, 0.1), quick_sum = floor_sum(quick, 60, 0.1);
     CHECK(quick.context.counters.shadow < exact.context.counters.shadow);
     CHECK(quick_sum / exact_sum == doctest::Approx(1).epsilon(0.005));
     CHECK(floor_at(quick, 0.3, 0.2) == floor_at(again, 0.3, 0.2));
@@ -165,14 +168,7 @@ TEST_CASE("-dt: lamps with patterns bring half of what they bring without, few o
         for (std::size_t at = 0; (at = patterned.find("void light", at)) != std::string::npos;)
             patterned.replace(at, 4, "half");
         TestScene exact(plain), quick(patterned, options, files);
-        double exact_sum = 0, quick_sum = 0;
-        for (int i = 0; i < 40; ++i) {
-            for (int k = 0; k < 40; ++k) {
-                const double x = -3 + 0.15 * i, y = -3 + 0.15 * k;
-                exact_sum += static_cast<double>(floor_at(exact, x, y).r);
-                quick_sum += static_cast<double>(floor_at(quick, x, y).r);
-            }
-        }
+        const double exact_sum = floor_sum(exact, 40, 0.15), quick_sum = floor_sum(quick, 40, 0.15);
         const std::uint64_t tested = quick.context.counters.shadow,
                             all = exact.context.counters.shadow;
         CHECK((count < 20 ? tested == all : tested < all));
