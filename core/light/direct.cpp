@@ -24,6 +24,7 @@ DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, Trace
       first_tail_(scratch_.tails.size()) {
     (void)tracer_.spawn(aimed_, kShadow, ray, nullptr);
     aimed_.aimed = true;
+    part_size_ = partition_size(tracer_.options().source_subdivision, aimed_.weight);
 }
 
 DirectCalculation::~DirectCalculation() {
@@ -43,28 +44,38 @@ void DirectCalculation::gather(DirectCoefficient coefficient, const Vec3* front)
 
 void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient) {
     const LightSource& source = lights_[index];
-    const RenderOptions& options = tracer_.options();
-    const bool constant = is_constant(source);
-    const bool lazy = !constant && !source.is_virtual && !needs_tracing(source);
-    partition(source, ray_.hit.position, options.source_subdivision, aimed_.weight, scratch_.parts);
-    sample_parts(source, scratch_.parts, ray_.hit.position, options.source_jitter, aimed_.random,
+    const double jitter = tracer_.options().source_jitter;
+    partition(source, ray_.hit.position, part_size_, scratch_.parts);
+    if (scratch_.parts.count == 1) {  // most
+        if (const auto sample = sample_whole(source, ray_.hit.position, jitter, aimed_.random))
+            consider(index, *sample, coefficient);
+        return;
+    }
+    sample_parts(source, scratch_.parts, ray_.hit.position, jitter, aimed_.random,
                  scratch_.samples);
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
         const SourceSample sample = scratch_.samples[i];  // tracing may move them
-        if (source.is_virtual && !meets_relay(source, sample.direction)) continue;
-        const Rgb k = coefficient(sample.direction, sample.solid_angle);
-        if (!(max_component(k) > 0)) continue;
-        if (constant) {
-            if (const auto distance = front_distance(source, sample.direction))
-                add_candidate(index, sample.direction, k, {source.radiance, *distance});
-        } else if (lazy) {
-            if (const auto distance = plane_distance(source, sample.direction))
-                add_unknown(index, sample.direction, k, *distance);
-        } else {
-            add_candidate(index, sample.direction, k, traced_emission(index, sample.direction));
-        }
+        consider(index, sample, coefficient);
     }
     scratch_.samples.resize(first_sample_);
+}
+
+/// Make a candidate of a sample that can bring light.
+void DirectCalculation::consider(std::int32_t index, const SourceSample& sample,
+                                 DirectCoefficient coefficient) {
+    const LightSource& source = lights_[index];
+    if (source.is_virtual && !meets_relay(source, sample.direction)) return;
+    const Rgb k = coefficient(sample.direction, sample.solid_angle);
+    if (!(max_component(k) > 0)) return;
+    if (is_constant(source)) {
+        if (const auto distance = front_distance(source, sample.direction))
+            add_candidate(index, sample.direction, k, {source.radiance, *distance});
+    } else if (!source.is_virtual && !needs_tracing(source)) {
+        if (const auto distance = plane_distance(source, sample.direction))
+            add_unknown(index, sample.direction, k, *distance);
+    } else {
+        add_candidate(index, sample.direction, k, traced_emission(index, sample.direction));
+    }
 }
 
 /// A candidate whose radiance is not known yet.
@@ -94,10 +105,14 @@ bool DirectCalculation::meets_relay(const LightSource& source, const Vec3& direc
         .exists();
 }
 
+bool DirectCalculation::in_clear_air() const {
+    return max_component(ray_.medium.extinction) <= 1e-10f;
+}
+
 /// Whether a source has no patterns and the air is clear: its radiance is its material's colour
 /// where a ray meets its front.
 bool DirectCalculation::is_constant(const LightSource& source) const {
-    return source.uniform && !source.is_virtual && max_component(ray_.medium.extinction) <= 1e-10f;
+    return source.uniform && !source.is_virtual && in_clear_air();
 }
 
 /// How far the front of a source is; nothing when the direction misses it or meets its back.
@@ -126,6 +141,25 @@ std::optional<double> DirectCalculation::plane_distance(const LightSource& sourc
     if (!(cosine < -kEpsilon)) return std::nullopt;
     const double t = (polygon->offset - fused_dot(polygon->normal, ray_.hit.position)) / cosine;
     return t > kEpsilon ? std::optional(t) : std::nullopt;
+}
+
+/// What a real source sends when nothing else is in the scene. For plain ones the ray's way through
+/// materials is cut short.
+DirectCalculation::Emission DirectCalculation::emission(std::int32_t index, const Vec3& direction) {
+    const LightSource& source = lights_[index];
+    if (!source.plain || !in_clear_air()) return traced_emission(index, direction);
+    const RandomStream random = aimed_.random;
+    aimed_.direction = direction;
+    aimed_.target = index;
+    aimed_.pattern = {1, 1, 1};
+    Emission emitted;
+    if (lights_.intersect_target(aimed_, tracer_) && aimed_.hit.rod >= 0) {
+        const ModifierRecord& material = tracer_.scene().modifier(source.material);
+        tracer_.apply_textures(aimed_, material.next, context_);
+        emitted = {source.radiance * aimed_.pattern, aimed_.hit.t};
+    }
+    aimed_.random = random;
+    return emitted;
 }
 
 /// The radiance that arrives from a source when nothing else is in the scene.
@@ -211,7 +245,7 @@ bool DirectCalculation::is_lazy() const {
 /// The contribution of a lazy candidate.
 void DirectCalculation::add_radiance(std::size_t i) {
     const Emission emitted =
-        traced_emission(scratch_.candidates[i].source, scratch_.candidates[i].direction);
+        emission(scratch_.candidates[i].source, scratch_.candidates[i].direction);
     LightCandidate& candidate = scratch_.candidates[i];
     candidate.contribution = candidate.coefficient * emitted.radiance;
     candidate.brightness = brightness(candidate.contribution);

@@ -94,6 +94,7 @@ class DirectCalculation {
         double distance = kHuge;  ///< to the source's surface [m]
     };
     void gather(std::int32_t source, DirectCoefficient coefficient);
+    void consider(std::int32_t source, const SourceSample& sample, DirectCoefficient coefficient);
     [[nodiscard]] bool meets_relay(const LightSource& source, const Vec3& direction) const;
     [[nodiscard]] bool is_constant(const LightSource& source) const;
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
@@ -105,6 +106,8 @@ class DirectCalculation {
                        const Emission& emitted);
     void add_unknown(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
                      double distance);
+    [[nodiscard]] bool in_clear_air() const;
+    [[nodiscard]] Emission emission(std::int32_t source, const Vec3& direction);
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction);
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
@@ -116,7 +119,8 @@ class DirectCalculation {
     Ray& ray_;
     TraceContext& context_;
     LightScratch& scratch_;
-    Ray aimed_;  ///< asks sources for their radiance
+    Ray aimed_;             ///< asks sources for their radiance
+    double part_size_ = 0;  ///< of sources, relative to their distance
     std::size_t first_sample_, first_candidate_, first_tail_;
 };
 

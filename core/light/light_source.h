@@ -35,6 +35,8 @@ struct LightSource {
     std::optional<SpotShape> spot;
     Rgb radiance;          ///< of the material without its patterns [W/(m² sr)]
     bool uniform = false;  ///< no modifier between surface and material, or below it: a constant
+    bool plain = false;    ///< not a spotlight, no modifier between surface and material: its front
+                           ///< sends the material's radiance times its patterns
     bool transparent_illum = false;  ///< illum that shows nothing of its own
     bool distant = false, flat = false, round = false, cylinder = false;
     bool is_virtual = false, follow = false;

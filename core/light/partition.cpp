@@ -18,9 +18,9 @@ constexpr double kFullJitter = 0.7;        ///< above it single samples fill rou
 /// Flat sources: halve the longer side until both are short for their distance.
 class FlatPartition {
   public:
-    FlatPartition(const LightSource& source, const Vec3& point, double size_over_distance,
+    FlatPartition(const LightSource& source, const Vec3& to_center, double size_over_distance,
                   SourceParts& parts)
-        : to_center_(point - source.center), u_(source.u), v_(source.v), parts_(parts) {
+        : to_center_(to_center), u_(source.u), v_(source.v), parts_(parts) {
         const double scale = 2 / size_over_distance;
         split(kWholeBox, scale * length(u_), scale * length(v_), kMaxParts);
     }
@@ -46,6 +46,14 @@ class FlatPartition {
     Vec3 to_center_, u_, v_;
     SourceParts& parts_;
 };
+
+/// Whether a flat source need not be divided. May be false though it need not.
+bool is_far(const LightSource& source, const Vec3& to_center, double size_over_distance) {
+    constexpr double kRound = 1 + 1e-12;
+    const double longest_squared = std::max(length_squared(source.u), length_squared(source.v));
+    return length_squared(to_center) * size_over_distance * size_over_distance >
+           4 * kRound * longest_squared;
+}
 
 /// Cylinders: halve along the axis.
 class CylinderPartition {
@@ -138,18 +146,23 @@ bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal)
     return height + kRound * reach < 0;
 }
 
-void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,
+double partition_size(double subdivision, double weight) {
+    return subdivision > kEpsilon && weight > 0 ? subdivision / weight : 0;
+}
+
+void partition(const LightSource& source, const Vec3& point, double size_over_distance,
                SourceParts& parts) {
     parts.count = 0;
-    if (subdivision > kEpsilon && weight > 0) {
+    if (size_over_distance > 0) {
         if (source.flat) {
-            if (dot(point - source.center, source.normal) > 0) {
-                FlatPartition(source, point, subdivision / weight, parts);
+            const Vec3 to_center = point - source.center;
+            if (!(dot(to_center, source.normal) > 0)) return;
+            if (!is_far(source, to_center, size_over_distance)) {
+                FlatPartition(source, to_center, size_over_distance, parts);
+                return;
             }
-            return;
-        }
-        if (source.cylinder) {
-            CylinderPartition(source, point, subdivision / weight, parts);
+        } else if (source.cylinder) {
+            CylinderPartition(source, point, size_over_distance, parts);
             return;
         }
     }

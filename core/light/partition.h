@@ -41,9 +41,14 @@ struct SourceSample {
 /// do.
 [[nodiscard]] bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal);
 
-/// Cut a source into parts no larger than `subdivision` / `weight` times their distance from
-/// `point`. No parts when the source turns away (flat sources) or the point is in it (cylinders).
-void partition(const LightSource& source, const Vec3& point, double subdivision, double weight,
+/// How large a part may be relative to its distance, for -ds and the weight of a ray. 0: sources
+/// are not divided.
+[[nodiscard]] double partition_size(double subdivision, double weight);
+
+/// Cut a source into parts no larger than `size_over_distance` times their distance from `point`.
+/// No parts when the source turns away (flat sources) or the point is in it (cylinders); always one
+/// when the size is 0.
+void partition(const LightSource& source, const Vec3& point, double size_over_distance,
                SourceParts& parts);
 
 /// Sample one of `parts` parts. Nothing when the part turns away, is out of reach, or is seen from

@@ -215,7 +215,9 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
     const std::vector<double>& reals = emitter.reals();
     source.radiance = {static_cast<float>(reals[0]), static_cast<float>(reals[1]),
                        static_cast<float>(reals[2])};
-    source.uniform = emitter.surface.modifier == material && emitter.material.next == kVoid;
+    const bool alone = emitter.surface.modifier == material;
+    source.uniform = alone && emitter.material.next == kVoid;
+    source.plain = alone && source.material_type != PrimitiveType::spotlight;
     if (source.material_type == PrimitiveType::glow) {
         source.proximity = static_cast<float>(reals[3]);
         source.unusable = source.distant;

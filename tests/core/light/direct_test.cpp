@@ -176,6 +176,36 @@ TEST_CASE("-dt: lamps with patterns bring half of what they bring without, few o
     }
 }
 
+TEST_CASE("a source brings its pattern's value in the direction of the ray, however it is built") {
+    const std::string pattern = " brightfunc slope\n2 Dx .\n0\n0\n";
+    const std::string panel = " polygon panel\n0\n0\n12 .5 -.1 .8  .5 .1 .8  .7 .1 .8  .7 -.1 .8\n";
+    const std::string disk = " ring disk\n0\n0\n8 .6 0 .8 0 0 -1 0 .1\n";
+    const std::string ball = " sphere ball\n0\n0\n4 .6 0 .8 .1\n";
+    const std::string sun = " source sun\n0\n0\n4 .6 0 .8 1\n";
+    const std::string spot = " spotlight lamp\n0\n0\n7 100 50 25 90 -.6 0 -.8\n";
+    const std::string light = " light lamp\n0\n0\n3 100 50 25\n";
+    const std::string illum = " illum lamp\n0\n0\n3 100 50 25\n";
+    const std::string glow = " glow lamp\n0\n0\n4 100 50 25 9\n";
+    const auto check = [&](const std::string& material, const std::string& shape) {
+        CAPTURE(material);
+        CAPTURE(shape);
+        TestScene even(kFloor + "void" + material + "lamp" + shape);
+        TestScene below(kFloor + "void" + pattern + "slope" + material + "lamp" + shape);
+        TestScene between(kFloor + "void" + material + "lamp" + pattern + "slope" + shape);
+        const Rgb expected = floor_at(even, 0, 0) * 0.6f;
+        CHECK(expected.r > 0);
+        for (TestScene* patterned : {&below, &between}) {
+            const Rgb found = floor_at(*patterned, 0, 0);
+            CHECK(found.r == doctest::Approx(expected.r));
+            CHECK(found.b == doctest::Approx(expected.b));
+        }
+    };
+    for (const std::string& material : {light, illum, glow, spot}) {
+        for (const std::string& shape : {panel, disk, ball}) check(material, shape);
+    }
+    check(light, sun);
+}
+
 TEST_CASE("shadow rays are counted") {
     TestScene scene(many_lamps(10));
     (void)floor_at(scene, 0, 0);

@@ -36,7 +36,7 @@ LightSource tube(double half_length, double radius) {
 int part_count(const LightSource& source, const Vec3& point, double subdivision,
                double weight = 1) {
     SourceParts parts;
-    partition(source, point, subdivision, weight, parts);
+    partition(source, point, partition_size(subdivision, weight), parts);
     return parts.count;
 }
 
@@ -45,7 +45,7 @@ int part_count(const LightSource& source, const Vec3& point, double subdivision,
 double irradiance(const LightSource& source, const Vec3& point, double subdivision) {
     RandomStream random(1);
     SourceParts parts;
-    partition(source, point, subdivision, 1, parts);
+    partition(source, point, partition_size(subdivision, 1), parts);
     double sum = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(parts.count); ++i) {
         if (const auto s = sample_part(source, parts.part[i], parts.count, point, 0, random))
@@ -70,7 +70,7 @@ TEST_CASE("parts of a panel: sizes add up to the whole, and each is small for it
         CAPTURE(ds);
         const LightSource source = panel(1);
         SourceParts parts;
-        partition(source, {0.3, 0.1, 0}, ds, 1, parts);
+        partition(source, {0.3, 0.1, 0}, partition_size(ds, 1), parts);
         double area = 0;
         for (int i = 0; i < parts.count; ++i) {
             const SourcePart& part = parts.part[static_cast<std::size_t>(i)];
@@ -96,7 +96,7 @@ TEST_CASE("parts of a panel: the count follows size over distance and the ray's 
     LightSource strip = panel(1);
     strip.v = {0, 0.01, 0};
     SourceParts parts;
-    partition(strip, {0, 0, 0}, 1.0, 1, parts);
+    partition(strip, {0, 0, 0}, 1.0, parts);
     CHECK(parts.count == 2);
     CHECK(parts.part[0].center.x == -0.5);  // the lower half first
     CHECK(parts.part[1].center.x == 0.5);
