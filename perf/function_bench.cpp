@@ -77,6 +77,31 @@ const std::vector<double> kSky{1, 9.77, 6.08, 0.638, -0.0687, -0.299, 0.9519};
 void clear_sky(benchmark::State& state) {
     evaluate_file(state, "skybright.cal", "skybr", kSky);
 }
+/// The same sky for as many windows side by side as go, all upwards; the time is that of one value.
+void clear_sky_lanes(benchmark::State& state) {
+    const std::optional<std::string> text = library_file("skybright.cal");
+    if (!text) {
+        state.SkipWithError("the reference library is not here");
+        return;
+    }
+    FunctionEnvironment environment;
+    environment.load("skybright.cal", *text);
+    const std::vector<ExpressionRequest> requests{{"skybr", -1}};
+    const Program program =
+        environment.compile("skybright.cal", requests, kSky, 0, {"bench.rad", 1});
+    std::vector<ChannelValues> channels = rays(0);
+    for (ChannelValues& c : channels) c[3] = 0.02 + 0.9 * std::abs(c[3]);
+    const auto used = static_cast<std::size_t>(state.range(0));
+    EvalState eval;
+    std::size_t i = 0;
+    while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(used))) {
+        program.begin_lanes(eval);
+        for (std::size_t k = 0; k < used; ++k) program.set_lane(eval, k, channels[i++ & 1023u]);
+        auto values = program.evaluate_lanes(0, used, eval);
+        if (!values) state.SkipWithError("the lanes parted");
+        benchmark::DoNotOptimize(values);
+    }
+}
 void wood_zgrain(benchmark::State& state) {
     evaluate_file(state, "woodpat.cal", "zgrain", {.3});
 }
@@ -137,6 +162,7 @@ BENCHMARK(noise);
 BENCHMARK(fractal_noise);
 BENCHMARK(noise_texture);
 BENCHMARK(clear_sky);
+BENCHMARK(clear_sky_lanes)->Arg(2)->Arg(kLanes);
 BENCHMARK(wood_zgrain);
 BENCHMARK(wood_xgrain);
 BENCHMARK(wood_neighbours);

@@ -49,6 +49,9 @@ enum class Op : std::uint8_t {
 };
 // clang-format on
 
+/// Whether evaluations side by side know the operation.
+[[nodiscard]] bool has_lanes(Op op);
+
 struct Instruction {
     Op op = Op::halt;
     std::uint8_t keep = 0;  ///< checked: 0 clears the error flag first, 0xff keeps it
@@ -99,6 +102,7 @@ struct Program::Code {
     std::uint32_t cells = 0;
     std::vector<double> reals;
     SourceLocation where;
+    bool has_lanes = false;  ///< evaluate_lanes knows all instructions
 };
 
 }  // namespace lightwalk

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,12 @@ using ChannelValues = std::array<double, kChannelCount>;  ///< indexed by Channe
 /// The language's numeric error flag (domain or range error), see the icalc and "Radiance function files" notes.
 enum class EvalError : std::uint8_t { none, domain, range };
 
+/// A number in each of several evaluations that go side by side.
+inline constexpr std::size_t kLanes = 4;
+struct alignas(32) Lanes {
+    std::array<double, kLanes> value{};
+};
+
 /// Scratch of one evaluation at a time; one per thread, reused without allocation after warming up.
 /// After Program::begin it belongs to that program until the next begin.
 struct EvalState {
@@ -41,6 +48,7 @@ struct EvalState {
     };
     std::vector<Return> returns;
     std::uint64_t operations = 0;       ///< done by calls in this tick; bounded
+    std::vector<Lanes> lanes;           ///< registers of evaluations side by side
     function::NoiseMemory noise;
     function::FractalMemory fractal;
     std::vector<double> prism;          ///< rays of fprism_val: direction and energy each
@@ -75,6 +83,16 @@ class Program {
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const;
     /// The same for an output with `parameters >= 0`; arguments.size() must equal it.
     [[nodiscard]] double call(std::size_t output, std::span<const double> arguments, EvalState& state) const;
+
+    /// Whether evaluate_lanes can succeed: the program needs neither noise, nor calls (recursion), nor more of the
+    /// ray than its channels. Inputs (`parameters` > 0) have no lanes.
+    [[nodiscard]] bool has_lanes() const;
+    /// Several evaluations of output k side by side, 1 <= used <= kLanes: begin_lanes, set_lane for each of the lanes
+    /// in use, then evaluate_lanes, once. Same values as evaluate(), to the bit; those of other lanes mean nothing.
+    /// Nothing where lanes take different branches or one meets a numeric error: evaluate each by itself then.
+    void begin_lanes(EvalState& state) const;
+    void set_lane(EvalState& state, std::size_t lane, const ChannelValues& channels) const;
+    [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output, std::size_t used, EvalState& state) const;
 
     /// When output k is the same number whatever the channels: that number.
     [[nodiscard]] const double* constant(std::size_t output) const;

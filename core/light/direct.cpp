@@ -5,13 +5,6 @@
 #include "core/light/direct_calculation.h"
 
 namespace lightwalk {
-namespace {
-
-bool brings_light(float brightness) {
-    return brightness > 0 && std::isfinite(brightness);
-}
-
-}  // namespace
 
 DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, TraceContext& context)
     : lights_(lights),
@@ -143,44 +136,10 @@ std::optional<double> DirectCalculation::plane_distance(const LightSource& sourc
     return t > kEpsilon ? std::optional(t) : std::nullopt;
 }
 
-/// What a real source sends when nothing else is in the scene. For plain ones the ray's way through
-/// materials is cut short.
-DirectCalculation::Emission DirectCalculation::emission(std::int32_t index, const Vec3& direction) {
-    const LightSource& source = lights_[index];
-    if (!source.plain || !in_clear_air()) return traced_emission(index, direction);
-    const RandomStream random = aimed_.random;
-    aimed_.direction = direction;
-    aimed_.target = index;
-    aimed_.pattern = {1, 1, 1};
-    Emission emitted;
-    if (lights_.intersect_target(aimed_, tracer_) && aimed_.hit.rod >= 0) {
-        const ModifierRecord& material = tracer_.scene().modifier(source.material);
-        tracer_.apply_textures(aimed_, material.next, context_);
-        emitted = {source.radiance * aimed_.pattern, aimed_.hit.t};
-    }
-    aimed_.random = random;
-    return emitted;
-}
-
-/// The radiance that arrives from a source when nothing else is in the scene.
-DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t source,
-                                                               const Vec3& direction) {
-    const RandomStream random = aimed_.random;
-    const Medium medium = aimed_.medium;  // a dielectric would change it
-    aimed_.direction = direction;
-    aimed_.target = source;
-    aimed_.coef = aimed_.pattern = {1, 1, 1};
-    aimed_.value = aimed_.mirrored = {};
-    tracer_.trace(aimed_, context_);
-    aimed_.random = random;
-    aimed_.medium = medium;
-    return {aimed_.value, aimed_.hit.t};
-}
-
 void DirectCalculation::sort() {
-    for (std::size_t i = first_candidate_; i < scratch_.candidates.size(); ++i) {
-        if (scratch_.candidates[i].lazy) add_radiance(i);
-    }
+    for (std::size_t i = first_candidate_; i < scratch_.candidates.size(); ++i)
+        scratch_.candidates[i].visible = true;  // as long as nothing has been tested
+    find_radiances(0, count());
     auto& all = scratch_.candidates;
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(first_candidate_);
     const auto is_dark = [](const LightCandidate& c) { return !brings_light(c.brightness); };
@@ -229,10 +188,10 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
         const Visibility found =
             needs_tracing(lights_[candidate.source]) ? Visibility::special : visibility(candidate);
         candidate.visible = found == Visibility::clear;
-        if (found == Visibility::special)
-            trace_shadow(i);  // may move the candidates
-        else if (candidate.visible && candidate.lazy)
-            add_radiance(i);
+        if (found == Visibility::special) trace_shadow(i);  // may move the candidates
+    }
+    find_radiances(first, last);
+    for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
         if (!scratch_.candidates[i].visible) scratch_.candidates[i].contribution = Rgb{};
     }
 }
@@ -240,17 +199,6 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
 bool DirectCalculation::is_lazy() const {
     return std::any_of(candidates().begin(), candidates().end(),
                        [](const LightCandidate& candidate) { return candidate.lazy; });
-}
-
-/// The contribution of a lazy candidate.
-void DirectCalculation::add_radiance(std::size_t i) {
-    const Emission emitted =
-        emission(scratch_.candidates[i].source, scratch_.candidates[i].direction);
-    LightCandidate& candidate = scratch_.candidates[i];
-    candidate.contribution = candidate.coefficient * emitted.radiance;
-    candidate.brightness = brightness(candidate.contribution);
-    candidate.lazy = false;
-    candidate.visible = brings_light(candidate.brightness);
 }
 
 /// Follow one shadow ray through whatever is in the way.
@@ -267,6 +215,7 @@ void DirectCalculation::trace_shadow(std::size_t i) {
         candidate.visible = true;
         return;
     }
+    candidate.lazy = false;
     candidate.visible = static_cast<double>(mean(shadow.value)) > kEpsilon;
     if (candidate.visible) candidate.contribution = candidate.coefficient * shadow.value;
 }

@@ -55,6 +55,9 @@ std::size_t test_brightest(std::span<const float> tails, double certainty, doubl
     return n;
 }
 
+/// Whether a candidate of this brightness adds anything.
+[[nodiscard]] bool brings_light(float brightness);
+
 /// One use of the context's LightScratch: everything it adds there goes when it is destroyed.
 class DirectCalculation {
   public:
@@ -99,7 +102,10 @@ class DirectCalculation {
     [[nodiscard]] bool is_constant(const LightSource& source) const;
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
                                                        const Vec3& direction) const;
-    void add_radiance(std::size_t candidate);
+    void find_radiances(std::size_t first, std::size_t last);
+    void find_radiances(std::span<const std::size_t> group, ModifierId patterns);
+    void find_radiance(std::size_t candidate);
+    void set_radiance(std::size_t candidate, const Rgb& radiance);
     [[nodiscard]] std::optional<double> plane_distance(const LightSource& source,
                                                        const Vec3& direction) const;
     void add_candidate(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
@@ -107,7 +113,8 @@ class DirectCalculation {
     void add_unknown(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
                      double distance);
     [[nodiscard]] bool in_clear_air() const;
-    [[nodiscard]] Emission emission(std::int32_t source, const Vec3& direction);
+    [[nodiscard]] bool meet(const LightCandidate& candidate, Hit& hit);
+    [[nodiscard]] Rgb emission(const LightCandidate& candidate);
     [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction);
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;

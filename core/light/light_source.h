@@ -37,6 +37,8 @@ struct LightSource {
     bool uniform = false;  ///< no modifier between surface and material, or below it: a constant
     bool plain = false;    ///< not a spotlight, no modifier between surface and material: its front
                            ///< sends the material's radiance times its patterns
+    ModifierId patterns = kVoid;     ///< plain: the first of them
+    bool side_by_side = false;       ///< plain: all patterns are functions of Program::has_lanes
     bool transparent_illum = false;  ///< illum that shows nothing of its own
     bool distant = false, flat = false, round = false, cylinder = false;
     bool is_virtual = false, follow = false;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/light/spot.h"
+#include "core/texture/function_binding.h"
 
 namespace lightwalk {
 namespace {
@@ -201,6 +202,16 @@ bool may_emit(PrimitiveType type) {
     return type == source || type == sphere || type == polygon || type == ring || type == cylinder;
 }
 
+/// Whether patterns are functions that can be evaluated for several rays side by side.
+bool have_lanes(const Scene& scene, ModifierId patterns) {
+    for (ModifierId m = patterns; m != kVoid; m = scene.modifier(m).next) {
+        const Modifier* node = scene.modifier(m).node.get();
+        const FunctionBinding* function = node ? node->brightness_function() : nullptr;
+        if (!function || !function->program().has_lanes()) return false;
+    }
+    return true;
+}
+
 LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink& warnings) {
     if (!may_emit(emitter.surface.type)) {
         emitter.fail("illegal material \"" + emitter.material.name +
@@ -218,6 +229,7 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
     const bool alone = emitter.surface.modifier == material;
     source.uniform = alone && emitter.material.next == kVoid;
     source.plain = alone && source.material_type != PrimitiveType::spotlight;
+    source.patterns = emitter.material.next;
     if (source.material_type == PrimitiveType::glow) {
         source.proximity = static_cast<float>(reals[3]);
         source.unusable = source.distant;
@@ -249,8 +261,10 @@ std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnin
             surface.type == PrimitiveType::source || surface.type == PrimitiveType::polygon;
         if (degenerate && !fatal) continue;  // ignored; the scene has warned of it
         const Emitter emitter{surface, scene.modifier(*material)};
-        sources.push_back(make_source(emitter, *material, warnings));
-        sources.back().object = id;
+        LightSource source = make_source(emitter, *material, warnings);
+        source.object = id;
+        source.side_by_side = source.plain && have_lanes(scene, source.patterns);
+        sources.push_back(std::move(source));
     }
     return sources;
 }

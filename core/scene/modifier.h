@@ -14,6 +14,7 @@ namespace lightwalk {
 
 struct Ray;
 struct TraceContext;
+class FunctionBinding;
 class FunctionEnvironment;
 
 /// Evaluates one modifier on a ray whose hit is set. Immutable; called from many threads at once.
@@ -23,6 +24,9 @@ class Modifier {
   public:
     virtual ~Modifier() = default;
     [[nodiscard]] virtual bool shade(Ray& ray, TraceContext& context) const = 0;
+    /// Of a pattern that does nothing but multiply ray.pattern by a function's value in single precision (unless it
+    /// has an error): that function. Else null.
+    [[nodiscard]] virtual const FunctionBinding* brightness_function() const { return nullptr; }
 };
 
 /// What a factory may use while the scene is built.

@@ -58,12 +58,12 @@ ToFunction world_to_function(const Transform& own, bool transformed, FrameId fra
     return {placed.inverse * own.inverse, 1 / (placed.size() * own.size()), false};
 }
 
-void fill_scalars(ChannelValues& out, const Ray& ray, double sigma) {
-    set(out, Channel::T, sigma * (ray.path_length + ray.hit.t));
-    set(out, Channel::Ts, sigma * (ray.shadow_length + ray.hit.t));
-    set(out, Channel::Rdot, std::clamp(ray.hit.rod, -1.0, 1.0));
-    set(out, Channel::Lu, ray.hit.u);
-    set(out, Channel::Lv, ray.hit.v);
+void fill_scalars(ChannelValues& out, const Ray& ray, const Hit& hit, double sigma) {
+    set(out, Channel::T, sigma * (ray.path_length + hit.t));
+    set(out, Channel::Ts, sigma * (ray.shadow_length + hit.t));
+    set(out, Channel::Rdot, std::clamp(hit.rod, -1.0, 1.0));
+    set(out, Channel::Lu, hit.u);
+    set(out, Channel::Lv, hit.v);
 }
 
 void fill_space(ChannelValues& out, const ToFunction& space) {
@@ -112,20 +112,37 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
     transformed_ = !transform_.is_identity();
 }
 
-EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
-                                  const MaterialVariables* material) const {
+/// The channels that the program reads; `direction` and `hit` stand for the ray's own.
+void FunctionBinding::fill(const Ray& ray, const Vec3& direction, const Hit& hit,
+                           TraceContext& context, const MaterialVariables* material) const {
     ChannelValues& out = context.channels;
-    const ToFunction space = world_to_function(transform_, transformed_, ray.hit.frame,
+    const ToFunction space = world_to_function(transform_, transformed_, hit.frame,
                                                context.tracer.scene().geometry());
-    if (channels_ & kDirection) set(out, Channel::Dx, space.direction(ray.direction));
-    if (channels_ & kNormal) set(out, Channel::Nx, space.direction(ray.hit.normal));
-    if (channels_ & kPoint) set(out, Channel::Px, space.point(ray.hit.position));
-    if (channels_ & kScalars) fill_scalars(out, ray, space.sigma);
+    if (channels_ & kDirection) set(out, Channel::Dx, space.direction(direction));
+    if (channels_ & kNormal) set(out, Channel::Nx, space.direction(hit.normal));
+    if (channels_ & kPoint) set(out, Channel::Px, space.point(hit.position));
+    if (channels_ & kScalars) fill_scalars(out, ray, hit, space.sigma);
     if (channels_ & kSpace) fill_space(out, space);
     if (material) fill_material(out, space, *material);
-    program_.begin(context.eval, out);
+}
+
+EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
+                                  const MaterialVariables* material) const {
+    fill(ray, ray.direction, ray.hit, context, material);
+    program_.begin(context.eval, context.channels);
     context.eval.clear_error();
     return context.eval;
+}
+
+std::optional<Lanes> FunctionBinding::evaluate_lanes(const Ray& ray,
+                                                     std::span<const RayHit> hits,
+                                                     TraceContext& context) const {
+    program_.begin_lanes(context.eval);
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+        fill(ray, hits[k].direction, hits[k].hit, context, nullptr);
+        program_.set_lane(context.eval, k, context.channels);
+    }
+    return program_.evaluate_lanes(0, hits.size(), context.eval);
 }
 
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {

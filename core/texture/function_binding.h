@@ -1,10 +1,12 @@
 #pragma once
 // Ties the expressions of a primitive to a ray: channels in function space, and the way back.
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/function/program.h"
+#include "core/geometry/geometry.h"
 #include "core/math/transform.h"
 #include "core/scene/modifier.h"
 
@@ -25,6 +27,12 @@ inline constexpr ChannelMask kNormalChannels = channel_bit(Channel::NxP) | chann
 inline constexpr ChannelMask kAimChannels =
     channel_bit(Channel::DxA) | channel_bit(Channel::DyA) | channel_bit(Channel::DzA);
 
+/// Where a ray met a surface, and whence.
+struct RayHit {
+    Vec3 direction;
+    Hit hit;
+};
+
 class FunctionBinding {
   public:
     /// @param build     the primitive and the tables to compile with
@@ -39,6 +47,11 @@ class FunctionBinding {
     /// valid until the next begin on the same context, so begin again after tracing a child ray.
     EvalState& begin(const Ray& ray, TraceContext& context, const MaterialVariables* material = nullptr) const;
 
+    /// Output 0 for rays that differ from `ray` in direction and hit only, side by side; 1 to kLanes of them. Nothing
+    /// when it takes one evaluation after the other, see Program::evaluate_lanes.
+    [[nodiscard]] std::optional<Lanes> evaluate_lanes(const Ray& ray, std::span<const RayHit> hits,
+                                                      TraceContext& context) const;
+
     [[nodiscard]] const Program& program() const { return program_; }
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const { return program_.evaluate(output, state); }
     [[nodiscard]] double call(std::size_t output, std::span<const double> arguments, EvalState& state) const {
@@ -52,6 +65,9 @@ class FunctionBinding {
     [[nodiscard]] const Transform& transform() const { return transform_; }
 
   private:
+    void fill(const Ray& ray, const Vec3& direction, const Hit& hit, TraceContext& context,
+              const MaterialVariables* material) const;
+
     Program program_;
     Transform transform_;      ///< of the primitive's own transform words
     bool transformed_ = false;

@@ -20,6 +20,7 @@ class BrightnessFunction final : public Modifier {
         if (state.error == EvalError::none) ray.pattern *= static_cast<float>(value);
         return false;
     }
+    const FunctionBinding* brightness_function() const override { return &binding_; }
 
   private:
     static std::vector<ExpressionRequest> requests(const Primitive& primitive) {

@@ -206,6 +206,40 @@ TEST_CASE("a source brings its pattern's value in the direction of the ray, howe
     check(light, sun);
 }
 
+TEST_CASE("many sources with patterns give what single ones give: alike or not, with errors") {
+    // The third is not a number in the west; the last has no lanes.
+    const std::string patterns =
+        "void brightfunc veil\n2 .5+.5*Rdot .\n0\n0\n"
+        "veil brightfunc pattern0\n2 exp(Dx)*(Dz+1.01)^10/100 .\n0\n0\n"
+        "void brightfunc pattern1\n2 if(Dx,1+Dx,2-Dy) .\n0\n0\n"
+        "void brightfunc pattern2\n2 2+log(Dx) .\n0\n0\n"
+        "void brightfunc pattern3\n2 noise3(Dx,Dy,Dz)+2 .\n0\n0\n";
+    const auto panel = [&](int i) {
+        std::ostringstream text;
+        const double x = (i * 7 % 11) * 0.6 - 3, y = (i * 5 % 13) * 0.5 - 3;
+        text << "pattern" << i / 7 % 4 << " light lamp" << i << "\n0\n0\n3 9 8 7\nlamp" << i
+             << " polygon panel" << i << "\n0\n0\n12 " << x << ' ' << y << " 2  " << x << ' '
+             << y + 0.2 << " 2  " << x + 0.2 << ' ' << y + 0.2 << " 2  " << x + 0.2 << ' ' << y
+             << " 2\n";
+        return text.str();
+    };
+    constexpr int kPanels = 30;
+    std::string together = kFloor + patterns;
+    double sum = 0;
+    for (int i = 0; i < kPanels; ++i) {
+        together += panel(i);
+        TestScene alone(kFloor + patterns + panel(i));
+        sum += static_cast<double>(floor_at(alone, 0.1, 0.2).g);
+    }
+    CHECK(sum > 0.1);
+    for (const double threshold : {0.0, 1e-9}) {  // as gathered; brightest first
+        RenderOptions options = TestScene::exact();
+        options.shadow_threshold = threshold;
+        TestScene all(together, options);
+        CHECK(floor_at(all, 0.1, 0.2).g == doctest::Approx(sum));
+    }
+}
+
 TEST_CASE("shadow rays are counted") {
     TestScene scene(many_lamps(10));
     (void)floor_at(scene, 0, 0);

@@ -1,0 +1,225 @@
+// Evaluation of a program for several rays side by side. Most operations of a program wait for the
+// one before; those of other rays fill the gaps.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/function/code.h"
+#include "core/function/library.h"
+#include "core/function/program.h"
+
+namespace lightwalk {
+namespace function {
+namespace {
+
+template <class F, class... Operands>
+[[gnu::always_inline]] inline Lanes each(const F& f, const Operands&... operands) {
+    Lanes result;
+    for (std::size_t k = 0; k < kLanes; ++k) result.value[k] = f(operands.value[k]...);
+    return result;
+}
+
+template <class F>
+[[gnu::always_inline]] inline std::size_t count(const F& holds, const Lanes& x) {
+    std::size_t n = 0;
+    for (const double v : x.value) n += holds(v) ? 1 : 0;
+    return n;
+}
+
+constexpr auto is_zero = [](double x) { return x == 0; };
+constexpr auto is_positive = [](double x) { return x > 0; };
+constexpr auto is_finite = [](double x) {
+    return std::abs(x) <= std::numeric_limits<double>::max();
+};
+constexpr auto add = [](double x, double y) { return (0.0 + x) + y; };
+constexpr auto add3 = [](double x, double y, double z) { return ((0.0 + x) + y) + z; };
+constexpr auto subtract = [](double x, double y) { return x - y; };
+constexpr auto multiply = [](double x, double y) { return x * y; };
+constexpr auto multiply3 = [](double x, double y, double z) { return (x * y) * z; };
+constexpr auto add_product = [](double x, double y, double z) { return (0.0 + z) + x * y; };
+constexpr auto subtract_product = [](double x, double y, double z) { return z - x * y; };
+constexpr auto divide = [](double x, double y) { return x / y; };
+constexpr auto lesser = [](double x, double y) { return y < x ? y : x; };
+constexpr auto greater = [](double x, double y) { return y > x ? y : x; };
+constexpr auto pick = [](double x, double y, double z) { return x > 0 ? y : z; };
+constexpr auto negate = [](double x) { return -x; };
+constexpr auto floor_of = [](double x) { return std::floor(x); };
+constexpr auto ceil_of = [](double x) { return std::ceil(x); };
+constexpr auto absolute = [](double x) { return -x > x ? -x : x; };
+constexpr auto root = [](double x) { return std::sqrt(x); };
+
+/// One evaluation of all lanes, as long as they take the same way and none has an error: the error
+/// flag is always clear. Operations are those of the interpreter for one ray, to the bit.
+class LaneMachine {
+  public:
+    LaneMachine(const Program::Code& code, Lanes* cells, std::uint32_t entry, std::size_t used)
+        : code_(code), i_(code.instructions.data() + entry), cells_(cells), used_(used) {}
+    [[nodiscard]] std::optional<Lanes> run();
+
+  private:
+    [[nodiscard]] const Lanes& a() const { return cells_[i_->a]; }
+    [[nodiscard]] const Lanes& b() const { return cells_[i_->b]; }
+    [[nodiscard]] const Lanes& c() const { return cells_[i_->c]; }
+    void plain(const Lanes& v) {
+        cells_[i_->dst] = v;
+        ++i_;
+    }
+    [[nodiscard]] Lanes tested(const Lanes& v) {
+        finite_ = finite_ && count(is_finite, v) == kLanes;
+        return v;
+    }
+    void checked(const Lanes& v) { plain(tested(v)); }
+    /// A function that takes long: of the lanes in use only; the others are as the first.
+    template <class F, class... Operands>
+    void call(const F& f, const Operands&... operands) {
+        Lanes v;
+        v.value.fill(f(operands.value[0]...));
+        for (std::size_t k = 1; k < used_; ++k) v.value[k] = f(operands.value[k]...);
+        checked(v);
+    }
+    [[nodiscard]] static bool divides(const Lanes& x) { return count(is_zero, x) == 0; }
+    void jump(std::uint32_t target) { i_ = code_.instructions.data() + target; }
+    /// False: some lanes stay, others jump.
+    [[nodiscard]] bool jump_unless(std::size_t staying) {
+        if (staying != 0 && staying != kLanes) return false;
+        if (staying == 0) {
+            jump(i_->b);
+        } else {
+            ++i_;
+        }
+        return true;
+    }
+    [[nodiscard]] bool choose() {
+        const auto cases = static_cast<int>(i_->c);
+        const int chosen = selected_case(a().value[0], cases);
+        if (chosen < 0) return false;
+        for (const double x : a().value) {
+            if (selected_case(x, cases) != chosen) return false;
+        }
+        jump(code_.targets[i_->b + static_cast<std::uint32_t>(chosen)]);
+        return true;
+    }
+
+    const Program::Code& code_;
+    const Instruction* i_;  ///< the present instruction
+    Lanes* cells_;
+    std::size_t used_;    ///< lanes
+    bool finite_ = true;  ///< all checked results
+};
+
+std::optional<Lanes> LaneMachine::run() {
+    constexpr std::nullopt_t kPart = std::nullopt;
+    for (;;) {
+        // A line an instruction.
+        // clang-format off
+        switch (i_->op) {
+            case Op::move: plain(a()); break;
+            case Op::negate: plain(each(negate, a())); break;
+            case Op::add: plain(each(add, a(), b())); break;
+            case Op::add3: plain(each(add3, a(), b(), c())); break;
+            case Op::subtract: plain(each(subtract, a(), b())); break;
+            case Op::multiply: plain(each(multiply, a(), b())); break;
+            case Op::multiply3: plain(each(multiply3, a(), b(), c())); break;
+            case Op::add_product: plain(each(add_product, a(), b(), c())); break;
+            case Op::subtract_product: plain(each(subtract_product, a(), b(), c())); break;
+            case Op::divide: plain(each(divide, a(), b())); break;
+            case Op::divide_tested: if (!divides(b())) return kPart; plain(each(divide, a(), b())); break;
+            case Op::guard_divisor: if (!divides(a())) return kPart; ++i_; break;
+            case Op::lesser: plain(each(lesser, a(), b())); break;
+            case Op::greater: plain(each(greater, a(), b())); break;
+            case Op::half_power: checked(each([n = static_cast<std::int32_t>(i_->b)](double x) { return half_power(x, n); }, a())); break;
+            case Op::power: call([](double x, double y) { return std::pow(x, y); }, a(), b()); break;
+            case Op::min: checked(each(lesser, a(), b())); break;
+            case Op::max: checked(each(greater, a(), b())); break;
+            case Op::rand: call(rand_value, a()); break;
+            case Op::floor: checked(each(floor_of, a())); break;
+            case Op::ceil: checked(each(ceil_of, a())); break;
+            case Op::sqrt: checked(each(root, a())); break;
+            case Op::exp: call([](double x) { return std::exp(x); }, a()); break;
+            case Op::log: call([](double x) { return std::log(x); }, a()); break;
+            case Op::log10: call([](double x) { return std::log10(x); }, a()); break;
+            case Op::sin: call([](double x) { return std::sin(x); }, a()); break;
+            case Op::cos: call([](double x) { return std::cos(x); }, a()); break;
+            case Op::tan: call([](double x) { return std::tan(x); }, a()); break;
+            case Op::asin: call([](double x) { return std::asin(x); }, a()); break;
+            case Op::acos: call([](double x) { return std::acos(x); }, a()); break;
+            case Op::atan: call([](double x) { return std::atan(x); }, a()); break;
+            case Op::atan2: call([](double x, double y) { return std::atan2(x, y); }, a(), b()); break;
+            case Op::erf: call([](double x) { return std::erf(x); }, a()); break;
+            case Op::erfc: call([](double x) { return std::erfc(x); }, a()); break;
+            case Op::modulo: plain(each(subtract_product, tested(each(floor_of, each(divide, a(), b()))), b(), a())); break;
+            case Op::fraction: plain(each(subtract, a(), tested(each(floor_of, a())))); break;
+            case Op::absolute: checked(each(absolute, a())); break;
+            case Op::check: checked(a()); break;
+            case Op::pick: checked(each(pick, a(), b(), c())); break;
+            case Op::clear:
+            case Op::touch:
+            case Op::touch_tick: ++i_; break;
+            case Op::jump: jump(i_->a); break;
+            case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kPart; break;
+            case Op::jump_unless_above: if (!jump_unless(count(is_positive, each(subtract, a(), c())))) return kPart; break;
+            case Op::choose: if (!choose()) return kPart; break;
+            case Op::halt: return finite_ ? std::optional(a()) : std::nullopt;
+            default: return kPart;  // see has_lanes
+        }
+        // clang-format on
+    }
+}
+
+}  // namespace
+
+bool has_lanes(Op op) {
+    switch (op) {
+        case Op::load_tick:
+        case Op::noise3:
+        case Op::noise3x:
+        case Op::noise3y:
+        case Op::noise3z:
+        case Op::fnoise3:
+        case Op::arg:
+        case Op::source_theta:
+        case Op::source_phi:
+        case Op::source_corr:
+        case Op::fprism_val:
+        case Op::forget:
+        case Op::ensure:
+        case Op::ensure_tick:
+        case Op::force:
+        case Op::call:
+        case Op::give:
+        case Op::give_call:
+        case Op::fatal:
+            return false;
+        default:
+            return true;
+    }
+}
+
+}  // namespace function
+
+bool Program::has_lanes() const {
+    return code_ && code_->has_lanes;
+}
+
+void Program::begin_lanes(EvalState& state) const {
+    const Code& code = *code_;
+    if (state.lanes.size() < code.cells) state.lanes.resize(code.cells);
+    Lanes* constant = state.lanes.data() + kChannelCount;
+    for (const double value : code.constants) (constant++)->value.fill(value);
+}
+
+void Program::set_lane(EvalState& state, std::size_t lane, const ChannelValues& channels) const {
+    for (const std::uint8_t c : code_->used_channels) state.lanes[c].value[lane] = channels[c];
+}
+
+std::optional<Lanes> Program::evaluate_lanes(std::size_t output, std::size_t used,
+                                             EvalState& state) const {
+    for (const std::uint8_t c : code_->used_channels) {
+        auto& value = state.lanes[c].value;
+        std::fill(value.begin() + static_cast<std::ptrdiff_t>(used), value.end(), value[0]);
+    }
+    const std::uint32_t entry = code_->outputs[output].entry;
+    return function::LaneMachine(*code_, state.lanes.data(), entry, used).run();
+}
+
+}  // namespace lightwalk
