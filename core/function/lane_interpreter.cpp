@@ -1,8 +1,7 @@
 // Evaluation of a program for several rays side by side. Most operations of a program wait for the
 // one before; those of other rays fill the gaps.
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 #include "core/function/code.h"
 #include "core/function/library.h"
@@ -28,9 +27,6 @@ template <class F>
 
 constexpr auto is_zero = [](double x) { return x == 0; };
 constexpr auto is_positive = [](double x) { return x > 0; };
-constexpr auto is_finite = [](double x) {
-    return std::abs(x) <= std::numeric_limits<double>::max();
-};
 constexpr auto add = [](double x, double y) { return (0.0 + x) + y; };
 constexpr auto add3 = [](double x, double y, double z) { return ((0.0 + x) + y) + z; };
 constexpr auto subtract = [](double x, double y) { return x - y; };
@@ -46,6 +42,7 @@ constexpr auto negate = [](double x) { return -x; };
 constexpr auto floor_of = [](double x) { return std::floor(x); };
 constexpr auto ceil_of = [](double x) { return std::ceil(x); };
 constexpr auto absolute = [](double x) { return -x > x ? -x : x; };
+constexpr auto reciprocal = [](double x) { return 1 / x; };
 constexpr auto root = [](double x) { return std::sqrt(x); };
 
 /// One evaluation of all lanes, as long as they take the same way and none has an error: the error
@@ -64,18 +61,33 @@ class LaneMachine {
         cells_[i_->dst] = v;
         ++i_;
     }
+    /// Note what is not finite; halt asks.
     [[nodiscard]] Lanes tested(const Lanes& v) {
-        finite_ = finite_ && count(is_finite, v) == kLanes;
+        errors_ = each([](double e, double x) { return e + x * 0; }, errors_, v);
         return v;
     }
     void checked(const Lanes& v) { plain(tested(v)); }
-    /// A function that takes long: of the lanes in use only; the others are as the first.
+    /// A function that takes long: of the lanes in use only; the others are as the first. Results
+    /// are put together in registers: a vector that was stored by parts is slow to load.
     template <class F, class... Operands>
     void call(const F& f, const Operands&... operands) {
-        Lanes v;
-        v.value.fill(f(operands.value[0]...));
-        for (std::size_t k = 1; k < used_; ++k) v.value[k] = f(operands.value[k]...);
-        checked(v);
+        static_assert(kLanes == 4);
+        const double first = f(operands.value[0]...);
+        const double second = used_ > 1 ? f(operands.value[1]...) : first;
+        const double third = used_ > 2 ? f(operands.value[2]...) : first;
+        const double fourth = used_ > 3 ? f(operands.value[3]...) : first;
+        checked({{first, second, third, fourth}});
+    }
+    /// As half_power of one number.
+    [[nodiscard]] static Lanes half_power(const Lanes& x, std::int32_t n) {
+        const auto halves = static_cast<std::uint32_t>(n < 0 ? -n : n);
+        Lanes result = (halves & 1) != 0 ? each(root, x) : Lanes{{1, 1, 1, 1}};
+        Lanes square = x;
+        for (std::uint32_t k = halves >> 1; k > 0; k >>= 1) {
+            if ((k & 1) != 0) result = each(multiply, result, square);
+            square = each(multiply, square, square);
+        }
+        return n < 0 ? each(reciprocal, result) : result;
     }
     [[nodiscard]] static bool divides(const Lanes& x) { return count(is_zero, x) == 0; }
     void jump(std::uint32_t target) { i_ = code_.instructions.data() + target; }
@@ -103,8 +115,8 @@ class LaneMachine {
     const Program::Code& code_;
     const Instruction* i_;  ///< the present instruction
     Lanes* cells_;
-    std::size_t used_;    ///< lanes
-    bool finite_ = true;  ///< all checked results
+    std::size_t used_;  ///< lanes
+    Lanes errors_;      ///< not 0 where a checked result was not finite
 };
 
 std::optional<Lanes> LaneMachine::run() {
@@ -127,7 +139,7 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::guard_divisor: if (!divides(a())) return kPart; ++i_; break;
             case Op::lesser: plain(each(lesser, a(), b())); break;
             case Op::greater: plain(each(greater, a(), b())); break;
-            case Op::half_power: checked(each([n = static_cast<std::int32_t>(i_->b)](double x) { return half_power(x, n); }, a())); break;
+            case Op::half_power: checked(half_power(a(), static_cast<std::int32_t>(i_->b))); break;
             case Op::power: call([](double x, double y) { return std::pow(x, y); }, a(), b()); break;
             case Op::min: checked(each(lesser, a(), b())); break;
             case Op::max: checked(each(greater, a(), b())); break;
@@ -159,7 +171,7 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kPart; break;
             case Op::jump_unless_above: if (!jump_unless(count(is_positive, each(subtract, a(), c())))) return kPart; break;
             case Op::choose: if (!choose()) return kPart; break;
-            case Op::halt: return finite_ ? std::optional(a()) : std::nullopt;
+            case Op::halt: return count(is_zero, errors_) == kLanes ? std::optional(a()) : std::nullopt;
             default: return kPart;  // see has_lanes
         }
         // clang-format on
@@ -201,25 +213,20 @@ bool Program::has_lanes() const {
     return code_ && code_->has_lanes;
 }
 
-void Program::begin_lanes(EvalState& state) const {
+std::optional<Lanes> Program::evaluate_lanes(std::size_t output,
+                                             std::span<const ChannelValues> rays,
+                                             EvalState& state) const {
     const Code& code = *code_;
     if (state.lanes.size() < code.cells) state.lanes.resize(code.cells);
+    const auto lane = [&](std::size_t k) -> const ChannelValues& {
+        return rays[k < rays.size() ? k : 0];
+    };
+    for (const std::uint8_t c : code.used_channels)
+        state.lanes[c] = {{lane(0)[c], lane(1)[c], lane(2)[c], lane(3)[c]}};
     Lanes* constant = state.lanes.data() + kChannelCount;
     for (const double value : code.constants) (constant++)->value.fill(value);
-}
-
-void Program::set_lane(EvalState& state, std::size_t lane, const ChannelValues& channels) const {
-    for (const std::uint8_t c : code_->used_channels) state.lanes[c].value[lane] = channels[c];
-}
-
-std::optional<Lanes> Program::evaluate_lanes(std::size_t output, std::size_t used,
-                                             EvalState& state) const {
-    for (const std::uint8_t c : code_->used_channels) {
-        auto& value = state.lanes[c].value;
-        std::fill(value.begin() + static_cast<std::ptrdiff_t>(used), value.end(), value[0]);
-    }
-    const std::uint32_t entry = code_->outputs[output].entry;
-    return function::LaneMachine(*code_, state.lanes.data(), entry, used).run();
+    const std::uint32_t entry = code.outputs[output].entry;
+    return function::LaneMachine(code, state.lanes.data(), entry, rays.size()).run();
 }
 
 }  // namespace lightwalk

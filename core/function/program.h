@@ -87,12 +87,11 @@ class Program {
     /// Whether evaluate_lanes can succeed: the program needs neither noise, nor calls (recursion), nor more of the
     /// ray than its channels. Inputs (`parameters` > 0) have no lanes.
     [[nodiscard]] bool has_lanes() const;
-    /// Several evaluations of output k side by side, 1 <= used <= kLanes: begin_lanes, set_lane for each of the lanes
-    /// in use, then evaluate_lanes, once. Same values as evaluate(), to the bit; those of other lanes mean nothing.
-    /// Nothing where lanes take different branches or one meets a numeric error: evaluate each by itself then.
-    void begin_lanes(EvalState& state) const;
-    void set_lane(EvalState& state, std::size_t lane, const ChannelValues& channels) const;
-    [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output, std::size_t used, EvalState& state) const;
+    /// Output k for 1 to kLanes rays side by side, each a tick of its own. Same values as evaluate(), to the bit; those
+    /// of further lanes mean nothing. Nothing where rays take different branches or one meets a numeric error: they
+    /// have to be evaluated one by one then.
+    [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output, std::span<const ChannelValues> rays,
+                                                      EvalState& state) const;
 
     /// When output k is the same number whatever the channels: that number.
     [[nodiscard]] const double* constant(std::size_t output) const;

@@ -113,11 +113,11 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
 }
 
 /// The channels that the program reads; `direction` and `hit` stand for the ray's own.
-void FunctionBinding::fill(const Ray& ray, const Vec3& direction, const Hit& hit,
-                           TraceContext& context, const MaterialVariables* material) const {
-    ChannelValues& out = context.channels;
-    const ToFunction space = world_to_function(transform_, transformed_, hit.frame,
-                                               context.tracer.scene().geometry());
+void FunctionBinding::fill(ChannelValues& out, const Ray& ray, const Vec3& direction,
+                           const Hit& hit, const Tracer& tracer,
+                           const MaterialVariables* material) const {
+    const ToFunction space =
+        world_to_function(transform_, transformed_, hit.frame, tracer.scene().geometry());
     if (channels_ & kDirection) set(out, Channel::Dx, space.direction(direction));
     if (channels_ & kNormal) set(out, Channel::Nx, space.direction(hit.normal));
     if (channels_ & kPoint) set(out, Channel::Px, space.point(hit.position));
@@ -128,8 +128,9 @@ void FunctionBinding::fill(const Ray& ray, const Vec3& direction, const Hit& hit
 
 EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
                                   const MaterialVariables* material) const {
-    fill(ray, ray.direction, ray.hit, context, material);
-    program_.begin(context.eval, context.channels);
+    ChannelValues& out = context.channels;
+    fill(out, ray, ray.direction, ray.hit, context.tracer, material);
+    program_.begin(context.eval, out);
     context.eval.clear_error();
     return context.eval;
 }
@@ -137,12 +138,10 @@ EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
 std::optional<Lanes> FunctionBinding::evaluate_lanes(const Ray& ray,
                                                      std::span<const RayHit> hits,
                                                      TraceContext& context) const {
-    program_.begin_lanes(context.eval);
-    for (std::size_t k = 0; k < hits.size(); ++k) {
-        fill(ray, hits[k].direction, hits[k].hit, context, nullptr);
-        program_.set_lane(context.eval, k, context.channels);
-    }
-    return program_.evaluate_lanes(0, hits.size(), context.eval);
+    for (std::size_t k = 0; k < hits.size(); ++k)
+        fill(context.lane_channels[k], ray, hits[k].direction, hits[k].hit, context.tracer, nullptr);
+    const auto channels = std::span(context.lane_channels).first(hits.size());
+    return program_.evaluate_lanes(0, channels, context.eval);
 }
 
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {

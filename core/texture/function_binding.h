@@ -12,6 +12,8 @@
 
 namespace lightwalk {
 
+class Tracer;
+
 /// Values that only some materials provide to their functions (NxP..CbP, DxA..DzA); world space where they are
 /// directions; the binding takes them to function space.
 struct MaterialVariables {
@@ -65,8 +67,8 @@ class FunctionBinding {
     [[nodiscard]] const Transform& transform() const { return transform_; }
 
   private:
-    void fill(const Ray& ray, const Vec3& direction, const Hit& hit, TraceContext& context,
-              const MaterialVariables* material) const;
+    void fill(ChannelValues& out, const Ray& ray, const Vec3& direction, const Hit& hit,
+              const Tracer& tracer, const MaterialVariables* material) const;
 
     Program program_;
     Transform transform_;      ///< of the primitive's own transform words

@@ -60,6 +60,7 @@ struct TraceContext {
     RayCounters counters;
     EvalState eval;
     ChannelValues channels{};
+    std::array<ChannelValues, kLanes> lane_channels{};  ///< of evaluations side by side
     std::unique_ptr<LightScratch> light;
     int depth = 0;  ///< nesting of rays, bounded by Tracer::kMaxDepth
     int ambient_level = 0;  ///< ambient evaluations that are open

@@ -30,9 +30,7 @@ ChannelValues at(double x, double y = 0, double z = 0) {
 
 std::optional<Lanes> side_by_side(const Program& program, const std::vector<ChannelValues>& rays,
                                   EvalState& state) {
-    program.begin_lanes(state);
-    for (std::size_t k = 0; k < rays.size(); ++k) program.set_lane(state, k, rays[k]);
-    return program.evaluate_lanes(0, rays.size(), state);
+    return program.evaluate_lanes(0, rays, state);
 }
 
 double alone(const Program& program, const ChannelValues& ray, EvalState& state) {
