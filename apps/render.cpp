@@ -202,8 +202,9 @@ class RenderRun {
     }
 
     /// Coarse pictures that leave nothing but ambient values, so that the picture itself finds most
-    /// of them. In deterministic mode one thread makes them, finer and finer, and the cache is
-    /// closed after. False: interrupted.
+    /// of them. Their pixels are not kept: computed while the cache was nearly empty, they would
+    /// stand out in a grid. In deterministic mode one thread makes them, finer and finer, and the
+    /// cache is closed after. False: interrupted.
     bool fill_cache(const Camera& camera, const FrameOptions& options) {
         constexpr int kOverture = 6;
         std::vector<int> steps{kOverture};

@@ -89,6 +89,10 @@ class LaneMachine {
         }
         return n < 0 ? each(reciprocal, result) : result;
     }
+    [[nodiscard]] Lanes floor_ratio() { return tested(each(floor_of, each(divide, a(), b()))); }
+    [[nodiscard]] static std::size_t count_above(const Lanes& x, const Lanes& y) {
+        return count(is_positive, each(subtract, x, y));
+    }
     [[nodiscard]] static bool divides(const Lanes& x) { return count(is_zero, x) == 0; }
     void jump(std::uint32_t target) { i_ = code_.instructions.data() + target; }
     /// False: some lanes stay, others jump.
@@ -159,7 +163,7 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::atan2: call([](double x, double y) { return std::atan2(x, y); }, a(), b()); break;
             case Op::erf: call([](double x) { return std::erf(x); }, a()); break;
             case Op::erfc: call([](double x) { return std::erfc(x); }, a()); break;
-            case Op::modulo: plain(each(subtract_product, tested(each(floor_of, each(divide, a(), b()))), b(), a())); break;
+            case Op::modulo: plain(each(subtract_product, floor_ratio(), b(), a())); break;
             case Op::fraction: plain(each(subtract, a(), tested(each(floor_of, a())))); break;
             case Op::absolute: checked(each(absolute, a())); break;
             case Op::check: checked(a()); break;
@@ -169,7 +173,7 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::touch_tick: ++i_; break;
             case Op::jump: jump(i_->a); break;
             case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kPart; break;
-            case Op::jump_unless_above: if (!jump_unless(count(is_positive, each(subtract, a(), c())))) return kPart; break;
+            case Op::jump_unless_above: if (!jump_unless(count_above(a(), c()))) return kPart; break;
             case Op::choose: if (!choose()) return kPart; break;
             case Op::halt: return count(is_zero, errors_) == kLanes ? std::optional(a()) : std::nullopt;
             default: return kPart;  // see has_lanes

@@ -62,13 +62,20 @@ template <class Corner>
     return std::min(std::min(x - r.low_x, r.high_x - x), std::min(y - r.low_y, r.high_y - y));
 }
 
+/// Whether a point is inside: its depth says so where it is clear, else the edges.
+template <class Edges>
+[[gnu::always_inline]] inline bool is_inside(double depth, const Edges& edges) {
+    return std::abs(depth) > kEpsilon ? depth > 0 : edges();
+}
+
 template <Coordinate X, Coordinate Y>
 bool contains_by_all_edges(const PolygonShape& polygon, const Vec3& point) {
-    const double x = point.*X, y = point.*Y, depth = depth_in(polygon.rectangle, x, y);
-    if (std::abs(depth) > kEpsilon) return depth > 0;
-    return holds_origin(polygon.vertices.size(), [&](std::size_t i) {
-        const Vec3& corner = polygon.vertices[i];
-        return std::pair(corner.*X - x, corner.*Y - y);
+    const double x = point.*X, y = point.*Y;
+    return is_inside(depth_in(polygon.rectangle, x, y), [&] {
+        return holds_origin(polygon.vertices.size(), [&](std::size_t i) {
+            const Vec3& corner = polygon.vertices[i];
+            return std::pair(corner.*X - x, corner.*Y - y);
+        });
     });
 }
 
@@ -206,8 +213,7 @@ std::optional<ShapeHit> PackedPolygons::intersect(std::uint32_t handle, const Ve
     const double x = origin.*x_axis + direction.*x_axis * t,
                  y = origin.*y_axis + direction.*y_axis * t;
     const double depth = depth_in(plane.rectangle, x, y);
-    if (!(std::abs(depth) > kEpsilon ? depth > 0 : contains(handle >> 2, x, y)))
-        return std::nullopt;
+    if (!is_inside(depth, [&] { return contains(handle >> 2, x, y); })) return std::nullopt;
     return ShapeHit{t, plane.normal, cosine < 0};
 }
 

@@ -9,8 +9,8 @@ namespace lightwalk {
 namespace {
 
 /// How far single precision may be off, relative to the numbers involved: origin, direction and box
-/// test of a ray (Embree's fast one: four half units), 16 half units in the last place altogether; twice that through an instance's
-/// matrix.
+/// test of a ray (Embree's fast one: four half units), 16 half units in the last place altogether;
+/// twice that through an instance's matrix.
 constexpr double kRounding = 0x1p-20;
 constexpr double kInstanceRounding = 2 * kRounding;
 constexpr double kRegion = 4;    ///< rays start within this many times the scene's reach
