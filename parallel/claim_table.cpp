@@ -56,4 +56,9 @@ std::size_t ClaimTable::open() const {
     return entries_.size();
 }
 
+std::size_t ClaimTable::memory_bytes() const {
+    const std::lock_guard lock(mutex_);
+    return entries_.capacity() * sizeof(Entry);
+}
+
 }  // namespace lightwalk

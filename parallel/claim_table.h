@@ -25,6 +25,8 @@ class ClaimTable {
     /// The value is stored, or will not be.
     void release(const AmbientClaim& claim);
     [[nodiscard]] std::size_t open() const;
+    /// Beside the table itself.
+    [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
     using Clock = std::chrono::steady_clock;

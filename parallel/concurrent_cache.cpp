@@ -31,21 +31,21 @@ std::pair<Vec3, Vec3> reach_of(const DecodedRecord& record, const AmbientLimits&
 
 ConcurrentCache::ConcurrentCache(const AmbientLimits& limits)
     : limits_(limits), claims_(limits.accuracy * limits.least_radius) {
-    (void)families_.add(1);
+    (void)families_.add();
 }
 
 /// The family below; made where it is missing. Who comes second leaves one unused.
 std::uint32_t ConcurrentCache::children_of(Node& node) {
     std::uint32_t children = node.children.load(std::memory_order_acquire);
     if (children != 0) return children;
-    const std::uint32_t fresh = families_.add(1);
+    const std::uint32_t fresh = families_.add();
     return node.children.compare_exchange_strong(children, fresh, std::memory_order_acq_rel)
                ? fresh
                : children;
 }
 
 void ConcurrentCache::insert(const AmbientRecord& record) {
-    const std::uint32_t place = records_.add(1);
+    const std::uint32_t place = records_.add();
     DecodedRecord& decoded = records_[place];
     decoded = DecodedRecord(record);
     const auto [low, high] = reach_of(decoded, limits_);

@@ -1,20 +1,23 @@
 #!/usr/bin/python3
 """Error against time of indirect light in the summer cabin; needs python3-numpy.
 
-  ambient_bench.py --scenes DIR [--lightwalk PROGRAM] --converged FILE.hdr [--threads 1,2] [--bounces 1] [--runs 1]
+  ambient_bench.py --scenes DIR [--lightwalk PROGRAM] [--converged FILE.hdr] [--threads 1,2] [--bounces 1] [--runs 1]
+                   [--accuracy A] [--size 320x240]
 
 DIR holds Radiance's sample models: DIR/cabin and DIR/lib. FILE.hdr is the picture without cache (-aa 0) that the others are
 compared with: for one bounce tests/reference/summer-living-converged.hdr. Where it is missing it is made, with --divisions hemisphere
-samples (default 4096: ten minutes on two cores for one bounce).
+samples (default 4096: ten minutes on two cores for one bounce). Without --converged only the time is measured.
+--accuracy leaves one setting: with --accuracy 0.15 --size 640x480 this is the scene, and these are the options, of which
+Radiance 6.1 needs 49.8 s (--bounces 2: 143.8 s) on one core of the machine that we measured on.
 One line a picture, tab-separated: threads, -aa, -ad, seconds to render, values in the cache, 95th percentile of the relative
 error of 4x4 blocks, mean ratio. One curve is the lines of one number of threads.
 """
-import argparse, json, os, pathlib, statistics, subprocess, sys, tempfile
+import argparse, json, math, os, pathlib, statistics, subprocess, sys, tempfile
 
 import numpy as np
 
 SCENE = "pattmats cabin bathroom furniture winpanes.rad mirrors.rad summerday landscape lights.off daywindows".split()
-VIEW = ("-vf vf/living -x 320 -y 240 -ps 1 -pj 0 -dj 0 -ss 0 -dt 0 -aE ../lib/tree.mat -av .1 .1 .1").split()
+VIEW = ("-vf vf/living -ps 1 -pj 0 -dj 0 -ss 0 -dt 0 -aE ../lib/tree.mat -av .1 .1 .1").split()
 SETTINGS = [(0.3, 128, 32, 64), (0.2, 256, 64, 96), (0.15, 512, 128, 128), (0.1, 1024, 256, 256)]  # -aa -ad -as -ar
 
 
@@ -59,7 +62,8 @@ def compare(picture, reference):
 def render(arguments, options, path):
     with tempfile.TemporaryDirectory() as scratch:
         stats = os.path.join(scratch, "stats.json")
-        subprocess.run([os.path.abspath(arguments.lightwalk), "render", "--quiet", *VIEW, "-ab", str(arguments.bounces), *options,
+        width, height = arguments.size.split("x")
+        subprocess.run([os.path.abspath(arguments.lightwalk), "render", "--quiet", *VIEW, "-x", width, "-y", height, "-ab", str(arguments.bounces), *options,
                         "--stats", stats, "-o", os.path.abspath(path), *SCENE], check=True,
                        cwd=os.path.join(arguments.scenes, "cabin"), env=dict(os.environ, RAYPATH=".:../lib"))
         return json.loads(pathlib.Path(stats).read_text())
@@ -69,23 +73,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", required=True, metavar="DIR")
     parser.add_argument("--lightwalk", default="lightwalk", metavar="PROGRAM")
-    parser.add_argument("--converged", required=True, metavar="FILE.hdr")
+    parser.add_argument("--converged", metavar="FILE.hdr")
+    parser.add_argument("--accuracy", type=float, choices=[s[0] for s in SETTINGS])
+    parser.add_argument("--size", default="320x240", metavar="XxY")
     parser.add_argument("--divisions", type=int, default=4096)
     parser.add_argument("--bounces", type=int, default=1)
     parser.add_argument("--threads", default="1,2")
     parser.add_argument("--runs", type=int, default=1)
     arguments = parser.parse_args()
-    if not os.path.exists(arguments.converged):
+    if arguments.converged and not os.path.exists(arguments.converged):
         render(arguments, ["-aa", "0", "-ad", str(arguments.divisions), "-as", "0"], arguments.converged)
-    reference = read_hdr(arguments.converged)
+    reference = read_hdr(arguments.converged) if arguments.converged else None
+    settings = [s for s in SETTINGS if arguments.accuracy in (None, s[0])]
     print("threads\t-aa\t-ad\tseconds\tvalues\tblock p95\tmean ratio", flush=True)
     with tempfile.TemporaryDirectory() as scratch:
         for threads in arguments.threads.split(","):
-            for aa, ad, extra, ar in SETTINGS:
+            for aa, ad, extra, ar in settings:
                 path = os.path.join(scratch, "picture.hdr")
                 options = ["-aa", str(aa), "-ad", str(ad), "-as", str(extra), "-ar", str(ar), "-n", threads]
                 runs = [render(arguments, options, path) for _ in range(arguments.runs)]
-                p95, mean = compare(read_hdr(path), reference)
+                p95, mean = compare(read_hdr(path), reference) if reference is not None else (math.nan, math.nan)
                 seconds = statistics.median(r["seconds"]["render"] for r in runs)
                 print(threads, aa, ad, f"{seconds:.2f}", runs[-1]["ambient"]["cached"], f"{p95:.4f}", f"{mean:.4f}", sep="\t", flush=True)
     return 0

@@ -1,11 +1,13 @@
 // Time of one evaluation of the function language: what a hit costs a pattern.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,31 +76,50 @@ void evaluate_file(benchmark::State& state, const std::string& file, const std::
 // A clear sky of 21 June, as gensky writes it.
 const std::vector<double> kSky{1, 9.77, 6.08, 0.638, -0.0687, -0.299, 0.9519};
 
-void clear_sky(benchmark::State& state) {
-    evaluate_file(state, "skybright.cal", "skybr", kSky);
-}
-/// The same sky for as many windows side by side as go, all upwards; the time is that of one value.
-void clear_sky_lanes(benchmark::State& state) {
+const std::vector<ExpressionRequest> kSkyRequest{{"skybr", -1}};
+
+/// The sky's file, loaded; nothing, and the benchmark is skipped, where it is missing.
+std::optional<FunctionEnvironment> sky_file(benchmark::State& state) {
     const std::optional<std::string> text = library_file("skybright.cal");
     if (!text) {
         state.SkipWithError("the reference library is not here");
-        return;
+        return std::nullopt;
     }
-    FunctionEnvironment environment;
-    environment.load("skybright.cal", *text);
-    const std::vector<ExpressionRequest> requests{{"skybr", -1}};
-    const Program program =
-        environment.compile("skybright.cal", requests, kSky, 0, {"bench.rad", 1});
+    std::optional<FunctionEnvironment> environment(std::in_place);
+    environment->load("skybright.cal", *text);
+    return environment;
+}
+
+Program compiled_sky(FunctionEnvironment& environment) {
+    return environment.compile("skybright.cal", kSkyRequest, kSky, 0, {"bench.rad", 1});
+}
+
+void clear_sky(benchmark::State& state) {
+    evaluate_file(state, "skybright.cal", "skybr", kSky);
+}
+/// The sky for windows that all look upwards: so many at a time side by side; 0: one after the
+/// other. The time is that of one value.
+void clear_sky_upwards(benchmark::State& state) {
+    std::optional<FunctionEnvironment> environment = sky_file(state);
+    if (!environment) return;
+    const Program program = compiled_sky(*environment);
     std::vector<ChannelValues> channels = rays(0);
     for (ChannelValues& c : channels) c[3] = 0.02 + 0.9 * std::abs(c[3]);
-    const auto used = static_cast<std::size_t>(state.range(0));
+    const auto side_by_side = static_cast<std::size_t>(state.range(0));
+    const std::size_t step = std::max<std::size_t>(side_by_side, 1);
     EvalState eval;
     std::size_t i = 0;
-    while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(used))) {
-        auto values = program.evaluate_lanes(0, std::span(channels).subspan(i, used), eval);
-        i = (i + used) % 1000;
-        if (!values) state.SkipWithError("the lanes parted");
-        benchmark::DoNotOptimize(values);
+    while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(step))) {
+        if (side_by_side == 0) {
+            program.begin(eval, channels[i]);
+            eval.clear_error();
+            benchmark::DoNotOptimize(program.evaluate(0, eval));
+        } else {
+            auto values = program.evaluate_lanes(0, std::span(channels).subspan(i, step), eval);
+            if (!values) state.SkipWithError("the lanes parted");
+            benchmark::DoNotOptimize(values);
+        }
+        i = (i + step) % 1000;
     }
 }
 void wood_zgrain(benchmark::State& state) {
@@ -134,19 +155,10 @@ void recursion(benchmark::State& state) {
     evaluate(state, "t.cal", "f(n,x) = if(n-.5, x*f(n-1,x)+1, 1);", {"f(Pz/Pz*10,Px)"}, {});
 }
 void compile_sky(benchmark::State& state) {
-    const std::optional<std::string> text = library_file("skybright.cal");
-    if (!text) {
-        state.SkipWithError("the reference library is not here");
-        return;
-    }
-    FunctionEnvironment environment;
-    environment.load("skybright.cal", *text);
-    const std::array<ExpressionRequest, 1> request{ExpressionRequest{"skybr", -1}};
-    for ([[maybe_unused]] auto _ : state) {
-        const Program program =
-            environment.compile("skybright.cal", request, kSky, 0, {"bench.rad", 1});
-        benchmark::DoNotOptimize(program.outputs());
-    }
+    std::optional<FunctionEnvironment> environment = sky_file(state);
+    if (!environment) return;
+    for ([[maybe_unused]] auto _ : state)
+        benchmark::DoNotOptimize(compiled_sky(*environment).outputs());
 }
 void load_initial_definitions(benchmark::State& state) {
     for ([[maybe_unused]] auto _ : state) {
@@ -161,7 +173,7 @@ BENCHMARK(noise);
 BENCHMARK(fractal_noise);
 BENCHMARK(noise_texture);
 BENCHMARK(clear_sky);
-BENCHMARK(clear_sky_lanes)->Arg(2)->Arg(kLanes);
+BENCHMARK(clear_sky_upwards)->Arg(0)->Arg(2)->Arg(kLanes);
 BENCHMARK(wood_zgrain);
 BENCHMARK(wood_xgrain);
 BENCHMARK(wood_neighbours);
