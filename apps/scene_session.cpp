@@ -72,13 +72,11 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
                     {"specular", s.rays.specular}, {"transmitted", s.rays.transmitted},
                     {"ambient", s.rays.ambient},   {"total", s.rays.total()}};
     if (s.ambient_values > 0 || s.ambient.computed > 0) {
-        json["ambient"] = {{"interpolated", s.ambient.interpolated},
-                           {"computed", s.ambient.computed},
-                           {"incomplete", s.ambient.incomplete},
-                           {"waits", s.ambient.waits},
-                           {"duplicates", s.ambient.duplicates},
-                           {"cached", s.ambient_values},
-                           {"cache_bytes", s.ambient_bytes}};
+        json["ambient"] = {
+            {"interpolated", s.ambient.interpolated}, {"computed", s.ambient.computed},
+            {"incomplete", s.ambient.incomplete},     {"waits", s.ambient.waits},
+            {"duplicates", s.ambient.duplicates},     {"cached", s.ambient_values},
+            {"cache_bytes", s.ambient_bytes}};
     }
     json["rays_per_second"] =
         static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);

@@ -7,7 +7,8 @@
 
 namespace lightwalk {
 
-/// Where something stands in an input file. `line` counts from 1; 0 means "no line" (binary file, option).
+/// Where something stands in an input file. `line` counts from 1; 0 means "no line" (binary file,
+/// option).
 struct SourceLocation {
     std::string file;
     std::int32_t line = 0;
@@ -20,7 +21,8 @@ struct SourceLocation {
     return where.file + ":" + std::to_string(where.line) + ": ";
 }
 
-/// Bad input: `what()` is "file:line: what is wrong, what was expected". Programs print it and exit with 1.
+/// Bad input: `what()` is "file:line: what is wrong, what was expected". Programs print it and exit
+/// with 1.
 class InputError : public std::runtime_error {
   public:
     explicit InputError(const std::string& message) : std::runtime_error(message) {}
@@ -28,7 +30,8 @@ class InputError : public std::runtime_error {
         : std::runtime_error(to_prefix(where) + message) {}
 };
 
-/// Receives warnings. Implementations must be callable from many threads at once and should limit repetition.
+/// Receives warnings. Implementations must be callable from many threads at once and should limit
+/// repetition.
 class WarningSink {
   public:
     virtual ~WarningSink() = default;

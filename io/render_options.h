@@ -12,8 +12,8 @@ namespace lightwalk {
 
 /// All that these options set.
 struct RenderSettings {
-    RenderOptions light;       ///< what the core needs
-    std::string ambient_file;  ///< -af, "" for none
+    RenderOptions light;        ///< what the core needs
+    std::string ambient_file;   ///< -af, "" for none
     bool uncorrelated = false;  ///< -u; every sample is independent anyway, so it changes nothing
     bool warnings = true;       ///< -w
 };

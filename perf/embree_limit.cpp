@@ -1,5 +1,6 @@
-// The limit: how fast bare Embree, without any of our code, traces the rays of a view on one thread. Quadrics are
-// tessellated, polygons fanned, instances instanced. Usage: embree_limit VIEW.vf SCENE... (in the model's folder)
+// The limit: how fast bare Embree, without any of our code, traces the rays of a view on one
+// thread. Quadrics are tessellated, polygons fanned, instances instanced. Usage: embree_limit
+// VIEW.vf SCENE... (in the model's folder)
 #include <embree3/rtcore.h>
 
 #include <chrono>
@@ -9,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "core/scene/transform_args.h"
 #include "core/geometry/shapes.h"
+#include "core/scene/transform_args.h"
 #include "core/view/view.h"
 #include "io/file_resources.h"
 #include "io/scene/scene_reader.h"
@@ -70,7 +71,9 @@ struct AddShape {
         }
     }
     void operator()(const ConeShape& s) const { add_band(soup, s.p0, s.r0, s.p1, s.r1, s.axis); }
-    void operator()(const RingShape& s) const { add_band(soup, s.center, s.r0, s.center, s.r1, s.normal); }
+    void operator()(const RingShape& s) const {
+        add_band(soup, s.center, s.r0, s.center, s.r1, s.normal);
+    }
 };
 
 class BareScene {
@@ -107,8 +110,8 @@ class BareScene {
     void attach(RTCScene scene, const Soup& soup) {
         if (soup.indices.empty()) return;
         RTCGeometry triangles = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* v = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                          soup.vertices.size() / 3);
+        void* v = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                          12, soup.vertices.size() / 3);
         std::copy(soup.vertices.begin(), soup.vertices.end(), static_cast<float*>(v));
         void* i = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12,
                                           soup.indices.size() / 3);
@@ -127,7 +130,8 @@ class BareScene {
         const Matrix m = parse_transform(std::span(primitive.strings).subspan(1)).transform.forward;
         float columns[12];
         for (std::size_t r = 0; r < 4; ++r) {
-            for (std::size_t k = 0; k < 3; ++k) columns[3 * r + k] = static_cast<float>(m.row[r][k]);
+            for (std::size_t k = 0; k < 3; ++k)
+                columns[3 * r + k] = static_cast<float>(m.row[r][k]);
         }
         RTCGeometry placed = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(placed, part);
@@ -153,34 +157,49 @@ void report(const char* what, const std::vector<FlatRay>& rays, const Trace& tra
     for (int run = 0; run < 5; ++run) {
         const auto start = std::chrono::steady_clock::now();
         trace();
-        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        best = std::min(
+            best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
-    std::printf("%-28s %8zu rays  %6.2f million/s\n", what, rays.size(), static_cast<double>(rays.size()) / best * 1e-6);
+    std::printf("%-28s %8zu rays  %6.2f million/s\n", what, rays.size(),
+                static_cast<double>(rays.size()) / best * 1e-6);
 }
 
 /// Sixteen rays at a time.
 template <bool kOccluded>
-void trace_packets(RTCScene scene, const std::vector<FlatRay>& rays, std::vector<float>* distances, bool coherent) {
+void trace_packets(RTCScene scene, const std::vector<FlatRay>& rays, std::vector<float>* distances,
+                   bool coherent) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     alignas(64) int valid[16];
     alignas(64) RTCRayHit16 hit;
     for (std::size_t at = 0; at < rays.size(); at += 16) {
         for (std::size_t k = 0; k < 16; ++k) {
             valid[k] = at + k < rays.size() ? -1 : 0;
             const FlatRay& r = rays[std::min(at + k, rays.size() - 1)];
-            hit.ray.org_x[k] = static_cast<float>(r.o.x); hit.ray.org_y[k] = static_cast<float>(r.o.y);
-            hit.ray.org_z[k] = static_cast<float>(r.o.z); hit.ray.dir_x[k] = static_cast<float>(r.d.x);
-            hit.ray.dir_y[k] = static_cast<float>(r.d.y); hit.ray.dir_z[k] = static_cast<float>(r.d.z);
-            hit.ray.tnear[k] = 1e-4f; hit.ray.tfar[k] = r.far; hit.ray.time[k] = 0;
-            hit.ray.mask[k] = ~0u; hit.ray.flags[k] = 0; hit.ray.id[k] = 0;
-            hit.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID; hit.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+            hit.ray.org_x[k] = static_cast<float>(r.o.x);
+            hit.ray.org_y[k] = static_cast<float>(r.o.y);
+            hit.ray.org_z[k] = static_cast<float>(r.o.z);
+            hit.ray.dir_x[k] = static_cast<float>(r.d.x);
+            hit.ray.dir_y[k] = static_cast<float>(r.d.y);
+            hit.ray.dir_z[k] = static_cast<float>(r.d.z);
+            hit.ray.tnear[k] = 1e-4f;
+            hit.ray.tfar[k] = r.far;
+            hit.ray.time[k] = 0;
+            hit.ray.mask[k] = ~0u;
+            hit.ray.flags[k] = 0;
+            hit.ray.id[k] = 0;
+            hit.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+            hit.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
         }
-        if constexpr (kOccluded) rtcOccluded16(valid, scene, &context, &hit.ray);
-        else rtcIntersect16(valid, scene, &context, &hit);
+        if constexpr (kOccluded)
+            rtcOccluded16(valid, scene, &context, &hit.ray);
+        else
+            rtcIntersect16(valid, scene, &context, &hit);
         for (std::size_t k = 0; distances && k < 16 && at + k < rays.size(); ++k) {
-            (*distances)[at + k] = hit.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? -1.0f : hit.ray.tfar[k];
+            (*distances)[at + k] =
+                hit.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID ? -1.0f : hit.ray.tfar[k];
         }
     }
 }
@@ -190,8 +209,18 @@ void trace_singly(RTCScene scene, const std::vector<FlatRay>& rays) {
     rtcInitIntersectContext(&context);
     for (const FlatRay& r : rays) {
         RTCRayHit hit{};
-        hit.ray = {static_cast<float>(r.o.x), static_cast<float>(r.o.y), static_cast<float>(r.o.z), 1e-4f,
-                   static_cast<float>(r.d.x), static_cast<float>(r.d.y), static_cast<float>(r.d.z), 0, r.far, ~0u, 0, 0};
+        hit.ray = {static_cast<float>(r.o.x),
+                   static_cast<float>(r.o.y),
+                   static_cast<float>(r.o.z),
+                   1e-4f,
+                   static_cast<float>(r.d.x),
+                   static_cast<float>(r.d.y),
+                   static_cast<float>(r.d.z),
+                   0,
+                   r.far,
+                   ~0u,
+                   0,
+                   0};
         hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(scene, &context, &hit);
     }
@@ -225,12 +254,16 @@ int run(int argc, char** argv) {
     for (std::size_t i = 0; i < primary.size(); ++i) {
         if (distance[i] < 0) continue;
         const Vec3 p = primary[i].o + primary[i].d * (static_cast<double>(distance[i]) - 1e-3);
-        const Vec3 target{view.position.x, view.position.y, view.position.z + 0.5};  // a lamp above the viewer
+        const Vec3 target{view.position.x, view.position.y,
+                          view.position.z + 0.5};  // a lamp above the viewer
         shadow.push_back({p, normalize(target - p), static_cast<float>(length(target - p))});
-        diffuse.push_back({p, normalize(Vec3{uniform(random), uniform(random), uniform(random)}), 1e30f});
+        diffuse.push_back(
+            {p, normalize(Vec3{uniform(random), uniform(random), uniform(random)}), 1e30f});
     }
-    report("primary, packets of 16", primary, [&] { trace_packets<false>(scene.get(), primary, nullptr, true); });
-    report("shadow, packets of 16", shadow, [&] { trace_packets<true>(scene.get(), shadow, nullptr, false); });
+    report("primary, packets of 16", primary,
+           [&] { trace_packets<false>(scene.get(), primary, nullptr, true); });
+    report("shadow, packets of 16", shadow,
+           [&] { trace_packets<true>(scene.get(), shadow, nullptr, false); });
     report("diffuse, singly", diffuse, [&] { trace_singly(scene.get(), diffuse); });
     return 0;
 }

@@ -15,10 +15,11 @@ inline std::string shared_path(const std::string& relative) {
 
 }  // namespace lightwalk::test
 
-/// First statement of a test that needs reference data: sets `path`, or says that it skips and returns.
-#define LIGHTWALK_NEEDS_SHARED(path, relative)                                     \
-    const std::string path = ::lightwalk::test::shared_path(relative);             \
-    if (path.empty()) {                                                            \
-        MESSAGE("skipped: reference data " << (relative) << " is not here");       \
-        return;                                                                    \
+/// First statement of a test that needs reference data: sets `path`, or says that it skips and
+/// returns.
+#define LIGHTWALK_NEEDS_SHARED(path, relative)                               \
+    const std::string path = ::lightwalk::test::shared_path(relative);       \
+    if (path.empty()) {                                                      \
+        MESSAGE("skipped: reference data " << (relative) << " is not here"); \
+        return;                                                              \
     }

@@ -29,15 +29,25 @@ class MemoryResources final : public Resources {
     std::map<std::string, std::shared_ptr<const MeshModel>> meshes;
 
     std::string function_file(const std::string& name) override { return find(functions, name); }
-    std::shared_ptr<const DataArray> data(const std::string& name) override { return find(tables, name); }
-    std::shared_ptr<const PictureData> picture(const std::string& name) override { return find(pictures, name); }
+    std::shared_ptr<const DataArray> data(const std::string& name) override {
+        return find(tables, name);
+    }
+    std::shared_ptr<const PictureData> picture(const std::string& name) override {
+        return find(pictures, name);
+    }
     std::shared_ptr<const Font> font(const std::string& name) override { return find(fonts, name); }
     std::vector<std::string> text_lines(const std::string& name) override { throw missing(name); }
-    std::shared_ptr<const Model> octree(const std::string& name) override { return find(octrees, name); }
-    std::shared_ptr<const MeshModel> mesh(const std::string& name) override { return find(meshes, name); }
+    std::shared_ptr<const Model> octree(const std::string& name) override {
+        return find(octrees, name);
+    }
+    std::shared_ptr<const MeshModel> mesh(const std::string& name) override {
+        return find(meshes, name);
+    }
 
   private:
-    static InputError missing(const std::string& name) { return InputError("cannot find file \"" + name + "\""); }
+    static InputError missing(const std::string& name) {
+        return InputError("cannot find file \"" + name + "\"");
+    }
     template <class Value>
     static Value find(const std::map<std::string, Value>& files, const std::string& name) {
         const auto at = files.find(name);
@@ -48,11 +58,14 @@ class MemoryResources final : public Resources {
 
 /// A scene from text, ready to trace.
 struct TestScene {
-    explicit TestScene(const std::string& text, RenderOptions options = exact(), MemoryResources files = {})
+    explicit TestScene(const std::string& text, RenderOptions options = exact(),
+                       MemoryResources files = {})
         : resources(std::move(files)),
-          scene(parse_scene(text, "test.rad", {LibraryPath(std::vector<std::string>{}), false}, warnings), resources,
-                warnings),
-          tracer(scene, options, warnings), context(tracer, warnings) {}
+          scene(parse_scene(text, "test.rad", {LibraryPath(std::vector<std::string>{}), false},
+                            warnings),
+                resources, warnings),
+          tracer(scene, options, warnings),
+          context(tracer, warnings) {}
 
     /// Every light tested, no sampling noise.
     static RenderOptions exact() {

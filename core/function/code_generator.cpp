@@ -98,9 +98,9 @@ Program::Code CodeGenerator::generate() {
         generate_frame(0);
     } while (changed_);
     patch_lazies();
-    code_.has_lanes = inputs == 0 &&
-                      std::all_of(code_.instructions.begin(), code_.instructions.end(),
-                                  [](const Instruction& i) { return has_lanes(i.op); });
+    code_.has_lanes =
+        inputs == 0 && std::all_of(code_.instructions.begin(), code_.instructions.end(),
+                                   [](const Instruction& i) { return has_lanes(i.op); });
     return std::move(code_);
 }
 

@@ -49,7 +49,8 @@ Op operation(LibraryFunction f) {
 /// Twice the exponent, where it is a constant that half_power takes.
 std::optional<std::int32_t> halves_of(const Node& exponent) {
     const double halves = 2 * exponent.value;
-    if (exponent.kind != NodeKind::constant || std::abs(halves) > kMostHalves || halves != std::floor(halves)) {
+    if (exponent.kind != NodeKind::constant || std::abs(halves) > kMostHalves ||
+        halves != std::floor(halves)) {
         return std::nullopt;
     }
     return static_cast<std::int32_t>(halves);

@@ -1,5 +1,6 @@
 #pragma once
-// The definitions of all function files of a scene, by context, and the compiler from them to Programs.
+// The definitions of all function files of a scene, by context, and the compiler from them to
+// Programs.
 #include <memory>
 #include <span>
 #include <string>
@@ -13,8 +14,9 @@ namespace lightwalk {
 
 class FunctionEnvironment {
   public:
-    /// With the built-in initialisation library (the definitions of Radiance's rayinit.cal). Without: only the
-    /// core library plus PI, hermite, bezier, bspline, as the generators (gensurf, genrev, genworm) have it.
+    /// With the built-in initialisation library (the definitions of Radiance's rayinit.cal).
+    /// Without: only the core library plus PI, hermite, bezier, bspline, as the generators
+    /// (gensurf, genrev, genworm) have it.
     enum class Library { renderer, generator };
     explicit FunctionEnvironment(Library library = Library::renderer);
     ~FunctionEnvironment();
@@ -24,21 +26,24 @@ class FunctionEnvironment {
     /// Whether the context of file `name` ("." counts as loaded) exists already.
     [[nodiscard]] bool loaded(std::string_view name) const;
 
-    /// Parse function file `name` with contents `text` into its context. Throws InputError "name:line: ...".
+    /// Parse function file `name` with contents `text` into its context. Throws InputError
+    /// "name:line: ...".
     void load(const std::string& name, std::string_view text);
 
-    /// Evaluate-as-you-go definitions in the global context (`-e expr` of generators). Throws InputError.
+    /// Evaluate-as-you-go definitions in the global context (`-e expr` of generators). Throws
+    /// InputError.
     void define(std::string_view text, const SourceLocation& where);
 
     /// Compile `requests` in the context of `file` for a primitive with these real arguments.
-    /// `material_channels`: which of NxP.. DzA the primitive sets; a reference to another one is an undefined
-    /// variable. Throws InputError at `where` for syntax errors and bad constants.
-    [[nodiscard]] Program compile(std::string_view file, std::span<const ExpressionRequest> requests,
+    /// `material_channels`: which of NxP.. DzA the primitive sets; a reference to another one is an
+    /// undefined variable. Throws InputError at `where` for syntax errors and bad constants.
+    [[nodiscard]] Program compile(std::string_view file,
+                                  std::span<const ExpressionRequest> requests,
                                   std::span<const double> reals, ChannelMask material_channels,
                                   const SourceLocation& where) const;
 
-    /// Number of parameters of the function that `name` means in the context of `file`; 0 when it is unknown.
-    /// Library functions: their argument count (1 for min, max, select).
+    /// Number of parameters of the function that `name` means in the context of `file`; 0 when it
+    /// is unknown. Library functions: their argument count (1 for min, max, select).
     [[nodiscard]] int parameters(std::string_view file, std::string_view name) const;
     /// Whether `name` is defined as a function (user or library) there.
     [[nodiscard]] bool is_function(std::string_view file, std::string_view name) const;
@@ -48,8 +53,9 @@ class FunctionEnvironment {
     std::unique_ptr<Impl> impl_;
 };
 
-/// The noise functions of the language; pure. Sources: K. Perlin, "Improving Noise", SIGGRAPH 2002 (noise3);
-/// noise3x/y/z are backward differences with step 0.0005; fnoise3 is fractal midpoint displacement.
+/// The noise functions of the language; pure. Sources: K. Perlin, "Improving Noise", SIGGRAPH 2002
+/// (noise3); noise3x/y/z are backward differences with step 0.0005; fnoise3 is fractal midpoint
+/// displacement.
 [[nodiscard]] double noise3(double x, double y, double z);
 [[nodiscard]] double fnoise3(double x, double y, double z);
 

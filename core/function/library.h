@@ -82,7 +82,8 @@ struct LibraryEntry {
 }
 
 inline constexpr double kMostHalves = 32;
-/// x to the power n / 2, |n| <= kMostHalves, by squaring: relative error below 4e-15 where nothing overflows.
+/// x to the power n / 2, |n| <= kMostHalves, by squaring: relative error below 4e-15 where nothing
+/// overflows.
 [[nodiscard]] inline double half_power(double x, std::int32_t n) {
     const auto halves = static_cast<std::uint32_t>(n < 0 ? -n : n);
     double result = (halves & 1) != 0 ? std::sqrt(x) : 1, square = x;

@@ -1,5 +1,6 @@
 #pragma once
-// Compiled expressions of Radiance's function language: evaluation without name look-ups, allocation or locks.
+// Compiled expressions of Radiance's function language: evaluation without name look-ups,
+// allocation or locks.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -12,19 +13,58 @@
 
 namespace lightwalk {
 
-/// Inputs of an evaluation. 1..27 are the language's $n; the rest are set by particular materials only.
+/// Inputs of an evaluation. 1..27 are the language's $n; the rest are set by particular materials
+/// only.
 enum class Channel : std::uint8_t {
-    Dx = 1, Dy, Dz, Nx, Ny, Nz, Px, Py, Pz, T, Rdot, S, Tx, Ty, Tz, Ix, Iy, Iz, Jx, Jy, Jz, Kx, Ky, Kz, Ts, Lu, Lv,
-    NxP, NyP, NzP, RdotP, CrP, CgP, CbP, DxA, DyA, DzA,
+    Dx = 1,
+    Dy,
+    Dz,
+    Nx,
+    Ny,
+    Nz,
+    Px,
+    Py,
+    Pz,
+    T,
+    Rdot,
+    S,
+    Tx,
+    Ty,
+    Tz,
+    Ix,
+    Iy,
+    Iz,
+    Jx,
+    Jy,
+    Jz,
+    Kx,
+    Ky,
+    Kz,
+    Ts,
+    Lu,
+    Lv,
+    NxP,
+    NyP,
+    NzP,
+    RdotP,
+    CrP,
+    CgP,
+    CbP,
+    DxA,
+    DyA,
+    DzA,
 };
 inline constexpr std::size_t kChannelCount = 38;
 
 using ChannelMask = std::uint64_t;
-[[nodiscard]] constexpr ChannelMask channel_bit(Channel c) { return ChannelMask{1} << static_cast<unsigned>(c); }
+[[nodiscard]] constexpr ChannelMask channel_bit(Channel c) {
+    return ChannelMask{1} << static_cast<unsigned>(c);
+}
 
 using ChannelValues = std::array<double, kChannelCount>;  ///< indexed by Channel; index 0 is unused
 
-/// The language's numeric error flag (domain or range error), see the icalc and "Radiance function files" notes.
+/// The language's numeric error flag (domain or range error), see the icalc and "Radiance function
+/// files" notes.
 enum class EvalError : std::uint8_t { none, domain, range };
 
 /// A number in each of several evaluations that go side by side.
@@ -38,28 +78,29 @@ struct alignas(32) Lanes {
 struct EvalState {
     const ChannelValues* channels = nullptr;
     EvalError error = EvalError::none;
-    std::vector<double> values;         ///< implementation's registers
-    std::vector<std::uint8_t> flags;    ///< implementation's "already computed" marks
-    std::uint64_t warnings = 0;         ///< numeric errors met
+    std::vector<double> values;       ///< implementation's registers
+    std::vector<std::uint8_t> flags;  ///< implementation's "already computed" marks
+    std::uint64_t warnings = 0;       ///< numeric errors met
     void clear_error() { error = EvalError::none; }
 
-    struct Return {                     ///< where a call of the implementation goes on
+    struct Return {  ///< where a call of the implementation goes on
         std::uint32_t instruction = 0, frame = 0, cell = 0;
     };
     std::vector<Return> returns;
-    std::uint64_t operations = 0;       ///< done by calls in this tick; bounded
-    std::vector<Lanes> lanes;           ///< registers of evaluations side by side
+    std::uint64_t operations = 0;  ///< done by calls in this tick; bounded
+    std::vector<Lanes> lanes;      ///< registers of evaluations side by side
     function::NoiseMemory noise;
     function::FractalMemory fractal;
-    std::vector<double> prism;          ///< rays of fprism_val: direction and energy each
-    bool prism_traced = false;          ///< whether `prism` belongs to this tick
+    std::vector<double> prism;  ///< rays of fprism_val: direction and energy each
+    bool prism_traced = false;  ///< whether `prism` belongs to this tick
 };
 
-/// What a primitive wants to evaluate: an expression in its file's context, or a function called by name with
-/// the values given at evaluation time.
+/// What a primitive wants to evaluate: an expression in its file's context, or a function called by
+/// name with the values given at evaluation time.
 struct ExpressionRequest {
-    std::string text;      ///< expression, or the function's name
-    int parameters = -1;   ///< -1: expression; n >= 0: call of the named function with exactly n arguments
+    std::string text;  ///< expression, or the function's name
+    int parameters =
+        -1;  ///< -1: expression; n >= 0: call of the named function with exactly n arguments
 };
 
 /// The expressions of one primitive, compiled for its real arguments. Immutable and shareable.
@@ -71,26 +112,31 @@ class Program {
 
     [[nodiscard]] bool empty() const { return !code_; }
     [[nodiscard]] std::size_t outputs() const;
-    [[nodiscard]] ChannelMask channels() const;  ///< channels that any output may read: fill at least these
+    [[nodiscard]] ChannelMask channels()
+        const;  ///< channels that any output may read: fill at least these
 
-    /// Start a tick: forget cached variables. `channels` must stay alive and unchanged until the next begin.
+    /// Start a tick: forget cached variables. `channels` must stay alive and unchanged until the
+    /// next begin.
     void begin(EvalState& state, const ChannelValues& channels) const;
 
-    /// Evaluate output k, once a tick: variables that no other output needs are computed anew each time.
-    /// Numeric errors set state.error and follow the language's rules (value 0); they are
-    /// sticky or cleared as the language says, so call state.clear_error() where the primitive clears.
-    /// Throws InputError for what the language calls fatal (undefined name met, missing argument).
+    /// Evaluate output k, once a tick: variables that no other output needs are computed anew each
+    /// time. Numeric errors set state.error and follow the language's rules (value 0); they are
+    /// sticky or cleared as the language says, so call state.clear_error() where the primitive
+    /// clears. Throws InputError for what the language calls fatal (undefined name met, missing
+    /// argument).
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const;
     /// The same for an output with `parameters >= 0`; arguments.size() must equal it.
-    [[nodiscard]] double call(std::size_t output, std::span<const double> arguments, EvalState& state) const;
+    [[nodiscard]] double call(std::size_t output, std::span<const double> arguments,
+                              EvalState& state) const;
 
-    /// Whether evaluate_lanes can succeed: the program needs neither noise, nor calls (recursion), nor more of the
-    /// ray than its channels. Inputs (`parameters` > 0) have no lanes.
+    /// Whether evaluate_lanes can succeed: the program needs neither noise, nor calls (recursion),
+    /// nor more of the ray than its channels. Inputs (`parameters` > 0) have no lanes.
     [[nodiscard]] bool has_lanes() const;
-    /// Output k for 1 to kLanes rays side by side, each a tick of its own. Same values as evaluate(), to the bit; those
-    /// of further lanes mean nothing. Nothing where rays take different branches or one meets a numeric error: they
-    /// have to be evaluated one by one then.
-    [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output, std::span<const ChannelValues> rays,
+    /// Output k for 1 to kLanes rays side by side, each a tick of its own. Same values as
+    /// evaluate(), to the bit; those of further lanes mean nothing. Nothing where rays take
+    /// different branches or one meets a numeric error: they have to be evaluated one by one then.
+    [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output,
+                                                      std::span<const ChannelValues> rays,
                                                       EvalState& state) const;
 
     /// When output k is the same number whatever the channels: that number.

@@ -15,14 +15,15 @@ namespace lightwalk {
 
 /// Where a ray met the scene. Default: nothing was hit.
 struct Hit {
-    double t = kHuge;            ///< along the ray [m]
-    Vec3 position, normal;       ///< world; normal is unit and NOT turned to the ray
-    double rod = 1;              ///< -direction . normal; > 0 on the front
-    Vec3 perturbation;           ///< smoothed mesh normal minus normal, else zero
-    double u = 0, v = 0;         ///< mesh texture coordinates, else zero
-    SurfaceId surface = kNoSurface;  ///< the inner surface, or the instance whose modifier overrides
-    ModifierId modifier = kVoid;     ///< the direct modifier that shades
-    FrameId frame = kWorld;          ///< placement of the local space that `modifier` lives in
+    double t = kHuge;       ///< along the ray [m]
+    Vec3 position, normal;  ///< world; normal is unit and NOT turned to the ray
+    double rod = 1;         ///< -direction . normal; > 0 on the front
+    Vec3 perturbation;      ///< smoothed mesh normal minus normal, else zero
+    double u = 0, v = 0;    ///< mesh texture coordinates, else zero
+    SurfaceId surface =
+        kNoSurface;               ///< the inner surface, or the instance whose modifier overrides
+    ModifierId modifier = kVoid;  ///< the direct modifier that shades
+    FrameId frame = kWorld;       ///< placement of the local space that `modifier` lives in
     [[nodiscard]] bool exists() const { return surface != kNoSurface; }
 };
 
@@ -43,10 +44,10 @@ struct Bounds {
 /// A mesh inside a model: triangles whose materials are global modifiers.
 struct MeshPart {
     const MeshModel* mesh = nullptr;
-    std::vector<ModifierId> materials;    ///< mesh-local material index -> global modifier
-    std::vector<SurfaceTraits> traits;    ///< by mesh-local material index
-    SurfaceTraits void_traits;            ///< of triangles without material
-    SurfaceId surface = kNoSurface;       ///< reported for hits ("M-Tri")
+    std::vector<ModifierId> materials;  ///< mesh-local material index -> global modifier
+    std::vector<SurfaceTraits> traits;  ///< by mesh-local material index
+    SurfaceTraits void_traits;          ///< of triangles without material
+    SurfaceId surface = kNoSurface;     ///< reported for hits ("M-Tri")
 };
 
 /// A model placed inside another one.
@@ -61,12 +62,12 @@ struct ModelGeometry {
     std::vector<SurfaceId> surfaces;  ///< finite surfaces with a shape
     std::vector<MeshPart> meshes;     ///< 0 or 1: a compiled mesh as a model of its own
     std::vector<Placement> placements;
-    std::optional<Bounds> cube;       ///< as the octree states it; else the smallest one is derived
+    std::optional<Bounds> cube;  ///< as the octree states it; else the smallest one is derived
 };
 
 struct GeometryInput {
-    std::span<const Surface> surfaces;   ///< must outlive the Geometry
-    std::vector<ModelGeometry> models;   ///< models[0] is the scene; placements form a DAG
+    std::span<const Surface> surfaces;  ///< must outlive the Geometry
+    std::vector<ModelGeometry> models;  ///< models[0] is the scene; placements form a DAG
 };
 
 struct RaySegment {
@@ -84,27 +85,30 @@ struct Blocker {
 /// Immutable after building; every method may be called from many threads at once.
 class Geometry {
   public:
-    /// Throws InputError when nested placements multiply to more than 2^22 flattened instances, when one scales by
-    /// less than 1e-7 or more than 1e7 in all, and for damaged meshes. Builds on oneTBB's default threads.
-    /// Answers are bit-identical for single rays and packets; they need no flush-to-zero mode of the caller.
-    /// A placed model wins over what is not in it only where it is strictly nearer; inside it has its own ties.
-    /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines without AVX-512 do.
+    /// Throws InputError when nested placements multiply to more than 2^22 flattened instances,
+    /// when one scales by less than 1e-7 or more than 1e7 in all, and for damaged meshes. Builds on
+    /// oneTBB's default threads. Answers are bit-identical for single rays and packets; they need
+    /// no flush-to-zero mode of the caller. A placed model wins over what is not in it only where
+    /// it is strictly nearer; inside it has its own ties. `embree_options` configures the search,
+    /// for tests: with "isa=avx2" it does what machines without AVX-512 do.
     explicit Geometry(GeometryInput input, const std::string& embree_options = {});
     ~Geometry();
     Geometry(Geometry&&) noexcept;
     Geometry& operator=(Geometry&&) noexcept;
 
-    /// Nearest hit with t > kEpsilon; ties within kEpsilon follow Radiance's rules. Infinite sources are not
-    /// geometry. Returns a Hit with exists() false when there is none (t = kHuge).
+    /// Nearest hit with t > kEpsilon; ties within kEpsilon follow Radiance's rules. Infinite
+    /// sources are not geometry. Returns a Hit with exists() false when there is none (t = kHuge).
     [[nodiscard]] Hit intersect(const RaySegment& ray) const;
 
     /// Nearest hit with one given finite surface of the scene itself (not inside an instance).
     [[nodiscard]] Hit intersect_surface(SurfaceId surface, const RaySegment& ray) const;
 
-    /// Visibility between the origin and t_max. `target` does not shadow: it is the light itself. One ray at a time:
-    /// measured on interiors, that is faster than packets of the rays to all lights. `last` (or null) is what
-    /// blocked an earlier ray, and is brought up to date; it changes the speed only.
-    [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target, Blocker* last = nullptr) const;
+    /// Visibility between the origin and t_max. `target` does not shadow: it is the light itself.
+    /// One ray at a time: measured on interiors, that is faster than packets of the rays to all
+    /// lights. `last` (or null) is what blocked an earlier ray, and is brought up to date; it
+    /// changes the speed only.
+    [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target,
+                                        Blocker* last = nullptr) const;
 
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
     void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;

@@ -21,7 +21,8 @@ struct SphereShape {
     bool inward = false;  ///< bubble: the normal points to the centre
 };
 
-/// A polygon's outline in the two coordinates of the inside test, where it is a rectangle along them; else not numbers.
+/// A polygon's outline in the two coordinates of the inside test, where it is a rectangle along
+/// them; else not numbers.
 struct OutlineRectangle {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     double low_x = kNone, high_x = kNone, low_y = kNone, high_y = kNone;  ///< [m]
@@ -52,23 +53,25 @@ struct RingShape {
 
 /// A source at infinity: a cone of directions.
 struct SourceShape {
-    Vec3 direction;         ///< unit, towards the source
-    float solid_angle = 0;  ///< 2π(1 - cos(angle/2)), rounded up where the reference's float is [sr]
+    Vec3 direction;  ///< unit, towards the source
+    float solid_angle =
+        0;  ///< 2π(1 - cos(angle/2)), rounded up where the reference's float is [sr]
 };
 
-using Shape = std::variant<std::monostate, SphereShape, PolygonShape, ConeShape, RingShape, SourceShape>;
+using Shape =
+    std::variant<std::monostate, SphereShape, PolygonShape, ConeShape, RingShape, SourceShape>;
 
 /// One crossing of a ray with a shape.
 struct ShapeHit {
-    double t = 0;   ///< [m]
-    Vec3 normal;    ///< unit, as the primitive defines it, not turned to the ray
+    double t = 0;       ///< [m]
+    Vec3 normal;        ///< unit, as the primitive defines it, not turned to the ray
     bool front = true;  ///< the sign that the tie rule of coincident surfaces uses
 };
 
-/// Validate the arguments of a finite surface or source. Degenerate input follows Radiance: `type` may change
-/// (sphere <-> bubble, cone -> cylinder, ...), a useless surface becomes monostate; both report by `warning`
-/// (left empty otherwise). Throws InputError for wrong argument counts or numbers that are
-/// not finite or beyond kLargestCoordinate.
+/// Validate the arguments of a finite surface or source. Degenerate input follows Radiance: `type`
+/// may change (sphere <-> bubble, cone -> cylinder, ...), a useless surface becomes monostate; both
+/// report by `warning` (left empty otherwise). Throws InputError for wrong argument counts or
+/// numbers that are not finite or beyond kLargestCoordinate.
 struct ValidatedShape {
     Shape shape;
     PrimitiveType type{};
@@ -76,14 +79,15 @@ struct ValidatedShape {
 };
 [[nodiscard]] ValidatedShape make_shape(const Primitive& primitive);
 
-/// Nearest crossing with t in (kEpsilon, t_max], or nothing. Exact: double precision, the inside rules of
-/// Radiance (even-odd with tolerance for polygons, closed intervals for rings and cones).
-[[nodiscard]] std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin, const Vec3& direction,
-                                                double t_max);
+/// Nearest crossing with t in (kEpsilon, t_max], or nothing. Exact: double precision, the inside
+/// rules of Radiance (even-odd with tolerance for polygons, closed intervals for rings and cones).
+[[nodiscard]] std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin,
+                                                const Vec3& direction, double t_max);
 
 /// Whether a direction lies inside a source at infinity: 2π(1 - s·v) <= Ω.
 [[nodiscard]] inline bool contains(const SourceShape& source, const Vec3& direction) {
-    return 2 * kPi * (1 - dot(source.direction, direction)) <= static_cast<double>(source.solid_angle);
+    return 2 * kPi * (1 - dot(source.direction, direction)) <=
+           static_cast<double>(source.solid_angle);
 }
 
 }  // namespace lightwalk

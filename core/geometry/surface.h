@@ -13,7 +13,8 @@ namespace lightwalk {
 /// What an opaque-or-not shadow query has to know of a surface's modifier chain.
 enum class ShadowClass : std::uint8_t {
     ignored,  ///< no material: the ray passes as if nothing were there
-    blocks,   ///< the first such surface before the light ends the matter, whatever else lies in between
+    blocks,   ///< the first such surface before the light ends the matter, whatever else lies in
+              ///< between
     special,  ///< glass, trans, mixtures, illum, ...: has to be shaded to know
 };
 
@@ -34,7 +35,9 @@ struct Surface {
     SourceLocation where;
 
     /// Polygon or ring: what the reference calls a flat object.
-    [[nodiscard]] bool is_flat() const { return type == PrimitiveType::polygon || type == PrimitiveType::ring; }
+    [[nodiscard]] bool is_flat() const {
+        return type == PrimitiveType::polygon || type == PrimitiveType::ring;
+    }
 };
 
 }  // namespace lightwalk

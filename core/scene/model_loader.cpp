@@ -13,7 +13,8 @@ bool is_placement(const Primitive& primitive) {
 
 }  // namespace
 
-ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources) : resources_(resources) {
+ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources)
+    : resources_(resources) {
     LoadedModel root;
     root.model = std::move(scene);
     models.push_back(std::move(root));
@@ -33,14 +34,16 @@ ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resource
 std::uint32_t ModelLoader::load(const Primitive& placement, std::size_t depth) {
     const std::string type(to_string(placement.type));
     if (placement.strings.empty()) {
-        throw InputError(placement.where, type + " \"" + placement.name + "\": bad number of arguments: "
+        throw InputError(placement.where, type + " \"" + placement.name +
+                                              "\": bad number of arguments: "
                                               "the name of a file is missing");
     }
     const std::string key = type + " " + placement.strings[0];
     if (std::find(open_.begin(), open_.end(), key) != open_.end()) {
         throw InputError(placement.where, key + ": contains itself");
     }
-    if (depth > kMaxNesting) throw InputError(placement.where, key + ": instances nested too deeply");
+    if (depth > kMaxNesting)
+        throw InputError(placement.where, key + ": instances nested too deeply");
     if (const auto known = loaded_.find(key); known != loaded_.end()) return known->second;
 
     LoadedModel loaded;

@@ -18,14 +18,15 @@ class FunctionBinding;
 class FunctionEnvironment;
 
 /// Evaluates one modifier on a ray whose hit is set. Immutable; called from many threads at once.
-/// A texture adds to ray.hit.perturbation, a pattern multiplies ray.pattern; both return false. A material sets
-/// ray.value (and mirrored, distances, ...) and returns true; so does a mixture that holds a material.
+/// A texture adds to ray.hit.perturbation, a pattern multiplies ray.pattern; both return false. A
+/// material sets ray.value (and mirrored, distances, ...) and returns true; so does a mixture that
+/// holds a material.
 class Modifier {
   public:
     virtual ~Modifier() = default;
     [[nodiscard]] virtual bool shade(Ray& ray, TraceContext& context) const = 0;
-    /// Of a pattern that does nothing but multiply ray.pattern by a function's value in single precision (unless it
-    /// has an error): that function. Else null.
+    /// Of a pattern that does nothing but multiply ray.pattern by a function's value in single
+    /// precision (unless it has an error): that function. Else null.
     [[nodiscard]] virtual const FunctionBinding* brightness_function() const { return nullptr; }
 };
 
@@ -37,7 +38,8 @@ struct ModifierBuild {
     Resources& resources;
     FunctionEnvironment& functions;
     WarningSink& warnings;
-    /// Global id of primitive.references[i]; kVoid for void. `undefined` tells names that nothing defines.
+    /// Global id of primitive.references[i]; kVoid for void. `undefined` tells names that nothing
+    /// defines.
     std::function<ModifierId(std::size_t)> reference;
     std::function<bool(std::size_t)> undefined;
     /// Nominally transparent material at the end of a modifier's chain.
@@ -46,19 +48,20 @@ struct ModifierBuild {
 
 using ModifierFactory = std::unique_ptr<const Modifier> (*)(const ModifierBuild&);
 
-/// The factory for a type; null for types that are recognised and refused (BSDF, aBSDF, WGMDfunc, spectra).
-/// One line a type; see core/scene/modifier_list.cpp.
+/// The factory for a type; null for types that are recognised and refused (BSDF, aBSDF, WGMDfunc,
+/// spectra). One line a type; see core/scene/modifier_list.cpp.
 [[nodiscard]] ModifierFactory modifier_factory(PrimitiveType type);
 
 /// A modifier of a scene, as the tracer walks it.
 struct ModifierRecord {
-    PrimitiveType type{};           ///< what it acts as (an alias: its target's type)
-    ModifierId next = kVoid;        ///< its own modifier
+    PrimitiveType type{};     ///< what it acts as (an alias: its target's type)
+    ModifierId next = kVoid;  ///< its own modifier
     std::string name;
-    bool named_phong = false;       ///< named exactly "Phong": transmitted rays are not bent by textures
-    const Primitive* primitive = nullptr;     ///< arguments (an alias: its target's)
-    std::unique_ptr<const Modifier> node;     ///< null when no surface uses it
-    std::vector<ModifierId> references;       ///< global ids of primitive->references (kVoid: void or undefined)
+    bool named_phong = false;  ///< named exactly "Phong": transmitted rays are not bent by textures
+    const Primitive* primitive = nullptr;  ///< arguments (an alias: its target's)
+    std::unique_ptr<const Modifier> node;  ///< null when no surface uses it
+    std::vector<ModifierId>
+        references;  ///< global ids of primitive->references (kVoid: void or undefined)
 };
 
 }  // namespace lightwalk

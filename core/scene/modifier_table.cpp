@@ -86,16 +86,25 @@ void ModifierTable::compile(const std::vector<LoadedModel>& models, Resources& r
             const Primitive& primitive = *record.primitive;
             const ModifierFactory factory = modifier_factory(record.type);
             if (!factory) {
-                throw InputError(primitive.where, std::string(to_string(record.type)) + " \"" + primitive.name +
-                                                      "\": this type is recognised but not supported yet");
+                throw InputError(primitive.where,
+                                 std::string(to_string(record.type)) + " \"" + primitive.name +
+                                     "\": this type is recognised but not supported yet");
             }
-            const ModifierBuild build{
-                primitive, ModifierId{i}, record.next, resources, functions_, warnings,
-                [&record](std::size_t k) { return k < record.references.size() ? record.references[k] : kVoid; },
-                [&primitive](std::size_t k) {
-                    return k >= primitive.references.size() || primitive.references[k] == kUndefinedIndex;
-                },
-                [this](ModifierId m) { return is_transparent(m); }};
+            const ModifierBuild build{primitive,
+                                      ModifierId{i},
+                                      record.next,
+                                      resources,
+                                      functions_,
+                                      warnings,
+                                      [&record](std::size_t k) {
+                                          return k < record.references.size() ? record.references[k]
+                                                                              : kVoid;
+                                      },
+                                      [&primitive](std::size_t k) {
+                                          return k >= primitive.references.size() ||
+                                                 primitive.references[k] == kUndefinedIndex;
+                                      },
+                                      [this](ModifierId m) { return is_transparent(m); }};
             record.node = factory(build);
         }
     }
@@ -123,9 +132,9 @@ SurfaceTraits ModifierTable::traits(ModifierId first) const {
     SurfaceTraits traits{true, is_transparent(first), ShadowClass::special};
     const ModifierRecord& record = (*this)[*material];
     const Primitive& primitive = *record.primitive;
-    constexpr std::array kOpaque{plastic, metal,    plastic2, metal2,    trans2,  ashik2, plasfunc,  metfunc,
-                                 transfunc, plasdata, metdata,  transdata, light, glow,   spotlight, prism1,
-                                 prism2};
+    constexpr std::array kOpaque{plastic,  metal,   plastic2,  metal2,   trans2,  ashik2,
+                                 plasfunc, metfunc, transfunc, plasdata, metdata, transdata,
+                                 light,    glow,    spotlight, prism1,   prism2};
     bool blocks = std::find(kOpaque.begin(), kOpaque.end(), record.type) != kOpaque.end();
     if (record.type == brtdfunc) blocks = !transmits(primitive);
     if (record.type == mirror) blocks = primitive.strings.empty();

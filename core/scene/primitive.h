@@ -14,14 +14,66 @@ namespace lightwalk {
 
 enum class PrimitiveType : std::uint8_t {
     // surfaces
-    source, sphere, bubble, polygon, cone, cup, cylinder, tube, ring, instance, mesh,
+    source,
+    sphere,
+    bubble,
+    polygon,
+    cone,
+    cup,
+    cylinder,
+    tube,
+    ring,
+    instance,
+    mesh,
     // materials
-    light, illum, glow, spotlight, mirror, prism1, prism2, mist, plastic, metal, trans, plastic2, metal2, trans2,
-    ashik2, wgmdfunc, dielectric, interface, glass, plasfunc, metfunc, transfunc, brtdfunc, plasdata, metdata,
-    transdata, bsdf, absdf, antimatter,
+    light,
+    illum,
+    glow,
+    spotlight,
+    mirror,
+    prism1,
+    prism2,
+    mist,
+    plastic,
+    metal,
+    trans,
+    plastic2,
+    metal2,
+    trans2,
+    ashik2,
+    wgmdfunc,
+    dielectric,
+    interface,
+    glass,
+    plasfunc,
+    metfunc,
+    transfunc,
+    brtdfunc,
+    plasdata,
+    metdata,
+    transdata,
+    bsdf,
+    absdf,
+    antimatter,
     // textures, patterns, mixtures, spectra
-    texfunc, texdata, brightfunc, colorfunc, brightdata, colordata, colorpict, brighttext, colortext, mixfunc,
-    mixdata, mixpict, mixtext, spectrum, specfile, specfunc, specdata, specpict,
+    texfunc,
+    texdata,
+    brightfunc,
+    colorfunc,
+    brightdata,
+    colordata,
+    colorpict,
+    brighttext,
+    colortext,
+    mixfunc,
+    mixdata,
+    mixpict,
+    mixtext,
+    spectrum,
+    specfile,
+    specfunc,
+    specdata,
+    specpict,
     alias,
 };
 
@@ -32,23 +84,27 @@ enum class PrimitiveType : std::uint8_t {
 [[nodiscard]] bool is_material(PrimitiveType type);  ///< light ... antimatter
 [[nodiscard]] bool is_mixture(PrimitiveType type);   ///< mixfunc, mixdata, mixpict, mixtext
 
-inline constexpr std::int32_t kVoidIndex = -1;       ///< the modifier `void`
-inline constexpr std::int32_t kUndefinedIndex = -2;  ///< a name in a string argument that nothing defines
+inline constexpr std::int32_t kVoidIndex = -1;  ///< the modifier `void`
+inline constexpr std::int32_t kUndefinedIndex =
+    -2;  ///< a name in a string argument that nothing defines
 
-/// One primitive. Modifiers are indices into the vector that holds the primitive, always of earlier ones.
+/// One primitive. Modifiers are indices into the vector that holds the primitive, always of earlier
+/// ones.
 struct Primitive {
     PrimitiveType type{};
     std::int32_t modifier = kVoidIndex;
     std::string name;
     std::vector<std::string> strings;
     std::vector<double> reals;
-    /// What names in string arguments resolve to, index by index: the alias target (never an alias itself);
-    /// s0 of illum and mirror; s0 and s1 of the mixtures; every string of antimatter. Empty for all other types.
+    /// What names in string arguments resolve to, index by index: the alias target (never an alias
+    /// itself); s0 of illum and mirror; s0 and s1 of the mixtures; every string of antimatter.
+    /// Empty for all other types.
     std::vector<std::int32_t> references;
     SourceLocation where;
 };
 
-/// The cube an octree file was built with: it holds all its finite surfaces, and may be larger than needed.
+/// The cube an octree file was built with: it holds all its finite surfaces, and may be larger than
+/// needed.
 struct ModelCube {
     double x = 0, y = 0, z = 0;  ///< corner with the smallest coordinates
     double size = 0;             ///< edge [m]
@@ -67,14 +123,15 @@ struct MeshModel {
         double x = 0, y = 0, z = 0;
     };
     struct Triangle {
-        std::uint32_t v[3] = {};    ///< into `positions` (and `normals`, `uvs` where those are not empty)
+        std::uint32_t v[3] =
+            {};  ///< into `positions` (and `normals`, `uvs` where those are not empty)
         std::int32_t material = kVoidIndex;  ///< into materials.primitives
         bool has_normals = false, has_uvs = false;
     };
     Model materials;
     std::vector<Vertex> positions;
-    std::vector<Vertex> normals;         ///< unit, per vertex, or empty
-    std::vector<double> us, vs;          ///< texture coordinates per vertex, or empty
+    std::vector<Vertex> normals;  ///< unit, per vertex, or empty
+    std::vector<double> us, vs;   ///< texture coordinates per vertex, or empty
     std::vector<Triangle> triangles;
 };
 

@@ -11,21 +11,24 @@
 
 namespace lightwalk {
 
-/// Interpolation table of a Radiance data file. Values are in row-major order, last dimension fastest.
+/// Interpolation table of a Radiance data file. Values are in row-major order, last dimension
+/// fastest.
 struct DataArray {
     struct Axis {
         float origin = 0, extent = 0;  ///< regular axis: first coordinate, last minus first
         std::uint32_t count = 0;       ///< >= 2 (>= 1 for a picture)
-        std::vector<float> points;     ///< `count` coordinates of an irregular axis; empty when regular
+        std::vector<float>
+            points;  ///< `count` coordinates of an irregular axis; empty when regular
     };
     std::vector<Axis> axes;     ///< 1 to 6
     std::vector<float> values;  ///< product of the counts
 };
 
-/// A picture as a two-dimensional table: axis 0 is v (upward), axis 1 is u (to the right), origin lower left.
+/// A picture as a two-dimensional table: axis 0 is v (upward), axis 1 is u (to the right), origin
+/// lower left.
 struct PictureData {
     std::array<DataArray::Axis, 2> axes;  ///< v, u
-    std::vector<Rgb> values;              ///< row-major from the bottom row up, left to right [W/(m² sr)]
+    std::vector<Rgb> values;  ///< row-major from the bottom row up, left to right [W/(m² sr)]
 };
 
 /// A font (.fnt): glyphs of closed polygons on a 0..255 grid.
@@ -39,12 +42,14 @@ struct Font {
     int mean_width = 0;
 };
 
-/// Finds and decodes files by the names that stand in a scene. Every method throws InputError, naming the
-/// search path, when the file is missing or damaged. Each name is decoded once and shared.
+/// Finds and decodes files by the names that stand in a scene. Every method throws InputError,
+/// naming the search path, when the file is missing or damaged. Each name is decoded once and
+/// shared.
 class Resources {
   public:
     virtual ~Resources() = default;
-    [[nodiscard]] virtual std::string function_file(const std::string& name) = 0;  ///< text of a .cal file
+    [[nodiscard]] virtual std::string function_file(
+        const std::string& name) = 0;  ///< text of a .cal file
     [[nodiscard]] virtual std::shared_ptr<const DataArray> data(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const PictureData> picture(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const Font> font(const std::string& name) = 0;

@@ -14,7 +14,8 @@ struct Scene::Impl {
     ModifierTable modifiers;
     std::vector<Surface> surfaces;
     std::size_t own_surfaces = 0;
-    std::unique_ptr<Primitive> lambertian;  ///< what irradiance modes put in place of every opaque material
+    std::unique_ptr<Primitive>
+        lambertian;  ///< what irradiance modes put in place of every opaque material
     ModifierId lambertian_modifier = kVoid;
     SurfaceId lambertian_surface = kNoSurface;
     std::unique_ptr<Geometry> geometry;
@@ -31,13 +32,16 @@ struct Scene::Impl {
 
 namespace {
 
-Surface make_surface(const Primitive& primitive, std::int32_t modifier_base, WarningSink& warnings) {
+Surface make_surface(const Primitive& primitive, std::int32_t modifier_base,
+                     WarningSink& warnings) {
     Surface surface;
     surface.type = primitive.type;
-    surface.modifier = primitive.modifier < 0 ? kVoid : ModifierId{modifier_base + primitive.modifier};
+    surface.modifier =
+        primitive.modifier < 0 ? kVoid : ModifierId{modifier_base + primitive.modifier};
     surface.name = primitive.name;
     surface.where = primitive.where;
-    if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh) return surface;
+    if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh)
+        return surface;
     ValidatedShape shape = make_shape(primitive);
     if (!shape.warning.empty()) {
         warnings.warn(to_prefix(primitive.where) + std::string(to_string(primitive.type)) + " \"" +
@@ -52,8 +56,9 @@ Transform placement_transform(const Primitive& primitive) {
     const auto words = std::span(primitive.strings).subspan(1);
     const ParsedTransform parsed = parse_transform(words);
     if (parsed.words != words.size()) {
-        throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" + primitive.name +
-                                              "\": bad transform at \"" + words[parsed.words] + "\"");
+        throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" +
+                                              primitive.name + "\": bad transform at \"" +
+                                              words[parsed.words] + "\"");
     }
     return parsed.transform;
 }
@@ -83,7 +88,8 @@ void Scene::Impl::use_modifiers() {
     for (const LoadedModel& loaded : models) {
         if (!loaded.mesh) continue;
         for (const MeshModel::Triangle& triangle : loaded.mesh->triangles) {
-            if (triangle.material >= 0) modifiers.use(ModifierId{loaded.modifier_base + triangle.material});
+            if (triangle.material >= 0)
+                modifiers.use(ModifierId{loaded.modifier_base + triangle.material});
         }
     }
 }
@@ -94,8 +100,14 @@ void Scene::Impl::add_lambertian(Resources& resources, WarningSink& warnings) {
     lambertian->name = "irradiance";
     lambertian->reals = {kPi, kPi, kPi, 0, 0};
     FunctionEnvironment functions;
-    const ModifierBuild build{*lambertian, kVoid, kVoid, resources, functions, warnings,
-                              [](std::size_t) { return kVoid; }, [](std::size_t) { return true; },
+    const ModifierBuild build{*lambertian,
+                              kVoid,
+                              kVoid,
+                              resources,
+                              functions,
+                              warnings,
+                              [](std::size_t) { return kVoid; },
+                              [](std::size_t) { return true; },
                               [](ModifierId) { return false; }};
     ModifierRecord record;
     record.type = lambertian->type;
@@ -119,7 +131,8 @@ ModelGeometry Scene::Impl::model_geometry(const LoadedModel& loaded) const {
         part.mesh = loaded.mesh.get();
         part.surface = SurfaceId{loaded.surface_base};
         for (std::size_t i = 0; i < loaded.mesh->materials.primitives.size(); ++i) {
-            part.materials.push_back(ModifierId{loaded.modifier_base + static_cast<std::int32_t>(i)});
+            part.materials.push_back(
+                ModifierId{loaded.modifier_base + static_cast<std::int32_t>(i)});
             part.traits.push_back(modifiers.traits(part.materials.back()));
         }
         geometry_of.meshes.push_back(std::move(part));
@@ -136,7 +149,8 @@ ModelGeometry Scene::Impl::model_geometry(const LoadedModel& loaded) const {
         const SurfaceId id{next++};
         const Surface& surface = surfaces[static_cast<std::size_t>(index(id))];
         if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh) {
-            geometry_of.placements.push_back({loaded.children[placement++], placement_transform(primitive), id,
+            geometry_of.placements.push_back({loaded.children[placement++],
+                                              placement_transform(primitive), id,
                                               surface.modifier != kVoid});
         } else if (!std::holds_alternative<std::monostate>(surface.shape) &&
                    !std::holds_alternative<SourceShape>(surface.shape)) {
@@ -159,28 +173,50 @@ Scene::Scene(std::shared_ptr<const Model> model, Resources& resources, WarningSi
     impl_->use_modifiers();
     impl_->modifiers.compile(impl_->models, resources, warnings);
     impl_->add_lambertian(resources, warnings);
-    for (Surface& surface : impl_->surfaces) surface.traits = impl_->modifiers.traits(surface.modifier);
+    for (Surface& surface : impl_->surfaces)
+        surface.traits = impl_->modifiers.traits(surface.modifier);
     impl_->build_geometry();
 }
 
 Scene::~Scene() = default;
 
-const Geometry& Scene::geometry() const { return *impl_->geometry; }
-std::span<const Surface> Scene::surfaces() const { return impl_->surfaces; }
-std::size_t Scene::own_surfaces() const { return impl_->own_surfaces; }
-const ModifierRecord& Scene::modifier(ModifierId id) const { return impl_->modifiers[id]; }
-std::size_t Scene::modifier_count() const { return impl_->modifiers.size(); }
-const Model& Scene::model() const { return *impl_->models[0].model; }
+const Geometry& Scene::geometry() const {
+    return *impl_->geometry;
+}
+std::span<const Surface> Scene::surfaces() const {
+    return impl_->surfaces;
+}
+std::size_t Scene::own_surfaces() const {
+    return impl_->own_surfaces;
+}
+const ModifierRecord& Scene::modifier(ModifierId id) const {
+    return impl_->modifiers[id];
+}
+std::size_t Scene::modifier_count() const {
+    return impl_->modifiers.size();
+}
+const Model& Scene::model() const {
+    return *impl_->models[0].model;
+}
 std::optional<ModifierId> Scene::material_of(ModifierId first) const {
     return impl_->modifiers.material_of(first);
 }
-bool Scene::is_transparent(ModifierId first) const { return impl_->modifiers.is_transparent(first); }
-bool Scene::has_antimatter() const { return impl_->modifiers.has_antimatter(); }
-ModifierId Scene::lambertian() const { return impl_->lambertian_modifier; }
-SurfaceId Scene::lambertian_surface() const { return impl_->lambertian_surface; }
+bool Scene::is_transparent(ModifierId first) const {
+    return impl_->modifiers.is_transparent(first);
+}
+bool Scene::has_antimatter() const {
+    return impl_->modifiers.has_antimatter();
+}
+ModifierId Scene::lambertian() const {
+    return impl_->lambertian_modifier;
+}
+SurfaceId Scene::lambertian_surface() const {
+    return impl_->lambertian_surface;
+}
 
 SceneCube Scene::cube() const {
-    if (const std::optional<ModelCube>& cube = model().cube) return {{cube->x, cube->y, cube->z}, cube->size};
+    if (const std::optional<ModelCube>& cube = model().cube)
+        return {{cube->x, cube->y, cube->z}, cube->size};
     const Bounds bounds = impl_->geometry->bounds();
     if (bounds.empty()) return {};
     constexpr double kMargin = 1e-5;  // [m], on each side

@@ -1,5 +1,6 @@
 #pragma once
-// The immutable scene: surfaces, compiled modifiers, ray casting. Built once, then read by every thread.
+// The immutable scene: surfaces, compiled modifiers, ray casting. Built once, then read by every
+// thread.
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,33 +20,39 @@ struct SceneCube {
 
 class Scene {
   public:
-    /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in others are
-    /// never reported. Throws InputError for bad surfaces, bad used modifiers, missing files, circular instances.
-    /// `model` and what `resources` hands out are kept alive by the scene.
+    /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
+    /// others are never reported. Throws InputError for bad surfaces, bad used modifiers, missing
+    /// files, circular instances. `model` and what `resources` hands out are kept alive by the
+    /// scene.
     Scene(std::shared_ptr<const Model> model, Resources& resources, WarningSink& warnings);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
     [[nodiscard]] const Geometry& geometry() const;
-    [[nodiscard]] std::span<const Surface> surfaces() const;  ///< all models; the scene's own come first, in order
-    [[nodiscard]] std::size_t own_surfaces() const;           ///< how many of them are the scene's own
-    [[nodiscard]] const Surface& surface(SurfaceId id) const { return surfaces()[static_cast<std::size_t>(index(id))]; }
+    [[nodiscard]] std::span<const Surface> surfaces()
+        const;  ///< all models; the scene's own come first, in order
+    [[nodiscard]] std::size_t own_surfaces() const;  ///< how many of them are the scene's own
+    [[nodiscard]] const Surface& surface(SurfaceId id) const {
+        return surfaces()[static_cast<std::size_t>(index(id))];
+    }
     [[nodiscard]] const ModifierRecord& modifier(ModifierId id) const;  ///< id != kVoid
     [[nodiscard]] std::size_t modifier_count() const;
     [[nodiscard]] const Model& model() const;
     [[nodiscard]] SceneCube cube() const;
 
-    /// The material at the end of a modifier's chain: first material or mixture met; nothing when there is none.
+    /// The material at the end of a modifier's chain: first material or mixture met; nothing when
+    /// there is none.
     [[nodiscard]] std::optional<ModifierId> material_of(ModifierId first) const;
-    /// Nominally transparent: trans, trans2, dielectric, interface, glass, mist, aBSDF, a BRTDfunc that transmits.
+    /// Nominally transparent: trans, trans2, dielectric, interface, glass, mist, aBSDF, a BRTDfunc
+    /// that transmits.
     [[nodiscard]] bool is_transparent(ModifierId first) const;
     /// Last modifier of the scene itself with this name; nothing when unknown.
     [[nodiscard]] std::optional<ModifierId> find_modifier(std::string_view name) const;
     /// Whether any antimatter is in use: surfaces can then be cut away.
     [[nodiscard]] bool has_antimatter() const;
-    /// White diffuse plastic of reflectance π, which irradiance modes put in place of opaque materials (its
-    /// radiance is then the irradiance), and a surface of it that no ray can hit.
+    /// White diffuse plastic of reflectance π, which irradiance modes put in place of opaque
+    /// materials (its radiance is then the irradiance), and a surface of it that no ray can hit.
     [[nodiscard]] ModifierId lambertian() const;
     [[nodiscard]] SurfaceId lambertian_surface() const;
 

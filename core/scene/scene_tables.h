@@ -12,17 +12,19 @@
 
 namespace lightwalk {
 
-/// One model in use: the scene itself, an octree, or a mesh. Its modifier i has the global id modifier_base + i.
+/// One model in use: the scene itself, an octree, or a mesh. Its modifier i has the global id
+/// modifier_base + i.
 struct LoadedModel {
-    std::shared_ptr<const Model> model;      ///< the scene or an octree
-    std::shared_ptr<const MeshModel> mesh;   ///< or a mesh, whose materials are its model
+    std::shared_ptr<const Model> model;     ///< the scene or an octree
+    std::shared_ptr<const MeshModel> mesh;  ///< or a mesh, whose materials are its model
     std::int32_t modifier_base = 0;
     std::int32_t surface_base = 0;
-    std::vector<std::uint32_t> children;     ///< model of each instance or mesh primitive, in order
+    std::vector<std::uint32_t> children;  ///< model of each instance or mesh primitive, in order
     [[nodiscard]] const Model& contents() const { return mesh ? mesh->materials : *model; }
 };
 
-/// Loads every model that the scene places, each once; rejects circular and too deeply nested instances.
+/// Loads every model that the scene places, each once; rejects circular and too deeply nested
+/// instances.
 class ModelLoader {
   public:
     ModelLoader(std::shared_ptr<const Model> scene, Resources& resources);
@@ -43,7 +45,8 @@ class ModifierTable {
     /// Compile the modifier, its chain and everything it names, earlier definitions first.
     void use(ModifierId id);
     /// Compile what `use` marked; throws InputError for a bad modifier.
-    void compile(const std::vector<LoadedModel>& models, Resources& resources, WarningSink& warnings);
+    void compile(const std::vector<LoadedModel>& models, Resources& resources,
+                 WarningSink& warnings);
 
     [[nodiscard]] const ModifierRecord& operator[](ModifierId id) const {
         return records_[static_cast<std::size_t>(index(id))];

@@ -11,12 +11,13 @@ namespace lightwalk {
 
 struct ParsedTransform {
     Transform transform;
-    std::size_t words = 0;  ///< how many words belonged to it; parsing stops at the first that does not
+    std::size_t words =
+        0;  ///< how many words belonged to it; parsing stops at the first that does not
 };
 
-/// Parse the longest valid transform at the beginning of `words` (angles in degrees, operations left to
-/// right, `-i n` repeats what follows n times). Never throws; `-s 0` and malformed numbers end it.
-/// Source: Radiance manual page xform(1).
+/// Parse the longest valid transform at the beginning of `words` (angles in degrees, operations
+/// left to right, `-i n` repeats what follows n times). Never throws; `-s 0` and malformed numbers
+/// end it. Source: Radiance manual page xform(1).
 [[nodiscard]] ParsedTransform parse_transform(std::span<const std::string> words);
 
 /// Whether `word` is one of the transform options, exactly.

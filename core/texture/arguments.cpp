@@ -3,8 +3,8 @@
 namespace lightwalk {
 
 InputError modifier_error(const Primitive& primitive, const std::string& problem) {
-    return InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" + primitive.name +
-                                           "\": " + problem);
+    return InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" +
+                                           primitive.name + "\": " + problem);
 }
 
 void require_arguments(const Primitive& primitive, std::size_t strings, std::size_t reals) {

@@ -100,12 +100,14 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
         }
         build.functions.load(name, text);
     }
-    program_ = build.functions.compile(name, requests, primitive.reals, material_channels, primitive.where);
+    program_ = build.functions.compile(name, requests, primitive.reals, material_channels,
+                                       primitive.where);
     channels_ = program_.channels();
 
     std::size_t word = first_transform_word;
     while (word < primitive.strings.size() && !is_transform_option(primitive.strings[word])) ++word;
-    const auto words = std::span(primitive.strings).subspan(std::min(word, primitive.strings.size()));
+    const auto words =
+        std::span(primitive.strings).subspan(std::min(word, primitive.strings.size()));
     const ParsedTransform parsed = parse_transform(words);
     if (parsed.words != words.size()) throw modifier_error(primitive, "bad transform");
     transform_ = parsed.transform;
@@ -135,11 +137,11 @@ EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
     return context.eval;
 }
 
-std::optional<Lanes> FunctionBinding::evaluate_lanes(const Ray& ray,
-                                                     std::span<const RayHit> hits,
+std::optional<Lanes> FunctionBinding::evaluate_lanes(const Ray& ray, std::span<const RayHit> hits,
                                                      TraceContext& context) const {
     for (std::size_t k = 0; k < hits.size(); ++k)
-        fill(context.lane_channels[k], ray, hits[k].direction, hits[k].hit, context.tracer, nullptr);
+        fill(context.lane_channels[k], ray, hits[k].direction, hits[k].hit, context.tracer,
+             nullptr);
     const auto channels = std::span(context.lane_channels).first(hits.size());
     return program_.evaluate_lanes(0, channels, context.eval);
 }
@@ -153,8 +155,10 @@ Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext
     return v;
 }
 
-Vec3 FunctionBinding::to_function(const Vec3& d, const Ray& ray, const TraceContext& context) const {
-    return world_to_function(transform_, transformed_, ray.hit.frame, context.tracer.scene().geometry())
+Vec3 FunctionBinding::to_function(const Vec3& d, const Ray& ray,
+                                  const TraceContext& context) const {
+    return world_to_function(transform_, transformed_, ray.hit.frame,
+                             context.tracer.scene().geometry())
         .direction(d);
 }
 

@@ -14,18 +14,18 @@ namespace lightwalk {
 
 class Tracer;
 
-/// Values that only some materials provide to their functions (NxP..CbP, DxA..DzA); world space where they are
-/// directions; the binding takes them to function space.
+/// Values that only some materials provide to their functions (NxP..CbP, DxA..DzA); world space
+/// where they are directions; the binding takes them to function space.
 struct MaterialVariables {
-    Vec3 normal;            ///< perturbed normal, on the incident side: NxP NyP NzP
-    double cosine = 0;      ///< RdotP
-    Rgb color;              ///< CrP CgP CbP
-    Vec3 aim;               ///< DxA DyA DzA: unit, towards the light aimed at; zero when none
+    Vec3 normal;        ///< perturbed normal, on the incident side: NxP NyP NzP
+    double cosine = 0;  ///< RdotP
+    Rgb color;          ///< CrP CgP CbP
+    Vec3 aim;           ///< DxA DyA DzA: unit, towards the light aimed at; zero when none
 };
-inline constexpr ChannelMask kNormalChannels = channel_bit(Channel::NxP) | channel_bit(Channel::NyP) |
-                                               channel_bit(Channel::NzP) | channel_bit(Channel::RdotP) |
-                                               channel_bit(Channel::CrP) | channel_bit(Channel::CgP) |
-                                               channel_bit(Channel::CbP);
+inline constexpr ChannelMask kNormalChannels =
+    channel_bit(Channel::NxP) | channel_bit(Channel::NyP) | channel_bit(Channel::NzP) |
+    channel_bit(Channel::RdotP) | channel_bit(Channel::CrP) | channel_bit(Channel::CgP) |
+    channel_bit(Channel::CbP);
 inline constexpr ChannelMask kAimChannels =
     channel_bit(Channel::DxA) | channel_bit(Channel::DyA) | channel_bit(Channel::DzA);
 
@@ -40,30 +40,40 @@ class FunctionBinding {
     /// @param build     the primitive and the tables to compile with
     /// @param file      which string argument names the function file ("." for none)
     /// @param requests  what to compile, in the file's context, after loading it
-    /// @param first_transform_word  where the search for transform words starts (after file and expressions)
-    /// Throws InputError (missing file, syntax error, `bad transform`, `bad # arguments`).
-    FunctionBinding(const ModifierBuild& build, std::size_t file, std::vector<ExpressionRequest> requests,
-                    std::size_t first_transform_word, ChannelMask material_channels = 0);
+    /// @param first_transform_word  where the search for transform words starts (after file and
+    /// expressions) Throws InputError (missing file, syntax error, `bad transform`, `bad #
+    /// arguments`).
+    FunctionBinding(const ModifierBuild& build, std::size_t file,
+                    std::vector<ExpressionRequest> requests, std::size_t first_transform_word,
+                    ChannelMask material_channels = 0);
 
-    /// Start a tick for this ray: fills the channels the program reads. The state belongs to the context and is
-    /// valid until the next begin on the same context, so begin again after tracing a child ray.
-    EvalState& begin(const Ray& ray, TraceContext& context, const MaterialVariables* material = nullptr) const;
+    /// Start a tick for this ray: fills the channels the program reads. The state belongs to the
+    /// context and is valid until the next begin on the same context, so begin again after tracing
+    /// a child ray.
+    EvalState& begin(const Ray& ray, TraceContext& context,
+                     const MaterialVariables* material = nullptr) const;
 
-    /// Output 0 for rays that differ from `ray` in direction and hit only, side by side; 1 to kLanes of them. Nothing
-    /// when it takes one evaluation after the other, see Program::evaluate_lanes.
+    /// Output 0 for rays that differ from `ray` in direction and hit only, side by side; 1 to
+    /// kLanes of them. Nothing when it takes one evaluation after the other, see
+    /// Program::evaluate_lanes.
     [[nodiscard]] std::optional<Lanes> evaluate_lanes(const Ray& ray, std::span<const RayHit> hits,
                                                       TraceContext& context) const;
 
     [[nodiscard]] const Program& program() const { return program_; }
-    [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const { return program_.evaluate(output, state); }
-    [[nodiscard]] double call(std::size_t output, std::span<const double> arguments, EvalState& state) const {
+    [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const {
+        return program_.evaluate(output, state);
+    }
+    [[nodiscard]] double call(std::size_t output, std::span<const double> arguments,
+                              EvalState& state) const {
         return program_.call(output, arguments, state);
     }
 
-    /// Function space -> world without scale (texture displacements, prism directions, orientation vectors).
+    /// Function space -> world without scale (texture displacements, prism directions, orientation
+    /// vectors).
     [[nodiscard]] Vec3 to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const;
     /// World -> function space without scale (light directions for plasfunc and relatives).
-    [[nodiscard]] Vec3 to_function(const Vec3& d, const Ray& ray, const TraceContext& context) const;
+    [[nodiscard]] Vec3 to_function(const Vec3& d, const Ray& ray,
+                                   const TraceContext& context) const;
     [[nodiscard]] const Transform& transform() const { return transform_; }
 
   private:
@@ -71,12 +81,13 @@ class FunctionBinding {
               const Tracer& tracer, const MaterialVariables* material) const;
 
     Program program_;
-    Transform transform_;      ///< of the primitive's own transform words
+    Transform transform_;  ///< of the primitive's own transform words
     bool transformed_ = false;
     ChannelMask channels_ = 0;
 };
 
-/// The first three string arguments, as of colorfunc and texfunc, which need four. Throws InputError for fewer.
+/// The first three string arguments, as of colorfunc and texfunc, which need four. Throws
+/// InputError for fewer.
 [[nodiscard]] std::vector<ExpressionRequest> three_expressions(const Primitive& primitive);
 
 }  // namespace lightwalk

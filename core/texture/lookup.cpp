@@ -8,8 +8,8 @@
 namespace lightwalk {
 namespace {
 
-/// How many values function `k` of a colour is called with: all three, but a function of fewer than three
-/// parameters after the first sees only its own.
+/// How many values function `k` of a colour is called with: all three, but a function of fewer than
+/// three parameters after the first sees only its own.
 int called_with(const ModifierBuild& build, const std::string& file, const std::string& function,
                 std::size_t k) {
     if (k == 0) return 3;
@@ -56,7 +56,8 @@ auto load_for(const Primitive& primitive, const Load& load) {
 /// The function file's definitions have to be known before functions are counted.
 void load_functions(const ModifierBuild& build, const std::string& file) {
     if (build.functions.loaded(file)) return;
-    build.functions.load(file, load_for(build.primitive, [&] { return build.resources.function_file(file); }));
+    build.functions.load(
+        file, load_for(build.primitive, [&] { return build.resources.function_file(file); }));
 }
 
 }  // namespace
@@ -68,7 +69,8 @@ FunctionBinding DataLookup::bind(const ModifierBuild& build, std::size_t first, 
     const std::size_t file = data + values;
     require_arguments(primitive, file + 2);
     for (std::size_t k = 0; k < values; ++k) {
-        tables.push_back(load_for(primitive, [&] { return build.resources.data(primitive.strings[data + k]); }));
+        tables.push_back(
+            load_for(primitive, [&] { return build.resources.data(primitive.strings[data + k]); }));
         if (tables[k]->axes.size() != tables[0]->axes.size()) {
             throw modifier_error(primitive, "dimension error: the data files differ in dimension");
         }
@@ -82,13 +84,14 @@ FunctionBinding DataLookup::bind(const ModifierBuild& build, std::size_t first, 
     std::vector<int> parameters;
     for (std::size_t k = 0; k < values; ++k) {
         const bool color = values == 3 && primitive.type != PrimitiveType::texdata;
-        parameters.push_back(values == 1 ? 1
-                             : color     ? called_with(build, primitive.strings[file],
-                                                       primitive.strings[first + k], k)
-                                         : 3);
+        parameters.push_back(
+            values == 1 ? 1
+            : color ? called_with(build, primitive.strings[file], primitive.strings[first + k], k)
+                    : 3);
     }
     std::vector<ExpressionRequest> requests = function_requests(primitive, first, parameters);
-    for (std::size_t d = 0; d < dimensions; ++d) requests.push_back({primitive.strings[file + 1 + d], -1});
+    for (std::size_t d = 0; d < dimensions; ++d)
+        requests.push_back({primitive.strings[file + 1 + d], -1});
     return FunctionBinding(build, file, std::move(requests), file + 1 + dimensions);
 }
 
@@ -98,13 +101,14 @@ DataLookup::DataLookup(const ModifierBuild& build, std::size_t first, std::size_
     const bool color = values == 3 && primitive.type != PrimitiveType::texdata;
     for (std::size_t k = 0; k < values; ++k) {
         parameters_.push_back(values == 1 ? 1
-                              : color     ? called_with(build, primitive.strings[first + 2 * values],
-                                                        primitive.strings[first + k], k)
-                                          : 3);
+                              : color ? called_with(build, primitive.strings[first + 2 * values],
+                                                    primitive.strings[first + k], k)
+                                      : 3);
     }
 }
 
-std::optional<std::array<double, 3>> DataLookup::evaluate(const Ray& ray, TraceContext& context, Order order,
+std::optional<std::array<double, 3>> DataLookup::evaluate(const Ray& ray, TraceContext& context,
+                                                          Order order,
                                                           bool test_each_coordinate) const {
     EvalState& state = binding_.begin(ray, context);
     const std::size_t values = parameters_.size();
@@ -125,17 +129,20 @@ std::optional<std::array<double, 3>> DataLookup::evaluate(const Ray& ray, TraceC
 }
 
 PictureLookup::PictureLookup(const ModifierBuild& build, std::size_t first, std::size_t values)
-    : picture_((require_arguments(build.primitive, first + values + 4),
-                load_for(build.primitive,
-                         [&] { return build.resources.picture(build.primitive.strings[first + values]); }))),
+    : picture_(
+          (require_arguments(build.primitive, first + values + 4),
+           load_for(
+               build.primitive,
+               [&] { return build.resources.picture(build.primitive.strings[first + values]); }))),
       binding_([&] {
           const Primitive& primitive = build.primitive;
           const std::size_t file = first + values + 1;
           load_functions(build, primitive.strings[file]);
           std::vector<int> parameters;
           for (std::size_t k = 0; k < values; ++k) {
-              parameters.push_back(
-                  values == 1 ? 3 : called_with(build, primitive.strings[file], primitive.strings[first + k], k));
+              parameters.push_back(values == 1 ? 3
+                                               : called_with(build, primitive.strings[file],
+                                                             primitive.strings[first + k], k));
           }
           std::vector<ExpressionRequest> requests = function_requests(primitive, first, parameters);
           requests.push_back({primitive.strings[file + 1], -1});
@@ -144,7 +151,8 @@ PictureLookup::PictureLookup(const ModifierBuild& build, std::size_t first, std:
           return FunctionBinding(build, file, std::move(requests), file + 3);
       }()) {}
 
-std::optional<std::array<double, 3>> PictureLookup::evaluate(const Ray& ray, TraceContext& context) const {
+std::optional<std::array<double, 3>> PictureLookup::evaluate(const Ray& ray,
+                                                             TraceContext& context) const {
     EvalState& state = binding_.begin(ray, context);
     const std::size_t values = parameters_.size();
     const double u = binding_.evaluate(values, state);

@@ -20,25 +20,33 @@ struct MixedPair {
     std::string name;
 
     explicit MixedPair(const ModifierBuild& build)
-        : fore(resolve(build, 0)), back(resolve(build, 1)), next(build.next),
-          where(build.primitive.where), name(build.primitive.name) {}
+        : fore(resolve(build, 0)),
+          back(resolve(build, 1)),
+          next(build.next),
+          where(build.primitive.where),
+          name(build.primitive.name) {}
 
     static ModifierId resolve(const ModifierBuild& build, std::size_t i) {
         require_arguments(build.primitive, 2);
         if (build.undefined(i)) {
-            throw modifier_error(build.primitive, "undefined modifier \"" + build.primitive.strings[i] + "\"");
+            throw modifier_error(build.primitive,
+                                 "undefined modifier \"" + build.primitive.strings[i] + "\"");
         }
         return build.reference(i);
     }
 
     void require_void_modifier() const {
         if (next == kVoid) return;
-        throw InputError(where, "mixture \"" + name +
-                                    "\": inappropriate modifier: a mixture of materials must have modifier void");
+        throw InputError(
+            where,
+            "mixture \"" + name +
+                "\": inappropriate modifier: a mixture of materials must have modifier void");
     }
 };
 
-Rgb mix(const Rgb& fore, const Rgb& back, float c) { return fore * c + back * (1 - c); }
+Rgb mix(const Rgb& fore, const Rgb& back, float c) {
+    return fore * c + back * (1 - c);
+}
 
 /// Take over the larger contribution's distances, and the weighted sum of the radiances.
 void combine_values(Ray& ray, const Ray& fore, const Ray& back, float c) {
@@ -46,10 +54,12 @@ void combine_values(Ray& ray, const Ray& fore, const Ray& back, float c) {
     ray.mirrored = mix(fore.mirrored, back.mirrored, c);
     const float fore_mirrored = c * brightness(fore.mirrored);
     const float back_mirrored = (1 - c) * brightness(back.mirrored);
-    ray.mirrored_distance = fore_mirrored > back_mirrored ? fore.mirrored_distance : back.mirrored_distance;
+    ray.mirrored_distance =
+        fore_mirrored > back_mirrored ? fore.mirrored_distance : back.mirrored_distance;
     const float fore_rest = c * brightness(fore.value) - fore_mirrored;
     const float back_rest = (1 - c) * brightness(back.value) - back_mirrored;
-    ray.unmirrored_distance = fore_rest > back_rest ? fore.unmirrored_distance : back.unmirrored_distance;
+    ray.unmirrored_distance =
+        fore_rest > back_rest ? fore.unmirrored_distance : back.unmirrored_distance;
 }
 
 /// Evaluate both branches on copies of the ray. True: at least one was a material.
@@ -134,7 +144,8 @@ class PictureMixture final : public Modifier {
 /// Text chooses one branch outright.
 class TextMixture final : public Modifier {
   public:
-    explicit TextMixture(const ModifierBuild& build) : pair_(build), layout_(make_text_layout(build, 2, 0)) {}
+    explicit TextMixture(const ModifierBuild& build)
+        : pair_(build), layout_(make_text_layout(build, 2, 0)) {}
 
     bool shade(Ray& ray, TraceContext& context) const override {
         const ModifierId chosen = inside_text(layout_, ray, context) ? pair_.fore : pair_.back;
@@ -152,10 +163,14 @@ class TextMixture final : public Modifier {
 
 std::unique_ptr<const Modifier> make_mixture(const ModifierBuild& build) {
     switch (build.primitive.type) {
-        case PrimitiveType::mixfunc: return std::make_unique<FunctionMixture>(build);
-        case PrimitiveType::mixdata: return std::make_unique<DataMixture>(build);
-        case PrimitiveType::mixpict: return std::make_unique<PictureMixture>(build);
-        default: return std::make_unique<TextMixture>(build);
+        case PrimitiveType::mixfunc:
+            return std::make_unique<FunctionMixture>(build);
+        case PrimitiveType::mixdata:
+            return std::make_unique<DataMixture>(build);
+        case PrimitiveType::mixpict:
+            return std::make_unique<PictureMixture>(build);
+        default:
+            return std::make_unique<TextMixture>(build);
     }
 }
 

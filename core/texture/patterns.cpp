@@ -32,13 +32,15 @@ class BrightnessFunction final : public Modifier {
 
 class ColorFunction final : public Modifier {
   public:
-    explicit ColorFunction(const ModifierBuild& build) : binding_(build, 3, three_expressions(build.primitive), 4) {}
+    explicit ColorFunction(const ModifierBuild& build)
+        : binding_(build, 3, three_expressions(build.primitive), 4) {}
 
     bool shade(Ray& ray, TraceContext& context) const override {
         EvalState& state = binding_.begin(ray, context);
         Rgb color;
         // Blue first, as the reference: the order shows when an expression fails.
-        for (std::size_t k = 3; k-- > 0;) color[k] = static_cast<float>(binding_.evaluate(k, state));
+        for (std::size_t k = 3; k-- > 0;)
+            color[k] = static_cast<float>(binding_.evaluate(k, state));
         if (state.error == EvalError::none) ray.pattern *= color;
         return false;
     }
@@ -54,7 +56,8 @@ Rgb to_rgb(const std::array<double, 3>& v) {
 class DataPattern final : public Modifier {
   public:
     explicit DataPattern(const ModifierBuild& build)
-        : color_(build.primitive.type == PrimitiveType::colordata), lookup_(build, 0, color_ ? 3 : 1) {}
+        : color_(build.primitive.type == PrimitiveType::colordata),
+          lookup_(build, 0, color_ ? 3 : 1) {}
 
     bool shade(Ray& ray, TraceContext& context) const override {
         const auto order = color_ ? DataLookup::Order::forward : DataLookup::Order::backward;
@@ -85,7 +88,8 @@ class PicturePattern final : public Modifier {
 }  // namespace
 
 std::unique_ptr<const Modifier> make_function_pattern(const ModifierBuild& build) {
-    if (build.primitive.type == PrimitiveType::brightfunc) return std::make_unique<BrightnessFunction>(build);
+    if (build.primitive.type == PrimitiveType::brightfunc)
+        return std::make_unique<BrightnessFunction>(build);
     return std::make_unique<ColorFunction>(build);
 }
 

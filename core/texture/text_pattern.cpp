@@ -25,8 +25,11 @@ std::vector<std::string> text_of(const ModifierBuild& build, std::size_t font) {
 class TextPattern final : public Modifier {
   public:
     explicit TextPattern(const ModifierBuild& build)
-        : layout_(make_text_layout(build, 0, build.primitive.type == PrimitiveType::colortext ? 6 : 2)) {
-        const auto real = [&](std::size_t i) { return static_cast<float>(build.primitive.reals[i]); };
+        : layout_(make_text_layout(build, 0,
+                                   build.primitive.type == PrimitiveType::colortext ? 6 : 2)) {
+        const auto real = [&](std::size_t i) {
+            return static_cast<float>(build.primitive.reals[i]);
+        };
         if (build.primitive.type == PrimitiveType::colortext) {
             foreground_ = {real(9), real(10), real(11)};
             background_ = {real(12), real(13), real(14)};
@@ -56,7 +59,8 @@ TextLayout make_text_layout(const ModifierBuild& build, std::size_t font, std::s
     if (a.size() > 9 + colors) spacing = a[9 + colors];
     try {
         return TextLayout(text_of(build, font), build.resources.font(primitive.strings[font]),
-                          Vec3{a[0], a[1], a[2]}, Vec3{a[3], a[4], a[5]}, Vec3{a[6], a[7], a[8]}, spacing);
+                          Vec3{a[0], a[1], a[2]}, Vec3{a[3], a[4], a[5]}, Vec3{a[6], a[7], a[8]},
+                          spacing);
     } catch (const InputError& error) {
         throw modifier_error(primitive, error.what());
     }

@@ -1,5 +1,5 @@
-// Textures add a displacement to the surface normal. It is given in function space and carried to the world
-// without its scale.
+// Textures add a displacement to the surface normal. It is given in function space and carried to
+// the world without its scale.
 #include "core/texture/arguments.h"
 #include "core/texture/factories.h"
 #include "core/texture/lookup.h"
@@ -10,7 +10,8 @@ namespace {
 
 class FunctionTexture final : public Modifier {
   public:
-    explicit FunctionTexture(const ModifierBuild& build) : binding_(build, 3, three_expressions(build.primitive), 4) {}
+    explicit FunctionTexture(const ModifierBuild& build)
+        : binding_(build, 3, three_expressions(build.primitive), 4) {}
 
     bool shade(Ray& ray, TraceContext& context) const override {
         EvalState& state = binding_.begin(ray, context);
@@ -34,7 +35,8 @@ class DataTexture final : public Modifier {
 
     bool shade(Ray& ray, TraceContext& context) const override {
         if (const auto v = lookup_.evaluate(ray, context, DataLookup::Order::forward, false)) {
-            ray.hit.perturbation += lookup_.binding().to_world({(*v)[0], (*v)[1], (*v)[2]}, ray, context);
+            ray.hit.perturbation +=
+                lookup_.binding().to_world({(*v)[0], (*v)[1], (*v)[2]}, ray, context);
         }
         return false;
     }

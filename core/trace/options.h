@@ -18,36 +18,36 @@ struct AmbientSelection {
 
 struct RenderOptions {
     // direct
-    double shadow_threshold = 0.05;   ///< -dt
-    double shadow_certainty = 0.5;    ///< -dc
-    double source_jitter = 0;         ///< -dj
-    double source_subdivision = 0.25; ///< -ds
-    int relays = 1;                   ///< -dr
-    double relay_pretest = 512;       ///< -dp [samples/sr]
-    bool sources_visible = true;      ///< -dv
-    bool back_faces_visible = true;   ///< -bv
+    double shadow_threshold = 0.05;    ///< -dt
+    double shadow_certainty = 0.5;     ///< -dc
+    double source_jitter = 0;          ///< -dj
+    double source_subdivision = 0.25;  ///< -ds
+    int relays = 1;                    ///< -dr
+    double relay_pretest = 512;        ///< -dp [samples/sr]
+    bool sources_visible = true;       ///< -dv
+    bool back_faces_visible = true;    ///< -bv
     // specular
-    double specular_samples = 1;      ///< -ss
-    double specular_threshold = 0.15; ///< -st
-    int reflection_limit = 7;         ///< -lr; <= 0: Russian roulette
-    double weight_limit = 1e-4;       ///< -lw
+    double specular_samples = 1;       ///< -ss
+    double specular_threshold = 0.15;  ///< -st
+    int reflection_limit = 7;          ///< -lr; <= 0: Russian roulette
+    double weight_limit = 1e-4;        ///< -lw
     // medium
-    Rgb extinction;                   ///< -me [1/m]
-    Rgb albedo;                       ///< -ma
-    double eccentricity = 0;          ///< -mg
-    double scatter_step = 0;          ///< -ms [m]
+    Rgb extinction;           ///< -me [1/m]
+    Rgb albedo;               ///< -ma
+    double eccentricity = 0;  ///< -mg
+    double scatter_step = 0;  ///< -ms [m]
     // ambient
-    Rgb ambient_value;                ///< -av [W/(m² sr)]
-    int ambient_weight = 0;           ///< -aw
-    int ambient_bounces = 0;          ///< -ab
-    double ambient_accuracy = 0.2;    ///< -aa
-    int ambient_resolution = 64;      ///< -ar
-    int ambient_divisions = 512;      ///< -ad
-    int ambient_super_samples = 128;  ///< -as
+    Rgb ambient_value;                  ///< -av [W/(m² sr)]
+    int ambient_weight = 0;             ///< -aw
+    int ambient_bounces = 0;            ///< -ab
+    double ambient_accuracy = 0.2;      ///< -aa
+    int ambient_resolution = 64;        ///< -ar
+    int ambient_divisions = 512;        ///< -ad
+    int ambient_super_samples = 128;    ///< -as
     AmbientSelection ambient_surfaces;  ///< -ae -ai -aE -aI
     // irradiance
-    bool irradiance = false;          ///< -i
-    std::uint64_t seed = 0;           ///< --seed
+    bool irradiance = false;  ///< -i
+    std::uint64_t seed = 0;   ///< --seed
 };
 
 }  // namespace lightwalk

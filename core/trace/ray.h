@@ -12,24 +12,26 @@ namespace lightwalk {
 /// Kinds of rays; the history of a path is the union of its kinds.
 enum RayKind : std::uint16_t {
     kPrimary = 1,
-    kReflected = 2,             ///< mirror-like
+    kReflected = 2,  ///< mirror-like
     kRefracted = 4,
-    kTransferred = 8,           ///< straight on, or bent by a material
-    kShadowSame = 16,           ///< to a source on the viewer's side
-    kShadowThrough = 32,        ///< to a source through the surface
+    kTransferred = 8,     ///< straight on, or bent by a material
+    kShadowSame = 16,     ///< to a source on the viewer's side
+    kShadowThrough = 32,  ///< to a source through the surface
     kAmbientSame = 64,
     kAmbientThrough = 128,
-    kSpecularReflected = 256,   ///< sampled rough reflection
-    kSpecularTransmitted = 512, ///< sampled rough transmission
+    kSpecularReflected = 256,    ///< sampled rough reflection
+    kSpecularTransmitted = 512,  ///< sampled rough transmission
 
     kShadow = kShadowSame | kShadowThrough,
     kAmbient = kAmbientSame | kAmbientThrough,
     kSpecular = kSpecularReflected | kSpecularTransmitted,
-    /// Kinds that stay on the viewer's side. A light candidate is kShadow (both bits) and counts as such.
+    /// Kinds that stay on the viewer's side. A light candidate is kShadow (both bits) and counts as
+    /// such.
     kSameSide = kShadowSame | kReflected | kAmbientSame | kSpecularReflected,
 };
 
-struct ClipSet;      ///< immutable set of clipped modifiers (antimatter); lives in the TraceContext's arena
+struct ClipSet;  ///< immutable set of clipped modifiers (antimatter); lives in the TraceContext's
+                 ///< arena
 struct ScatterList;  ///< immutable list of sources that a mist scatters; likewise
 
 /// Participating medium of a ray segment.
@@ -46,21 +48,21 @@ struct Ray {
     Vec3 origin, direction;  ///< direction is unit, away from the viewer
     double limit = 0;        ///< aft clipping distance; 0: none [m]
 
-    Hit hit;                 ///< nearest hit; for nothing or a distant source t = kHuge
-    Rgb pattern{1, 1, 1};    ///< product of the patterns met; textures add to hit.perturbation
+    Hit hit;               ///< nearest hit; for nothing or a distant source t = kHuge
+    Rgb pattern{1, 1, 1};  ///< product of the patterns met; textures add to hit.perturbation
 
-    Rgb value;               ///< radiance that the ray brings back [W/(m² sr)]
-    Rgb mirrored;            ///< the part of it that came by mirror-like reflection
+    Rgb value;                           ///< radiance that the ray brings back [W/(m² sr)]
+    Rgb mirrored;                        ///< the part of it that came by mirror-like reflection
     double mirrored_distance = kHuge;    ///< Radiance's rmt
     double unmirrored_distance = kHuge;  ///< Radiance's rxt
 
-    Rgb coef{1, 1, 1};       ///< factor relative to the parent
-    double weight = 1;       ///< bound on the contribution to the primary ray
-    int level = 0;           ///< reflections so far
+    Rgb coef{1, 1, 1};  ///< factor relative to the parent
+    double weight = 1;  ///< bound on the contribution to the primary ray
+    int level = 0;      ///< reflections so far
     std::uint16_t kind = kPrimary;
     std::uint16_t history = kPrimary;
     std::int32_t target = kNoTarget;  ///< light source (index) aimed at
-    bool aimed = false;      ///< evaluate the target's radiance alone: only its own object exists
+    bool aimed = false;  ///< evaluate the target's radiance alone: only its own object exists
 
     Medium medium;
     const ClipSet* clip = nullptr;
@@ -74,10 +76,13 @@ struct Ray {
     [[nodiscard]] bool in(std::uint16_t kinds) const { return (history & kinds) != 0; }
     /// Distance of what is seen: through or in a mirror-like surface where that dominates.
     [[nodiscard]] double effective_distance() const {
-        return brightness(mirrored) > 0.5f * brightness(value) ? mirrored_distance : unmirrored_distance;
+        return brightness(mirrored) > 0.5f * brightness(value) ? mirrored_distance
+                                                               : unmirrored_distance;
     }
     /// Whether a texture moved the normal (|d| > kEpsilon).
-    [[nodiscard]] bool perturbed() const { return length_squared(hit.perturbation) > kEpsilon * kEpsilon; }
+    [[nodiscard]] bool perturbed() const {
+        return length_squared(hit.perturbation) > kEpsilon * kEpsilon;
+    }
 };
 
 }  // namespace lightwalk

@@ -5,8 +5,8 @@ namespace lightwalk {
 namespace {
 
 bool is_light(PrimitiveType type) {
-    return type == PrimitiveType::light || type == PrimitiveType::illum || type == PrimitiveType::glow ||
-           type == PrimitiveType::spotlight;
+    return type == PrimitiveType::light || type == PrimitiveType::illum ||
+           type == PrimitiveType::glow || type == PrimitiveType::spotlight;
 }
 
 /// Irradiance mode (-i) concerns what the eye sees directly or straight through something.
@@ -45,9 +45,10 @@ void Tracer::apply_textures(Ray& ray, ModifierId material_next, TraceContext& co
     for (ModifierId m = material_next; m != kVoid;) {
         const ModifierRecord& record = scene_.modifier(m);
         if (record.node && record.node->shade(ray, context)) {
-            throw InputError(record.primitive->where,
-                             std::string(to_string(record.type)) + " \"" + record.name +
-                                 "\": conflicting material: it modifies a surface that has one already");
+            throw InputError(
+                record.primitive->where,
+                std::string(to_string(record.type)) + " \"" + record.name +
+                    "\": conflicting material: it modifies a surface that has one already");
         }
         m = record.next;
     }

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kFar = 0.99 * kHuge;  ///< beyond: nothing was hit
 
-/// Weight left after a segment of length `t` in a medium, for judging whether a child is worth tracing.
+/// Weight left after a segment of length `t` in a medium, for judging whether a child is worth
+/// tracing.
 double medium_estimate(const Medium& medium, double t) {
     const double depth = static_cast<double>(min_component(medium.extinction)) * t;
     if (depth <= 0.1) return 1;
@@ -36,13 +37,19 @@ bool within_limits(Ray& ray, bool has_coef, const RenderOptions& options) {
 
 void count(const Ray& ray, RayCounters& counters) {
     if (ray.kind & kShadow) return;  // counted by the direct calculation
-    if (ray.kind & kPrimary) ++counters.primary;
-    else if (ray.kind & kAmbient) ++counters.ambient;
-    else if (ray.kind & (kReflected | kSpecular)) ++counters.specular;
-    else ++counters.transmitted;
+    if (ray.kind & kPrimary)
+        ++counters.primary;
+    else if (ray.kind & kAmbient)
+        ++counters.ambient;
+    else if (ray.kind & (kReflected | kSpecular))
+        ++counters.specular;
+    else
+        ++counters.transmitted;
 }
 
-bool is_finite(const Rgb& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+bool is_finite(const Rgb& c) {
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
 
 }  // namespace
 
@@ -73,7 +80,9 @@ TraceContext::TraceContext(const Tracer& for_tracer, WarningSink& to_warnings)
 TraceContext::~TraceContext() = default;
 
 Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings)
-    : scene_(scene), options_(options), lights_(std::make_unique<LightSources>(scene, options_, warnings)) {
+    : scene_(scene),
+      options_(options),
+      lights_(std::make_unique<LightSources>(scene, options_, warnings)) {
     if (options_.reflection_limit <= 0 && options_.weight_limit <= 0) {
         throw InputError("-lw must be positive when -lr is zero or negative (Russian roulette)");
     }
@@ -82,14 +91,16 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
 }
 Tracer::~Tracer() = default;
 
-Ray Tracer::primary(const Vec3& origin, const Vec3& direction, double limit, RandomStream random) const {
+Ray Tracer::primary(const Vec3& origin, const Vec3& direction, double limit,
+                    RandomStream random) const {
     Ray ray;
     ray.origin = origin;
     const double squared = fused_dot(direction, direction);
     // Normalising twice would change the last bits of a direction that is unit already.
     ray.direction = std::abs(squared - 1) <= 1e-15 ? direction : normalize(direction);
     ray.limit = limit;
-    ray.medium = {options_.extinction, options_.albedo, static_cast<float>(options_.eccentricity), nullptr};
+    ray.medium = {options_.extinction, options_.albedo, static_cast<float>(options_.eccentricity),
+                  nullptr};
     ray.random = random;
     return ray;
 }
@@ -148,7 +159,8 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
             ray.unmirrored_distance = ray.hit.t;
             if (!shade_chain(ray, ray.hit.modifier, context)) {
                 throw InputError(scene_.surface(ray.hit.surface).where,
-                                 "light source \"" + scene_.surface(ray.hit.surface).name + "\" has no material");
+                                 "light source \"" + scene_.surface(ray.hit.surface).name +
+                                     "\" has no material");
             }
             apply_medium(ray, context);
         }
@@ -228,7 +240,9 @@ Rgb Tracer::ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext&
     return ambient_->add(ray, coef, normal, context);
 }
 
-void Tracer::use_ambient_cache(AmbientCache* cache) { ambient_->use_cache(cache); }
+void Tracer::use_ambient_cache(AmbientCache* cache) {
+    ambient_->use_cache(cache);
+}
 
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                         const Vec3* front) const {
@@ -243,7 +257,9 @@ void Tracer::apply_medium(Ray& ray, TraceContext& context) const {
     for (std::size_t i = 0; i < 3; ++i) {
         double depth = ray.hit.t * static_cast<double>(medium.extinction[i]);
         if (shadow) depth *= 1 - static_cast<double>(medium.albedo[i]);
-        left[i] = depth <= kEpsilon ? 1.0f : depth > 92 ? 0.0f : static_cast<float>(std::exp(-depth));
+        left[i] = depth <= kEpsilon ? 1.0f
+                  : depth > 92      ? 0.0f
+                                    : static_cast<float>(std::exp(-depth));
     }
     ray.value *= left;
     if (shadow || max_component(medium.albedo) <= static_cast<float>(kEpsilon)) return;

@@ -24,16 +24,20 @@ class Tracer;
 struct RayCounters {
     std::uint64_t primary = 0, shadow = 0, specular = 0, transmitted = 0, ambient = 0;
     RayCounters& operator+=(const RayCounters& o);
-    [[nodiscard]] std::uint64_t total() const { return primary + shadow + specular + transmitted + ambient; }
+    [[nodiscard]] std::uint64_t total() const {
+        return primary + shadow + specular + transmitted + ambient;
+    }
 };
 
 /// Ambient values asked for, by how they were found.
 struct AmbientCounters {
     std::uint64_t interpolated = 0;  ///< from the cache
     std::uint64_t computed = 0;      ///< by a hemisphere of rays
-    std::uint64_t incomplete = 0;    ///< of these: some rays could not start, so that nothing was stored
-    std::uint64_t waits = 0;         ///< for a value that another thread computed
-    std::uint64_t duplicates = 0;    ///< computed, though by then another thread's value would have served
+    std::uint64_t incomplete =
+        0;                    ///< of these: some rays could not start, so that nothing was stored
+    std::uint64_t waits = 0;  ///< for a value that another thread computed
+    std::uint64_t duplicates =
+        0;  ///< computed, though by then another thread's value would have served
     AmbientCounters& operator+=(const AmbientCounters& o);
 };
 
@@ -62,7 +66,7 @@ struct TraceContext {
     ChannelValues channels{};
     std::array<ChannelValues, kLanes> lane_channels{};  ///< of evaluations side by side
     std::unique_ptr<LightScratch> light;
-    int depth = 0;  ///< nesting of rays, bounded by Tracer::kMaxDepth
+    int depth = 0;          ///< nesting of rays, bounded by Tracer::kMaxDepth
     int ambient_level = 0;  ///< ambient evaluations that are open
     AmbientCounters ambient;
     // Sets made on the way (antimatter, mist); forgotten when a primary ray starts.
@@ -70,13 +74,14 @@ struct TraceContext {
     std::deque<ScatterList> scatter_lists;
 };
 
-/// What a surface sends towards the eye per unit radiance of a light in direction `l` (unit, away from the
-/// surface) of solid angle `omega` [sr]: f cosθ ω. Zero when it does not see that side.
+/// What a surface sends towards the eye per unit radiance of a light in direction `l` (unit, away
+/// from the surface) of solid angle `omega` [sr]: f cosθ ω. Zero when it does not see that side.
 using DirectCoefficient = FunctionRef<Rgb(const Vec3& l, double omega)>;
 
 class Tracer {
   public:
-    static constexpr int kMaxDepth = 1000;  ///< nested rays; deeper ones return black (the stack is finite)
+    static constexpr int kMaxDepth =
+        1000;  ///< nested rays; deeper ones return black (the stack is finite)
 
     /// Prepares light sources (virtual ones included) and their frozen visibility statistics.
     /// Throws InputError for illegal light sources.
@@ -90,22 +95,26 @@ class Tracer {
     [[nodiscard]] const LightSources& lights() const { return *lights_; }
 
     /// A primary ray with the global medium; `direction` is normalised here.
-    [[nodiscard]] Ray primary(const Vec3& origin, const Vec3& direction, double limit, RandomStream random) const;
+    [[nodiscard]] Ray primary(const Vec3& origin, const Vec3& direction, double limit,
+                              RandomStream random) const;
 
-    /// Evaluate a ray whose origin and direction are set (primary or spawned): nearest hit or background, shading,
-    /// medium. The result is in the ray. Never throws for numeric trouble; a non-finite result becomes 0 and is
-    /// reported. Calls for ray.aimed rays intersect the target's object only.
+    /// Evaluate a ray whose origin and direction are set (primary or spawned): nearest hit or
+    /// background, shading, medium. The result is in the ray. Never throws for numeric trouble; a
+    /// non-finite result becomes 0 and is reported. Calls for ray.aimed rays intersect the target's
+    /// object only.
     void trace(Ray& ray, TraceContext& context) const;
 
     /// The same when the nearest hit is known already (primary packets).
     void shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const;
 
-    /// Irradiance at a sensor point facing `normal` (rtrace -I): the radiance of an ideal white surface there.
+    /// Irradiance at a sensor point facing `normal` (rtrace -I): the radiance of an ideal white
+    /// surface there.
     [[nodiscard]] Ray irradiance(const Vec3& point, const Vec3& normal, RandomStream random,
                                  TraceContext& context) const;
 
-    /// Prepare a child of `parent` (whose hit is set); the caller sets child.direction and calls trace. `coef` null:
-    /// none given. False: the ray is not to be traced (limits); most callers then drop the component.
+    /// Prepare a child of `parent` (whose hit is set); the caller sets child.direction and calls
+    /// trace. `coef` null: none given. False: the ray is not to be traced (limits); most callers
+    /// then drop the component.
     [[nodiscard]] bool spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const;
 
     /// child.value times child.coef is added to parent.value; returns the contribution.
@@ -116,20 +125,23 @@ class Tracer {
     [[nodiscard]] bool shade_chain(Ray& ray, ModifierId first, TraceContext& context) const;
     /// Shade with a chain, passing through when it has no material.
     void shade_or_pass(Ray& ray, ModifierId first, TraceContext& context) const;
-    /// Run the textures and patterns below a material (its own modifier chain). A material there is an InputError.
+    /// Run the textures and patterns below a material (its own modifier chain). A material there is
+    /// an InputError.
     void apply_textures(Ray& ray, ModifierId material_next, TraceContext& context) const;
 
     /// Ignore the surface: the ray goes on, and what it brings back is taken over unchanged.
     void pass_through(Ray& ray, TraceContext& context) const;
 
-    /// Where -ab > 0 and -aa > 0 keep their values; it must outlive the tracer's use. Null: every value is computed
-    /// anew, as with -aa 0. Not while rays are traced.
+    /// Where -ab > 0 and -aa > 0 keep their values; it must outlive the tracer's use. Null: every
+    /// value is computed anew, as with -aa 0. Not while rays are traced.
     void use_ambient_cache(AmbientCache* cache);
-    /// Indirect light times `coef` at the hit about `normal` (the constant -av when there is no ambient calculation).
-    [[nodiscard]] Rgb ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const;
+    /// Indirect light times `coef` at the hit about `normal` (the constant -av when there is no
+    /// ambient calculation).
+    [[nodiscard]] Rgb ambient(Ray& ray, const Rgb& coef, const Vec3& normal,
+                              TraceContext& context) const;
 
-    /// Add direct light of all sources to ray.value. `front`: where given, the coefficient is 0 for light from behind
-    /// it, so that sources that lie there need not be looked at.
+    /// Add direct light of all sources to ray.value. `front`: where given, the coefficient is 0 for
+    /// light from behind it, so that sources that lie there need not be looked at.
     void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                     const Vec3* front = nullptr) const;
 
@@ -143,7 +155,8 @@ class Tracer {
     std::unique_ptr<AmbientCalculation> ambient_;
 };
 
-/// The perturbed normal and its cosine with the ray. `normal` and `rod` may have been flipped by the caller.
+/// The perturbed normal and its cosine with the ray. `normal` and `rod` may have been flipped by
+/// the caller.
 struct PerturbedNormal {
     Vec3 normal;
     double cosine = 1;  ///< -direction . normal, of the same sign as rod

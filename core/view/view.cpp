@@ -60,8 +60,8 @@ bool finite(const View& view) {
 /// Unit vector along `a`, also where the squares of its components would overflow or vanish.
 Vec3 unit(const Vec3& a) {
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-    // Twice, as views are set up twice in Radiance: the bits of view rays decide on which side of a lattice plane a
-    // pattern is looked up.
+    // Twice, as views are set up twice in Radiance: the bits of view rays decide on which side of a
+    // lattice plane a pattern is looked up.
     if (largest > 1e-100 && largest < 1e100) return normalize(normalize(a));
     return largest > 0 ? normalize({a.x / largest, a.y / largest, a.z / largest}) : Vec3{};
 }
@@ -170,7 +170,8 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
             q = z * forward_ + (1 + z) * across;
             break;
         }
-        default:  // fused, and scaled axes first: to the bit what released builds of Radiance compute
+        default:  // fused, and scaled axes first: to the bit what released builds of Radiance
+                  // compute
             q = fused_advance(fused_advance(forward_, right_ * width_, h + (view_.shift - 0.5)),
                               upward_ * height_, v + (view_.lift - 0.5));
             break;

@@ -20,13 +20,14 @@ namespace {
 
 constexpr std::string_view kUsage =
     "month day hour [-y year] | -ang altitude azimuth, "
-    "[-P clearness brightness | -W direct diffuse | -G direct diffuse | -L direct diffuse | -E global] "
+    "[-P clearness brightness | -W direct diffuse | -G direct diffuse | -L direct diffuse | -E "
+    "global] "
     "[options]";
-constexpr double kEfficacy = 179;           ///< Radiance's lumens per watt
-constexpr double kMaxIrradiance = 1367;     ///< [W/m²]
-constexpr double kMaxIlluminance = 127500;  ///< [lx]
-constexpr double kSunAngle = 0.533;         ///< [deg]
-constexpr double kSunSolidAngle = 6.8e-5;   ///< of the sun's part of the ground's light [sr]
+constexpr double kEfficacy = 179;                 ///< Radiance's lumens per watt
+constexpr double kMaxIrradiance = 1367;           ///< [W/m²]
+constexpr double kMaxIlluminance = 127500;        ///< [lx]
+constexpr double kSunAngle = 0.533;               ///< [deg]
+constexpr double kSunSolidAngle = 6.8e-5;         ///< of the sun's part of the ground's light [sr]
 constexpr double kDefaultDewPoint = 10.97353115;  ///< [C]; 2 cm of water
 constexpr double kMaxDewPoint = 40;
 constexpr int kIlluminanceSteps = 9;
@@ -34,8 +35,8 @@ constexpr int kIlluminanceSteps = 9;
 enum class WeatherInput : std::uint8_t { perez, normal, horizontal, illuminance, global };
 enum class SkyUnits : std::uint8_t { visible_radiance, solar_radiance, luminance };
 
-/// Chromaticities of daylight: x as a cubic of the reciprocal temperature, below and above 7000 K; y as a
-/// quadratic of x.
+/// Chromaticities of daylight: x as a cubic of the reciprocal temperature, below and above 7000 K;
+/// y as a quadratic of x.
 using DaylightLocus = std::array<double, 11>;
 constexpr DaylightLocus kDefaultLocus = {-4.843e9, 2.5568e6, 242.82,  0.23258, -4.843e9, 2.5568e6,
                                          242.82,   0.23258,  -1.2848, 1.7519,  -0.093786};
@@ -106,13 +107,20 @@ bool accept_input(GeneratorWords& words, DaylitOptions& sky) {
 
 /// Take an option without arguments.
 bool accept_switch(GeneratorWords& words, DaylitOptions& sky) {
-    if (words.accept("-s")) sky.show_sun = false;
-    else if (words.accept("+s")) sky.show_sun = true;
-    else if (words.accept("-c") || words.accept("+c")) sky.show_sun = sky.limit_altitude = false;
-    else if (words.accept("-w")) sky.quiet = true;
-    else if (words.accept("-C")) sky.colored = true;
-    else if (words.accept("-CIE")) sky.locus = kCieLocus;
-    else return false;
+    if (words.accept("-s"))
+        sky.show_sun = false;
+    else if (words.accept("+s"))
+        sky.show_sun = true;
+    else if (words.accept("-c") || words.accept("+c"))
+        sky.show_sun = sky.limit_altitude = false;
+    else if (words.accept("-w"))
+        sky.quiet = true;
+    else if (words.accept("-C"))
+        sky.colored = true;
+    else if (words.accept("-CIE"))
+        sky.locus = kCieLocus;
+    else
+        return false;
     return true;
 }
 
@@ -164,7 +172,8 @@ DaylitOptions parse(GeneratorWords& words, WarningSink& warnings) {
     return sky;
 }
 
-/// Move the hour into the middle of that part of the interval that has sun. False when the sun is not up.
+/// Move the hour into the middle of that part of the interval that has sun. False when the sun is
+/// not up.
 bool adjust_to_daylight(const DaylitOptions& sky, double& hour) {
     const double declination =
         simple_declination(day_of_year(sky.moment.date.month, sky.moment.date.day));
@@ -195,8 +204,7 @@ DaylightPair irradiances_of(const DaylightPair& illuminance, const PerezSun& sun
     for (int i = 0; i < kIlluminanceSteps; ++i) {
         const DaylightPair efficacy = luminous_efficacies(sky_condition(result, sun), sun, water);
         result.diffuse = illuminance.diffuse / efficacy.diffuse;
-        result.direct =
-            efficacy.direct < kLeastEfficacy ? 0 : illuminance.direct / efficacy.direct;
+        result.direct = efficacy.direct < kLeastEfficacy ? 0 : illuminance.direct / efficacy.direct;
     }
     return result;
 }
@@ -277,8 +285,10 @@ SkyOutput sky_output(const DaylitOptions& sky, const Weather& weather, const Sol
     result.sun = light.direct / (efficacy * solid_angle);
     const double clearness = weather.condition.clearness;
     double factor = intermediate_sky_zenith(angles.altitude).diffuse_factor;
-    if (clearness == 1) factor = kOvercastDiffuseFactor;
-    else if (clearness >= 6) factor = clear_sky_zenith(angles.altitude).diffuse_factor;
+    if (clearness == 1)
+        factor = kOvercastDiffuseFactor;
+    else if (clearness >= 6)
+        factor = clear_sky_zenith(angles.altitude).diffuse_factor;
     const double zenith = result.scale * weather.distribution.luminance(0, sun_zenith);
     const double from_sun = sky.show_sun && clearness > 1
                                 ? kSunSolidAngle / kPi * result.sun * std::sin(angles.altitude)
@@ -298,8 +308,10 @@ std::string brightness_text(const std::string& coefficients, const Vec3& sun) {
 
 std::string colored_text(const std::string& coefficients, const Vec3& sun, double clearness,
                          const DaylightLocus& locus) {
-    std::string text = "\nvoid colorfunc skyfunc\n4 skybright_r skybright_g skybright_b perezlum_c.cal\n"
-                       "0\n22 " + coefficients + " " + direction_text(sun) + " " + fixed(clearness, 6);
+    std::string text =
+        "\nvoid colorfunc skyfunc\n4 skybright_r skybright_g skybright_b perezlum_c.cal\n"
+        "0\n22 " +
+        coefficients + " " + direction_text(sun) + " " + fixed(clearness, 6);
     for (const double number : locus) text += " " + general(number, 12);
     return text + "\n";
 }
@@ -317,7 +329,8 @@ std::string sky_text(const DaylitOptions& sky, const Weather& weather, const Sky
     if (sky.colored && (clearness <= kOvercast || clearness >= kClear)) {
         return colored_text(coefficients, sun, clearness, sky.locus);
     }
-    if (sky.colored) warnings.warn("gendaylit: no color for a sky that is neither overcast nor clear");
+    if (sky.colored)
+        warnings.warn("gendaylit: no color for a sky that is neither overcast nor clear");
     return brightness_text(coefficients, sun);
 }
 
@@ -328,8 +341,10 @@ std::string defaults() {
            default_line("-g " + fixed(sky.ground_reflectance, 6), "ground reflectance") +
            default_line("-d " + fixed(sky.dew_point, 6), "dew point, degrees Celsius") +
            default_line("-i " + fixed(sky.interval, 6), "measurement interval, minutes") +
-           default_line("-a " + fixed(sky.site.latitude * 180 / kPi, 6), "latitude, degrees north") +
-           default_line("-o " + fixed(sky.site.longitude * 180 / kPi, 6), "longitude, degrees west") +
+           default_line("-a " + fixed(sky.site.latitude * 180 / kPi, 6),
+                        "latitude, degrees north") +
+           default_line("-o " + fixed(sky.site.longitude * 180 / kPi, 6),
+                        "longitude, degrees west") +
            default_line("-m " + fixed(sky.site.meridian * 180 / kPi, 6),
                         "standard meridian, degrees west");
 }
@@ -361,13 +376,14 @@ std::string daylit_sky(std::span<const std::string> args, const DaylitOptions& s
     }
     text += angles_comment(angles);
     const Vec3 direction = solar_direction(angles);
-    const int day =
-        sky.moment.angles ? 0 : day_of_year(sky.moment.date.month, sky.moment.date.day);
+    const int day = sky.moment.angles ? 0 : day_of_year(sky.moment.date.month, sky.moment.date.day);
     const PerezSun sun{std::min(kPi / 2 - angles.altitude, kPi / 2),
                        extraterrestrial_irradiance(day)};
     Weather weather;
-    if (up) weather = weather_of(sky, angles.altitude, sun, args[0], warnings);
-    else weather.fault = "the sun is not up";
+    if (up)
+        weather = weather_of(sky, angles.altitude, sun, args[0], warnings);
+    else
+        weather.fault = "the sun is not up";
     if (!weather.fault.empty()) {
         warnings.warn(args[0] + ": " + weather.fault + ", the sky is black");
         return text + brightness_text("0 0 0 0 0 0 0", direction);

@@ -17,14 +17,17 @@ struct GeneratorContext {
     std::string input;      ///< standard input: what stands before the pipe
     bool has_input = false;
     WarningSink& warnings;
-    /// Run a `!` command found in a file (xform, replmarks -e): returns its output. `directory` as above.
-    std::function<std::string(const std::string& command, const std::string& directory)> run_command;
+    /// Run a `!` command found in a file (xform, replmarks -e): returns its output. `directory` as
+    /// above.
+    std::function<std::string(const std::string& command, const std::string& directory)>
+        run_command;
 };
 
 /// args[0] is the program's name. Throws InputError with the usage line for wrong arguments.
 using Generator = std::string (*)(std::span<const std::string> args, GeneratorContext& context);
 
-/// xform, genbox, gensurf, genrev, genworm, genprism, genblinds, gensky, gendaylit, replmarks; null otherwise.
+/// xform, genbox, gensurf, genrev, genworm, genprism, genblinds, gensky, gendaylit, replmarks; null
+/// otherwise.
 [[nodiscard]] Generator find_generator(const std::string& program);
 
 /// Output is bounded so that hostile counts cannot exhaust memory; beyond it InputError is thrown.

@@ -1,5 +1,5 @@
-// replmarks: put objects, instances or meshes in the place of marker polygons. See Radiance's manual page
-// replmarks(1).
+// replmarks: put objects, instances or meshes in the place of marker polygons. See Radiance's
+// manual page replmarks(1).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view kUsage =
     "[-e] {[-s size] [-m modifier] {-x objfile | -i octree | -I mesh} markmod}... [file...]";
 constexpr std::size_t kMaxGroups = 128;
-constexpr int kMaxDepth = 64;       ///< commands whose output holds commands ...
-constexpr int kExactDigits = 17;    ///< copies numbers without rounding
+constexpr int kMaxDepth = 64;     ///< commands whose output holds commands ...
+constexpr int kExactDigits = 17;  ///< copies numbers without rounding
 constexpr double kDegrees = 180 / kPi;
 
 enum class Replacement { none, object, octree, mesh };
@@ -53,9 +53,12 @@ bool accept_group_option(GeneratorWords& words, MarkerGroup& group) {
         group.file = words.text("file");
         return true;
     }
-    if (words.accept("-s")) group.size = words.real("size");
-    else if (words.accept("-m")) group.modifier = words.text("modifier");
-    else return false;
+    if (words.accept("-s"))
+        group.size = words.real("size");
+    else if (words.accept("-m"))
+        group.modifier = words.text("modifier");
+    else
+        return false;
     return true;
 }
 
@@ -70,8 +73,10 @@ ReplmarksOptions parse(GeneratorWords& words) {
         MarkerGroup group;
         group.size = size;
         while (is_option(words)) {
-            if (words.accept("-e")) options.expand = true;
-            else if (!accept_group_option(words, group)) words.unknown_option();
+            if (words.accept("-e"))
+                options.expand = true;
+            else if (!accept_group_option(words, group))
+                words.unknown_option();
         }
         group.marker_modifier = words.text("marker modifier");
         if (group.replacement == Replacement::none) {
@@ -94,8 +99,8 @@ struct MarkerFrame {
     Vec3 x, y, z;       ///< unit vectors
 };
 
-/// The longest side is the hypotenuse, the second is the x axis, the third shows where y is; the origin is
-/// where these two meet. Nothing when they do not, or lie on a line.
+/// The longest side is the hypotenuse, the second is the x axis, the third shows where y is; the
+/// origin is where these two meet. Nothing when they do not, or lie on a line.
 std::optional<MarkerFrame> marker_frame(std::span<const double> reals) {
     const std::size_t n = reals.size() / 3;
     if (reals.size() % 3 != 0 || n < 3 || n > 6) return std::nullopt;
@@ -105,7 +110,8 @@ std::optional<MarkerFrame> marker_frame(std::span<const double> reals) {
     std::vector<std::size_t> sides(n);
     for (std::size_t i = 0; i < n; ++i) sides[i] = i;
     std::ranges::stable_sort(sides, [&](std::size_t a, std::size_t b) {
-        return length_squared(vertex(a + 1) - vertex(a)) > length_squared(vertex(b + 1) - vertex(b));
+        return length_squared(vertex(a + 1) - vertex(a)) >
+               length_squared(vertex(b + 1) - vertex(b));
     });
     const std::size_t x_side = sides[1];
     const std::size_t y_side = sides[2];
@@ -222,8 +228,8 @@ class Replmarks {
     }
 
     void copy_primitive(const PrimitiveText& primitive) {
-        const auto group = std::ranges::find(options_.groups, primitive.modifier,
-                                             &MarkerGroup::marker_modifier);
+        const auto group =
+            std::ranges::find(options_.groups, primitive.modifier, &MarkerGroup::marker_modifier);
         if (primitive.type == PrimitiveType::polygon && group != options_.groups.end()) {
             replace(primitive, *group);
         } else {
@@ -234,9 +240,10 @@ class Replmarks {
     void replace(const PrimitiveText& marker, const MarkerGroup& group) {
         const std::optional<MarkerFrame> frame = marker_frame(marker.reals);
         if (!frame) {
-            throw InputError(marker.where, "bad arguments for marker \"" + marker.name +
-                                               "\", expected 3 to 6 vertices whose second and third "
-                                               "longest sides meet at an angle");
+            throw InputError(marker.where,
+                             "bad arguments for marker \"" + marker.name +
+                                 "\", expected 3 to 6 vertices whose second and third "
+                                 "longest sides meet at an angle");
         }
         const std::vector<std::string> transform = transform_words(*frame, group.size);
         if (group.replacement != Replacement::object) {
@@ -244,8 +251,10 @@ class Replmarks {
             return;
         }
         const std::string command = object_command(group, marker.name, transform);
-        if (options_.expand) out_ += context_.run_command(command, context_.directory);
-        else out_ += "\n" + command + "\n";
+        if (options_.expand)
+            out_ += context_.run_command(command, context_.directory);
+        else
+            out_ += "\n" + command + "\n";
     }
 
     GeneratorContext& context_;

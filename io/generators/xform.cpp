@@ -95,7 +95,8 @@ class Xform {
         std::string text = " | xform -e";
         if (step.invert) text += " -I";
         if (!step.prefix.empty()) text += " -n " + quoted_for_shell(step.prefix);
-        if (!step.surface_modifier.empty()) text += " -m " + quoted_for_shell(step.surface_modifier);
+        if (!step.surface_modifier.empty())
+            text += " -m " + quoted_for_shell(step.surface_modifier);
         for (const std::string& word : step.words) text += " " + quoted_for_shell(word);
         return text;
     }

@@ -20,20 +20,23 @@ OIIO::ImageSpec describe(const lightwalk::ImageRequest& request) {
     }
     if (!request.is_float) {
         spec.attribute("oiio:ColorSpace", "sRGB");
-        if (std::string(request.format) == "jpeg") spec.attribute("CompressionQuality", kJpegQuality);
+        if (std::string(request.format) == "jpeg")
+            spec.attribute("CompressionQuality", kJpegQuality);
         return spec;
     }
-    constexpr std::array<float, 8> kPrimaries{0.64f, 0.33f, 0.29f, 0.6f, 0.15f, 0.06f, 1 / 3.0f, 1 / 3.0f};
+    constexpr std::array<float, 8> kPrimaries{0.64f, 0.33f, 0.29f,    0.6f,
+                                              0.15f, 0.06f, 1 / 3.0f, 1 / 3.0f};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kPrimaries.data());
-    if (*request.date != '\0') spec.attribute("DateTime", std::string(request.date));  // else it writes its own
+    if (*request.date != '\0')
+        spec.attribute("DateTime", std::string(request.date));  // else it writes its own
     spec.attribute("comments", std::string(request.history));
     return spec;
 }
 
 }  // namespace
 
-extern "C" void lightwalk_encode_image(const lightwalk::ImageRequest& request, std::vector<unsigned char>& bytes,
-                                       std::string& error) {
+extern "C" void lightwalk_encode_image(const lightwalk::ImageRequest& request,
+                                       std::vector<unsigned char>& bytes, std::string& error) {
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(request.format);
     if (!output) {

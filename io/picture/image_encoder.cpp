@@ -14,7 +14,8 @@ constexpr const char* kModule = "liblightwalk_openimageio.so";
 /// Beside the program, in the installation's lib folder, or where it was built.
 EncodeImage load_encoder(std::string& error) {
     std::error_code failed;
-    const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    const std::filesystem::path here =
+        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
     for (const std::filesystem::path& folder : {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk",
 #ifdef LIGHTWALK_MODULE_DIR
                                                 std::filesystem::path(LIGHTWALK_MODULE_DIR)
@@ -37,7 +38,8 @@ EncodeImage load_encoder(std::string& error) {
 std::vector<unsigned char> encode_image(const std::string& path, const ImageRequest& request) {
     std::string error;
     const EncodeImage encode = load_encoder(error);
-    if (!encode) throw InputError({path, 0}, "cannot write: OpenImageIO's module does not load: " + error);
+    if (!encode)
+        throw InputError({path, 0}, "cannot write: OpenImageIO's module does not load: " + error);
     std::vector<unsigned char> bytes;
     encode(request, bytes, error = {});
     if (!error.empty()) throw InputError({path, 0}, "cannot write: " + error);

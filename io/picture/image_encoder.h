@@ -1,6 +1,6 @@
 #pragma once
-// Images of foreign formats, by OpenImageIO in a module of its own: linking it would load two hundred libraries
-// (some 130 MB) into every process, also into those that only write .hdr.
+// Images of foreign formats, by OpenImageIO in a module of its own: linking it would load two
+// hundred libraries (some 130 MB) into every process, also into those that only write .hdr.
 #include <string>
 #include <vector>
 
@@ -8,7 +8,7 @@ namespace lightwalk {
 
 /// What to encode. All pointers must outlive the call.
 struct ImageRequest {
-    const char* format = "png";    ///< OpenImageIO's name: openexr, png, jpeg
+    const char* format = "png";  ///< OpenImageIO's name: openexr, png, jpeg
     int width = 0, height = 0;
     int channels = 3;              ///< 3: R G B; 1: the depth Z
     bool is_float = false;         ///< samples are float, else 8-bit sRGB
@@ -17,11 +17,14 @@ struct ImageRequest {
     const char* date = "";         ///< CAPDATE, or empty
 };
 
-/// The bytes of the image file. Throws InputError "PATH: cannot write: ..." when the format or module is missing.
-[[nodiscard]] std::vector<unsigned char> encode_image(const std::string& path, const ImageRequest& request);
+/// The bytes of the image file. Throws InputError "PATH: cannot write: ..." when the format or
+/// module is missing.
+[[nodiscard]] std::vector<unsigned char> encode_image(const std::string& path,
+                                                      const ImageRequest& request);
 
 /// The module's one function: empty `error` when it worked.
-using EncodeImage = void (*)(const ImageRequest& request, std::vector<unsigned char>& bytes, std::string& error);
+using EncodeImage = void (*)(const ImageRequest& request, std::vector<unsigned char>& bytes,
+                             std::string& error);
 inline constexpr const char* kEncodeImageSymbol = "lightwalk_encode_image";
 
 }  // namespace lightwalk

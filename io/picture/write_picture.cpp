@@ -30,8 +30,8 @@ void write_exr(const std::string& path, const Picture& picture, const PictureHea
         if (const auto taken = header_variable(line, "CAPDATE")) date = *taken;
     }
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    const ImageRequest request{"openexr", picture.width, picture.height, 3, true, picture.pixels.data(),
-                               history.c_str(), date.c_str()};
+    const ImageRequest request{"openexr", picture.width,         picture.height,  3,
+                               true,      picture.pixels.data(), history.c_str(), date.c_str()};
     write_file_atomically(path, characters(encode_image(path, request)));
 }
 
@@ -41,7 +41,8 @@ void write_display_image(const std::string& path, const char* format, const Pict
     std::vector<std::array<std::uint8_t, 3>> pixels(picture.pixels.size());
     std::transform(picture.pixels.begin(), picture.pixels.end(), pixels.begin(),
                    [&](const Rgb& color) { return display_pixel(color, scale); });
-    const ImageRequest request{format, picture.width, picture.height, 3, false, pixels.data(), "", ""};
+    const ImageRequest request{format, picture.width, picture.height, 3, false, pixels.data(), "",
+                               ""};
     write_file_atomically(path, characters(encode_image(path, request)));
 }
 

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/math/direction_code.h"
 #include "core/math/vec3.h"
 #include "io/formats/decode.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/binary_objects.h"
 #include "io/scene/binary_reader.h"
-#include "core/math/direction_code.h"
 
 namespace lightwalk {
 namespace {

@@ -221,7 +221,9 @@ TEST_CASE("render: --stats tells times, rays by kind, threads and memory") {
     CHECK(json["version"].is_string());
 }
 
-TEST_CASE("render: -ab adds indirect light, --deterministic with the same bytes for any number of threads") {
+TEST_CASE(
+    "render: -ab adds indirect light, --deterministic with the same bytes for any number of "
+    "threads") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const auto render = [&](std::vector<std::string> words) {
@@ -232,7 +234,8 @@ TEST_CASE("render: -ab adds indirect light, --deterministic with the same bytes 
         CHECK(result.err.empty());
         return pixel_bytes(result.out);
     };
-    const std::string direct = render({"-ab", "0"}), one = render({"-ab", "2", "-n", "1", "--deterministic"});
+    const std::string direct = render({"-ab", "0"}),
+                      one = render({"-ab", "2", "-n", "1", "--deterministic"});
     CHECK(one != direct);
     CHECK(render({"-ab", "2", "-n", "2", "--deterministic"}) == one);
     CHECK(render({"-ab", "2", "-n", "7", "--deterministic"}) == one);
@@ -243,10 +246,13 @@ TEST_CASE("render: -af keeps values for the next run, and refuses those of other
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom), file = folder.path("room.amb");
     const auto render = [&](const std::string& accuracy) {
-        return run_program(line({"-ab", "1", "-ad", "64", "-as", "0", "-aa", accuracy, "-af", file, "-ps", "1",
-                                 "--stats", folder.path("s.json"), scene}));
+        return run_program(line({"-ab", "1", "-ad", "64", "-as", "0", "-aa", accuracy, "-af", file,
+                                 "-ps", "1", "--stats", folder.path("s.json"), scene}));
     };
-    const auto computed = [&] { return nlohmann::json::parse(read_whole(folder.path("s.json")))["ambient"]["computed"].get<int>(); };
+    const auto computed = [&] {
+        return nlohmann::json::parse(read_whole(folder.path("s.json")))["ambient"]["computed"]
+            .get<int>();
+    };
     CHECK(render(".1").status == 0);
     CHECK(computed() > 10);
     const std::size_t size = read_whole(file).size();
@@ -273,8 +279,30 @@ TEST_CASE("render: killed at twenty moments, every whole ambient value is there 
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom), file = folder.path("room.amb");
     const auto words = [&](const std::string& picture) {
-        return line({"--quiet", "-ab", "1", "-ad", "1024", "-as", "0", "-aa", ".05", "-ar", "256", "-ps", "1", "-pj", "0",
-                     "-x", "160", "-y", "120", "-af", file, "-o", folder.path(picture), scene});
+        return line({"--quiet",
+                     "-ab",
+                     "1",
+                     "-ad",
+                     "1024",
+                     "-as",
+                     "0",
+                     "-aa",
+                     ".05",
+                     "-ar",
+                     "256",
+                     "-ps",
+                     "1",
+                     "-pj",
+                     "0",
+                     "-x",
+                     "160",
+                     "-y",
+                     "120",
+                     "-af",
+                     file,
+                     "-o",
+                     folder.path(picture),
+                     scene});
     };
     std::size_t before = 0;
     for (int i = 0; i < 20; ++i) {

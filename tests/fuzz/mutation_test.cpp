@@ -1,4 +1,5 @@
-// Damaged input is refused, never crashes, hangs or eats memory: a seeded mutator over small sound inputs.
+// Damaged input is refused, never crashes, hangs or eats memory: a seeded mutator over small sound
+// inputs.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -17,21 +18,37 @@ constexpr int kMutants = 10000;
 constexpr unsigned kHangSeconds = 5;
 constexpr long kMaxMemory = 1 << 20;  // [KiB]
 
-/// One to eight small injuries: bits, bytes, numbers, stretches removed, doubled or taken from elsewhere.
+/// One to eight small injuries: bits, bytes, numbers, stretches removed, doubled or taken from
+/// elsewhere.
 std::string mutate(std::string bytes, std::mt19937& random) {
-    static const char* const kWords[] = {"99999999999", "-1", "0", "1e308", "nan", "\"", "{", "(", "!", "\n", "void", "-a", "^", "$"};
+    static const char* const kWords[] = {"99999999999", "-1", "0",  "1e308", "nan", "\"", "{",
+                                         "(",           "!",  "\n", "void",  "-a",  "^",  "$"};
     const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
     for (std::size_t injuries = 1 + below(8); injuries > 0 && !bytes.empty(); --injuries) {
         const std::size_t at = below(bytes.size());
         const std::size_t length = std::min(bytes.size() - at, 1 + below(16));
         switch (below(7)) {
-            case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8))); break;
-            case 1: bytes[at] = static_cast<char>(below(256)); break;
-            case 2: bytes.erase(at, length); break;
-            case 3: bytes.insert(at, bytes.substr(at, length)); break;
-            case 4: bytes.insert(at, bytes.substr(below(bytes.size()), length)); break;
-            case 5: bytes.replace(at, length, kWords[below(std::size(kWords))]); break;
-            default: bytes.resize(at); break;
+            case 0:
+                bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+                break;
+            case 1:
+                bytes[at] = static_cast<char>(below(256));
+                break;
+            case 2:
+                bytes.erase(at, length);
+                break;
+            case 3:
+                bytes.insert(at, bytes.substr(at, length));
+                break;
+            case 4:
+                bytes.insert(at, bytes.substr(below(bytes.size()), length));
+                break;
+            case 5:
+                bytes.replace(at, length, kWords[below(std::size(kWords))]);
+                break;
+            default:
+                bytes.resize(at);
+                break;
         }
     }
     return bytes;
@@ -45,12 +62,14 @@ long peak_memory() {
 
 void endure(const NamedTarget& target) {
     const auto seeds = seeds_of(target.run);
-    for (const std::string& seed : seeds) CHECK_MESSAGE(target.run(seed), std::string(target.name) << ": a seed is refused");
+    for (const std::string& seed : seeds)
+        CHECK_MESSAGE(target.run(seed), std::string(target.name) << ": a seed is refused");
     std::mt19937 random(20261121);
     int accepted = 0;
     double longest = 0;
     for (int i = 0; i < kMutants; ++i) {
-        const std::string mutant = mutate(seeds[static_cast<std::size_t>(i) % seeds.size()], random);
+        const std::string mutant =
+            mutate(seeds[static_cast<std::size_t>(i) % seeds.size()], random);
         alarm(4 * kHangSeconds);  // a hang ends the test program, which fails the test
         const auto start = std::chrono::steady_clock::now();
         accepted += target.run(mutant) ? 1 : 0;
@@ -58,7 +77,8 @@ void endure(const NamedTarget& target) {
         longest = std::max(longest, took.count());
     }
     alarm(0);
-    MESSAGE(std::string(target.name) << ": " << accepted << " of " << kMutants << " mutants accepted, slowest " << longest << " s");
+    MESSAGE(std::string(target.name) << ": " << accepted << " of " << kMutants
+                                     << " mutants accepted, slowest " << longest << " s");
     CHECK(accepted < kMutants);
     CHECK(longest < kHangSeconds);
     CHECK(peak_memory() < kMaxMemory);
@@ -66,10 +86,20 @@ void endure(const NamedTarget& target) {
 
 }  // namespace
 
-TEST_CASE("mutated scene files are read or refused") { endure(kFuzzTargets[0]); }
-TEST_CASE("mutated octrees are read or refused") { endure(kFuzzTargets[1]); }
-TEST_CASE("mutated function files are read or refused") { endure(kFuzzTargets[2]); }
-TEST_CASE("mutated pictures are read or refused") { endure(kFuzzTargets[3]); }
-TEST_CASE("mutated data files, fonts and meshes are read or refused") { endure(kFuzzTargets[4]); }
+TEST_CASE("mutated scene files are read or refused") {
+    endure(kFuzzTargets[0]);
+}
+TEST_CASE("mutated octrees are read or refused") {
+    endure(kFuzzTargets[1]);
+}
+TEST_CASE("mutated function files are read or refused") {
+    endure(kFuzzTargets[2]);
+}
+TEST_CASE("mutated pictures are read or refused") {
+    endure(kFuzzTargets[3]);
+}
+TEST_CASE("mutated data files, fonts and meshes are read or refused") {
+    endure(kFuzzTargets[4]);
+}
 
 }  // namespace lightwalk::test

@@ -55,21 +55,29 @@ std::string integer(std::int64_t value, int n) {
     for (int i = n - 1; i >= 0; --i) bytes += static_cast<char>((value >> (8 * i)) & 255);
     return bytes;
 }
-std::string text(const std::string& s) { return s + '\0'; }
+std::string text(const std::string& s) {
+    return s + '\0';
+}
 /// The number `quarters`/4 as a portable float: mantissa over 2^31 - 1 and exponent.
-std::string portable(int quarters) { return integer(std::int64_t{quarters} << 20, 4) + integer(9, 1); }
+std::string portable(int quarters) {
+    return integer(std::int64_t{quarters} << 20, 4) + integer(9, 1);
+}
 
-std::string object(int type, int modifier, const std::string& name, const std::vector<int>& quarters) {
+std::string object(int type, int modifier, const std::string& name,
+                   const std::vector<int>& quarters) {
     std::string bytes = integer(type, 1) + integer(modifier, 4) + text(name) + integer(0, 2) +
                         integer(static_cast<int>(quarters.size()), 2);
     for (const int q : quarters) bytes += portable(q);
     return bytes;
 }
 
-std::string type_table() { return text("polygon") + text("sphere") + text("plastic") + text("light") + text(""); }
+std::string type_table() {
+    return text("polygon") + text("sphere") + text("plastic") + text("light") + text("");
+}
 
 std::string frozen_octree() {
-    std::string bytes = "#?RADIANCE\noconv -f room.rad\nFORMAT=Radiance_octree\n\n" + integer(287, 2);
+    std::string bytes =
+        "#?RADIANCE\noconv -f room.rad\nFORMAT=Radiance_octree\n\n" + integer(287, 2);
     bytes += text("-2") + text("-2") + text("-2") + text("4") + text("") + integer(4, 4);
     bytes += integer(2, 1) + integer(1, 1) + integer(2, 4) + integer(1, 4) + integer(3, 4);
     for (int i = 0; i < 7; ++i) bytes += integer(0, 1);
@@ -111,7 +119,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     static const std::vector<std::string> functions{kFunctions};
     static const std::vector<std::string> pictures{
         encode_hdr(gradient(), {{"VIEW= -vtv -vp 0 0 0", "EXPOSURE=2"}}),
-        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n\n+X 2 -Y 3\n" + std::string("abcd\1\1\1\2abcdabcdabcd")};
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n\n+X 2 -Y 3\n" +
+            std::string("abcd\1\1\1\2abcdabcdabcd")};
     static const std::vector<std::string> data{kData1, kFont, mesh()};
     if (target == read_scene_text) return scenes;
     if (target == read_octree) return octrees;

@@ -70,7 +70,8 @@ bool read_function_file(std::string_view bytes) {
         for (const char* name : {"a", "b", "c", "f(Px,Py)"}) {
             (void)accepts([&] {
                 const std::array<ExpressionRequest, 1> request{ExpressionRequest{name, -1}};
-                const Program program = environment.compile("mutant.cal", request, reals, 0, {"mutant.rad", 1});
+                const Program program =
+                    environment.compile("mutant.cal", request, reals, 0, {"mutant.rad", 1});
                 ChannelValues channels{};
                 channels.fill(0.5);
                 EvalState state;

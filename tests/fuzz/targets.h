@@ -1,5 +1,6 @@
 #pragma once
-// What the mutation test and the fuzzers feed with damaged input, and the sound inputs they start from.
+// What the mutation test and the fuzzers feed with damaged input, and the sound inputs they start
+// from.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -7,8 +8,8 @@
 
 namespace lightwalk::test {
 
-/// Reads `bytes` the way a render would; InputError is the right answer to nonsense and is swallowed.
-/// Returns whether the input was accepted. Anything else that is thrown is a defect.
+/// Reads `bytes` the way a render would; InputError is the right answer to nonsense and is
+/// swallowed. Returns whether the input was accepted. Anything else that is thrown is a defect.
 using FuzzTarget = bool (*)(std::string_view bytes);
 
 bool read_scene_text(std::string_view bytes);     ///< parse, compile, trace a few rays

@@ -299,9 +299,11 @@ TEST_CASE("functions are passed by name through any number of levels") {
 TEST_CASE("powers by constant halves agree with pow, and fail where it does") {
     for (int halves = -34; halves <= 34; ++halves) {
         std::ostringstream text;
-        text << "(1.37*Rdot)^" << (halves < 0 ? "-" : "") << std::abs(halves) / 2. << std::setprecision(17);
+        text << "(1.37*Rdot)^" << (halves < 0 ? "-" : "") << std::abs(halves) / 2.
+             << std::setprecision(17);
         CAPTURE(text.str());
-        CHECK(value_of(text.str(), "") == doctest::Approx(std::pow(1.37, halves / 2.)).epsilon(1e-14));
+        CHECK(value_of(text.str(), "") ==
+              doctest::Approx(std::pow(1.37, halves / 2.)).epsilon(1e-14));
     }
     CHECK(value_of("(Rdot-1)^.5", "") == 0);
     CHECK(value_of("(Rdot-1)^0", "") == 1);

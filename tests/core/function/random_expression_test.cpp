@@ -291,10 +291,11 @@ TEST_CASE("programs compute what the rules of the language say, bit for bit, err
                     const double value = program.evaluate(k, state);
                     // Powers by constants are products, and not to the last bit what pow gives.
                     const bool has_power = requests[k].text.find('^') != std::string::npos;
-                    const bool same = std::bit_cast<std::uint64_t>(expected) ==
-                                          std::bit_cast<std::uint64_t>(value) ||
-                                      (std::isnan(expected) && std::isnan(value)) ||
-                                      (has_power && std::abs(expected - value) <= 1e-13 * std::abs(expected));
+                    const bool same =
+                        std::bit_cast<std::uint64_t>(expected) ==
+                            std::bit_cast<std::uint64_t>(value) ||
+                        (std::isnan(expected) && std::isnan(value)) ||
+                        (has_power && std::abs(expected - value) <= 1e-13 * std::abs(expected));
                     CAPTURE(seed);
                     CAPTURE(requests[k].text);
                     CAPTURE(reals);

@@ -52,9 +52,9 @@ double blended(const PrimitiveText& sky, const Vec3& direction) {
     return (w * sky_radiance(sky, direction) + sky.reals.at(1) / w) / (w + 1 / w);
 }
 
-const std::vector<Vec3> kDirections = {{0, 0, 1},      {0.6, 0, 0.8},  {0, -0.8, 0.6},
-                                       {-0.48, 0.64, 0.6}, {0.8, 0.6, 0}, {0.36, 0.48, -0.8},
-                                       {0, 0, -1},     {0.28, -0.96, 0}};
+const std::vector<Vec3> kDirections = {{0, 0, 1},          {0.6, 0, 0.8},   {0, -0.8, 0.6},
+                                       {-0.48, 0.64, 0.6}, {0.8, 0.6, 0},   {0.36, 0.48, -0.8},
+                                       {0, 0, -1},         {0.28, -0.96, 0}};
 
 constexpr double kSunSolidAngle = 6.7967e-5;  // of a disk of 0.533 degrees [sr]
 
@@ -166,9 +166,10 @@ TEST_CASE("gendaylit: classes of the sky's clearness, and the model's limits") {
     // class 1: C = exp((brightness (2.8 + 0.6004 z))^1.2375) - 1
     const auto overcast = perez_distribution({1, 0.1}, 0.5);
     REQUIRE(overcast);
-    CHECK(overcast->c == doctest::Approx(std::exp(std::pow(0.1 * (2.8 + 0.6004 * 0.5), 1.2375)) - 1));
-    CHECK(overcast->d == doctest::Approx(-std::exp(0.1 * (1.8734 + 0.6297 * 0.5)) + 0.9738 +
-                                         0.1 * 0.2809));
+    CHECK(overcast->c ==
+          doctest::Approx(std::exp(std::pow(0.1 * (2.8 + 0.6004 * 0.5), 1.2375)) - 1));
+    CHECK(overcast->d ==
+          doctest::Approx(-std::exp(0.1 * (1.8734 + 0.6297 * 0.5)) + 0.9738 + 0.1 * 0.2809));
     // hazy skies are at least 0.2 bright
     CHECK(perez_distribution({1.5, 0.1}, 0.5)->a == perez_distribution({1.5, 0.2}, 0.5)->a);
     CHECK(perez_distribution({2.9, 0.1}, 0.5)->a != perez_distribution({2.9, 0.2}, 0.5)->a);

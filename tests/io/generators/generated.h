@@ -53,9 +53,12 @@ inline Generated generate(const std::string& command, const GeneratorInput& inpu
     result.warnings = sink.messages;
     SceneTokenizer tokens(result.text, "generated");
     for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
-        if (item == SceneTokenizer::Item::comment) static_cast<void>(tokens.comment());
-        else if (item == SceneTokenizer::Item::command) result.commands.push_back(tokens.command());
-        else result.primitives.push_back(read_primitive(tokens));
+        if (item == SceneTokenizer::Item::comment)
+            static_cast<void>(tokens.comment());
+        else if (item == SceneTokenizer::Item::command)
+            result.commands.push_back(tokens.command());
+        else
+            result.primitives.push_back(read_primitive(tokens));
     }
     return result;
 }
@@ -77,14 +80,16 @@ inline std::vector<std::string> names(const Generated& generated) {
 }
 
 inline Vec3 vertex(const PrimitiveText& primitive, std::size_t i) {
-    return {primitive.reals.at(3 * i), primitive.reals.at(3 * i + 1), primitive.reals.at(3 * i + 2)};
+    return {primitive.reals.at(3 * i), primitive.reals.at(3 * i + 1),
+            primitive.reals.at(3 * i + 2)};
 }
 
 /// Unit normal of a polygon, by the right-hand rule.
 inline Vec3 polygon_normal(const PrimitiveText& polygon) {
     Vec3 sum;
     for (std::size_t i = 1; i + 1 < polygon.reals.size() / 3; ++i) {
-        sum += cross(vertex(polygon, i) - vertex(polygon, 0), vertex(polygon, i + 1) - vertex(polygon, 0));
+        sum += cross(vertex(polygon, i) - vertex(polygon, 0),
+                     vertex(polygon, i + 1) - vertex(polygon, 0));
     }
     return normalize(sum);
 }

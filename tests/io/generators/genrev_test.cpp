@@ -16,7 +16,8 @@ using test::near;
 
 std::vector<std::string> types(const test::Generated& generated) {
     std::vector<std::string> result;
-    for (const PrimitiveText& primitive : generated.primitives) result.push_back(primitive.type_word);
+    for (const PrimitiveText& primitive : generated.primitives)
+        result.push_back(primitive.type_word);
     return result;
 }
 
@@ -77,7 +78,8 @@ TEST_CASE("genrev -s: rev.cal turns normals from the piece before to the piece a
             ray.position = {p.x * std::cos(angle), p.x * std::sin(angle), p.z};
             const auto d = file.values(variables, texture.reals, ray);
             const Vec3 n = segment_normal(end == i ? i + 1 : i - 1);
-            CHECK(near({d[0], d[1], d[2]}, {n.x * std::cos(angle), n.x * std::sin(angle), n.z}, 1e-8));
+            CHECK(near({d[0], d[1], d[2]}, {n.x * std::cos(angle), n.x * std::sin(angle), n.z},
+                       1e-8));
         }
     }
 }

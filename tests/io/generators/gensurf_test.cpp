@@ -17,7 +17,8 @@ using test::near;
 using test::polygon_normal;
 using test::vertex;
 
-/// The perturbation that a "Phong" texture of gensurf gives at `p`, from the library's function file.
+/// The perturbation that a "Phong" texture of gensurf gives at `p`, from the library's function
+/// file.
 Vec3 perturbation(const PrimitiveText& texture, const Vec3& p) {
     FunctionEnvironment environment;
     environment.load("surf.cal", read_file(LIGHTWALK_SOURCE "/io/library/surf.cal"));
@@ -155,8 +156,9 @@ TEST_CASE("gensurf: mistakes") {
     CHECK(generator_error("gensurf m s s t 0 1 1 -q").find("unknown option") != std::string::npos);
     CHECK(generator_error("gensurf m s s t 'frac(s)' 1 1").find("frac") != std::string::npos);
     CHECK(generator_error("gensurf m s s t 's+' 1 1") != "");
-    CHECK(generator_error("gensurf m s s t - 2 2", {"", "1 2 3"}).find("bad number of data points") !=
-          std::string::npos);
+    CHECK(
+        generator_error("gensurf m s s t - 2 2", {"", "1 2 3"}).find("bad number of data points") !=
+        std::string::npos);
     CHECK(generator_error("gensurf m s s t - 1 1", {"", "1"}).find("at least 2 points") !=
           std::string::npos);
     CHECK(generator_error("gensurf m s s t - 1 1", {"", "1 2\n3 x"})

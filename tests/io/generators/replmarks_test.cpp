@@ -33,10 +33,10 @@ TEST_CASE("replmarks: the transform takes the axes to the marker's legs") {
     struct Frame {
         Vec3 x, y;
     };
-    for (const Frame& frame : {Frame{{1, 0, 0}, {0, 1, 0}}, Frame{{0, 1, 0}, {-1, 0, 0}},
-                               Frame{{0, 0, 1}, {0, 1, 0}}, Frame{{0, 0, -1}, {0.6, 0.8, 0}},
-                               Frame{{0.6, 0, 0.8}, {-0.8, 0, 0.6}}, Frame{{0, -1, 0}, {0, 0, -1}},
-                               Frame{{0.36, 0.48, 0.8}, {-0.8, 0.6, 0}}}) {
+    for (const Frame& frame :
+         {Frame{{1, 0, 0}, {0, 1, 0}}, Frame{{0, 1, 0}, {-1, 0, 0}}, Frame{{0, 0, 1}, {0, 1, 0}},
+          Frame{{0, 0, -1}, {0.6, 0.8, 0}}, Frame{{0.6, 0, 0.8}, {-0.8, 0, 0.6}},
+          Frame{{0, -1, 0}, {0, 0, -1}}, Frame{{0.36, 0.48, 0.8}, {-0.8, 0.6, 0}}}) {
         const Vec3 origin{1, -2, 4};
         const auto result = generate("replmarks -s 1 -m paint -i thing.oct mark",
                                      {"", triangle(origin, frame.x, frame.y)});
@@ -57,14 +57,14 @@ TEST_CASE("replmarks: the transform takes the axes to the marker's legs") {
 }
 
 TEST_CASE("replmarks: words have six decimals, turns by nothing are left out") {
-    const auto result = generate("replmarks -I thing.msh mark",
-                                 {"", triangle({1, 2, 3}, {0, 1, 0}, {-1, 0, 0})});
+    const auto result =
+        generate("replmarks -I thing.msh mark", {"", triangle({1, 2, 3}, {0, 1, 0}, {-1, 0, 0})});
     REQUIRE(result.primitives.size() == 1);
     CHECK(result.primitives[0].modifier == "void");
     CHECK(result.primitives[0].type_word == "mesh");
-    CHECK(result.primitives[0].strings ==
-          std::vector<std::string>{"thing.msh", "-rz", "90.000000", "-t", "1.000000", "2.000000",
-                                   "3.000000"});
+    CHECK(result.primitives[0].strings == std::vector<std::string>{"thing.msh", "-rz", "90.000000",
+                                                                   "-t", "1.000000", "2.000000",
+                                                                   "3.000000"});
 }
 
 TEST_CASE("replmarks: groups, everything else is copied") {
@@ -76,10 +76,11 @@ TEST_CASE("replmarks: groups, everything else is copied") {
     const auto result = generate("replmarks -s 2 -x a.rad mark -m red -x b.rad other", {"", scene});
     CHECK(result.text.starts_with("# replmarks -s 2 -x a.rad mark -m red -x b.rad other\n"));
     CHECK(result.text.find("# note\n") != std::string::npos);
-    CHECK(result.commands == std::vector<std::string>{
-                                 "!xform -n floor -m red -s 2.000000 -t 0.000000 0.000000 0.000000 b.rad",
-                                 "!genbox m b 1 1 1",
-                                 "!xform -n here -s 6.000000 -t 0.000000 0.000000 0.000000 a.rad"});
+    CHECK(result.commands ==
+          std::vector<std::string>{
+              "!xform -n floor -m red -s 2.000000 -t 0.000000 0.000000 0.000000 b.rad",
+              "!genbox m b 1 1 1",
+              "!xform -n here -s 6.000000 -t 0.000000 0.000000 0.000000 a.rad"});
     REQUIRE(result.primitives.size() == 3);
     CHECK(result.primitives[0].reals[0] == 0.123456789012345);
     CHECK(result.primitives[1].type_word == "alias");
@@ -101,7 +102,8 @@ TEST_CASE("replmarks: -e runs commands, and looks for markers in the input's onl
         CHECK(primitive.name.ends_with(".here"));
     }
     const auto kept = generate("replmarks -x object.rad mark scene.rad", {folder.path(), ""});
-    CHECK(kept.commands == std::vector<std::string>{"!genprism mark flat 3 0 0 3 0 0 2 -l 0 0 1 -c -c"});
+    CHECK(kept.commands ==
+          std::vector<std::string>{"!genprism mark flat 3 0 0 3 0 0 2 -l 0 0 1 -c -c"});
 }
 
 TEST_CASE("replmarks: mistakes") {
@@ -118,7 +120,8 @@ TEST_CASE("replmarks: mistakes") {
     const std::string line = marker("here", {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}});
     CHECK(generator_error("replmarks -x a.rad mark", {"", "\n" + line})
               .find("standard input:2: bad arguments for marker \"here\"") != std::string::npos);
-    const std::string apart = marker("here", {{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {1, 1.5, 0}, {0, 1, 0}});
+    const std::string apart =
+        marker("here", {{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {1, 1.5, 0}, {0, 1, 0}});
     CHECK(generator_error("replmarks -x a.rad mark", {"", apart}) == "");
     const std::string parallel = marker("here", {{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {1, 1, 0}});
     CHECK(generator_error("replmarks -x a.rad mark", {"", parallel}) == "");

@@ -12,7 +12,9 @@ namespace {
 using test::near;
 
 /// A paraboloid, and the point that is left out of it.
-constexpr auto paraboloid = [](double s, double t) -> std::optional<Vec3> { return Vec3{s, t, s * s + 2 * t * t}; };
+constexpr auto paraboloid = [](double s, double t) -> std::optional<Vec3> {
+    return Vec3{s, t, s * s + 2 * t * t};
+};
 
 }  // namespace
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "core/math/direction_code.h"
 #include "core/math/vec3.h"
 #include "io/scene/binary_models.h"
-#include "core/math/direction_code.h"
 #include "tests/io/scene/binary_writer.h"
 
 namespace lightwalk {
