@@ -1,20 +1,12 @@
 #pragma once
 // Rectangles of pixels: the unit of work that is handed out.
-#include <cstddef>
 #include <vector>
+
+#include "core/view/pixels.h"
 
 namespace lightwalk {
 
-/// Pixels x0 <= x < x1, y0 <= y < y1; x from the left, y from the bottom of the picture.
-struct Block {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    [[nodiscard]] int width() const { return x1 - x0; }
-    [[nodiscard]] int height() const { return y1 - y0; }
-    [[nodiscard]] std::size_t pixels() const {
-        return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
-    }
-    friend bool operator==(const Block&, const Block&) = default;
-};
+using Block = PixelRectangle;  ///< a rectangle in its role as a unit of work
 
 /// Side of square blocks: a multiple of `alignment` (>= 1), at most 64 or `alignment`, small enough
 /// that each of `workers` gets about 32 blocks to even out their cost, where there are that many

@@ -125,13 +125,11 @@ class FrameRenderer {
     }
 
     void draw_small_sources(const Block& block, int worker) {
-        small_sources_->draw({block.x0, block.y0, block.x1, block.y1}, contexts_[worker],
-                             [&](const SourcePixel& pixel) {
-                                 const std::size_t i = position({pixel.x, pixel.y});
-                                 blend_source(
-                                     pixel, frame_.radiance[i],
-                                     options_.use_distances ? &frame_.distance[i] : nullptr);
-                             });
+        small_sources_->draw(block, contexts_[worker], [&](const SourcePixel& pixel) {
+            const std::size_t i = position({pixel.x, pixel.y});
+            blend_source(pixel, frame_.radiance[i],
+                         options_.use_distances ? &frame_.distance[i] : nullptr);
+        });
     }
 
     void trace_all(const Block& tile, PixelTracer& trace) {

@@ -19,7 +19,7 @@ PixelValue mix(const PixelValue& a, const PixelValue& b, float t) {
 
 class TileRefiner {
   public:
-    TileRefiner(const Block& tile, int width, int height, const RefineOptions& options,
+    TileRefiner(const PixelRectangle& tile, int width, int height, const RefineOptions& options,
                 TracePixels trace, StorePixel store)
         : tile_(tile),
           width_(width),
@@ -130,7 +130,7 @@ class TileRefiner {
         }
     }
 
-    Block tile_;
+    PixelRectangle tile_;
     int width_, height_;
     RefineOptions options_;
     TracePixels trace_;
@@ -169,7 +169,7 @@ bool differ(std::span<const PixelValue> values, const RefineOptions& options) {
     return 2 * (far - near) > options.threshold * (far + near);
 }
 
-void refine_tile(const Block& tile, int width, int height, const RefineOptions& options,
+void refine_tile(const PixelRectangle& tile, int width, int height, const RefineOptions& options,
                  TracePixels trace, StorePixel store) {
     TileRefiner(tile, width, height, options, trace, store).run();
 }

@@ -3,23 +3,9 @@
 #include <span>
 
 #include "core/math/function_ref.h"
-#include "core/math/rgb.h"
-#include "parallel/blocks.h"
+#include "core/view/pixels.h"
 
 namespace lightwalk {
-
-/// Place of a pixel: x from the left, y from the bottom.
-struct PixelPlace {
-    int x = 0, y = 0;
-    friend bool operator==(const PixelPlace&, const PixelPlace&) = default;
-};
-
-/// What a pixel shows.
-struct PixelValue {
-    Rgb radiance;        ///< [W/(m² sr)]
-    float distance = 0;  ///< along the pixel's ray [m]; 0 where there is no ray
-    friend bool operator==(const PixelValue&, const PixelValue&) = default;
-};
 
 /// Traces pixels: values[i] is set for places[i].
 using TracePixels =
@@ -48,7 +34,7 @@ struct RefineOptions {
 /// corners are traced, else the pixels between are interpolated linearly. A pixel belongs to the
 /// square whose lower left corner it is at or beyond, so the result is a pure function of the
 /// traced values: tiles, blocks and threads do not show.
-void refine_tile(const Block& tile, int width, int height, const RefineOptions& options,
+void refine_tile(const PixelRectangle& tile, int width, int height, const RefineOptions& options,
                  TracePixels trace, StorePixel store);
 
 }  // namespace lightwalk

@@ -4,14 +4,10 @@
 
 #include "core/light/image_polygon.h"
 #include "core/light/light_sources.h"
+#include "core/view/pixels.h"
 #include "core/view/view.h"
 
 namespace lightwalk {
-
-/// Pixels [x0, x1) x [y0, y1); y from the bottom.
-struct PixelRectangle {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
 
 /// What a small source brings to one pixel.
 struct SourcePixel {

@@ -9,6 +9,8 @@
 #include <functional>
 #include <vector>
 
+#include "parallel/blocks.h"
+
 using namespace lightwalk;
 
 namespace {

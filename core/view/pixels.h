@@ -1,0 +1,39 @@
+#pragma once
+// The words for pixels: places, values and rectangles, for all who make or use pictures.
+// Everywhere x counts from the left and y from the bottom of the picture.
+#include <cstddef>
+
+#include "core/math/rgb.h"
+
+namespace lightwalk {
+
+/// Place of a pixel.
+struct PixelPlace {
+    int x = 0, y = 0;
+    friend bool operator==(const PixelPlace&, const PixelPlace&) = default;
+};
+
+/// What a pixel shows.
+struct PixelValue {
+    Rgb radiance;        ///< [W/(m² sr)]
+    float distance = 0;  ///< along the pixel's ray [m]; 0 where there is no ray
+    friend bool operator==(const PixelValue&, const PixelValue&) = default;
+};
+
+/// Pixels x0 <= x < x1, y0 <= y < y1.
+struct PixelRectangle {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    [[nodiscard]] int width() const { return x1 - x0; }
+    [[nodiscard]] int height() const { return y1 - y0; }
+    [[nodiscard]] bool empty() const { return x1 <= x0 || y1 <= y0; }
+    /// 0 where it is empty.
+    [[nodiscard]] std::size_t pixels() const {
+        return empty() ? 0 : static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    }
+    [[nodiscard]] bool contains(const PixelPlace& place) const {
+        return x0 <= place.x && place.x < x1 && y0 <= place.y && place.y < y1;
+    }
+    friend bool operator==(const PixelRectangle&, const PixelRectangle&) = default;
+};
+
+}  // namespace lightwalk
