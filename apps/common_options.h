@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/option_words.h"
-#include "io/render_options.h"
+#include "io/options/option_words.h"
+#include "io/options/render_options.h"
 #include "parallel/executor.h"
 
 namespace lightwalk {

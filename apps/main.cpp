@@ -7,7 +7,7 @@
 
 #include "apps/commands.h"
 #include "core/error.h"
-#include "io/option_words.h"
+#include "io/options/option_words.h"
 
 namespace lightwalk {
 namespace {

@@ -13,8 +13,8 @@
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
-#include "io/frame_name.h"
-#include "io/view_text.h"
+#include "io/options/frame_name.h"
+#include "io/options/view_text.h"
 #include "parallel/frame.h"
 
 namespace lightwalk {

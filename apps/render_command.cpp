@@ -1,8 +1,8 @@
 #include "apps/render_command.h"
 
 #include "core/scene/transform_args.h"
-#include "io/frame_name.h"
-#include "io/view_text.h"
+#include "io/options/frame_name.h"
+#include "io/options/view_text.h"
 
 namespace lightwalk {
 namespace {

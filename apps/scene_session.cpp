@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
-#include "io/picture/picture.h"
+#include "io/files/atomic_file.h"
 #include "io/scene/scene_reader.h"
 
 namespace lightwalk {

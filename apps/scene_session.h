@@ -8,7 +8,7 @@
 #include "core/scene/scene.h"
 #include "core/trace/tracer.h"
 #include "io/ambient/ambient_store.h"
-#include "io/file_resources.h"
+#include "io/scene/file_resources.h"
 #include "parallel/concurrent_cache.h"
 #include "parallel/freezable_cache.h"
 

@@ -9,8 +9,8 @@
 #include "apps/commands.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
-#include "io/ray_reader.h"
-#include "io/ray_records.h"
+#include "io/rays/ray_reader.h"
+#include "io/rays/ray_records.h"
 #include "parallel/ray_list.h"
 
 namespace lightwalk {

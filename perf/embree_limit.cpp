@@ -13,9 +13,9 @@
 #include "core/geometry/shapes.h"
 #include "core/scene/transform_args.h"
 #include "core/view/view.h"
-#include "io/file_resources.h"
+#include "io/options/view_text.h"
+#include "io/scene/file_resources.h"
 #include "io/scene/scene_reader.h"
-#include "io/view_text.h"
 
 namespace lightwalk {
 namespace {

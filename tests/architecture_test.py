@@ -1,7 +1,10 @@
 #!/usr/bin/python3
-"""The arrows of the design: apps -> parallel, io -> core. core knows no threads, sockets, MPI or files.
-Also: test names that CTest can find."""
-import pathlib, re, sys
+"""The arrows of the design: apps -> parallel, io -> core, and inside core and io from folder to folder in one
+order. core knows no threads, sockets, MPI or files. Also: test names that CTest can find.
+
+    architecture_test.py              the project
+    architecture_test.py --self-test  small planted trees: what must be found is found, and nothing else"""
+import pathlib, re, sys, tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FORBIDDEN_FOLDERS = {"core": {"io", "parallel", "apps"}, "io": {"parallel", "apps"}, "parallel": {"io", "apps"}, "apps": set()}
@@ -11,31 +14,82 @@ FORBIDDEN_HEADERS = {
     "parallel": r"<(fstream|filesystem)>",
     "apps": r"(?!)",
 }
+# Folders from the lowest to the highest: a file may include files of its own folder and of those before it.
+# "." are the files that lie in no subfolder; None: not held yet.
+ORDER = {
+    "core": None,
+    "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "generators", "scene"],
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 
 
-def wrong_includes():
+def sources(folder):
+    return [path for path in sorted(folder.rglob("*")) if path.suffix in (".h", ".cpp")]
+
+
+def wrong_includes(root):
     for folder, forbidden in FORBIDDEN_FOLDERS.items():
-        for path in sorted((ROOT / folder).rglob("*")):
-            if path.suffix not in (".h", ".cpp"):
-                continue
+        for path in sources(root / folder):
             for kind, name in INCLUDE.findall(path.read_text()):
                 if name.split("/")[0] in forbidden or (kind == "<" and re.match(FORBIDDEN_HEADERS[folder], f"<{name}>")):
-                    yield f"{path.relative_to(ROOT)}: includes {name}"
+                    yield f"{path.relative_to(root)}: includes {name}"
 
 
-def lost_tests():
+def subfolder(name):
+    """Of "io/picture/picture.h": "picture"; of "core/error.h": "."."""
+    parts = name.split("/")
+    return parts[1] if len(parts) > 2 else "."
+
+
+def wrong_order(root, order):
+    """Includes that point to a higher folder: without them there is no circle of folders."""
+    for top, folders in order.items():
+        if folders is None:
+            continue
+        rank = {folder: k for k, folder in enumerate(folders)}
+        found = set()
+        for path in sources(root / top):
+            name = str(path.relative_to(root))
+            own = subfolder(name)
+            found.add(own)
+            if own not in rank:
+                yield f"{name}: {top}'s folder {own} is not in the order of folders"
+                continue
+            for kind, included in INCLUDE.findall(path.read_text()):
+                if included.split("/")[0] != top:
+                    continue
+                other = subfolder(included)
+                if other not in rank:
+                    yield f"{name}: includes {included}, whose folder is not in the order of folders"
+                elif rank[other] > rank[own]:
+                    yield f"{name}: includes {included}, {other} stands above {own}"
+        for folder in folders:
+            if folder not in found:
+                yield f"{top}: the order names the folder {folder}, which has no sources"
+
+
+def unnamed_order(root, order):
+    """The README names the order in the words of the table: `a`, `b`, `c`."""
+    readme = (root / "README.md").read_text()
+    for top, folders in order.items():
+        if folders is not None:
+            words = ", ".join(f"`{folder}`" for folder in folders if folder != ".")
+            if words not in " ".join(readme.split()):
+                yield f"README.md: the order of {top}'s folders is not there: {words}"
+
+
+def lost_tests(root):
     """CMake would cut such names apart, and CTest would run none of the pieces."""
-    for path in sorted((ROOT / "tests").rglob("*_test.cpp")):
+    for path in sorted((root / "tests").rglob("*_test.cpp")):
         for name in re.findall(r'TEST_CASE\(\s*"((?:[^"\\]|\\.)*)"', path.read_text()):
             if re.search(r"[;\[\]\\]", name):
-                yield f"{path.relative_to(ROOT)}: test name with ; [ ] or \\: {name}"
+                yield f"{path.relative_to(root)}: test name with ; [ ] or \\: {name}"
 
 
-def main():
+def check_project():
     files = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.h")]
     embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.[hc]*") if "embree3/" in p.read_text()]
-    problems = [*wrong_includes(), *lost_tests()]
+    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unnamed_order(ROOT, ORDER), *lost_tests(ROOT)]
     if len(files) < 20:
         problems.append("the headers were not found: is this the project's root?")
     if len(embree) != 1:
@@ -44,4 +98,50 @@ def main():
     return 1 if problems else 0
 
 
-sys.exit(main())
+# A small tree that is right: low is below high, and beside them lies a file of the root.
+SOUND = {
+    "io/base.h": "#include <string>\n",
+    "io/low/low.h": '#include "io/base.h"\n',
+    "io/low/low.cpp": '#include "io/low/low.h"\n',
+    "io/high/high.cpp": '#include "core/any/where.h"\n#include "io/low/low.h"\n',
+    "README.md": "`.`: the rest; upwards `low`,\n`high`\n",
+    "tests/sound_test.cpp": 'TEST_CASE("a name") {}\n',
+}
+SOUND_ORDER = {"core": None, "io": [".", "low", "high"]}
+# What is planted in it, and the one problem that must be found.
+PLANTED = [
+    ({}, None),
+    # low includes high, which includes low: a circle.
+    ({"io/low/low.cpp": '#include "io/high/high.h"\n'}, "io/low/low.cpp: includes io/high/high.h, high stands above low"),
+    ({"io/low/low.h": '#  include "io/high/high.h"\n'}, "io/low/low.h: includes io/high/high.h, high stands above low"),
+    ({"io/low/deep/er.h": '#include "io/high/high.h"\n'}, "io/low/deep/er.h: includes io/high/high.h, high stands above low"),
+    ({"io/base.h": '#include "io/low/low.h"\n'}, "io/base.h: includes io/low/low.h, low stands above ."),
+    ({"io/new/new.h": ""}, "io/new/new.h: io's folder new is not in the order of folders"),
+    ({"io/low/low.h": '#include "io/gone/gone.h"\n'}, "io/low/low.h: includes io/gone/gone.h, whose folder is not in the order of folders"),
+    ({"io/high/high.cpp": None}, "io: the order names the folder high, which has no sources"),
+    ({"README.md": "`high`, `low`\n"}, "README.md: the order of io's folders is not there: `low`, `high`"),
+    ({"io/low/low.cpp": '#include "parallel/blocks.h"\n'}, "io/low/low.cpp: includes parallel/blocks.h"),
+    ({"io/low/low.cpp": "#include <thread>\n"}, "io/low/low.cpp: includes thread"),
+    ({"core/any/a.h": '#include "io/base.h"\n'}, "core/any/a.h: includes io/base.h"),
+    ({"tests/sound_test.cpp": 'TEST_CASE("a; b") {}\n'}, "tests/sound_test.cpp: test name with ; [ ] or \\: a; b"),
+]
+
+
+def self_test():
+    failures = 0
+    for planted, expected in PLANTED:
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in (SOUND | planted).items():
+                if text is not None:
+                    (root / name).parent.mkdir(parents=True, exist_ok=True)
+                    (root / name).write_text(text)
+            found = [*wrong_includes(root), *wrong_order(root, SOUND_ORDER), *unnamed_order(root, SOUND_ORDER), *lost_tests(root)]
+        if found != ([] if expected is None else [expected]):
+            failures += 1
+            print(f"planted {planted}:\n  found {found}\n  expected {expected}")
+    print(f"{len(PLANTED)} trees, {failures} failures")
+    return 1 if failures else 0
+
+
+sys.exit(self_test() if sys.argv[1:] == ["--self-test"] else check_project())

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/error.h"
-#include "io/formats/decode.h"
-#include "io/picture/picture.h"
-#include "io/scene/binary_reader.h"
+#include "core/math/rgbe.h"
+#include "io/formats/binary_reader.h"
+#include "io/formats/header.h"
 
 namespace lightwalk {
 namespace {

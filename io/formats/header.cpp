@@ -1,7 +1,8 @@
+#include "io/formats/header.h"
+
 #include <algorithm>
 
 #include "core/error.h"
-#include "io/formats/decode.h"
 #include "io/formats/words.h"
 
 namespace lightwalk {

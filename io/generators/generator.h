@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/library_path.h"
+#include "io/files/library_path.h"
 
 namespace lightwalk {
 

@@ -12,9 +12,9 @@
 #include "io/generators/generator.h"
 #include "io/generators/generator_words.h"
 #include "io/generators/scene_writer.h"
-#include "io/scene/command_runner.h"
-#include "io/scene/primitive_text.h"
-#include "io/scene/tokenizer.h"
+#include "io/language/command_line.h"
+#include "io/language/primitive_text.h"
+#include "io/language/tokenizer.h"
 
 namespace lightwalk {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/math/vec3.h"
-#include "io/scene/command_line.h"
-#include "io/scene/primitive_text.h"
+#include "io/language/command_line.h"
+#include "io/language/primitive_text.h"
 
 namespace lightwalk {
 

@@ -6,10 +6,9 @@
 #include "io/generators/generator.h"
 #include "io/generators/xform_options.h"
 #include "io/generators/xform_primitive.h"
-#include "io/scene/command_line.h"
-#include "io/scene/command_runner.h"
-#include "io/scene/primitive_text.h"
-#include "io/scene/tokenizer.h"
+#include "io/language/command_line.h"
+#include "io/language/primitive_text.h"
+#include "io/language/tokenizer.h"
 
 namespace lightwalk {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/scene/transform_args.h"
-#include "io/scene/command_runner.h"
-#include "io/scene/tokenizer.h"
+#include "io/language/command_line.h"
+#include "io/language/tokenizer.h"
 
 namespace lightwalk {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/math/transform.h"
-#include "io/scene/primitive_text.h"
+#include "io/language/primitive_text.h"
 
 namespace lightwalk {
 

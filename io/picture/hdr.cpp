@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/scene/transform_args.h"
 #include "io/formats/words.h"
+#include "io/picture/picture.h"
 #include "io/picture/rgbe_picture.h"
 #include "io/picture/scanline.h"
 

@@ -53,18 +53,5 @@ void write_picture(const std::string& path, const Picture& picture, const Pictur
 /// Depth: `path` ending in .exr: one float channel Z; otherwise raw native floats, row by row from
 /// the top.
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth);
-/// Any bytes, whole or not at all: a temporary file in the same folder is renamed when it is
-/// complete, and removed when that fails. Links are followed; devices and pipes are written to
-/// directly. Throws InputError.
-void write_file_atomically(const std::string& path, std::string_view bytes);
-
-/// Shared-exponent encoding of one pixel, and back. Source: Ward, "Real Pixels", Graphics Gems II
-/// (1991).
-struct Rgbe {
-    unsigned char r = 0, g = 0, b = 0, e = 0;
-    friend bool operator==(const Rgbe&, const Rgbe&) = default;
-};
-[[nodiscard]] Rgbe encode_rgbe(const Rgb& color);
-[[nodiscard]] Rgb decode_rgbe(const Rgbe& pixel);
 
 }  // namespace lightwalk

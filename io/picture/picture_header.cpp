@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "io/view_text.h"
+#include "io/options/view_text.h"
 
 namespace lightwalk {
 namespace {

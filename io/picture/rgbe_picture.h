@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/formats/decode.h"
-#include "io/picture/picture.h"
+#include "core/math/rgbe.h"
+#include "io/formats/header.h"
 
 namespace lightwalk {
 

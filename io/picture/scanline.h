@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/picture/picture.h"
+#include "core/math/rgbe.h"
 
 namespace lightwalk {
 

@@ -4,7 +4,8 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "io/formats/decode.h"
+#include "io/files/atomic_file.h"
+#include "io/formats/header.h"
 #include "io/picture/image_encoder.h"
 #include "io/picture/picture.h"
 

@@ -4,7 +4,7 @@
 
 #include "core/scene/model_builder.h"
 #include "core/scene/primitive.h"
-#include "io/scene/binary_reader.h"
+#include "io/formats/binary_reader.h"
 
 namespace lightwalk {
 

@@ -14,13 +14,6 @@ constexpr int kMaxDepth = 64;
 /// A scene's commands together, nested ones included.
 constexpr std::size_t kMaxCommands = std::size_t{1} << 20;
 constexpr std::size_t kMaxBytes = 2 * kMaxGeneratedBytes;
-constexpr std::size_t kLongestInMessage = 60;
-
-std::string_view without_mark(const std::string& command) {
-    std::string_view text = command;
-    if (!text.empty() && text[0] == '!') text.remove_prefix(1);
-    return text;
-}
 
 /// cat(1): its files, or its input, one after the other.
 std::string run_cat(std::span<const std::string> args, GeneratorContext& context) {
@@ -64,14 +57,6 @@ struct DepthGuard {
 
 }  // namespace
 
-std::string abbreviate_command(const std::string& command) {
-    std::string text(without_mark(command).substr(0, kLongestInMessage));
-    const std::size_t end = text.find_first_of("\r\n");
-    const bool cut = end != std::string::npos || command.size() > kLongestInMessage + 1;
-    if (end != std::string::npos) text.resize(end);
-    return "!" + text + (cut ? "..." : "");
-}
-
 void CommandRunner::charge(std::size_t bytes, const SourceLocation& where) {
     if (bytes > kMaxBytes - bytes_)
         throw CommandError(where, "the scene's commands write too much");
@@ -87,12 +72,13 @@ std::string CommandRunner::run(const std::string& command, const std::string& di
                                       "\": does a file read itself?");
     }
     if (++commands_ > kMaxCommands) throw CommandError(where, "the scene has too many commands");
-    const std::optional<std::vector<Pipeline>> pipelines = split_command(without_mark(command));
+    const std::optional<std::vector<Pipeline>> pipelines =
+        split_command(without_command_mark(command));
     std::string output;
     if (pipelines && !unknown_program(*pipelines)) {
         output = run_pipelines(*pipelines, command, directory, where);
     } else if (allow_commands_) {
-        output = run_shell(std::string(without_mark(command)), directory, where);
+        output = run_shell(std::string(without_command_mark(command)), directory, where);
     } else if (pipelines) {
         throw CommandError(where,
                            "command \"" + *unknown_program(*pipelines) +

@@ -7,18 +7,11 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/files/library_path.h"
 #include "io/generators/generator.h"
-#include "io/library_path.h"
-#include "io/scene/command_line.h"
+#include "io/language/command_line.h"
 
 namespace lightwalk {
-
-/// A command that cannot be run at all, or runs away; unlike a command that fails, it ends the
-/// reading.
-class CommandError : public InputError {
-  public:
-    using InputError::InputError;
-};
 
 /// One for each scene that is read: it bounds what all its commands together may do.
 class CommandRunner {
@@ -49,8 +42,5 @@ class CommandRunner {
     int depth_ = 0;
     std::size_t commands_ = 0, bytes_ = 0;
 };
-
-/// The command for messages: its first line, shortened, with the '!'.
-[[nodiscard]] std::string abbreviate_command(const std::string& command);
 
 }  // namespace lightwalk

@@ -8,10 +8,10 @@
 
 #include "core/math/direction_code.h"
 #include "core/math/vec3.h"
-#include "io/formats/decode.h"
+#include "io/formats/binary_reader.h"
+#include "io/formats/header.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/binary_objects.h"
-#include "io/scene/binary_reader.h"
 
 namespace lightwalk {
 namespace {

@@ -1,7 +1,7 @@
-#include "io/formats/decode.h"
+#include "io/formats/binary_reader.h"
+#include "io/formats/header.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/binary_objects.h"
-#include "io/scene/binary_reader.h"
 
 namespace lightwalk {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/scene/model_builder.h"
+#include "io/language/primitive_text.h"
+#include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/command_runner.h"
-#include "io/scene/primitive_text.h"
-#include "io/scene/tokenizer.h"
 
 namespace lightwalk {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/scene/primitive.h"
-#include "io/library_path.h"
+#include "io/files/library_path.h"
 
 namespace lightwalk {
 

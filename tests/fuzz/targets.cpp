@@ -9,6 +9,7 @@
 #include "core/trace/tracer.h"
 #include "io/formats/decode.h"
 #include "io/picture/picture.h"
+#include "io/picture/picture_data.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/scene_reader.h"
 #include "tests/test_scene.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/formats/decode.h"
+#include "io/picture/picture_data.h"
 #include "tests/shared_data.h"
 #include "tests/test_scene.h"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/formats/decode.h"
+#include "io/picture/picture_data.h"
 #include "tests/shared_data.h"
 
 using namespace lightwalk;

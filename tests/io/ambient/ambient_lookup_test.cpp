@@ -8,7 +8,7 @@
 #include "core/ambient/ambient_cache.h"
 #include "core/ambient/serial_cache.h"
 #include "io/ambient/ambient_file.h"
-#include "io/library_path.h"
+#include "io/files/library_path.h"
 #include "tests/shared_data.h"
 #include "tests/test_scene.h"
 

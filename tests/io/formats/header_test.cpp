@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/formats/decode.h"
+#include "io/formats/header.h"
 
 using namespace lightwalk;
 

@@ -7,10 +7,10 @@
 
 #include "core/math/vec3.h"
 #include "io/generators/generator.h"
-#include "io/scene/command_line.h"
+#include "io/language/command_line.h"
+#include "io/language/primitive_text.h"
+#include "io/language/tokenizer.h"
 #include "io/scene/command_runner.h"
-#include "io/scene/primitive_text.h"
-#include "io/scene/tokenizer.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk::test {

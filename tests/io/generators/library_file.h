@@ -8,7 +8,7 @@
 
 #include "core/function/environment.h"
 #include "core/math/vec3.h"
-#include "io/library_path.h"
+#include "io/files/library_path.h"
 
 namespace lightwalk::test {
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "io/view_text.h"
+#include "io/options/view_text.h"
 #include "tests/shared_data.h"
 
 using namespace lightwalk;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/files/atomic_file.h"
 #include "io/picture/picture.h"
 
 using namespace lightwalk;

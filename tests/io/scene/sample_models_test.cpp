@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/math/vec3.h"
-#include "io/file_resources.h"
+#include "io/scene/file_resources.h"
 #include "io/scene/scene_reader.h"
 #include "tests/shared_data.h"
 #include "tests/test_scene.h"

@@ -1,0 +1,112 @@
+#include "io/files/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace lightwalk {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostAttempts = 100;
+
+InputError write_error(const std::string& path, int code) {
+    return InputError({path, 0}, "cannot write: " + std::generic_category().message(code));
+}
+
+/// An open file descriptor.
+class OpenFile {
+  public:
+    explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    ~OpenFile() {
+        if (descriptor_ >= 0) (void)::close(descriptor_);
+    }
+    /// Error number, or 0.
+    int write(std::string_view bytes) {
+        while (!bytes.empty()) {
+            const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) return errno;
+            bytes.remove_prefix(static_cast<std::size_t>(n));
+        }
+        return 0;
+    }
+    int close() {
+        const int failed = ::close(descriptor_);
+        descriptor_ = -1;
+        return failed == 0 ? 0 : errno;
+    }
+
+  private:
+    int descriptor_;
+};
+
+/// A file that vanishes again unless it was kept.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        std::error_code ignored;
+        if (!path_.empty()) fs::remove(path_, ignored);
+    }
+    int rename_to(const fs::path& target) {
+        if (std::rename(path_.c_str(), target.c_str()) != 0) return errno;
+        path_.clear();
+        return 0;
+    }
+
+  private:
+    fs::path path_;
+};
+
+/// Devices and pipes can't be replaced by renaming.
+void write_directly(const std::string& path, std::string_view bytes) {
+    OpenFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    int failed = file.write(bytes);
+    if (failed == 0) failed = file.close();
+    if (failed != 0) throw write_error(path, failed);
+}
+
+}  // namespace
+
+void write_file_atomically(const std::string& path, std::string_view bytes) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+        write_directly(path, bytes);
+        return;
+    }
+    fs::path target = path;
+    if (fs::is_symlink(target, ignored)) {
+        if (fs::path real = fs::weakly_canonical(target, ignored); !real.empty())
+            target = std::move(real);
+    }
+    fs::path temporary;
+    int descriptor = -1;
+    for (int attempt = 0; descriptor < 0 && attempt < kMostAttempts; ++attempt) {
+        temporary = target;
+        temporary += ".part" + std::to_string(::getpid()) + '-' + std::to_string(attempt);
+        descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor < 0 && errno != EEXIST) break;
+    }
+    if (descriptor < 0) throw write_error(path, errno);
+    TemporaryFile part(temporary);
+    OpenFile file(descriptor);
+    int failed = file.write(bytes);
+    if (failed == 0) failed = file.close();
+    if (failed == 0) failed = part.rename_to(target);
+    if (failed != 0) throw write_error(path, failed);
+}
+
+}  // namespace lightwalk

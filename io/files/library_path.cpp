@@ -1,0 +1,176 @@
+#include "io/files/library_path.h"
+
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+
+namespace lightwalk {
+namespace {
+
+std::string environment(const char* name) {
+    const char* const value =
+        std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing calls setenv
+    return value == nullptr ? std::string() : std::string(value);
+}
+
+/// Home directory of a user, of the caller for ""; nothing for an unknown user.
+std::optional<std::string> home_directory(const std::string& user) {
+    if (user.empty()) {
+        const std::string home = environment("HOME");
+        if (!home.empty()) return home;
+    }
+    std::vector<char> buffer(16384);
+    passwd entry{};
+    passwd* found = nullptr;
+    if (user.empty()) {
+        getpwuid_r(getuid(), &entry, buffer.data(), buffer.size(), &found);
+    } else {
+        getpwnam_r(user.c_str(), &entry, buffer.data(), buffer.size(), &found);
+    }
+    if (found == nullptr) return std::nullopt;
+    return std::string(entry.pw_dir);
+}
+
+/// Where this program's own library files lie: beside the executable's installation, where it was
+/// installed to at build time, or in the source tree; nothing when none of these folders exists.
+std::optional<std::string> own_library() {
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    std::vector<std::string> candidates;
+    if (!error) {
+        const std::filesystem::path prefix = program.parent_path().parent_path();
+        candidates.push_back((prefix / "share" / "lightwalk" / "lib").string());
+    }
+#ifdef LIGHTWALK_INSTALLED_LIBRARY
+    candidates.emplace_back(LIGHTWALK_INSTALLED_LIBRARY);
+#endif
+#ifdef LIGHTWALK_SOURCE_LIBRARY
+    candidates.emplace_back(LIGHTWALK_SOURCE_LIBRARY);
+#endif
+    for (std::string& candidate : candidates) {
+        if (std::filesystem::is_directory(candidate, error)) return std::move(candidate);
+    }
+    return std::nullopt;
+}
+
+struct CloseFile {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+
+}  // namespace
+
+std::vector<std::string> split_search_path(const std::string& value) {
+    std::vector<std::string> elements;
+    for (std::size_t begin = 0; begin < value.size();) {
+        const std::size_t end = std::min(value.find(':', begin), value.size());
+        elements.push_back(end == begin ? "." : value.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    if (elements.empty()) elements.emplace_back(".");
+    return elements;
+}
+
+std::string path_from(const std::string& directory, const std::string& path) {
+    if (directory.empty() || directory == "." || (!path.empty() && path[0] == '/')) return path;
+    if (path.empty() || path == ".") return directory;
+    return directory.back() == '/' ? directory + path : directory + "/" + path;
+}
+
+std::string directory_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return {};
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+bool is_readable_file(const std::string& path) {
+    struct stat status {};
+    return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+           access(path.c_str(), R_OK) == 0;
+}
+
+LibraryPath::LibraryPath(std::vector<std::string> directories)
+    : directories_(std::move(directories)), given_(directories_) {}
+
+LibraryPath LibraryPath::from_environment() {
+    std::vector<std::string> directories = split_search_path(environment("RAYPATH"));
+    if (std::optional<std::string> own = own_library()) directories.push_back(std::move(*own));
+    return LibraryPath(std::move(directories));
+}
+
+LibraryPath LibraryPath::relative_to(const std::string& directory) const {
+    LibraryPath result(given_);
+    result.base_ = directory;
+    for (std::string& element : result.directories_) element = path_from(directory, element);
+    return result;
+}
+
+std::optional<std::string> LibraryPath::find(const std::string& name) const {
+    if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;
+    if (name[0] == '/' || name[0] == '.') {
+        const std::string path = path_from(base_, name);
+        return is_readable_file(path) ? std::optional(path) : std::nullopt;
+    }
+    if (name[0] == '~') {
+        const std::size_t slash = std::min(name.find('/'), name.size());
+        const std::optional<std::string> home = home_directory(name.substr(1, slash - 1));
+        if (!home || !is_readable_file(*home + name.substr(slash))) return std::nullopt;
+        return *home + name.substr(slash);
+    }
+    for (const std::string& directory : directories_) {
+        const std::string path = path_from(directory, name);
+        if (is_readable_file(path)) return path;
+    }
+    return std::nullopt;
+}
+
+std::string LibraryPath::locate(const std::string& name, const std::string& kind) const {
+    if (std::optional<std::string> path = find(name)) return *path;
+    throw InputError("cannot find " + kind + " \"" + name + "\" in " + describe());
+}
+
+std::string LibraryPath::describe() const {
+    std::string result;
+    for (const std::string& directory : directories_) {
+        if (!result.empty()) result += ":";
+        result += directory;
+    }
+    return result;
+}
+
+std::string read_file(const std::string& path, std::size_t limit) {
+    const auto fail = [&path](const std::string& why) -> std::string {
+        throw InputError({path, 0}, why);
+    };
+    const auto reason = [](int code) { return std::system_category().message(code); };
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) return fail("cannot open: is a directory");
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+    if (!file) return fail("cannot open: " + reason(errno));
+    std::string bytes;
+    if (const auto size = std::filesystem::file_size(path, error); !error && size <= limit) {
+        bytes.reserve(size);
+    }
+    std::vector<char> chunk(std::size_t{64} << 10);
+    std::size_t got = 0;
+    while ((got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0) {
+        if (got > limit - bytes.size()) {
+            return fail("larger than " + std::to_string(limit) + " bytes");
+        }
+        bytes.append(chunk.data(), got);
+    }
+    if (std::ferror(file.get()) != 0) return fail("cannot read: " + reason(errno));
+    return bytes;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,152 @@
+#include "io/language/primitive_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "core/scene/model_builder.h"
+#include "core/scene/transform_args.h"
+
+namespace lightwalk {
+namespace {
+
+/// The next word, or an empty one at the end of the text.
+std::string next_word(SceneTokenizer& tokens) {
+    return tokens.word().value_or(std::string());
+}
+
+[[noreturn]] void bad_arguments(const PrimitiveText& primitive, const std::string& expected,
+                                const std::optional<std::string>& found) {
+    throw InputError(primitive.where, "bad arguments for " + primitive.type_word + " \"" +
+                                          primitive.name + "\": expected " + expected + ", found " +
+                                          (found ? "\"" + *found + "\"" : "the end of the text"));
+}
+
+/// A count of `what`, at most `most`.
+std::size_t read_count(SceneTokenizer& tokens, const PrimitiveText& primitive,
+                       const std::string& what, long most = std::numeric_limits<long>::max()) {
+    const std::optional<std::string> word = tokens.word();
+    long count = 0;
+    if (!word || !parse_integer(*word, count) || count < 0 || count > most) {
+        bad_arguments(primitive, what, word);
+    }
+    return static_cast<std::size_t>(count);
+}
+
+void append_real(double value, int digits, std::string& out) {
+    if (!std::isfinite(value)) throw InputError("number out of range");
+    std::array<char, 40> text{};
+    const auto result = std::to_chars(text.data(), text.data() + text.size(), value,
+                                      std::chars_format::general, digits);
+    out.append(text.data(), result.ptr);
+}
+
+/// The word, in quotes if it needs them. The language knows no escapes: each quote goes into the
+/// other kind.
+void append_word(const std::string& word, std::string& out) {
+    if (word.empty()) {
+        out += "\"\"";
+        return;
+    }
+    if (word.find_first_of(" \t\n\r\v\f\"'") == std::string::npos) {
+        out += word;
+        return;
+    }
+    for (std::size_t at = 0; at < word.size();) {
+        const char quote = word[at] == '"' ? '\'' : '"';
+        const std::size_t end = std::min(word.find(quote, at), word.size());
+        out.push_back(quote);
+        out.append(word, at, end - at);
+        out.push_back(quote);
+        at = end;
+    }
+}
+
+}  // namespace
+
+PrimitiveText read_primitive_head(SceneTokenizer& tokens) {
+    PrimitiveText primitive;
+    static_cast<void>(tokens.peek());  // white space: the location is the primitive's then
+    primitive.where = tokens.where();
+    primitive.modifier = next_word(tokens);
+    primitive.type_word = next_word(tokens);
+    primitive.name = next_word(tokens);
+    return primitive;
+}
+
+void resolve_type(PrimitiveText& primitive) {
+    const std::optional<PrimitiveType> type = primitive_type(primitive.type_word);
+    if (type) {
+        primitive.type = *type;
+        return;
+    }
+    std::vector<std::string_view> known;
+    for (int i = 0; i <= static_cast<int>(PrimitiveType::alias); ++i) {
+        known.push_back(to_string(static_cast<PrimitiveType>(i)));
+    }
+    throw InputError(primitive.where, "unknown type \"" + primitive.type_word + "\"" +
+                                          did_you_mean(primitive.type_word, known));
+}
+
+void read_primitive_arguments(SceneTokenizer& tokens, PrimitiveText& primitive) {
+    if (primitive.type == PrimitiveType::alias) {
+        std::optional<std::string> target = tokens.word();
+        if (!target) bad_arguments(primitive, "the modifier it stands for", target);
+        primitive.strings.push_back(std::move(*target));
+        return;
+    }
+    for (std::size_t left = read_count(tokens, primitive, "the number of strings"); left > 0;
+         --left) {
+        std::optional<std::string> word = tokens.word();
+        if (!word) bad_arguments(primitive, std::to_string(left) + " more strings", word);
+        primitive.strings.push_back(std::move(*word));
+    }
+    read_count(tokens, primitive, "0 integers", 0);
+    for (std::size_t left = read_count(tokens, primitive, "the number of numbers"); left > 0;
+         --left) {
+        const std::optional<std::string> word = tokens.word();
+        double value = 0;
+        if (!word || !parse_real(*word, value)) {
+            bad_arguments(primitive, std::to_string(left) + " more numbers", word);
+        }
+        primitive.reals.push_back(value);
+    }
+}
+
+PrimitiveText read_primitive(SceneTokenizer& tokens) {
+    PrimitiveText primitive = read_primitive_head(tokens);
+    resolve_type(primitive);
+    read_primitive_arguments(tokens, primitive);
+    return primitive;
+}
+
+void write_primitive(const PrimitiveText& primitive, int digits, std::string& out) {
+    out.push_back('\n');
+    append_word(primitive.modifier, out);
+    out.push_back(' ');
+    out += primitive.type_word;
+    out.push_back(' ');
+    append_word(primitive.name, out);
+    if (primitive.type == PrimitiveType::alias) {
+        out.push_back(' ');
+        if (!primitive.strings.empty()) append_word(primitive.strings[0], out);
+        out.push_back('\n');
+        return;
+    }
+    out += "\n" + std::to_string(primitive.strings.size());
+    for (const std::string& word : primitive.strings) {
+        out.push_back(' ');
+        append_word(word, out);
+    }
+    out += "\n0\n" + std::to_string(primitive.reals.size());
+    for (std::size_t i = 0; i < primitive.reals.size(); ++i) {
+        out.push_back(i % 3 == 0 && primitive.reals.size() > 4 ? '\n' : ' ');
+        append_real(primitive.reals[i], digits, out);
+    }
+    out.push_back('\n');
+}
+
+}  // namespace lightwalk

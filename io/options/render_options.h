@@ -1,0 +1,50 @@
+#pragma once
+// Radiance's rendering options: how light is followed, as rpict and rtrace take it from the command
+// line.
+#include <string>
+#include <vector>
+
+#include "core/trace/options.h"
+#include "io/files/library_path.h"
+#include "io/options/option_words.h"
+
+namespace lightwalk {
+
+/// All that these options set.
+struct RenderSettings {
+    RenderOptions light;        ///< what the core needs
+    std::string ambient_file;   ///< -af, "" for none
+    bool uncorrelated = false;  ///< -u; every sample is independent anyway, so it changes nothing
+    bool warnings = true;       ///< -w
+};
+
+/// Whose defaults: they differ. Source: the manual pages rpict(1) and rtrace(1).
+enum class OptionDefaults { rpict, rtrace };
+[[nodiscard]] RenderSettings default_render_settings(OptionDefaults program);
+
+/// Take the option that stands in option position, with its arguments, if it is a rendering option;
+/// false leaves `words` as it is. Throws UsageError for wrong arguments and for options that
+/// Lightwalk does not offer (photon maps, spectra, global function definitions), InputError when a
+/// modifier list (-aE, -aI) cannot be read.
+[[nodiscard]] bool parse_render_option(OptionWords& words, const LibraryPath& library,
+                                       RenderSettings& settings);
+
+/// What can only be told when all options are known: throws UsageError for -lr <= 0 with -lw <= 0.
+void check_render_settings(const RenderSettings& settings);
+
+/// One line an option, as `-defaults` prints them: option and value, tabs, "# " and a description.
+[[nodiscard]] std::string describe_render_settings(const RenderSettings& settings);
+
+/// A line of `-defaults`: `left`, tabs to a common column, "# ", `description`.
+[[nodiscard]] std::string option_line(const std::string& left, const std::string& description);
+
+/// A switch or a number as `-defaults` prints it.
+[[nodiscard]] std::string option_text(const std::string& name, bool value);
+[[nodiscard]] std::string option_text(const std::string& name, int value);
+[[nodiscard]] std::string option_text(const std::string& name, double value);
+[[nodiscard]] std::string option_text(const std::string& name, const Rgb& value);
+
+/// The names, for suggestions.
+[[nodiscard]] std::vector<std::string> render_option_names();
+
+}  // namespace lightwalk

@@ -1,0 +1,88 @@
+#include "io/language/tokenizer.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+namespace lightwalk {
+namespace {
+
+using Item = SceneTokenizer::Item;
+
+std::vector<std::string> words(const std::string& text) {
+    SceneTokenizer tokens(text, "t.rad");
+    std::vector<std::string> result;
+    while (const std::optional<std::string> word = tokens.word()) result.push_back(*word);
+    return result;
+}
+
+TEST_CASE("words end at white space outside quotes, and quotes vanish") {
+    using Words = std::vector<std::string>;
+    CHECK(words("a b\tc\nd\re\vf\fg") == Words{"a", "b", "c", "d", "e", "f", "g"});
+    CHECK(words("a\"b c\"d") == Words{"ab cd"});
+    CHECK(words("'say \"hi\"' \"it's\"") == Words{"say \"hi\"", "it's"});
+    CHECK(words("\"\" x") == Words{"", "x"});
+    CHECK(words("a#b !c") == Words{"a#b", "!c"});
+    CHECK(words("x 'open to the end\n y") == Words{"x", "open to the end\n y"});
+    CHECK(words("a\\ b") == Words{"a\\", "b"});  // no escapes
+    CHECK(words(" \n ").empty());
+}
+
+TEST_CASE("# and ! begin an item wherever an item may begin") {
+    SceneTokenizer tokens("  # note !x\n word# !cmd a\n", "t.rad");
+    CHECK(tokens.peek() == Item::comment);
+    CHECK(tokens.comment() == "# note !x");
+    CHECK(tokens.peek() == Item::primitive);
+    CHECK(tokens.word() == "word#");
+    CHECK(tokens.peek() == Item::command);
+    CHECK(tokens.command() == "!cmd a");
+    CHECK(tokens.peek() == Item::end);
+    CHECK_FALSE(tokens.word());
+}
+
+TEST_CASE("a command ends at LF, CR LF or CR, a backslash before it keeps it and joins the lines") {
+    const auto command = [](const std::string& text) {
+        return SceneTokenizer(text, "t").command();
+    };
+    CHECK(command("!a b\nc") == "!a b");
+    CHECK(command("!a b\r\nc") == "!a b");
+    CHECK(command("!a b\rc") == "!a b");
+    CHECK(command("!a b") == "!a b");
+    CHECK(command("!a \\\n b\nc") == "!a \\\n b");
+    CHECK(command("!a \\\r\n b\nc") == "!a \\\r\n b");
+    CHECK(command("!\\\n") == "!\\\n");
+    const std::string longer = "!" + std::string(100000, 'x');  // Radiance stops at 2047
+    CHECK(command(longer + "\n") == longer);
+}
+
+TEST_CASE("lines are counted whichever way they end, in words, comments and commands") {
+    SceneTokenizer tokens("a\nb\r\nc\rd # x\n!cmd \\\n more\nlast", "room.rad");
+    const auto line_at = [&] {
+        static_cast<void>(tokens.peek());
+        return tokens.where().line;
+    };
+    CHECK(line_at() == 1);
+    CHECK(tokens.word() == "a");
+    CHECK(line_at() == 2);
+    CHECK(tokens.word() == "b");
+    CHECK(line_at() == 3);
+    CHECK(tokens.word() == "c");
+    CHECK(line_at() == 4);
+    CHECK(tokens.word() == "d");
+    CHECK(tokens.peek() == Item::comment);
+    tokens.comment();
+    CHECK(line_at() == 5);
+    CHECK(tokens.command() == "!cmd \\\n more");
+    CHECK(line_at() == 7);
+    CHECK(tokens.where().file == "room.rad");
+}
+
+TEST_CASE("a word of more than 64 KiB is refused") {
+    const std::string limit(65536, 'x');
+    CHECK(words(limit) == std::vector<std::string>{limit});
+    CHECK_THROWS_WITH_AS(words("\n" + limit + "x"), "t.rad:2: word longer than 64 KiB", InputError);
+}
+
+}  // namespace
+}  // namespace lightwalk

@@ -1,0 +1,80 @@
+#include "io/scene/file_resources.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/io/scene/binary_writer.h"
+#include "tests/temporary_folder.h"
+#include "tests/test_scene.h"
+
+namespace lightwalk {
+namespace {
+
+TEST_CASE("files are found along the path, decoded once, and shared") {
+    const test::TemporaryFolder folder;
+    folder.write("lib/f.cal", "x=1;");
+    folder.write("lib/ramp.dat", "1\n0 1 2\n3 5\n");
+    test::Silence silence;
+    FileResources resources(LibraryPath({"lib"}).relative_to(folder.path()), false, silence);
+    CHECK(resources.function_file("f.cal") == "x=1;");
+    const auto table = resources.data("ramp.dat");
+    CHECK(table->values == std::vector<float>{3, 5});
+    CHECK(resources.data("ramp.dat") == table);
+}
+
+TEST_CASE("an octree that is not frozen reads its scene files from the base directory") {
+    const test::TemporaryFolder folder;
+    folder.write("ball.rad", "void sphere s 0 0 4 0 0 0 1");
+    test::BinaryWriter file = test::begin_file("Radiance_octree", 287);
+    folder.write("lib/ball.oct",
+                 file.text("ball.rad").text("").integer(1, 4).integer(0, 1).bytes());
+    test::Silence silence;
+    FileResources resources(LibraryPath({"lib"}).relative_to(folder.path()), false, silence);
+    const auto model = resources.octree("ball.oct");
+    CHECK(model->primitives.at(0).name == "s");
+    CHECK(resources.octree("ball.oct") == model);
+}
+
+TEST_CASE("a missing file names its kind and where it was looked for") {
+    test::Silence silence;
+    FileResources resources(LibraryPath({"/no", "/where"}), false, silence);
+    const auto message_of = [](const auto& action) -> std::string {
+        try {
+            static_cast<void>(action());
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    CHECK(message_of([&] { return resources.function_file("f"); }) ==
+          "cannot find function file \"f\" in /no:/where");
+    CHECK(message_of([&] { return resources.data("f"); }) ==
+          "cannot find data file \"f\" in /no:/where");
+    CHECK(message_of([&] { return resources.picture("f"); }) ==
+          "cannot find picture file \"f\" in /no:/where");
+    CHECK(message_of([&] { return resources.font("f"); }) ==
+          "cannot find font file \"f\" in /no:/where");
+    CHECK(message_of([&] { return resources.text_lines("f"); }) ==
+          "cannot find text file \"f\" in /no:/where");
+    CHECK(message_of([&] { return resources.octree("f"); }) ==
+          "cannot find octree file \"f\" in /no:/where");
+    CHECK(message_of([&] { return resources.mesh("f"); }) ==
+          "cannot find mesh file \"f\" in /no:/where");
+}
+
+TEST_CASE("lines of a text file: the last end is optional, long ones break after 511 bytes") {
+    const test::TemporaryFolder folder;
+    folder.write("t", "one\n\n" + std::string(512, 'x') + "\n" + std::string(511, 'y') + "\nend");
+    test::Silence silence;
+    FileResources resources(LibraryPath({folder.path()}), false, silence);
+    using Lines = std::vector<std::string>;
+    CHECK(resources.text_lines("t") ==
+          Lines{"one", "", std::string(511, 'x'), "x", std::string(511, 'y'), "end"});
+    folder.write("t", "one\n");
+    CHECK(resources.text_lines("t") == Lines{"one"});
+}
+
+}  // namespace
+}  // namespace lightwalk
