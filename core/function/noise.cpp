@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "core/function/environment.h"
 
@@ -138,28 +137,32 @@ constexpr std::uint32_t kStrideX = 17, kStrideY = 23, kStrideZ = 29;
 constexpr std::uint32_t kDiagonal = kStrideX + kStrideY + kStrideZ;
 
 using Octet = std::array<double, 8>;
-// Eight lanes: the compiler splits them where the machine has fewer.
-using Sums [[gnu::vector_size(32)]] = std::uint32_t;
-using Bits [[gnu::vector_size(32)]] = std::int32_t;
-using Values [[gnu::vector_size(64)]] = double;
 
 /// Uniform in (-1, 1] times `scale` for each of eight lattice points, given their sums of
 /// coordinates: base,
 /// + dx, + dy, + dz, + dy + dz, + dx + dz, + dx + dy, + all three.
-void hash(std::uint32_t base, std::uint32_t dx, std::uint32_t dy, std::uint32_t dz, double scale,
-          Octet& values) {
+///
+/// Loops of eight equal steps, which any compiler makes its machine's vectors of. No vectors of
+/// GCC's own kind: version 12.2 compiles those of 64 bytes for AVX-512 to something else. Inline,
+/// and not unrolled before they become vectors: otherwise fnoise3 takes 5 to 20 % longer.
+[[gnu::always_inline]] inline void hash(std::uint32_t base, std::uint32_t dx, std::uint32_t dy,
+                                        std::uint32_t dz, double scale, Octet& values) {
     constexpr std::uint32_t kAll = 0xffffffffu;
-    constexpr Sums kX{0, kAll, 0, 0, 0, kAll, kAll, kAll};
-    constexpr Sums kY{0, 0, kAll, 0, kAll, 0, kAll, kAll};
-    constexpr Sums kZ{0, 0, 0, kAll, kAll, kAll, 0, kAll};
-    Sums n = base + (dx & kX) + (dy & kY) + (dz & kZ);
-    n = (n << 13) ^ n;
-    const Sums bits = (n * (n * n * 15731u + 789221u) + 1376312589u) & 0x7fffffffu;
-    const Values uniform =
-        1.0 -
-        __builtin_convertvector(reinterpret_cast<const Bits&>(bits), Values) * (1 / 1073741824.0);
-    const Values scaled = uniform * scale;
-    std::memcpy(values.data(), &scaled, sizeof scaled);
+    constexpr std::array<std::uint32_t, 8> kX{0, kAll, 0, 0, 0, kAll, kAll, kAll};
+    constexpr std::array<std::uint32_t, 8> kY{0, 0, kAll, 0, kAll, 0, kAll, kAll};
+    constexpr std::array<std::uint32_t, 8> kZ{0, 0, 0, kAll, kAll, kAll, 0, kAll};
+    std::array<std::int32_t, 8> bits{};
+#pragma GCC unroll 1
+    for (std::size_t k = 0; k < bits.size(); ++k) {
+        std::uint32_t n = base + (dx & kX[k]) + (dy & kY[k]) + (dz & kZ[k]);
+        n = (n << 13) ^ n;
+        bits[k] =
+            static_cast<std::int32_t>((n * (n * n * 15731u + 789221u) + 1376312589u) & 0x7fffffffu);
+    }
+#pragma GCC unroll 1
+    for (std::size_t k = 0; k < bits.size(); ++k) {
+        values[k] = (1.0 - bits[k] * (1 / 1073741824.0)) * scale;
+    }
 }
 
 /// One axis: the unit that holds x, counted from the corner of the present cube.
