@@ -9,7 +9,7 @@
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
 #include "core/light/light_sources.h"
-#include "core/scene/modifier.h"
+#include "core/material/modifier_factories.h"
 #include "io/ambient/ambient_file.h"
 
 namespace lightwalk {

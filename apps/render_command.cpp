@@ -1,6 +1,6 @@
 #include "apps/render_command.h"
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
+#include "core/material/modifier_factories.h"
 #include "io/files/atomic_file.h"
 #include "io/scene/scene_reader.h"
 
@@ -36,7 +37,7 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink)
 
 void SceneSession::build(const RenderSettings& settings) {
     const Stopwatch watch;
-    built = std::make_unique<const Scene>(model, resources, warnings);
+    built = std::make_unique<const Scene>(model, modifier_factory, resources, warnings);
     auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
     const RenderOptions& options = settings.light;
     const bool caches = options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon;

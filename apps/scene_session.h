@@ -6,7 +6,7 @@
 
 #include "apps/common_options.h"
 #include "core/scene/scene.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 #include "io/ambient/ambient_store.h"
 #include "io/scene/file_resources.h"
 #include "parallel/concurrent_cache.h"

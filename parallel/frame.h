@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/math/function_ref.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 #include "core/view/view.h"
 #include "parallel/executor.h"
 #include "parallel/pixel_rays.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/geometry/shapes.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "core/view/view.h"
 #include "io/options/view_text.h"
 #include "io/scene/file_resources.h"

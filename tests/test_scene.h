@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/material/modifier_factories.h"
 #include "core/scene/scene.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 #include "io/scene/scene_reader.h"
 
 namespace lightwalk::test {
@@ -63,7 +64,7 @@ struct TestScene {
         : resources(std::move(files)),
           scene(parse_scene(text, "test.rad", {LibraryPath(std::vector<std::string>{}), false},
                             warnings),
-                resources, warnings),
+                modifier_factory, resources, warnings),
           tracer(scene, options, warnings),
           context(tracer, warnings) {}
 

@@ -4,7 +4,7 @@
 
 #include "core/ambient/ambient_cache.h"
 #include "core/ambient/hemisphere.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 

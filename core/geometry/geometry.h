@@ -9,7 +9,7 @@
 
 #include "core/geometry/surface.h"
 #include "core/math/transform.h"
-#include "core/scene/ids.h"
+#include "core/model/ids.h"
 
 namespace lightwalk {
 

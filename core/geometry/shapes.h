@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/math/vec3.h"
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

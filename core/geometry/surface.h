@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "core/geometry/shapes.h"
-#include "core/scene/ids.h"
-#include "core/scene/primitive.h"
+#include "core/model/ids.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

@@ -6,8 +6,8 @@
 #include "core/light/relay_beam.h"
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
-#include "core/scene/ids.h"
-#include "core/scene/primitive.h"
+#include "core/model/ids.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

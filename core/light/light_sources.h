@@ -8,9 +8,9 @@
 
 #include "core/light/light_source.h"
 #include "core/scene/scene.h"
-#include "core/trace/options.h"
-#include "core/trace/ray.h"
-#include "core/trace/tracer.h"
+#include "core/transport/options.h"
+#include "core/transport/ray.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 

@@ -58,7 +58,7 @@ class LightWalk {
     [[nodiscard]] bool lets_light_through(const Hit& hit) const {
         const auto material = scene_.material_of(hit.modifier);
         return !material || scene_.is_transparent(hit.modifier) ||
-               is_light_material(scene_.modifier(*material).type);
+               is_light(scene_.modifier(*material).type);
     }
 
     [[nodiscard]] Hit opaque_hit(RaySegment ray) const {

@@ -182,7 +182,7 @@ std::optional<ModifierId> light_material(const Scene& scene, const Surface& surf
     const auto id = scene.material_of(surface.modifier);
     if (!id) return std::nullopt;
     const ModifierRecord& material = scene.modifier(*id);
-    if (!is_light_material(material.type) || !material.primitive) return std::nullopt;
+    if (!is_light(material.type) || !material.primitive) return std::nullopt;
     const std::vector<double>& reals = material.primitive->reals;
     const std::size_t expected = argument_count(material.type);
     if (reals.size() != expected) {
@@ -243,11 +243,6 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
 }
 
 }  // namespace
-
-bool is_light_material(PrimitiveType type) {
-    return type == PrimitiveType::light || type == PrimitiveType::illum ||
-           type == PrimitiveType::glow || type == PrimitiveType::spotlight;
-}
 
 std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnings) {
     std::vector<LightSource> sources;

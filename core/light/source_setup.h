@@ -16,7 +16,4 @@ namespace lightwalk {
 /// Description Language" (ray.pdf).
 [[nodiscard]] std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnings);
 
-/// Whether the type is light, illum, glow or spotlight.
-[[nodiscard]] bool is_light_material(PrimitiveType type);
-
 }  // namespace lightwalk

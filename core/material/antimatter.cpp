@@ -1,8 +1,8 @@
 // antimatter: the boundary of a volume in which surfaces of certain modifiers do not exist.
 // Source: Radiance's manual "The Radiance 6.x Scene Description Language".
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/math/rgb.h"
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

@@ -2,11 +2,11 @@
 // Source: Ashikhmin & Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools 5
 // (2000), as Radiance's manual "The Radiance 6.x Scene Description Language" parametrises it.
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/lobes.h"
 #include "core/material/orientation.h"
 #include "core/material/rough_samples.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -30,6 +30,7 @@ class Ashikhmin final : public Modifier {
   public:
     explicit Ashikhmin(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override { return {.blocks_shadow_rays = true}; }
 
   private:
     [[nodiscard]] Shading prepare(const Ray& ray, TraceContext& context) const;

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 #include "core/texture/function_binding.h"
 
 namespace lightwalk {
@@ -56,6 +56,9 @@ class BrtdFunction final : public Modifier {
   public:
     explicit BrtdFunction(const ModifierBuild& build) : BrtdFunction(build, Requests(build)) {}
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override {
+        return {.transparent = any(transmitted_), .blocks_shadow_rays = !any(transmitted_)};
+    }
 
   private:
     BrtdFunction(const ModifierBuild& build, Requests requests);

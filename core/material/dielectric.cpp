@@ -2,9 +2,9 @@
 // Sources: Born & Wolf, "Principles of Optics"; Radiance's manual "The Radiance 6.x Scene
 // Description Language".
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/fresnel.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -50,6 +50,7 @@ class Dielectric final : public Modifier {
   public:
     explicit Dielectric(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override { return {.transparent = true}; }
 
   private:
     [[nodiscard]] Crossing cross_boundary(Ray& ray, const RenderOptions& options) const;

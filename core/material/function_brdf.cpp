@@ -4,8 +4,8 @@
 #include <array>
 
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
 #include "core/texture/function_binding.h"
 #include "core/texture/interpolate.h"
@@ -92,6 +92,7 @@ class FunctionBrdf final : public Modifier {
   public:
     explicit FunctionBrdf(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override { return {.blocks_shadow_rays = true}; }
 
   private:
     [[nodiscard]] Rgb direct(const Ray& ray, const MaterialVariables& variables, const Vec3& l,

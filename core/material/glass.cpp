@@ -4,9 +4,9 @@
 #include <array>
 
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/fresnel.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -18,6 +18,7 @@ class Glass final : public Modifier {
   public:
     explicit Glass(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override { return {.transparent = true}; }
 
   private:
     [[nodiscard]] std::array<double, 3> internal(double cosine_inside) const;

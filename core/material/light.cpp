@@ -3,8 +3,8 @@
 // Radiance's manual "The Radiance 6.x Scene Description Language".
 #include "core/light/light_sources.h"
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -13,6 +13,9 @@ class Light final : public Modifier {
   public:
     explicit Light(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override {
+        return {.blocks_shadow_rays = type_ != PrimitiveType::illum};
+    }
 
   private:
     void set_spot(const Primitive& primitive);

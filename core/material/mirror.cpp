@@ -2,8 +2,8 @@
 // Source: Radiance's manual "The Radiance 6.x Scene Description Language".
 #include "core/light/light_sources.h"
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -12,6 +12,9 @@ class Mirror final : public Modifier {
   public:
     explicit Mirror(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override {
+        return {.blocks_shadow_rays = !has_alternate_};
+    }
 
   private:
     [[nodiscard]] bool takes_alternate(const Ray& ray) const;

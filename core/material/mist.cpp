@@ -2,8 +2,8 @@
 // Source: Radiance's manual "The Radiance 6.x Scene Description Language".
 #include "core/light/light_sources.h"
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -14,6 +14,7 @@ class Mist final : public Modifier {
   public:
     explicit Mist(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override { return {.transparent = true}; }
 
   private:
     using Indices = std::vector<std::int32_t>;

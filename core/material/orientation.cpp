@@ -1,7 +1,7 @@
 #include "core/material/orientation.h"
 
 #include "core/material/argument_checks.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {

@@ -5,8 +5,8 @@
 #include "core/light/light_sources.h"
 #include "core/light/relay.h"
 #include "core/material/argument_checks.h"
-#include "core/material/factories.h"
 #include "core/material/surface_side.h"
+#include "core/scene/modifier.h"
 #include "core/texture/function_binding.h"
 
 namespace lightwalk {
@@ -18,6 +18,7 @@ class Prism final : public Modifier, public RelayModifier {
   public:
     explicit Prism(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
+    [[nodiscard]] MaterialTraits traits() const override { return {.blocks_shadow_rays = true}; }
     [[nodiscard]] int branches() const override { return branches_; }
     [[nodiscard]] std::optional<RelayDirection> relay(int branch, const Ray& hit_ray,
                                                       TraceContext& context) const override;

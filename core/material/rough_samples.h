@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/material/lobes.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The surface as a material meets it: turned to the viewer, its normal moved by textures.
 #include "core/scene/scene.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/scene/ids.h"
-#include "core/scene/primitive.h"
-#include "core/scene/resources.h"
+#include "core/model/ids.h"
+#include "core/model/primitive.h"
+#include "core/model/resources.h"
 
 namespace lightwalk {
 
@@ -16,6 +16,15 @@ struct Ray;
 struct TraceContext;
 class FunctionBinding;
 class FunctionEnvironment;
+
+/// What others have to know of a material before they shade it.
+struct MaterialTraits {
+    /// Nominally: light goes through it (trans, glass, ...), however little.
+    bool transparent = false;
+    /// No shadow ray gets through, so that none needs to be shaded. A material that is neither has
+    /// to be asked ray by ray.
+    bool blocks_shadow_rays = false;
+};
 
 /// Evaluates one modifier on a ray whose hit is set. Immutable; called from many threads at once.
 /// A texture adds to ray.hit.perturbation, a pattern multiplies ray.pattern; both return false. A
@@ -25,6 +34,8 @@ class Modifier {
   public:
     virtual ~Modifier() = default;
     [[nodiscard]] virtual bool shade(Ray& ray, TraceContext& context) const = 0;
+    /// Of a material, whatever its textures do.
+    [[nodiscard]] virtual MaterialTraits traits() const { return {}; }
     /// Of a pattern that does nothing but multiply ray.pattern by a function's value in single
     /// precision (unless it has an error): that function. Else null.
     [[nodiscard]] virtual const FunctionBinding* brightness_function() const { return nullptr; }
@@ -48,9 +59,8 @@ struct ModifierBuild {
 
 using ModifierFactory = std::unique_ptr<const Modifier> (*)(const ModifierBuild&);
 
-/// The factory for a type; null for types that are recognised and refused (BSDF, aBSDF, WGMDfunc,
-/// spectra). One line a type; see core/scene/modifier_list.cpp.
-[[nodiscard]] ModifierFactory modifier_factory(PrimitiveType type);
+/// The factory for a type; null for types that are no modifiers, or recognised and refused.
+using FindModifierFactory = ModifierFactory (*)(PrimitiveType type);
 
 /// A modifier of a scene, as the tracer walks it.
 struct ModifierRecord {

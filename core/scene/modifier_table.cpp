@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-
 #include "core/scene/scene_tables.h"
 
 namespace lightwalk {
@@ -18,14 +15,6 @@ const Primitive& alias_target(const Model& model, const Primitive& primitive) {
         p = &model.primitives[static_cast<std::size_t>(p->references[0])];  // always an earlier one
     }
     return *p;
-}
-
-/// A BRTDfunc transmits unless its three transmitted-specular expressions are all "0".
-bool transmits(const Primitive& primitive) {
-    for (std::size_t i = 3; i < 6 && i < primitive.strings.size(); ++i) {
-        if (primitive.strings[i] != "0") return true;
-    }
-    return false;
 }
 
 ModifierId global(std::int32_t base, std::int32_t local) {
@@ -76,7 +65,8 @@ void ModifierTable::use(ModifierId id) {
     }
 }
 
-void ModifierTable::compile(const std::vector<LoadedModel>& models, Resources& resources,
+void ModifierTable::compile(const std::vector<LoadedModel>& models,
+                            FindModifierFactory modifier_factory, Resources& resources,
                             WarningSink& warnings) {
     for (const LoadedModel& loaded : models) {
         const auto count = static_cast<std::int32_t>(loaded.contents().primitives.size());
@@ -117,30 +107,23 @@ std::optional<ModifierId> ModifierTable::material_of(ModifierId first) const {
     return std::nullopt;
 }
 
+MaterialTraits ModifierTable::material_traits(ModifierId material) const {
+    const std::unique_ptr<const Modifier>& node = (*this)[material].node;
+    return node ? node->traits() : MaterialTraits{};
+}
+
 bool ModifierTable::is_transparent(ModifierId first) const {
     const auto material = material_of(first);
-    if (!material) return false;
-    const ModifierRecord& record = (*this)[*material];
-    constexpr std::array kTransparent{trans, trans2, dielectric, interface, glass, mist, absdf};
-    if (record.type == brtdfunc) return transmits(*record.primitive);
-    return std::find(kTransparent.begin(), kTransparent.end(), record.type) != kTransparent.end();
+    return material && material_traits(*material).transparent;
 }
 
 SurfaceTraits ModifierTable::traits(ModifierId first) const {
     const auto material = material_of(first);
     if (!material) return {};
-    SurfaceTraits traits{true, is_transparent(first), ShadowClass::special};
-    const ModifierRecord& record = (*this)[*material];
-    const Primitive& primitive = *record.primitive;
-    constexpr std::array kOpaque{plastic,  metal,   plastic2,  metal2,   trans2,  ashik2,
-                                 plasfunc, metfunc, transfunc, plasdata, metdata, transdata,
-                                 light,    glow,    spotlight, prism1,   prism2};
-    bool blocks = std::find(kOpaque.begin(), kOpaque.end(), record.type) != kOpaque.end();
-    if (record.type == brtdfunc) blocks = !transmits(primitive);
-    if (record.type == mirror) blocks = primitive.strings.empty();
+    const MaterialTraits traits = material_traits(*material);
     // Antimatter can cut any surface away.
-    if (blocks && !has_antimatter_) traits.shadow = ShadowClass::blocks;
-    return traits;
+    const bool blocks = traits.blocks_shadow_rays && !has_antimatter_;
+    return {true, traits.transparent, blocks ? ShadowClass::blocks : ShadowClass::special};
 }
 
 ModifierId ModifierTable::add(ModifierRecord record) {

@@ -1,11 +1,9 @@
 #include "core/scene/scene.h"
 
 #include <algorithm>
-#include <string_view>
 
-#include "core/material/factories.h"
+#include "core/model/transform_args.h"
 #include "core/scene/scene_tables.h"
-#include "core/scene/transform_args.h"
 
 namespace lightwalk {
 
@@ -25,7 +23,8 @@ struct Scene::Impl {
 
     void collect_surfaces(WarningSink& warnings);
     void use_modifiers();
-    void add_lambertian(Resources& resources, WarningSink& warnings);
+    void add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
+                        WarningSink& warnings);
     [[nodiscard]] ModelGeometry model_geometry(const LoadedModel& loaded) const;
     void build_geometry();
 };
@@ -94,7 +93,8 @@ void Scene::Impl::use_modifiers() {
     }
 }
 
-void Scene::Impl::add_lambertian(Resources& resources, WarningSink& warnings) {
+void Scene::Impl::add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
+                                 WarningSink& warnings) {
     lambertian = std::make_unique<Primitive>();
     lambertian->type = PrimitiveType::plastic;
     lambertian->name = "irradiance";
@@ -113,7 +113,7 @@ void Scene::Impl::add_lambertian(Resources& resources, WarningSink& warnings) {
     record.type = lambertian->type;
     record.name = lambertian->name;
     record.primitive = lambertian.get();
-    record.node = make_plastic(build);
+    record.node = modifier_factory(lambertian->type)(build);
     lambertian_modifier = modifiers.add(std::move(record));
     Surface surface;
     surface.type = PrimitiveType::sphere;  // not flat, and not in the geometry
@@ -167,12 +167,13 @@ void Scene::Impl::build_geometry() {
     geometry = std::make_unique<Geometry>(std::move(input));
 }
 
-Scene::Scene(std::shared_ptr<const Model> model, Resources& resources, WarningSink& warnings)
+Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
+             Resources& resources, WarningSink& warnings)
     : impl_(std::make_unique<Impl>(std::move(model), resources)) {
     impl_->collect_surfaces(warnings);
     impl_->use_modifiers();
-    impl_->modifiers.compile(impl_->models, resources, warnings);
-    impl_->add_lambertian(resources, warnings);
+    impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings);
+    impl_->add_lambertian(modifier_factory, resources, warnings);
     for (Surface& surface : impl_->surfaces)
         surface.traits = impl_->modifiers.traits(surface.modifier);
     impl_->build_geometry();
@@ -224,16 +225,6 @@ SceneCube Scene::cube() const {
     const double edge = std::max({size.x, size.y, size.z}) + 2 * kMargin;
     const Vec3 middle = (bounds.lower + bounds.upper) * 0.5;
     return {middle - Vec3{edge, edge, edge} * 0.5, edge};
-}
-
-std::optional<ModifierId> Scene::find_modifier(std::string_view name) const {
-    const std::vector<Primitive>& primitives = model().primitives;
-    for (std::size_t i = primitives.size(); i-- > 0;) {
-        if (!is_surface(primitives[i].type) && primitives[i].name == name) {
-            return ModifierId{static_cast<std::int32_t>(i)};
-        }
-    }
-    return std::nullopt;
 }
 
 }  // namespace lightwalk

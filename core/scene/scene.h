@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/geometry/geometry.h"
+#include "core/model/resources.h"
 #include "core/scene/modifier.h"
-#include "core/scene/resources.h"
 
 namespace lightwalk {
 
@@ -21,10 +21,11 @@ struct SceneCube {
 class Scene {
   public:
     /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
-    /// others are never reported. Throws InputError for bad surfaces, bad used modifiers, missing
-    /// files, circular instances. `model` and what `resources` hands out are kept alive by the
-    /// scene.
-    Scene(std::shared_ptr<const Model> model, Resources& resources, WarningSink& warnings);
+    /// others are never reported. `modifier_factory` must know plastic. Throws InputError for bad
+    /// surfaces, bad used modifiers, missing files, circular instances. `model` and what
+    /// `resources` hands out are kept alive by the scene.
+    Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
+          Resources& resources, WarningSink& warnings);
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -44,11 +45,8 @@ class Scene {
     /// The material at the end of a modifier's chain: first material or mixture met; nothing when
     /// there is none.
     [[nodiscard]] std::optional<ModifierId> material_of(ModifierId first) const;
-    /// Nominally transparent: trans, trans2, dielectric, interface, glass, mist, aBSDF, a BRTDfunc
-    /// that transmits.
+    /// Whether that material is nominally transparent (MaterialTraits).
     [[nodiscard]] bool is_transparent(ModifierId first) const;
-    /// Last modifier of the scene itself with this name; nothing when unknown.
-    [[nodiscard]] std::optional<ModifierId> find_modifier(std::string_view name) const;
     /// Whether any antimatter is in use: surfaces can then be cut away.
     [[nodiscard]] bool has_antimatter() const;
     /// White diffuse plastic of reflectance π, which irradiance modes put in place of opaque

@@ -7,8 +7,8 @@
 
 #include "core/function/environment.h"
 #include "core/geometry/geometry.h"
+#include "core/model/resources.h"
 #include "core/scene/modifier.h"
-#include "core/scene/resources.h"
 
 namespace lightwalk {
 
@@ -45,8 +45,8 @@ class ModifierTable {
     /// Compile the modifier, its chain and everything it names, earlier definitions first.
     void use(ModifierId id);
     /// Compile what `use` marked; throws InputError for a bad modifier.
-    void compile(const std::vector<LoadedModel>& models, Resources& resources,
-                 WarningSink& warnings);
+    void compile(const std::vector<LoadedModel>& models, FindModifierFactory modifier_factory,
+                 Resources& resources, WarningSink& warnings);
 
     [[nodiscard]] const ModifierRecord& operator[](ModifierId id) const {
         return records_[static_cast<std::size_t>(index(id))];
@@ -60,6 +60,8 @@ class ModifierTable {
     ModifierId add(ModifierRecord record);
 
   private:
+    [[nodiscard]] MaterialTraits material_traits(ModifierId material) const;
+
     std::vector<ModifierRecord> records_;
     std::vector<bool> used_;
     FunctionEnvironment functions_;

@@ -1,9 +1,9 @@
 #include "core/texture/function_binding.h"
 
 #include "core/function/environment.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "core/texture/arguments.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {

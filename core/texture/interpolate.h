@@ -2,7 +2,7 @@
 // Values of data tables and pictures between and beyond their points.
 #include <span>
 
-#include "core/scene/resources.h"
+#include "core/model/resources.h"
 
 namespace lightwalk {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/resources.h"
+#include "core/model/resources.h"
 #include "core/texture/function_binding.h"
 
 namespace lightwalk {

@@ -3,11 +3,11 @@
 #include <optional>
 #include <variant>
 
+#include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
-#include "core/texture/factories.h"
 #include "core/texture/lookup.h"
 #include "core/texture/text_pattern.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {

@@ -1,10 +1,10 @@
 // Patterns multiply the ray's pattern colour in single precision, without clamping.
 #include <array>
 
+#include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
-#include "core/texture/factories.h"
 #include "core/texture/lookup.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/math/vec3.h"
-#include "core/scene/resources.h"
+#include "core/model/resources.h"
 
 namespace lightwalk {
 

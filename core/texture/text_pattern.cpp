@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
-#include "core/texture/factories.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {

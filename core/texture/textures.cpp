@@ -1,9 +1,9 @@
 // Textures add a displacement to the surface normal. It is given in function space and carried to
 // the world without its scale.
+#include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
-#include "core/texture/factories.h"
 #include "core/texture/lookup.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {

@@ -1,39 +1,14 @@
-#include "core/trace/tracer.h"
-
-#include <algorithm>
+// Rays traced: nearest hit, shading, sources, indirect light and medium brought together.
 #include <cmath>
 #include <string>
 
 #include "core/ambient/ambient_calculation.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {
-
-constexpr double kFar = 0.99 * kHuge;  ///< beyond: nothing was hit
-
-/// Weight left after a segment of length `t` in a medium, for judging whether a child is worth
-/// tracing.
-double medium_estimate(const Medium& medium, double t) {
-    const double depth = static_cast<double>(min_component(medium.extinction)) * t;
-    if (depth <= 0.1) return 1;
-    return depth > 92 ? 0 : std::exp(-depth);
-}
-
-/// -lr and -lw: whether the ray is worth tracing; Russian roulette may raise its weight.
-bool within_limits(Ray& ray, bool has_coef, const RenderOptions& options) {
-    const int lr = options.reflection_limit;
-    const double lw = options.weight_limit;
-    if (lr > 0) return ray.weight >= lw && ray.level <= lr;
-    if (!has_coef) return ray.weight >= lw && ray.level <= -lr;
-    if (lr < 0 && ray.level > -lr) return false;
-    if (ray.weight >= lw) return true;
-    if (ray.random.next() > ray.weight / lw) return false;
-    ray.coef *= static_cast<float>(lw / ray.weight);
-    ray.weight = lw;
-    return true;
-}
 
 void count(const Ray& ray, RayCounters& counters) {
     if (ray.kind & kShadow) return;  // counted by the direct calculation
@@ -53,28 +28,6 @@ bool is_finite(const Rgb& c) {
 
 }  // namespace
 
-RayCounters& RayCounters::operator+=(const RayCounters& o) {
-    primary += o.primary;
-    shadow += o.shadow;
-    specular += o.specular;
-    transmitted += o.transmitted;
-    ambient += o.ambient;
-    return *this;
-}
-
-AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& o) {
-    interpolated += o.interpolated;
-    computed += o.computed;
-    incomplete += o.incomplete;
-    waits += o.waits;
-    duplicates += o.duplicates;
-    return *this;
-}
-
-bool ClipSet::contains(ModifierId m) const {
-    return std::binary_search(modifiers.begin(), modifiers.end(), m);
-}
-
 TraceContext::TraceContext(const Tracer& for_tracer, WarningSink& to_warnings)
     : tracer(for_tracer), warnings(to_warnings), light(std::make_unique<LightScratch>()) {}
 TraceContext::~TraceContext() = default;
@@ -90,61 +43,6 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
     lights_->prepare(*this, warnings);
 }
 Tracer::~Tracer() = default;
-
-Ray Tracer::primary(const Vec3& origin, const Vec3& direction, double limit,
-                    RandomStream random) const {
-    Ray ray;
-    ray.origin = origin;
-    const double squared = fused_dot(direction, direction);
-    // Normalising twice would change the last bits of a direction that is unit already.
-    ray.direction = std::abs(squared - 1) <= 1e-15 ? direction : normalize(direction);
-    ray.limit = limit;
-    ray.medium = {options_.extinction, options_.albedo, static_cast<float>(options_.eccentricity),
-                  nullptr};
-    ray.random = random;
-    return ray;
-}
-
-bool Tracer::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const {
-    const double share = coef ? std::min(1.0, static_cast<double>(max_component(*coef))) : 1.0;
-    child.coef = coef ? *coef : Rgb{1, 1, 1};
-    child.parent = &parent;
-    child.kind = kind;
-    child.history = static_cast<std::uint16_t>(parent.history | kind);
-    if (parent.hit.t >= kFar) return false;
-    child.origin = parent.hit.position;
-    child.level = parent.level;
-    child.target = parent.target;
-    child.aimed = parent.aimed;
-    child.medium = parent.medium;
-    child.random = parent.random.child();
-    child.path_length = parent.path_length + parent.hit.t;
-    child.shadow_length = parent.in(kShadow) ? parent.shadow_length + parent.hit.t : 0;
-    if (kind & kSameSide) {
-        ++child.level;
-        child.target = kNoTarget;
-        child.clip = parent.clip;
-        child.limit = 0;
-    } else {
-        child.clip = parent.next_clip;
-        child.limit = parent.limit > kEpsilon ? parent.limit - parent.hit.t : 0;
-    }
-    child.weight = parent.weight * share * medium_estimate(parent.medium, parent.hit.t);
-    child.hit = Hit{};
-    child.pattern = {1, 1, 1};
-    child.value = child.mirrored = Rgb{};
-    child.mirrored_distance = child.unmirrored_distance = kHuge;
-    child.next_clip = child.clip;
-    if (child.weight <= 0) return false;
-    if (child.in(kShadow)) return true;
-    return within_limits(child, coef != nullptr, options_);
-}
-
-Rgb Tracer::accumulate(Ray& parent, const Ray& child) {
-    const Rgb contribution = child.value * child.coef;
-    parent.value += contribution;
-    return contribution;
-}
 
 void Tracer::trace(Ray& ray, TraceContext& context) const {
     if (ray.kind == kPrimary) {
@@ -224,18 +122,6 @@ Ray Tracer::irradiance(const Vec3& point, const Vec3& normal, RandomStream rando
     return ray;
 }
 
-void Tracer::pass_through(Ray& ray, TraceContext& context) const {
-    Ray child;
-    (void)spawn(child, kTransferred, ray, nullptr);
-    if (ray.hit.t >= kFar) return;
-    child.direction = ray.direction;
-    trace(child, context);
-    ray.value = child.value;
-    ray.mirrored = child.mirrored;
-    ray.mirrored_distance = ray.hit.t + child.mirrored_distance;
-    ray.unmirrored_distance = ray.hit.t + child.unmirrored_distance;
-}
-
 Rgb Tracer::ambient(Ray& ray, const Rgb& coef, const Vec3& normal, TraceContext& context) const {
     return ambient_->add(ray, coef, normal, context);
 }
@@ -265,25 +151,6 @@ void Tracer::apply_medium(Ray& ray, TraceContext& context) const {
     if (shadow || max_component(medium.albedo) <= static_cast<float>(kEpsilon)) return;
     ray.value += medium.albedo * options_.ambient_value * (Rgb{1, 1, 1} - left);
     lights_->add_in_scatter(ray, context);
-}
-
-PerturbedNormal perturb_normal(const Ray& ray) {
-    const Vec3 sum = ray.hit.normal + ray.hit.perturbation;
-    const double size = length(sum);
-    if (size == 0) return {ray.hit.normal, ray.hit.rod};
-    PerturbedNormal result{sum / size, 0};
-    result.cosine = -dot(ray.direction, result.normal);
-    if ((result.cosine > 0) != (ray.hit.rod > 0)) {
-        result.normal += ray.direction * (2 * result.cosine);
-        result.cosine = -result.cosine;
-    }
-    return result;
-}
-
-void flip_surface(Ray& ray) {
-    ray.hit.normal = -ray.hit.normal;
-    ray.hit.perturbation = -ray.hit.perturbation;
-    ray.hit.rod = -ray.hit.rod;
 }
 
 }  // namespace lightwalk

@@ -6,7 +6,7 @@
 
 #include "core/ambient/ambient_cache.h"
 #include "core/error.h"
-#include "core/trace/options.h"
+#include "core/transport/options.h"
 
 namespace lightwalk {
 

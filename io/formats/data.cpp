@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/formats/decode.h"
 #include "io/formats/words.h"
 

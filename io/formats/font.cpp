@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/formats/decode.h"
 #include "io/formats/words.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/generators/generator.h"
 #include "io/generators/perez_sky.h"
 #include "io/generators/scene_writer.h"

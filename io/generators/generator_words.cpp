@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 
 namespace lightwalk {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/error.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 
 namespace lightwalk {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/language/command_line.h"
 #include "io/language/tokenizer.h"
 

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/scene/model_builder.h"
-#include "core/scene/transform_args.h"
+#include "core/model/model_builder.h"
+#include "core/model/transform_args.h"
 
 namespace lightwalk {
 namespace {

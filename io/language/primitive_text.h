@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 #include "io/language/tokenizer.h"
 
 namespace lightwalk {

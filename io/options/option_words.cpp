@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/files/library_path.h"
 
 namespace lightwalk {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/trace/options.h"
+#include "core/transport/options.h"
 #include "io/files/library_path.h"
 #include "io/options/option_words.h"
 

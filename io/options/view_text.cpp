@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/formats/words.h"
 
 namespace lightwalk {

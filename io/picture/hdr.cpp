@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "core/error.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/formats/words.h"
 #include "io/picture/picture.h"
 #include "io/picture/rgbe_picture.h"

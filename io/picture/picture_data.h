@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/resources.h"
+#include "core/model/resources.h"
 
 namespace lightwalk {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "io/formats/words.h"
 #include "io/picture/scanline.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 
 namespace lightwalk {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/scene/scene.h"
-#include "core/trace/ray.h"
+#include "core/transport/ray.h"
 #include "io/rays/ray_reader.h"
 
 namespace lightwalk {

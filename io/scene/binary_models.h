@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 
 namespace lightwalk {
 namespace {

@@ -2,8 +2,8 @@
 // What octrees and meshes share: the bounding cube, the tree, and serialised objects.
 #include <cstdint>
 
-#include "core/scene/model_builder.h"
-#include "core/scene/primitive.h"
+#include "core/model/model_builder.h"
+#include "core/model/primitive.h"
 #include "io/formats/binary_reader.h"
 
 namespace lightwalk {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/resources.h"
+#include "core/model/resources.h"
 #include "io/files/library_path.h"
 
 namespace lightwalk {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/model_builder.h"
+#include "core/model/model_builder.h"
 #include "io/language/primitive_text.h"
 #include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"

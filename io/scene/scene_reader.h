@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 #include "io/files/library_path.h"
 
 namespace lightwalk {

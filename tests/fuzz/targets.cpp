@@ -6,7 +6,7 @@
 #include "core/function/environment.h"
 #include "core/scene/scene.h"
 #include "core/texture/interpolate.h"
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 #include "io/formats/decode.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
@@ -21,7 +21,7 @@ namespace {
 void trace_some(std::shared_ptr<const Model> model) {
     MemoryResources resources;
     Silence silence;
-    const Scene scene(std::move(model), resources, silence);
+    const Scene scene(std::move(model), modifier_factory, resources, silence);
     RenderOptions options;
     options.relay_pretest = 0;
     options.shadow_threshold = 0;

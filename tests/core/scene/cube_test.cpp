@@ -29,7 +29,7 @@ TEST_CASE("a scene's cube is the smallest around its surfaces, and a little more
 TEST_CASE("an octree's cube is the one that it states, also where it is an instance") {
     MemoryResources files;
     Silence silence;
-    const Scene alone(model_in_cube({-2, -3, -4, 10}), files, silence);
+    const Scene alone(model_in_cube({-2, -3, -4, 10}), modifier_factory, files, silence);
     CHECK(alone.cube().origin == Vec3{-2, -3, -4});
     CHECK(alone.cube().size == 10);
     files.octrees["ball.oct"] = model_in_cube({-2, -3, -4, 10});

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 #include "tests/io/generators/generated.h"
 
 namespace lightwalk::test {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 #include "tests/io/generators/generated.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include "core/geometry/geometry.h"
 #include "core/math/random.h"
 #include "core/math/rgb.h"
-#include "core/scene/ids.h"
+#include "core/model/ids.h"
 
 namespace lightwalk {
 

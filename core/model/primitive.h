@@ -13,76 +13,40 @@
 namespace lightwalk {
 
 enum class PrimitiveType : std::uint8_t {
-    // surfaces
-    source,
-    sphere,
-    bubble,
-    polygon,
-    cone,
-    cup,
-    cylinder,
-    tube,
-    ring,
-    instance,
-    mesh,
-    // materials
-    light,
-    illum,
-    glow,
-    spotlight,
-    mirror,
-    prism1,
-    prism2,
-    mist,
-    plastic,
-    metal,
-    trans,
-    plastic2,
-    metal2,
-    trans2,
-    ashik2,
-    wgmdfunc,
-    dielectric,
-    interface,
-    glass,
-    plasfunc,
-    metfunc,
-    transfunc,
-    brtdfunc,
-    plasdata,
-    metdata,
-    transdata,
-    bsdf,
-    absdf,
-    antimatter,
-    // textures, patterns, mixtures, spectra
-    texfunc,
-    texdata,
-    brightfunc,
-    colorfunc,
-    brightdata,
-    colordata,
-    colorpict,
-    brighttext,
-    colortext,
-    mixfunc,
-    mixdata,
-    mixpict,
-    mixtext,
+#define PRIMITIVE(id, word, kind) id,
+#include "core/model/primitive_types.def"
+};
+
+/// What a primitive type is for.
+enum class PrimitiveKind : std::uint8_t {
+    surface,
+    light,     ///< a material that emits
+    material,  ///< any other
+    texture,
+    pattern,
+    mixture,
     spectrum,
-    specfile,
-    specfunc,
-    specdata,
-    specpict,
     alias,
 };
 
 /// The scene file's word for a type ("BRTDfunc"), and back; nothing for an unknown word.
 [[nodiscard]] std::string_view to_string(PrimitiveType type);
 [[nodiscard]] std::optional<PrimitiveType> primitive_type(std::string_view word);
-[[nodiscard]] bool is_surface(PrimitiveType type);   ///< source ... mesh
-[[nodiscard]] bool is_material(PrimitiveType type);  ///< light ... antimatter
-[[nodiscard]] bool is_mixture(PrimitiveType type);   ///< mixfunc, mixdata, mixpict, mixtext
+[[nodiscard]] PrimitiveKind kind_of(PrimitiveType type);
+[[nodiscard]] inline bool is_surface(PrimitiveType type) {
+    return kind_of(type) == PrimitiveKind::surface;
+}
+/// Materials that emit.
+[[nodiscard]] inline bool is_light(PrimitiveType type) {
+    return kind_of(type) == PrimitiveKind::light;
+}
+/// Materials of all kinds, lights among them.
+[[nodiscard]] inline bool is_material(PrimitiveType type) {
+    return is_light(type) || kind_of(type) == PrimitiveKind::material;
+}
+[[nodiscard]] inline bool is_mixture(PrimitiveType type) {
+    return kind_of(type) == PrimitiveKind::mixture;
+}
 
 inline constexpr std::int32_t kVoidIndex = -1;  ///< the modifier `void`
 inline constexpr std::int32_t kUndefinedIndex =

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/math/rgb.h"
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

@@ -1,4 +1,4 @@
-#include "core/scene/transform_args.h"
+#include "core/model/transform_args.h"
 
 #include <charconv>
 #include <cmath>

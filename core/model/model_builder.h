@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/primitive.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 

@@ -1,4 +1,4 @@
-#include "core/scene/model_builder.h"
+#include "core/model/model_builder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,8 @@
 #include "core/function/program.h"
 #include "core/math/function_ref.h"
 #include "core/scene/scene.h"
-#include "core/trace/options.h"
-#include "core/trace/ray.h"
+#include "core/transport/options.h"
+#include "core/transport/ray.h"
 
 namespace lightwalk {
 

@@ -1,13 +1,8 @@
 // Walking modifier chains.
-#include "core/trace/tracer.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 namespace {
-
-bool is_light(PrimitiveType type) {
-    return type == PrimitiveType::light || type == PrimitiveType::illum ||
-           type == PrimitiveType::glow || type == PrimitiveType::spotlight;
-}
 
 /// Irradiance mode (-i) concerns what the eye sees directly or straight through something.
 bool wants_irradiance(const Ray& ray, const RenderOptions& options) {
