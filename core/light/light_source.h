@@ -19,6 +19,11 @@ struct SpotShape {
     bool beam = false;
 };
 
+// Half widths of the sampling boxes of round sources over their radius. Radiance's constants, as
+// its values show them.
+inline constexpr double kSphereBox = 0.7236;
+inline constexpr double kCylinderBox = 0.8559;  ///< across the axis
+
 /// One entry of the source list.
 struct LightSource {
     SurfaceId object =

@@ -5,7 +5,6 @@
 #include "core/light/hit_rates.h"
 #include "core/light/source_setup.h"
 #include "core/light/spot.h"
-#include "core/light/virtual_sources.h"
 
 namespace lightwalk {
 
@@ -24,8 +23,7 @@ void LightSources::index_sources() {
     }
 }
 
-void LightSources::prepare(const Tracer& tracer, WarningSink& warnings) {
-    VirtualSourceBuilder(*this, tracer, warnings).build();
+void LightSources::settle(const Tracer& tracer, WarningSink& warnings) {
     index_sources();
     if (options_.shadow_threshold > 0) {
         TraceContext context(tracer, warnings);

@@ -27,14 +27,12 @@ class LightSources {
     /// Indices of the sources that the direct calculation samples, ascending.
     [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
 
-    /// Make the virtual sources, discard those that never get through (-dp), and measure and freeze
-    /// hit rates
-    /// (-dt > 0). Needs a tracer that uses this list; called once by Tracer's constructor, before
-    /// any rendering. Throws InputError when mirrors relay each other's light too often (see
-    /// kMaxVirtualSources).
-    void prepare(const Tracer& tracer, WarningSink& warnings);
-    static constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
-    static constexpr int kMaxRelays = 64;  ///< larger values of -dr count as this
+    /// Add a virtual source; sampled() does not hold it before settle(). While the tracer is set
+    /// up only.
+    void add(const LightSource& source) { sources_.push_back(source); }
+    /// The list is complete: measure and freeze hit rates (-dt > 0). Called once by Tracer's
+    /// constructor, with that tracer, before any rendering.
+    void settle(const Tracer& tracer, WarningSink& warnings);
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;
@@ -59,7 +57,6 @@ class LightSources {
     [[nodiscard]] std::optional<std::int32_t> find(std::string_view identifier) const;
 
   private:
-    friend class VirtualSourceBuilder;
     void index_sources();
     [[nodiscard]] bool answers_to(const LightSource& source, std::string_view identifier) const;
 

@@ -10,10 +10,11 @@ namespace {
 constexpr SourcePart kWholeBox{{0, 0, 0}, {1, 1, 1}};
 constexpr double kSquareToDisk =
     1.12837917;  ///< 2/√π: half width of the disk around a square of equal area
-constexpr double kCubeOfSphere = 0.7236;  ///< half width of a sphere's sampling box over its radius
 constexpr double kLeastFormFactor = 1e-4;  ///< of a local source's part: less is grazing
-constexpr double kCylinderBox = 1.365;     ///< squared radius of a cylinder over that of its box
-constexpr double kFullJitter = 0.7;        ///< above it single samples fill round sources, too
+/// Squared radius of a cylinder over the squared half width of its box: 1 / kCylinderBox² to
+/// Radiance's digits.
+constexpr double kCylinderOverBoxSquared = 1.365;
+constexpr double kFullJitter = 0.7;  ///< above it single samples fill round sources, too
 
 /// Flat sources: halve the longer side until both are short for their distance.
 class FlatPartition {
@@ -64,7 +65,7 @@ class CylinderPartition {
         const Vec3 axis = normalize(u_);
         const double along = dot(to_center_, axis), distance_squared = length_squared(to_center_);
         const double axis_distance_squared = distance_squared - along * along;
-        const double radius_squared = kCylinderBox * length_squared(source.v);
+        const double radius_squared = kCylinderOverBoxSquared * length_squared(source.v);
         if (axis_distance_squared <= radius_squared) return;
         const double reach = 2 * length(u_) / size_over_distance;
         if (axis_distance_squared <= 4 * radius_squared || distance_squared >= reach * reach) {
@@ -103,7 +104,7 @@ Vec3 squeeze(const LightSource& source, const Vec3& a) {
     const double squared = length_squared(a);
     if (squared <= 0) return {};
     const double longest = std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
-    return a * (longest / (kCubeOfSphere * std::sqrt(squared)));
+    return a * (longest / (kSphereBox * std::sqrt(squared)));
 }
 
 Vec3 position_in_box(const LightSource& source, const SourcePart& part, int parts, double jitter,

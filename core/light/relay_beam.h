@@ -2,36 +2,26 @@
 // Where a mirror or prism sends light: most points of a room lie outside, and need no sample of the
 // virtual source to learn it.
 #include <array>
-#include <optional>
 
-#include "core/geometry/shapes.h"
 #include "core/math/plane.h"
 
 namespace lightwalk {
 
-struct LightSource;
-
 /// The lines from anywhere in a virtual source's sampling box through its relay's outline, beyond
 /// the relay: a pyramid whose sides lean on the outline and on the far corners of the box.
-class RelayBeam {
-  public:
-    /// Nothing when the box straddles the relay's plane, or the relay is not flat.
-    static std::optional<RelayBeam> make(const LightSource& source, const Shape& relay);
+struct RelayBeam {
+    Plane relay;                 ///< the source is above
+    std::array<Plane, 4> sides;  ///< the beam is above
 
     /// Whether a ray from the point to a sample of the source may meet the relay. May be true
     /// though none does.
     [[nodiscard]] bool may_reach(const Vec3& point) const {
-        if (relay_.height(point) >= 0) return true;  // on the source's side: not for us to say
-        for (const Plane& side : sides_) {
+        if (relay.height(point) >= 0) return true;  // on the source's side: not for us to say
+        for (const Plane& side : sides) {
             if (side.height(point) < -kEpsilon) return false;
         }
         return true;
     }
-
-  private:
-    RelayBeam() = default;
-    Plane relay_;                 ///< the source is above
-    std::array<Plane, 4> sides_;  ///< the beam is above
 };
 
 }  // namespace lightwalk

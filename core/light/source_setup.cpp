@@ -10,8 +10,6 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kSphereBox = 0.7236;    ///< half width of a sphere's sampling box over its radius
-constexpr double kCylinderBox = 0.8559;  ///< the same across a cylinder
 constexpr double kSlimTriangle = 0.08;  ///< least squared distance of centre and edge over the area
 constexpr double kSlimCylinder = 0.2;   ///< largest radius over length
 

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "core/light/light_sources.h"
-#include "core/light/relay.h"
 #include "core/material/argument_checks.h"
 #include "core/material/surface_side.h"
+#include "core/relay/relay_modifier.h"
 #include "core/scene/modifier.h"
 #include "core/texture/function_binding.h"
 

@@ -5,6 +5,7 @@
 #include "core/ambient/ambient_calculation.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
+#include "core/relay/virtual_sources.h"
 #include "core/transport/tracer.h"
 
 namespace lightwalk {
@@ -40,7 +41,8 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
         throw InputError("-lw must be positive when -lr is zero or negative (Russian roulette)");
     }
     ambient_ = std::make_unique<AmbientCalculation>(*this);
-    lights_->prepare(*this, warnings);
+    VirtualSourceBuilder(*lights_, *this, warnings).build();
+    lights_->settle(*this, warnings);
 }
 Tracer::~Tracer() = default;
 

@@ -27,8 +27,8 @@ LightSource tube(double half_length, double radius) {
     source.cylinder = true;
     source.center = {0, 0, 1};
     source.u = {half_length, 0, 0};
-    source.v = {0, 0.8559 * radius, 0};
-    source.w = {0, 0, 0.8559 * radius};
+    source.v = {0, kCylinderBox * radius, 0};
+    source.w = {0, 0, kCylinderBox * radius};
     source.size = static_cast<float>(4 * radius * half_length);
     return source;
 }
@@ -175,9 +175,9 @@ TEST_CASE("jitter: samples fill a panel's part, a disk and a sphere, and nothing
     disk.round = true;
     LightSource ball;
     ball.round = true;
-    ball.u = {0.7236, 0, 0};
-    ball.v = {0, 0.7236, 0};
-    ball.w = {0, 0, 0.7236};
+    ball.u = {kSphereBox, 0, 0};
+    ball.v = {0, kSphereBox, 0};
+    ball.w = {0, 0, kSphereBox};
     double farthest_disk = 0, farthest_ball = 0, mean_x = 0;
     constexpr int kSamples = 4000;
     for (int i = 0; i < kSamples; ++i) {

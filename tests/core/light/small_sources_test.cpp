@@ -93,7 +93,7 @@ TEST_CASE("a sphere's outline is that of its sampling box, a sun's its cone") {
     const Camera eye = camera();
     const double pixel = 2 * std::tan(2 * kPi / 180) * 10 / 8;
     CHECK(total(draw(ball, eye, 8, 1, {0, 0, 8, 8})) ==
-          doctest::Approx(4 * 0.7236 * 0.7236 * 1e-4 / (pixel * pixel)).epsilon(0.01));
+          doctest::Approx(4 * kSphereBox * kSphereBox * 1e-4 / (pixel * pixel)).epsilon(0.01));
     TestScene sun("void light lamp\n0\n0\n3 100 50 25\nlamp source s\n0\n0\n4 .001 1 .002 .2\n");
     const double omega = 2 * kPi * (1 - std::cos(0.1 * kPi / 180));
     CHECK(total(draw(sun, eye, 8, 1, {0, 0, 8, 8})) ==

@@ -94,8 +94,8 @@ TEST_CASE("light source of another polygon or a ring: a square of its area about
 
 TEST_CASE("light source of a sphere, a cylinder and a cone of directions") {
     const LightSource s = only_source("lamp sphere s\n0\n0\n4 1 2 3 .5\n");
-    check_near(s.u, {0.7236 * 0.5, 0, 0});
-    check_near(s.w, {0, 0, 0.7236 * 0.5});
+    check_near(s.u, {kSphereBox * 0.5, 0, 0});
+    check_near(s.w, {0, 0, kSphereBox * 0.5});
     CHECK(s.size == doctest::Approx(kPi * 0.25));
     const LightSource c = only_source("lamp cylinder c\n0\n0\n7 0 0 1  4 0 1  .1\n");
     CHECK(c.cylinder);

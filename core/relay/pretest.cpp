@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/light/partition.h"
-#include "core/light/virtual_sources.h"
+#include "core/relay/virtual_sources.h"
 
 namespace lightwalk {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/light/projection.h"
+#include "core/relay/projection.h"
 
 #include <cmath>
 
@@ -8,13 +8,12 @@ namespace lightwalk {
 namespace {
 
 constexpr double kSquareToDisk =
-    1.12837917;                              ///< half width of a disk around a square of equal area
-constexpr double kSphereToBox = 1 / 0.7236;  ///< radius of a sphere over half the width of its box
+    1.12837917;  ///< half width of a disk around a square of equal area
 
 /// How far a round source reaches beyond its sampling box.
 double overhang(const LightSource& source) {
     if (!source.round) return 1;
-    return source.flat || source.distant ? kSquareToDisk : kSphereToBox;
+    return source.flat || source.distant ? kSquareToDisk : 1 / kSphereBox;
 }
 
 RelayedSpot impossible() {
@@ -22,8 +21,8 @@ RelayedSpot impossible() {
 }
 
 /// Sunlight: a beam through the disk, and through the parent's beam.
-RelayedSpot relay_beam(const LightSource& parent, const LightSource& projected,
-                       const Projection& projection, const RelayDisk& disk) {
+RelayedSpot spot_of_beam(const LightSource& parent, const LightSource& projected,
+                         const Projection& projection, const RelayDisk& disk) {
     SpotShape beam;
     beam.beam = true;
     beam.aim = disk.center;
@@ -50,8 +49,8 @@ std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk&
     return cone;
 }
 
-RelayedSpot relay_cone(const LightSource& parent, const LightSource& projected,
-                       const Projection& projection, const RelayDisk& disk) {
+RelayedSpot spot_of_cone(const LightSource& parent, const LightSource& projected,
+                         const Projection& projection, const RelayDisk& disk) {
     const double distance = length(disk.center - projected.center);
     if (distance <= 0) return impossible();
     if (projected.material_type == PrimitiveType::glow &&
@@ -153,8 +152,8 @@ LightSource project(const LightSource& source, const Projection& projection) {
 
 RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected,
                        const Projection& projection, const RelayDisk& disk) {
-    return projected.distant ? relay_beam(parent, projected, projection, disk)
-                             : relay_cone(parent, projected, projection, disk);
+    return projected.distant ? spot_of_beam(parent, projected, projection, disk)
+                             : spot_of_cone(parent, projected, projection, disk);
 }
 
 }  // namespace lightwalk

@@ -1,7 +1,9 @@
-#include "core/light/virtual_sources.h"
+#include "core/relay/virtual_sources.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/relay/beam.h"
 
 namespace lightwalk {
 namespace {
@@ -62,7 +64,7 @@ void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
 
 void VirtualSourceBuilder::build() {
     if (relays_.empty()) return;
-    const int depth = std::min(tracer_.options().relays, LightSources::kMaxRelays);
+    const int depth = std::min(tracer_.options().relays, kMaxRelays);
     for (auto i = static_cast<std::int32_t>(lights_.all().size()); i-- > 0;) {
         if (!lights_[i].unusable) relay(i, depth);
     }
@@ -90,19 +92,18 @@ void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& nex
     made.is_virtual = made.follow = true;
     made.parent = parent_index;
     made.branch = branch;
-    made.beam = RelayBeam::make(made, tracer_.scene().surface(next.surface).shape);
+    made.beam = relay_beam(made, tracer_.scene().surface(next.surface).shape);
     if (tracer_.options().relay_pretest > 0) {
         const Pretest outcome = pretest(parent_index, next, relayed.disk);
         if (outcome == Pretest::discard) return;
         made.follow = outcome == Pretest::follow;
     }
-    const std::size_t count = lights_.sources_.size();
-    if (count >= LightSources::kMaxVirtualSources) {
-        throw InputError("mirrors and prisms make more than " +
-                         std::to_string(LightSources::kMaxVirtualSources) +
+    const std::size_t count = lights_.all().size();
+    if (count >= kMaxVirtualSources) {
+        throw InputError("mirrors and prisms make more than " + std::to_string(kMaxVirtualSources) +
                          " virtual light sources; lower the number of relays (-dr)");
     }
-    lights_.sources_.push_back(made);
+    lights_.add(made);
     if (depth > 1) relay(static_cast<std::int32_t>(count), depth - 1);
 }
 

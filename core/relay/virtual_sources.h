@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "core/light/light_sources.h"
-#include "core/light/projection.h"
-#include "core/light/relay.h"
+#include "core/relay/projection.h"
+#include "core/relay/relay_modifier.h"
 
 namespace lightwalk {
+
+inline constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
+inline constexpr int kMaxRelays = 64;  ///< larger values of -dr count as this
 
 /// Appends to the list, for every source and every flat relay, what the relay makes of it; relays
 /// of relays too.
@@ -16,7 +19,7 @@ class VirtualSourceBuilder {
   public:
     VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);
 
-    /// Throws InputError when more than LightSources::kMaxVirtualSources would be made.
+    /// Throws InputError when more than kMaxVirtualSources would be made.
     void build();
 
   private:

@@ -1,8 +1,8 @@
-#include "core/light/relay_beam.h"
+#include "core/relay/beam.h"
 
 #include <algorithm>
 
-#include "core/light/projection.h"
+#include "core/relay/projection.h"
 
 namespace lightwalk {
 namespace {
@@ -63,7 +63,7 @@ std::optional<Plane> side_of_beam(const Vec3& a, const Vec3& b, const Vec3& insi
 
 }  // namespace
 
-std::optional<RelayBeam> RelayBeam::make(const LightSource& source, const Shape& relay) {
+std::optional<RelayBeam> relay_beam(const LightSource& source, const Shape& relay) {
     const auto plane = plane_of(relay);
     const auto disk = relay_disk(relay);
     if (!plane || !disk) return std::nullopt;
@@ -76,13 +76,13 @@ std::optional<RelayBeam> RelayBeam::make(const LightSource& source, const Shape&
     }
     if (above != 8 && below != 8) return std::nullopt;
     RelayBeam beam;
-    beam.relay_ = above == 8 ? *plane : Plane{-plane->normal, -plane->offset};
+    beam.relay = above == 8 ? *plane : Plane{-plane->normal, -plane->offset};
     const std::array<Vec3, 4> edge = outline(relay, *plane, *disk);
     const Vec3 inside = (edge[0] + edge[2]) * 0.5;
     for (std::size_t i = 0; i < 4; ++i) {
         const auto side = side_of_beam(edge[i], edge[(i + 1) % 4], inside, corners, source.distant);
         if (!side) return std::nullopt;
-        beam.sides_[i] = *side;
+        beam.sides[i] = *side;
     }
     return beam;
 }

@@ -1,4 +1,4 @@
-#include "core/light/projection.h"
+#include "core/relay/projection.h"
 
 #include <doctest/doctest.h>
 
@@ -12,9 +12,9 @@ LightSource lamp(const Vec3& center, double radius) {
     LightSource source;
     source.round = true;
     source.center = center;
-    source.u = {0.7236 * radius, 0, 0};
-    source.v = {0, 0.7236 * radius, 0};
-    source.w = {0, 0, 0.7236 * radius};
+    source.u = {kSphereBox * radius, 0, 0};
+    source.v = {0, kSphereBox * radius, 0};
+    source.w = {0, 0, kSphereBox * radius};
     source.radius = static_cast<float>(radius);
     source.size = static_cast<float>(kPi * radius * radius);
     return source;

@@ -1,4 +1,4 @@
-#include "core/light/virtual_sources.h"
+#include "core/relay/virtual_sources.h"
 
 #include <doctest/doctest.h>
 
@@ -157,5 +157,5 @@ TEST_CASE("facing mirrors: the number of virtual sources is bounded, whatever -d
     const std::string scene =
         kMirror + "silver polygon left\n0\n0\n12 -4 -2 0  -4 2 0  -4 2 4  -4 -2 4\n" + kLamp;
     CHECK(TestScene(scene, with_relays(1000000)).tracer.lights().virtual_count() <=
-          2 * static_cast<std::size_t>(LightSources::kMaxRelays));
+          2 * static_cast<std::size_t>(kMaxRelays));
 }

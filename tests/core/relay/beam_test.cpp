@@ -1,5 +1,5 @@
 // The beam of a relay: never leaves out a point that the relay lights, and most that it does not.
-#include "core/light/relay_beam.h"
+#include "core/relay/beam.h"
 
 #include <doctest/doctest.h>
 
@@ -49,7 +49,7 @@ TEST_CASE("a relay's beam holds every point from which a sample is seen through 
     for (int i = 0; i < 1200; ++i) {
         const Shape relay = random_relay(random, i % 3);
         const LightSource source = random_source(random, i % 2 == 0);
-        const auto beam = RelayBeam::make(source, relay);
+        const auto beam = relay_beam(source, relay);
         if (!beam) continue;
         for (int j = 0; j < 300; ++j) {
             const Vec3 point = random_place(random, 4), a = random_place(random, 1.13);
@@ -72,10 +72,10 @@ TEST_CASE("no beam: a source that straddles the mirror's plane, a relay that is 
     LightSource source;
     source.u = {0, 0, 1};
     const Shape mirror = RingShape{{0, 0, 0.5}, {0, 0, 1}, 0, 1};
-    CHECK_FALSE(RelayBeam::make(source, mirror));
+    CHECK_FALSE(relay_beam(source, mirror));
     source.u = {0.1, 0, 0};
-    CHECK(RelayBeam::make(source, mirror));
-    CHECK_FALSE(RelayBeam::make(source, SphereShape{}));
+    CHECK(relay_beam(source, mirror));
+    CHECK_FALSE(relay_beam(source, SphereShape{}));
 }
 
 }  // namespace lightwalk
