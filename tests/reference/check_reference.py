@@ -146,11 +146,20 @@ def render(program, data, row, options, path):
     run(program, "render", ["--quiet", *options, "-o", path], row["scene files"].split(), data / "scenes" / row["folder"])
 
 
+def quarter_of_samples(options):
+    """The options with a quarter of the hemisphere samples, -ad and -as."""
+    value_of = {i + 1 for i, word in enumerate(options) if word in ("-ad", "-as")}
+    return [str(int(word) // 4) if i in value_of else word for i, word in enumerate(options)]
+
+
 def picture(program, data, name):
+    """Indirect light with a quarter of the reference's hemisphere samples: twice its noise, in a quarter of the time,
+    and the limits are the same. Of 10 % for the blocks, all samples used up 3.6 to 4.2 %, a quarter uses 6.5 to 7.5 %; an eighth fails."""
     row = reference_row(data, name)
+    options = row["options"].split()
     with tempfile.TemporaryDirectory() as temp:
         out = os.path.join(temp, "mine.hdr")
-        render(program, data, row, row["options"].split(), out)
+        render(program, data, row, quarter_of_samples(options) if row["kind"] == "ambient" else options, out)
         done = subprocess.run([sys.executable, data / "tools" / "compare_pictures.py", "--kind", row["kind"], "--json",
                                data / "reference" / row["picture"], out], capture_output=True, text=True)
         print(name, done.stdout.strip(), done.stderr.strip())
