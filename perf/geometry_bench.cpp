@@ -94,7 +94,7 @@ std::vector<RaySegment> secondary_rays(const Geometry& geometry, bool to_lamp) {
     for (const RaySegment& primary : primary_rays()) {
         const Hit hit = geometry.intersect(primary);
         if (!hit.exists()) continue;
-        const Vec3 n = hit.rod > 0 ? hit.normal : -hit.normal, u = perpendicular(n),
+        const Vec3 n = hit.cos_out > 0 ? hit.normal : -hit.normal, u = perpendicular(n),
                    v = cross(n, u);
         if (to_lamp) {
             const Vec3 way = kLamp + Vec3{random.next(), random.next(), 0} * 0.3 - hit.position;

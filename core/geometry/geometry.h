@@ -17,7 +17,7 @@ namespace lightwalk {
 struct Hit {
     double t = kHuge;       ///< along the ray [m]
     Vec3 position, normal;  ///< world; normal is unit and NOT turned to the ray
-    double rod = 1;         ///< -direction . normal; > 0 on the front
+    double cos_out = 1;     ///< cosine of wo = -direction with the normal; > 0 on the front
     Vec3 perturbation;      ///< smoothed mesh normal minus normal, else zero
     double u = 0, v = 0;    ///< mesh texture coordinates, else zero
     SurfaceId surface =

@@ -167,7 +167,7 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
     hit.position = fused_advance(segment.origin, segment.direction, winner.t);
     hit.normal = winner.local.normal;
     if (frame != kWorld) hit.normal = to_world.forward.vector(hit.normal) / to_world.size();
-    hit.rod = -fused_dot(segment.direction, hit.normal);
+    hit.cos_out = -fused_dot(segment.direction, hit.normal);
     hit.surface = model.surface(primitive);
     hit.modifier = model.modifier(primitive);
     hit.frame = frame;
@@ -197,7 +197,7 @@ Hit PlacedScene::intersect_surface(SurfaceId id, const RaySegment& segment) cons
     hit.t = crossing->t;
     hit.position = fused_advance(segment.origin, segment.direction, hit.t);
     hit.normal = crossing->normal;
-    hit.rod = -fused_dot(segment.direction, hit.normal);
+    hit.cos_out = -fused_dot(segment.direction, hit.normal);
     hit.surface = id;
     hit.modifier = surface(id).modifier;
     return hit;
@@ -228,7 +228,7 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
         const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});
         const Surface& light = surface(ray.target);
         ray.target_precedence =
-            precedence_of(light.traits, on_target.rod > 0, light.modifier, ray.target);
+            precedence_of(light.traits, on_target.cos_out > 0, light.modifier, ray.target);
     }
     return precedence(candidate) > *ray.target_precedence;
 }

@@ -17,6 +17,7 @@ DirectCalculation::DirectCalculation(const LightSources& lights, Ray& ray, Trace
       first_tail_(scratch_.tails.size()) {
     (void)tracer_.spawn(aimed_, kShadow, ray, nullptr);
     aimed_.aimed = true;
+    random_ = aimed_.random;
     part_size_ = partition_size(tracer_.options().source_subdivision, aimed_.weight);
 }
 
@@ -40,12 +41,11 @@ void DirectCalculation::gather(std::int32_t index, DirectCoefficient coefficient
     const double jitter = tracer_.options().source_jitter;
     partition(source, ray_.hit.position, part_size_, scratch_.parts);
     if (scratch_.parts.count == 1) {  // most
-        if (const auto sample = sample_whole(source, ray_.hit.position, jitter, aimed_.random))
+        if (const auto sample = sample_whole(source, ray_.hit.position, jitter, random_))
             consider(index, *sample, coefficient);
         return;
     }
-    sample_parts(source, scratch_.parts, ray_.hit.position, jitter, aimed_.random,
-                 scratch_.samples);
+    sample_parts(source, scratch_.parts, ray_.hit.position, jitter, random_, scratch_.samples);
     for (std::size_t i = first_sample_; i < scratch_.samples.size(); ++i) {
         const SourceSample sample = scratch_.samples[i];  // tracing may move them
         consider(index, sample, coefficient);
@@ -76,7 +76,7 @@ void DirectCalculation::add_unknown(std::int32_t source, const Vec3& direction,
                                     const Rgb& coefficient, double distance) {
     const auto order = static_cast<std::uint32_t>(count());
     scratch_.candidates.push_back(
-        {source, order, direction, distance, coefficient, {}, 0, false, true});
+        {source, order, direction, distance, coefficient, {}, 0, CandidateState::unknown});
 }
 
 /// Unless nothing arrives.
@@ -86,8 +86,8 @@ void DirectCalculation::add_candidate(std::int32_t source, const Vec3& direction
     const float b = brightness(contribution);
     if (!brings_light(b)) return;
     const auto order = static_cast<std::uint32_t>(count());
-    scratch_.candidates.push_back(
-        {source, order, direction, emitted.distance, coefficient, contribution, b, false, false});
+    scratch_.candidates.push_back({source, order, direction, emitted.distance, coefficient,
+                                   contribution, b, CandidateState::known});
 }
 
 /// Most samples of a virtual source pass its mirror by: the outline says so before a ray is traced.
@@ -137,12 +137,10 @@ std::optional<double> DirectCalculation::plane_distance(const LightSource& sourc
 }
 
 void DirectCalculation::sort() {
-    for (std::size_t i = first_candidate_; i < scratch_.candidates.size(); ++i)
-        scratch_.candidates[i].visible = true;  // as long as nothing has been tested
-    find_radiances(0, count());
+    find_radiances(0, count(), CandidateState::unknown);
     auto& all = scratch_.candidates;
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(first_candidate_);
-    const auto is_dark = [](const LightCandidate& c) { return !brings_light(c.brightness); };
+    const auto is_dark = [](const LightCandidate& c) { return c.state == CandidateState::dark; };
     all.erase(std::remove_if(first, all.end(), is_dark), all.end());
     std::sort(first, all.end(), [](const LightCandidate& a, const LightCandidate& b) {
         return a.brightness != b.brightness ? a.brightness > b.brightness : a.order < b.order;
@@ -161,7 +159,7 @@ bool DirectCalculation::needs_tracing(const LightSource& source) const {
 
 /// Whether the light is behind the true surface.
 bool DirectCalculation::goes_through(const Vec3& direction) const {
-    return (ray_.hit.rod > 0) != (dot(direction, ray_.hit.normal) > 0);
+    return (ray_.hit.cos_out > 0) != (dot(direction, ray_.hit.normal) > 0);
 }
 
 /// What a ray that only asks for opaque surfaces finds between the point and the light.
@@ -185,20 +183,34 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
     context_.counters.shadow += last - first;
     for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
         LightCandidate& candidate = scratch_.candidates[i];
-        const Visibility found =
-            needs_tracing(lights_[candidate.source]) ? Visibility::special : visibility(candidate);
-        candidate.visible = found == Visibility::clear;
-        if (found == Visibility::special) trace_shadow(i);  // may move the candidates
+        switch (needs_tracing(lights_[candidate.source]) ? Visibility::special
+                                                         : visibility(candidate)) {
+            case Visibility::clear:
+                set_seen(candidate);
+                break;
+            case Visibility::blocked:
+                set_dark(candidate);
+                break;
+            case Visibility::special:
+                trace_shadow(i);  // may move the candidates
+        }
     }
-    find_radiances(first, last);
-    for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
-        if (!scratch_.candidates[i].visible) scratch_.candidates[i].contribution = Rgb{};
-    }
+    find_radiances(first, last, CandidateState::seen);
 }
 
-bool DirectCalculation::is_lazy() const {
+void DirectCalculation::set_seen(LightCandidate& candidate) {
+    candidate.state =
+        candidate.state == CandidateState::unknown ? CandidateState::seen : CandidateState::lit;
+}
+
+void DirectCalculation::set_dark(LightCandidate& candidate) {
+    candidate.state = CandidateState::dark;
+    candidate.contribution = Rgb{};
+}
+
+bool DirectCalculation::has_unknown() const {
     return std::any_of(candidates().begin(), candidates().end(),
-                       [](const LightCandidate& candidate) { return candidate.lazy; });
+                       [](const LightCandidate& c) { return c.state == CandidateState::unknown; });
 }
 
 /// Follow one shadow ray through whatever is in the way.
@@ -212,12 +224,13 @@ void DirectCalculation::trace_shadow(std::size_t i) {
     tracer_.trace(shadow, context_);
     LightCandidate& candidate = scratch_.candidates[i];
     if (!shadow.hit.exists()) {  // at the aft clipping plane: what lies beyond does not shadow
-        candidate.visible = true;
-        return;
+        set_seen(candidate);
+    } else if (static_cast<double>(mean(shadow.value)) > kEpsilon) {
+        candidate.state = CandidateState::lit;
+        candidate.contribution = candidate.coefficient * shadow.value;
+    } else {
+        set_dark(candidate);
     }
-    candidate.lazy = false;
-    candidate.visible = static_cast<double>(mean(shadow.value)) > kEpsilon;
-    if (candidate.visible) candidate.contribution = candidate.coefficient * shadow.value;
 }
 
 void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
@@ -226,7 +239,7 @@ void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceCont
     DirectCalculation direct(*this, ray, context);
     direct.gather(coefficient, front);
     if (options_.shadow_threshold <= 0 || direct.count() <= kFirstBlock ||
-        (direct.is_lazy() && direct.count() <= kFewPatterned)) {
+        (direct.has_unknown() && direct.count() <= kFewPatterned)) {
         direct.test(0, direct.count());
         for (const LightCandidate& candidate : direct.candidates())
             ray.value += candidate.contribution;
@@ -238,7 +251,7 @@ void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceCont
     const auto test_block = [&](std::size_t first, std::size_t last) {
         direct.test(first, last);
         for (const LightCandidate& candidate : direct.candidates().subspan(first, last - first)) {
-            tally.hits += candidate.visible ? 1 : 0;
+            tally.hits += candidate.state == CandidateState::lit ? 1 : 0;
             tally.expected += static_cast<double>((*this)[candidate.source].hit_rate);
             ray.value += candidate.contribution;
         }

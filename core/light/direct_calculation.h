@@ -72,7 +72,7 @@ class DirectCalculation {
     void gather(DirectCoefficient coefficient, const Vec3* front);
 
     /// Whether what some candidates bring is still to be found.
-    [[nodiscard]] bool is_lazy() const;
+    [[nodiscard]] bool has_unknown() const;
 
     /// Brightest candidates first; those that bring nothing go. Fills tails().
     void sort();
@@ -102,10 +102,12 @@ class DirectCalculation {
     [[nodiscard]] bool is_constant(const LightSource& source) const;
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
                                                        const Vec3& direction) const;
-    void find_radiances(std::size_t first, std::size_t last);
+    void find_radiances(std::size_t first, std::size_t last, CandidateState state);
     void find_radiances(std::span<const std::size_t> group, ModifierId patterns);
     void find_radiance(std::size_t candidate);
     void set_radiance(std::size_t candidate, const Rgb& radiance);
+    static void set_seen(LightCandidate& candidate);
+    static void set_dark(LightCandidate& candidate);
     [[nodiscard]] std::optional<double> plane_distance(const LightSource& source,
                                                        const Vec3& direction) const;
     void add_candidate(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
@@ -113,9 +115,10 @@ class DirectCalculation {
     void add_unknown(std::int32_t source, const Vec3& direction, const Rgb& coefficient,
                      double distance);
     [[nodiscard]] bool in_clear_air() const;
-    [[nodiscard]] bool meet(const LightCandidate& candidate, Hit& hit);
-    [[nodiscard]] Rgb emission(const LightCandidate& candidate);
-    [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction);
+    [[nodiscard]] Ray aimed_ray(std::int32_t source, const Vec3& direction) const;
+    [[nodiscard]] bool meet(const LightCandidate& candidate, Hit& hit) const;
+    [[nodiscard]] Rgb emission(const LightCandidate& candidate) const;
+    [[nodiscard]] Emission traced_emission(std::int32_t source, const Vec3& direction) const;
     [[nodiscard]] bool needs_tracing(const LightSource& source) const;
     [[nodiscard]] bool goes_through(const Vec3& direction) const;
     [[nodiscard]] Visibility visibility(const LightCandidate& candidate);
@@ -126,7 +129,8 @@ class DirectCalculation {
     Ray& ray_;
     TraceContext& context_;
     LightScratch& scratch_;
-    Ray aimed_;             ///< asks sources for their radiance
+    Ray aimed_;             ///< copied to ask a source for its radiance
+    RandomStream random_;   ///< of the samples on the sources
     double part_size_ = 0;  ///< of sources, relative to their distance
     std::size_t first_sample_, first_candidate_, first_tail_;
 };

@@ -71,7 +71,7 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
                       TraceContext& context) {
     Ray ray = context.tracer.primary(hit.position + hit.normal, -hit.normal, 0, random);
     ray.hit = hit;
-    ray.hit.t = ray.hit.rod = 1;
+    ray.hit.t = ray.hit.cos_out = 1;
     DirectCalculation direct(lights, ray, context);
     direct.gather(
         [&hit](const Vec3& l, double omega) {

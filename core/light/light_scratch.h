@@ -10,17 +10,25 @@
 
 namespace lightwalk {
 
-/// A sample of a source that could light the point: what it brings when nothing is in the way.
+/// What is known of a candidate.
+enum class CandidateState : std::uint8_t {
+    unknown,  ///< nothing tested, nor how much the source sends
+    known,    ///< nothing tested; the contribution is what arrives when nothing is in the way
+    seen,     ///< nothing is in the way; how much the source sends is not known yet
+    lit,      ///< tested: the contribution arrives
+    dark,     ///< tested: blocked, or the source sends nothing this way; the contribution is 0
+};
+
+/// A sample of a source that could light the point.
 struct LightCandidate {
     std::int32_t source = 0;  ///< into LightSources
     std::uint32_t order = 0;  ///< in which it was gathered
     Vec3 direction;           ///< unit, from the point
     double distance = kHuge;  ///< to the source's own surface [m]
     Rgb coefficient;          ///< K = f cosθ ω
-    Rgb contribution;         ///< V = K E; once tested, 0 when blocked
-    float brightness = 0;     ///< of the untested contribution
-    bool visible = false;     ///< once tested
-    bool lazy = false;        ///< the contribution has not been found yet
+    Rgb contribution;         ///< V = K E, as `state` says
+    float brightness = 0;     ///< of the contribution, for the order of tests
+    CandidateState state = CandidateState::unknown;
 };
 
 /// Each calculation uses what lies above the sizes that it found, and truncates to them when it

@@ -25,6 +25,7 @@ void LightSources::index_sources() {
 
 void LightSources::settle(const Tracer& tracer, WarningSink& warnings) {
     index_sources();
+    find_scattered(warnings);
     if (options_.shadow_threshold > 0) {
         TraceContext context(tracer, warnings);
         const std::vector<float> rates = measure_hit_rates(*this, context);
@@ -58,6 +59,30 @@ std::optional<std::int32_t> LightSources::find(std::string_view identifier) cons
         if (answers_to(sources_[i], identifier)) return static_cast<std::int32_t>(i);
     }
     return std::nullopt;
+}
+
+void LightSources::find_scattered(WarningSink& warnings) {
+    for (std::size_t i = 0; i < scene_.modifier_count(); ++i) {
+        const auto id = static_cast<std::int32_t>(i);
+        const ModifierRecord& mist = scene_.modifier(ModifierId{id});
+        if (mist.type != PrimitiveType::mist || !mist.node) continue;
+        ScatterList list;
+        for (const std::string& identifier : mist.primitive->strings) {
+            const std::optional<std::int32_t> source = find(identifier);
+            if (!source) {
+                warnings.warn(to_prefix(mist.primitive->where) + "mist \"" + mist.name +
+                              "\": unknown source \"" + identifier + "\"");
+            } else if (!list.contains(*source)) {
+                list.sources.push_back(*source);
+            }
+        }
+        if (!list.sources.empty()) scattered_.emplace(id, std::move(list));
+    }
+}
+
+const ScatterList* LightSources::scattered_by(ModifierId mist) const {
+    const auto found = scattered_.find(index(mist));
+    return found == scattered_.end() ? nullptr : &found->second;
 }
 
 }  // namespace lightwalk

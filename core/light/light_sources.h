@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/light/light_source.h"
@@ -30,8 +31,8 @@ class LightSources {
     /// Add a virtual source; sampled() does not hold it before settle(). While the tracer is set
     /// up only.
     void add(const LightSource& source) { sources_.push_back(source); }
-    /// The list is complete: measure and freeze hit rates (-dt > 0). Called once by Tracer's
-    /// constructor, with that tracer, before any rendering.
+    /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
+    /// Called once by Tracer's constructor, with that tracer, before any rendering.
     void settle(const Tracer& tracer, WarningSink& warnings);
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
@@ -52,19 +53,24 @@ class LightSources {
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;
 
-    /// Index for a mist's source identifier ("name" or "relay>source"): the last match; nothing
+    /// Index for a source identifier of a mist ("name" or "relay>source"): the last match; nothing
     /// when unknown.
     [[nodiscard]] std::optional<std::int32_t> find(std::string_view identifier) const;
+    /// The sources that a mist scatters, as its arguments name them; null when it names none that
+    /// exists.
+    [[nodiscard]] const ScatterList* scattered_by(ModifierId mist) const;
 
   private:
     void index_sources();
+    void find_scattered(WarningSink& warnings);
     [[nodiscard]] bool answers_to(const LightSource& source, std::string_view identifier) const;
 
     const Scene& scene_;
     RenderOptions options_;
     std::vector<LightSource> sources_;
     std::vector<std::int32_t> sampled_;
-    std::vector<std::int32_t> distant_;  ///< real sources at infinity
+    std::vector<std::int32_t> distant_;                        ///< real sources at infinity
+    std::unordered_map<std::int32_t, ScatterList> scattered_;  ///< by the mist's modifier
 };
 
 }  // namespace lightwalk

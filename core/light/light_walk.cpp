@@ -23,9 +23,9 @@ class LightWalk {
         for (int bounce = 0; bounce < kBounces; ++bounce) {
             Hit hit = opaque_hit(ray);
             if (!hit.exists()) return;
-            if (hit.rod < 0) {
+            if (hit.cos_out < 0) {
                 hit.normal = -hit.normal;
-                hit.rod = -hit.rod;
+                hit.cos_out = -hit.cos_out;
             }
             places.push_back(hit);
             ray = {hit.position, about(hit.normal, std::sqrt(1 - random_.next())), kHuge};

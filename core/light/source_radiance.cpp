@@ -13,19 +13,27 @@ bool brings_light(float brightness) {
     return brightness > 0 && std::isfinite(brightness);
 }
 
-/// Where a lazy candidate's direction meets the front of its source; false: it misses. On polygons
-/// the distance is known already, and only the outline remains to be asked.
-bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) {
+/// A ray that sees the source and nothing else.
+Ray DirectCalculation::aimed_ray(std::int32_t source, const Vec3& direction) const {
+    Ray ray = aimed_;
+    ray.direction = direction;
+    ray.target = source;
+    ray.random = random_;
+    return ray;
+}
+
+/// Where a candidate's direction meets the front of its source; false: it misses. On polygons the
+/// distance is known already, and only the outline remains to be asked.
+bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
     const LightSource& source = lights_[candidate.source];
     const Surface& surface = tracer_.scene().surface(source.object);
     const Vec3& direction = candidate.direction;
     const double t = candidate.distance;
     const auto* polygon = source.distant ? nullptr : std::get_if<PolygonShape>(&surface.shape);
     if (!polygon || polygon->vertices.size() > kLargePolygon) {  // those have an index of their own
-        aimed_.direction = direction;
-        aimed_.target = candidate.source;
-        if (!lights_.intersect_target(aimed_, tracer_) || aimed_.hit.rod < 0) return false;
-        hit = aimed_.hit;
+        Ray aimed = aimed_ray(candidate.source, direction);
+        if (!lights_.intersect_target(aimed, tracer_) || aimed.hit.cos_out < 0) return false;
+        hit = aimed.hit;
         return true;
     }
     if (!contains(*polygon, aimed_.origin + direction * t, nullptr)) return false;
@@ -33,48 +41,38 @@ bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) {
     hit.t = t;
     hit.position = fused_advance(aimed_.origin, direction, t);
     hit.normal = polygon->normal;
-    hit.rod = -fused_dot(direction, hit.normal);
+    hit.cos_out = -fused_dot(direction, hit.normal);
     hit.surface = source.object;
     hit.modifier = surface.modifier;
     return true;
 }
 
-/// Radiance of the real source of a lazy candidate. For plain ones the ray's way through materials
-/// is cut short.
-Rgb DirectCalculation::emission(const LightCandidate& candidate) {
+/// Radiance of the real source of a candidate. For plain ones the ray's way through materials is
+/// cut short.
+Rgb DirectCalculation::emission(const LightCandidate& candidate) const {
     const LightSource& source = lights_[candidate.source];
     if (!source.plain || !in_clear_air())
         return traced_emission(candidate.source, candidate.direction).radiance;
     Hit hit;
     if (!meet(candidate, hit)) return {};
-    const RandomStream random = aimed_.random;
-    aimed_.direction = candidate.direction;
-    aimed_.target = candidate.source;
-    aimed_.hit = hit;
-    aimed_.pattern = {1, 1, 1};
-    tracer_.apply_textures(aimed_, source.patterns, context_);
-    aimed_.random = random;
-    return source.radiance * aimed_.pattern;
+    Ray aimed = aimed_ray(candidate.source, candidate.direction);
+    aimed.hit = hit;
+    tracer_.apply_textures(aimed, source.patterns, context_);
+    return source.radiance * aimed.pattern;
 }
 
 /// Radiance of any source, and how far its surface is.
 DirectCalculation::Emission DirectCalculation::traced_emission(std::int32_t source,
-                                                               const Vec3& direction) {
-    const RandomStream random = aimed_.random;
-    const Medium medium = aimed_.medium;  // a dielectric would change it
-    aimed_.direction = direction;
-    aimed_.target = source;
-    aimed_.coef = aimed_.pattern = {1, 1, 1};
-    aimed_.value = aimed_.mirrored = {};
-    tracer_.trace(aimed_, context_);
-    aimed_.random = random;
-    aimed_.medium = medium;
-    return {aimed_.value, aimed_.hit.t};
+                                                               const Vec3& direction) const {
+    Ray aimed = aimed_ray(source, direction);
+    tracer_.trace(aimed, context_);
+    return {aimed.value, aimed.hit.t};
 }
 
-/// Contributions of the lazy candidates among [first, last) that are visible. Sources with the same
-/// patterns are evaluated side by side: windows under one sky are most of what an interior sees.
-void DirectCalculation::find_radiances(std::size_t first, std::size_t last) {
+/// Contributions of the candidates among [first, last) in this state, which is one of those whose
+/// contribution is not known. Sources with the same patterns are evaluated side by side: windows
+/// under one sky are most of what an interior sees.
+void DirectCalculation::find_radiances(std::size_t first, std::size_t last, CandidateState state) {
     std::array<std::size_t, kLanes> group{};
     std::size_t size = 0;
     ModifierId patterns = kVoid;
@@ -85,7 +83,7 @@ void DirectCalculation::find_radiances(std::size_t first, std::size_t last) {
     };
     for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
         const LightCandidate& candidate = scratch_.candidates[i];
-        if (!candidate.visible || !candidate.lazy) continue;
+        if (candidate.state != state) continue;
         const LightSource& source = lights_[candidate.source];
         if (!source.side_by_side || !in_clear_air()) {
             find_radiance(i);
@@ -135,13 +133,16 @@ void DirectCalculation::find_radiance(std::size_t i) {
     set_radiance(i, emission(candidate));
 }
 
-/// The contribution of a lazy candidate, its source's radiance known.
+/// The contribution of a candidate, its source's radiance known.
 void DirectCalculation::set_radiance(std::size_t i, const Rgb& radiance) {
     LightCandidate& candidate = scratch_.candidates[i];
     candidate.contribution = candidate.coefficient * radiance;
     candidate.brightness = brightness(candidate.contribution);
-    candidate.lazy = false;
-    candidate.visible = brings_light(candidate.brightness);
+    if (!brings_light(candidate.brightness))
+        set_dark(candidate);
+    else
+        candidate.state = candidate.state == CandidateState::unknown ? CandidateState::known
+                                                                     : CandidateState::lit;
 }
 
 }  // namespace lightwalk

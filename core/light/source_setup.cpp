@@ -30,16 +30,6 @@ struct Emitter {
     [[nodiscard]] const std::vector<double>& reals() const { return material.primitive->reals; }
 };
 
-std::size_t argument_count(PrimitiveType type) {
-    if (type == PrimitiveType::glow) return 4;
-    return type == PrimitiveType::spotlight ? 7 : 3;
-}
-
-[[noreturn]] void fail_material(const ModifierRecord& material, const std::string& problem) {
-    throw InputError(material.primitive->where, std::string(to_string(material.type)) + " \"" +
-                                                    material.name + "\": " + problem);
-}
-
 Vec3 vertex_average(const PolygonShape& polygon) {
     Vec3 sum;
     for (const Vec3& p : polygon.vertices) sum += p;
@@ -154,15 +144,7 @@ void set_shape(LightSource&, const std::monostate&, const Emitter& emitter, Warn
 }
 
 void set_spot(LightSource& source, const Emitter& emitter, WarningSink& warnings) {
-    const std::vector<double>& reals = emitter.reals();
-    if (reals[3] * kPi / 180 <= kEpsilon) fail_material(emitter.material, "zero angle");
-    const Vec3 aim{reals[4], reals[5], reals[6]};
-    const double focal_length = length(aim);
-    if (!(focal_length > 0)) fail_material(emitter.material, "zero direction");
-    SpotShape spot;
-    spot.aim = aim / focal_length;
-    spot.size = static_cast<float>(cone_solid_angle(std::cos(reals[3] * kPi / 360)));
-    spot.focal_length = static_cast<float>(focal_length);
+    const SpotShape spot = spot_cone(*emitter.material.primitive);
     source.spot = spot;
     if (source.distant) emitter.warn(warnings, "distant light source is a spotlight");
     if (source.flat && !spot_faces(spot, source.normal)) {
@@ -182,11 +164,6 @@ std::optional<ModifierId> light_material(const Scene& scene, const Surface& surf
     const ModifierRecord& material = scene.modifier(*id);
     if (!is_light(material.type) || !material.primitive) return std::nullopt;
     const std::vector<double>& reals = material.primitive->reals;
-    const std::size_t expected = argument_count(material.type);
-    if (reals.size() != expected) {
-        fail_material(material, "bad # arguments: " + std::to_string(reals.size()) +
-                                    " real arguments, expected " + std::to_string(expected));
-    }
     if (reals[0] <= kEpsilon && reals[1] <= kEpsilon && reals[2] <= kEpsilon) return std::nullopt;
     if (material.type == PrimitiveType::glow && reals[3] <= kEpsilon &&
         surface.type != PrimitiveType::source) {

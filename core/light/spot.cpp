@@ -38,6 +38,23 @@ bool spot_faces(const SpotShape& spot, const Vec3& normal) {
     return a > kEpsilon || c < 0 || -a < std::sqrt(1 - c * c) - kEpsilon;
 }
 
+SpotShape spot_cone(const Primitive& spotlight) {
+    const auto refuse = [&](const char* problem) {
+        return InputError(spotlight.where, std::string(to_string(spotlight.type)) + " \"" +
+                                               spotlight.name + "\": " + problem);
+    };
+    const std::vector<double>& reals = spotlight.reals;
+    if (!(reals[3] > kEpsilon)) throw refuse("zero angle");
+    const Vec3 direction{reals[4], reals[5], reals[6]};
+    const double focal_length = length(direction);
+    if (!(focal_length > 0)) throw refuse("zero direction");
+    SpotShape spot;
+    spot.aim = direction / focal_length;
+    spot.size = static_cast<float>(cone_solid_angle(std::cos(reals[3] * kPi / 360)));
+    spot.focal_length = static_cast<float>(focal_length);
+    return spot;
+}
+
 std::optional<Disk> intersect_disks(const Disk& a, const Disk& b, const Vec3& separation) {
     const double apart = length_squared(separation);
     const double ra = a.radius_squared, rb = b.radius_squared;

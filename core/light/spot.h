@@ -18,6 +18,10 @@ namespace lightwalk {
     return 2 * kPi * (1 - cos_theta);
 }
 
+/// The cone of a spotlight's arguments (colour, full angle in degrees, direction whose length is
+/// the focal length). Throws InputError for an angle or a direction that is zero.
+[[nodiscard]] SpotShape spot_cone(const Primitive& spotlight);
+
 struct Disk {
     Vec3 center;
     double radius_squared = 0;

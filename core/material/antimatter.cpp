@@ -60,7 +60,7 @@ bool Antimatter::shade(Ray& ray, TraceContext& context) const {
 
 /// What is cut away behind this boundary: more when the ray enters the volume, less when it leaves.
 const ClipSet* Antimatter::clipped_behind(const Ray& ray, TraceContext& context) const {
-    const bool entering = ray.hit.rod > 0;
+    const bool entering = ray.hit.cos_out > 0;
     if (!ray.clip && !entering) return nullptr;
     if (!ray.clip) return clipped_.modifiers.empty() ? nullptr : &clipped_;
     const std::vector<ModifierId>& before = ray.clip->modifiers;
@@ -84,7 +84,7 @@ bool Antimatter::cuts_solid(const Ray& ray) const {
     int depth = 0;
     for (const Ray* r = &ray; r->parent; r = r->parent) {
         if ((r->kind & kSameSide) || !clipped_.contains(r->parent->hit.modifier)) continue;
-        depth += r->parent->hit.rod > 0 ? 1 : -1;
+        depth += r->parent->hit.cos_out > 0 ? 1 : -1;
     }
     return depth > 0;
 }

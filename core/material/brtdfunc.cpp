@@ -120,7 +120,7 @@ bool BrtdFunction::shade(Ray& ray, TraceContext& context) const {
 }
 
 Shading BrtdFunction::prepare(const Ray& ray, const TraceContext& context) const {
-    const bool front = ray.hit.rod > 0;
+    const bool front = ray.hit.cos_out > 0;
     Shading s;
     s.perturbed = ray.perturbed();
     s.flat = is_flat_hit(ray, context);

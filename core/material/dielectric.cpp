@@ -141,7 +141,7 @@ void Dielectric::add_reflected(Ray& ray, const Crossing& at, const Refraction& r
     if (at.perturbed) {
         const Vec3 facing = at.inside ? -ray.hit.normal : ray.hit.normal;
         if (dot(child.direction, facing) <= kEpsilon) {
-            child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.rod);
+            child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.cos_out);
         }
     }
     context.tracer.trace(child, context);

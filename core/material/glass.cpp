@@ -59,14 +59,14 @@ std::array<double, 3> Glass::internal(double cosine_inside) const {
 }
 
 bool Glass::shade(Ray& ray, TraceContext& context) const {
-    if (ray.hit.rod <= 0 && !context.tracer.options().back_faces_visible) {
+    if (ray.hit.cos_out <= 0 && !context.tracer.options().back_faces_visible) {
         context.tracer.pass_through(ray, context);
         return true;
     }
     const bool shadow = ray.in(kShadow);
     if (shadow && !transmits_) return true;
     context.tracer.apply_textures(ray, next_, context);
-    if (ray.hit.rod < 0) flip_surface(ray);
+    if (ray.hit.cos_out < 0) flip_surface(ray);
     const bool perturbed = ray.perturbed();
     const PerturbedNormal facing = textured_normal(ray, perturbed);
 

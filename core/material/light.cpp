@@ -2,6 +2,7 @@
 // calculation brings must not be counted again by paths that find the source by chance. Source:
 // Radiance's manual "The Radiance 6.x Scene Description Language".
 #include "core/light/light_sources.h"
+#include "core/light/spot.h"
 #include "core/material/argument_checks.h"
 #include "core/material/surface_side.h"
 #include "core/scene/modifier.h"
@@ -18,10 +19,8 @@ class Light final : public Modifier {
     }
 
   private:
-    void set_spot(const Primitive& primitive);
     [[nodiscard]] bool far_glow(double distance) const;
     [[nodiscard]] bool misses(const Ray& ray, const LightSource* target) const;
-    [[nodiscard]] bool outside_cone(const Vec3& v) const;
     [[nodiscard]] bool shade_alternate(Ray& ray, TraceContext& context) const;
 
     PrimitiveType type_;
@@ -29,8 +28,7 @@ class Light final : public Modifier {
     Rgb color_;
     double influence_ = 0;          ///< glow: radius of influence [m]
     ModifierId alternate_ = kVoid;  ///< illum: what the eye sees instead
-    Vec3 spot_aim_;                 ///< spotlight: unit axis
-    float spot_size_ = 0;           ///< spotlight: solid angle of its cone [sr]
+    SpotShape cone_;                ///< spotlight
 };
 
 Light::Light(const ModifierBuild& build) : type_(build.primitive.type), next_(build.next) {
@@ -42,18 +40,7 @@ Light::Light(const ModifierBuild& build) : type_(build.primitive.type), next_(bu
     if (type_ == PrimitiveType::illum && !primitive.strings.empty() && !build.undefined(0)) {
         alternate_ = build.reference(0);
     }
-    if (spot) set_spot(primitive);
-}
-
-void Light::set_spot(const Primitive& primitive) {
-    const auto refuse = [&](const char* problem) {
-        return InputError(primitive.where, "spotlight \"" + primitive.name + "\": " + problem);
-    };
-    const double angle = primitive.reals[3];  // full, in degrees
-    if (!(angle > kEpsilon)) throw refuse("zero angle");
-    spot_aim_ = normalize({primitive.reals[4], primitive.reals[5], primitive.reals[6]});
-    if (spot_aim_ == Vec3{}) throw refuse("zero direction");
-    spot_size_ = static_cast<float>(2 * kPi * (1 - std::cos(angle * kPi / 360)));
+    if (spot) cone_ = spot_cone(primitive);
 }
 
 /// A glow that does not light what is so far away; it is seen by every ray instead.
@@ -65,13 +52,9 @@ bool Light::far_glow(double distance) const {
 bool Light::misses(const Ray& ray, const LightSource* target) const {
     if (!target || target->object == ray.hit.surface) return false;
     if (type_ != PrimitiveType::illum) return true;
-    return !target->is_virtual && ray.hit.rod > 0 &&
+    return !target->is_virtual && ray.hit.cos_out > 0 &&
            (target->material_type == PrimitiveType::illum ||
             target->material_type == PrimitiveType::glow);
-}
-
-bool Light::outside_cone(const Vec3& v) const {
-    return static_cast<double>(spot_size_) < 2 * kPi * (1 + dot(spot_aim_, v));
 }
 
 bool Light::shade_alternate(Ray& ray, TraceContext& context) const {
@@ -83,7 +66,7 @@ bool Light::shade_alternate(Ray& ray, TraceContext& context) const {
 bool Light::shade(Ray& ray, TraceContext& context) const {
     const Tracer& tracer = context.tracer;
     const LightSource* target = ray.target == kNoTarget ? nullptr : &tracer.lights()[ray.target];
-    const bool by_chance = ray.in(kAmbient | kSpecular) && !ray.in(kShadow) && ray.hit.rod >= 0;
+    const bool by_chance = ray.in(kAmbient | kSpecular) && !ray.in(kShadow) && ray.hit.cos_out >= 0;
     if ((by_chance && !far_glow(ray.hit.t)) || misses(ray, target)) {
         ray.coef = {};
         return true;
@@ -97,11 +80,12 @@ bool Light::shade(Ray& ray, TraceContext& context) const {
         ray.coef = {};
         return true;
     }
-    if (ray.hit.rod < 0) {
+    if (ray.hit.cos_out < 0) {
         if (!tracer.options().back_faces_visible) tracer.pass_through(ray, context);
         return true;
     }
-    if (type_ == PrimitiveType::spotlight && outside_cone(ray.direction)) return true;
+    if (type_ == PrimitiveType::spotlight && outside_spot(cone_, ray.origin, ray.direction))
+        return true;
     tracer.apply_textures(ray, next_, context);
     ray.value = color_ * ray.pattern;
     return true;

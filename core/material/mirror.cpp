@@ -39,7 +39,7 @@ Mirror::Mirror(const ModifierBuild& build)
 /// Paths whose light the virtual sources do not bring already see the alternate; so do others that
 /// only look through it.
 bool Mirror::takes_alternate(const Ray& ray) const {
-    return ray.hit.rod < 0 || !ray.in(kAmbient | kSpecular) || transparent_alternate_;
+    return ray.hit.cos_out < 0 || !ray.in(kAmbient | kSpecular) || transparent_alternate_;
 }
 
 bool Mirror::shade(Ray& ray, TraceContext& context) const {
@@ -55,7 +55,7 @@ bool Mirror::shade(Ray& ray, TraceContext& context) const {
         return true;
     }
     if (ray.target != kNoTarget && !relayed) return true;  // blocks light of others
-    if (ray.hit.rod < 0) {
+    if (ray.hit.cos_out < 0) {
         if (!tracer.options().back_faces_visible) tracer.pass_through(ray, context);
         return true;
     }
@@ -74,7 +74,8 @@ void Mirror::reflect(Ray& ray, const LightSource* relayed, TraceContext& context
         child.direction = mirror_direction(ray.direction, facing.normal, facing.cosine);
         textured = dot(child.direction, ray.hit.normal) > kEpsilon;
     }
-    if (!textured) child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.rod);
+    if (!textured)
+        child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.cos_out);
     if (relayed) child.target = relayed->parent;
     context.tracer.trace(child, context);
     const Rgb contribution = Tracer::accumulate(ray, child);

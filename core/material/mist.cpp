@@ -1,5 +1,7 @@
 // mist: the boundary of a volume that absorbs and scatters light.
 // Source: Radiance's manual "The Radiance 6.x Scene Description Language".
+#include <algorithm>
+
 #include "core/light/light_sources.h"
 #include "core/material/argument_checks.h"
 #include "core/material/surface_side.h"
@@ -17,36 +19,41 @@ class Mist final : public Modifier {
     [[nodiscard]] MaterialTraits traits() const override { return {.transparent = true}; }
 
   private:
-    using Indices = std::vector<std::int32_t>;
-    [[nodiscard]] Indices sources(TraceContext& context) const;
-    void enter(Medium& medium, const Rgb& pattern, const Indices& mine,
+    void enter(Medium& medium, const Rgb& pattern, const ScatterList* mine,
                TraceContext& context) const;
-    void leave(Medium& medium, const Rgb& pattern, const Indices& mine,
+    void leave(Medium& medium, const Rgb& pattern, const ScatterList* mine,
                TraceContext& context) const;
 
-    ModifierId next_;
+    ModifierId self_, next_;
     std::string name_;
-    std::vector<std::string> identifiers_;
     bool has_albedo_, has_eccentricity_;
     Rgb extinction_;  ///< added by this mist [1/m]
     Rgb albedo_;
     float eccentricity_ = 0;
 };
 
-bool contains(const std::vector<std::int32_t>& list, std::int32_t source) {
-    return std::find(list.begin(), list.end(), source) != list.end();
+const ScatterList* keep(ScatterList list, TraceContext& context) {
+    context.scatter_lists.push_back(std::move(list));
+    return &context.scatter_lists.back();
 }
 
-Mist::Mist(const ModifierBuild& build) : next_(build.next), name_(build.primitive.name) {
+/// Whether one list holds all sources of another; null lists are empty.
+bool holds(const ScatterList* list, const ScatterList* other) {
+    if (!other || list == other) return true;
+    return list && std::all_of(other->sources.begin(), other->sources.end(),
+                               [list](std::int32_t source) { return list->contains(source); });
+}
+
+Mist::Mist(const ModifierBuild& build)
+    : self_(build.self), next_(build.next), name_(build.primitive.name) {
     const Primitive& primitive = build.primitive;
     require_most_strings(primitive, kMaxSources);
     if (primitive.reals.size() > 7) require_exact_reals(primitive, 7);
-    for (const std::string& identifier : primitive.strings) {
-        if (std::find(identifiers_.begin(), identifiers_.end(), identifier) == identifiers_.end()) {
-            identifiers_.push_back(identifier);
-        } else {
+    const std::vector<std::string>& identifiers = primitive.strings;
+    for (auto at = identifiers.begin(); at != identifiers.end(); ++at) {
+        if (std::find(identifiers.begin(), at, *at) != at) {
             build.warnings.warn(to_prefix(primitive.where) + "mist \"" + name_ +
-                                "\": duplicate source \"" + identifier + "\"");
+                                "\": duplicate source \"" + *at + "\"");
         }
     }
     has_albedo_ = primitive.reals.size() >= 6;
@@ -56,33 +63,16 @@ Mist::Mist(const ModifierBuild& build) : next_(build.next), name_(build.primitiv
     if (has_eccentricity_) eccentricity_ = static_cast<float>(primitive.reals[6]);
 }
 
-/// The mist's entries of the source list.
-Mist::Indices Mist::sources(TraceContext& context) const {
-    Indices mine;
-    for (const std::string& identifier : identifiers_) {
-        const std::optional<std::int32_t> source = context.tracer.lights().find(identifier);
-        if (!source) {
-            context.warnings.warn("mist \"" + name_ + "\": unknown source \"" + identifier + "\"");
-        } else if (!contains(mine, *source)) {
-            mine.push_back(*source);
-        }
-    }
-    return mine;
-}
-
 bool Mist::shade(Ray& ray, TraceContext& context) const {
     context.tracer.apply_textures(ray, next_, context);
     Ray child;
     if (!context.tracer.spawn(child, kTransferred, ray, nullptr)) return true;
     child.direction = ray.direction;
-    const Indices mine = sources(context);
-    if (ray.hit.rod > 0) {
+    const ScatterList* mine = context.tracer.lights().scattered_by(self_);
+    if (ray.hit.cos_out > 0) {
         enter(child.medium, ray.pattern, mine, context);
     } else {
-        const ScatterList* listed = ray.medium.scatter;
-        const bool began_inside = !std::all_of(
-            mine.begin(), mine.end(),
-            [listed](std::int32_t source) { return listed && contains(listed->sources, source); });
+        const bool began_inside = !holds(ray.medium.scatter, mine);
         if (began_inside) enter(ray.medium, ray.pattern, mine, context);
         child.medium = ray.medium;
         leave(child.medium, ray.pattern, mine, context);
@@ -95,16 +85,19 @@ bool Mist::shade(Ray& ray, TraceContext& context) const {
     return true;
 }
 
-void Mist::enter(Medium& medium, const Rgb& pattern, const Indices& mine,
+void Mist::enter(Medium& medium, const Rgb& pattern, const ScatterList* mine,
                  TraceContext& context) const {
     medium.extinction += extinction_ * pattern;
     if (has_albedo_) medium.albedo = albedo_;
     if (has_eccentricity_) medium.eccentricity = eccentricity_;
-    ScatterList list;
-    if (medium.scatter) list = *medium.scatter;
-    const std::size_t before = list.sources.size();
-    for (const std::int32_t source : mine) {
-        if (contains(list.sources, source)) continue;
+    if (holds(medium.scatter, mine)) return;
+    if (!medium.scatter) {
+        medium.scatter = mine;
+        return;
+    }
+    ScatterList list = *medium.scatter;
+    for (const std::int32_t source : mine->sources) {
+        if (list.contains(source)) continue;
         if (list.sources.size() == kMaxSources) {
             context.warnings.warn("mist \"" + name_ +
                                   "\": too many scattering sources in overlapping mists");
@@ -112,12 +105,10 @@ void Mist::enter(Medium& medium, const Rgb& pattern, const Indices& mine,
         }
         list.sources.push_back(source);
     }
-    if (list.sources.size() == before) return;
-    context.scatter_lists.push_back(std::move(list));
-    medium.scatter = &context.scatter_lists.back();
+    medium.scatter = keep(std::move(list), context);
 }
 
-void Mist::leave(Medium& medium, const Rgb& pattern, const Indices& mine,
+void Mist::leave(Medium& medium, const Rgb& pattern, const ScatterList* mine,
                  TraceContext& context) const {
     const RenderOptions& options = context.tracer.options();
     medium.extinction -= extinction_ * pattern;
@@ -126,16 +117,17 @@ void Mist::leave(Medium& medium, const Rgb& pattern, const Indices& mine,
     }
     if (has_albedo_) medium.albedo = options.albedo;
     if (has_eccentricity_) medium.eccentricity = static_cast<float>(options.eccentricity);
-    if (!medium.scatter) return;
+    if (!medium.scatter || !mine) return;
+    if (medium.scatter == mine) {
+        medium.scatter = nullptr;
+        return;
+    }
     ScatterList list;
     for (const std::int32_t source : medium.scatter->sources) {
-        if (!contains(mine, source)) list.sources.push_back(source);
+        if (!mine->contains(source)) list.sources.push_back(source);
     }
     if (list.sources.size() == medium.scatter->sources.size()) return;
-    medium.scatter = nullptr;
-    if (list.sources.empty()) return;
-    context.scatter_lists.push_back(std::move(list));
-    medium.scatter = &context.scatter_lists.back();
+    medium.scatter = list.sources.empty() ? nullptr : keep(std::move(list), context);
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ void Plastic::add_mirrored(Ray& ray, const Shading& s, TraceContext& context) co
     if (!context.tracer.spawn(child, kReflected, ray, &s.specular)) return;
     child.direction = mirror_direction(ray.direction, s.facing.normal, s.facing.cosine);
     if (s.perturbed && dot(child.direction, ray.hit.normal) <= kEpsilon) {
-        child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.rod);
+        child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.cos_out);
     }
     context.tracer.trace(child, context);
     const Rgb contribution = Tracer::accumulate(ray, child);

@@ -56,7 +56,7 @@ void add_rough_reflection(Ray& ray, const LobeFrame& frame, double alpha_u, doub
                           const Rgb& coef, TraceContext& context) {
     const double samples = context.tracer.options().specular_samples;
     const Vec3 true_normal = ray.hit.normal;
-    const double rod = ray.hit.rod;
+    const double cos_out = ray.hit.cos_out;
     const auto draw = [&](Ray& from) -> std::optional<Vec3> {
         const FacetSlope facet = draw_facet(from, frame, alpha_u, alpha_v, samples);
         const Vec3 l = reflect_off(from.direction, frame.n + facet.tangent, 1 + facet.squared);
@@ -66,7 +66,7 @@ void add_rough_reflection(Ray& ray, const LobeFrame& frame, double alpha_u, doub
     // f cosθ / pdf of the bounded-albedo lobe; a single sample goes without, as a rejected trial is
     // drawn again.
     const auto weight = [&](const Vec3& l, int count) {
-        return count > 1 ? 2 / (1 + rod / dot(l, true_normal)) : 1.0;
+        return count > 1 ? 2 / (1 + cos_out / dot(l, true_normal)) : 1.0;
     };
     add_rough_samples(ray, kSpecularReflected, coef, context, draw, weight, true);
 }

@@ -12,18 +12,18 @@ inline constexpr double kMinCosine = 1e-3;
 /// own orientation, then a back face is turned over. False: back faces are invisible (-bv-) and the
 /// ray has gone on.
 [[nodiscard]] inline bool turn_to_viewer(Ray& ray, ModifierId textures, TraceContext& context) {
-    if (ray.hit.rod < 0 && !context.tracer.options().back_faces_visible) {
+    if (ray.hit.cos_out < 0 && !context.tracer.options().back_faces_visible) {
         context.tracer.pass_through(ray, context);
         return false;
     }
     context.tracer.apply_textures(ray, textures, context);
-    if (ray.hit.rod < 0) flip_surface(ray);
+    if (ray.hit.cos_out < 0) flip_surface(ray);
     return true;
 }
 
 /// The normal that textures left; exactly the geometric one where none acted.
 [[nodiscard]] inline PerturbedNormal textured_normal(const Ray& ray, bool perturbed) {
-    return perturbed ? perturb_normal(ray) : PerturbedNormal{ray.hit.normal, ray.hit.rod};
+    return perturbed ? perturb_normal(ray) : PerturbedNormal{ray.hit.normal, ray.hit.cos_out};
 }
 
 /// Whether the hit object is a polygon or a ring.

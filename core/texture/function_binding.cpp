@@ -61,7 +61,7 @@ ToFunction world_to_function(const Transform& own, bool transformed, FrameId fra
 void fill_scalars(ChannelValues& out, const Ray& ray, const Hit& hit, double sigma) {
     set(out, Channel::T, sigma * (ray.path_length + hit.t));
     set(out, Channel::Ts, sigma * (ray.shadow_length + hit.t));
-    set(out, Channel::Rdot, std::clamp(hit.rod, -1.0, 1.0));
+    set(out, Channel::Rdot, std::clamp(hit.cos_out, -1.0, 1.0));
     set(out, Channel::Lu, hit.u);
     set(out, Channel::Lv, hit.v);
 }

@@ -88,7 +88,7 @@ void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
         ray.hit.t = kHuge;
         ray.hit.position = ray.origin;
         ray.hit.normal = -ray.direction;
-        ray.hit.rod = 1;
+        ray.hit.cos_out = 1;
         // At the aft clipping plane there is nothing, not even the background.
         if (ray.limit <= kEpsilon) {
             if (const std::optional<SurfaceId> seen = lights_->background(ray)) {
@@ -117,7 +117,7 @@ Ray Tracer::irradiance(const Vec3& point, const Vec3& normal, RandomStream rando
     hit.t = kDistance;
     hit.position = ray.origin + ray.direction * kDistance;
     hit.normal = facing;
-    hit.rod = 1;
+    hit.cos_out = 1;
     hit.surface = scene_.lambertian_surface();
     hit.modifier = scene_.lambertian();
     shade_hit(ray, hit, context);

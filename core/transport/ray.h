@@ -32,7 +32,8 @@ enum RayKind : std::uint16_t {
 
 struct ClipSet;  ///< immutable set of clipped modifiers (antimatter); lives in the TraceContext's
                  ///< arena
-struct ScatterList;  ///< immutable list of sources that a mist scatters; likewise
+struct ScatterList;  ///< immutable list of sources that a mist scatters; there, or one of
+                     ///< LightSources
 
 /// Participating medium of a ray segment.
 struct Medium {

@@ -52,6 +52,10 @@ AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& o) {
     return *this;
 }
 
+bool ScatterList::contains(std::int32_t source) const {
+    return std::find(sources.begin(), sources.end(), source) != sources.end();
+}
+
 bool ClipSet::contains(ModifierId m) const {
     return std::binary_search(modifiers.begin(), modifiers.end(), m);
 }
@@ -126,10 +130,10 @@ void Tracer::pass_through(Ray& ray, TraceContext& context) const {
 PerturbedNormal perturb_normal(const Ray& ray) {
     const Vec3 sum = ray.hit.normal + ray.hit.perturbation;
     const double size = length(sum);
-    if (size == 0) return {ray.hit.normal, ray.hit.rod};
+    if (size == 0) return {ray.hit.normal, ray.hit.cos_out};
     PerturbedNormal result{sum / size, 0};
     result.cosine = -dot(ray.direction, result.normal);
-    if ((result.cosine > 0) != (ray.hit.rod > 0)) {
+    if ((result.cosine > 0) != (ray.hit.cos_out > 0)) {
         result.normal += ray.direction * (2 * result.cosine);
         result.cosine = -result.cosine;
     }
@@ -139,7 +143,7 @@ PerturbedNormal perturb_normal(const Ray& ray) {
 void flip_surface(Ray& ray) {
     ray.hit.normal = -ray.hit.normal;
     ray.hit.perturbation = -ray.hit.perturbation;
-    ray.hit.rod = -ray.hit.rod;
+    ray.hit.cos_out = -ray.hit.cos_out;
 }
 
 }  // namespace lightwalk

@@ -47,7 +47,8 @@ struct ClipSet {
 };
 
 struct ScatterList {
-    std::vector<std::int32_t> sources;
+    std::vector<std::int32_t> sources;  ///< into LightSources
+    [[nodiscard]] bool contains(std::int32_t source) const;
 };
 
 struct LightScratch;  ///< the direct calculation's buffers (core/light)
@@ -155,16 +156,16 @@ class Tracer {
     std::unique_ptr<AmbientCalculation> ambient_;
 };
 
-/// The perturbed normal and its cosine with the ray. `normal` and `rod` may have been flipped by
-/// the caller.
+/// The perturbed normal and its cosine with the ray. `normal` and `cos_out` may have been flipped
+/// by the caller.
 struct PerturbedNormal {
     Vec3 normal;
-    double cosine = 1;  ///< -direction . normal, of the same sign as rod
+    double cosine = 1;  ///< -direction . normal, of the same sign as cos_out
 };
 /// n' = n + d, normalised; reflected to the ray's side when the perturbation turned it away.
 [[nodiscard]] PerturbedNormal perturb_normal(const Ray& ray);
 
-/// Turn the hit over: negate normal, perturbation and rod.
+/// Turn the hit over: negate normal, perturbation and cos_out.
 void flip_surface(Ray& ray);
 
 }  // namespace lightwalk

@@ -49,7 +49,7 @@ bool same_bits(const Vec3& a, const Vec3& b) {
 }
 bool same_bits(const Hit& a, const Hit& b) {
     return same_bits(a.t, b.t) && same_bits(a.position, b.position) &&
-           same_bits(a.normal, b.normal) && same_bits(a.rod, b.rod) &&
+           same_bits(a.normal, b.normal) && same_bits(a.cos_out, b.cos_out) &&
            same_bits(a.perturbation, b.perturbation) && same_bits(a.u, b.u) &&
            same_bits(a.v, b.v) && a.surface == b.surface && a.modifier == b.modifier &&
            a.frame == b.frame;
@@ -96,7 +96,7 @@ TEST_CASE("the nearest hit is the one that trying every surface gives") {
                 CHECK(std::abs(length(hit.normal) - 1) < 1e-12);
                 CHECK(length(hit.position - (ray.origin + ray.direction * hit.t)) <
                       1e-15 * (hit.t + 10));
-                CHECK(hit.rod == doctest::Approx(-dot(ray.direction, hit.normal)));
+                CHECK(hit.cos_out == doctest::Approx(-dot(ray.direction, hit.normal)));
             }
             CHECK(hits > 40);
         }
@@ -221,7 +221,7 @@ TEST_CASE("a mirrored placement shows the mirror image of the normal") {
     REQUIRE(hit.exists());
     CHECK(hit.t == doctest::Approx(3));
     CHECK(length(hit.normal - Vec3{-1, 0, 0}) < 1e-15);
-    CHECK(hit.rod == doctest::Approx(1));
+    CHECK(hit.cos_out == doctest::Approx(1));
     CHECK(geometry.frame(hit.frame).scale == -2);
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("one surface alone can be asked for") {
     CHECK(hit.surface == low);
     CHECK(hit.modifier == ModifierId{6});
     CHECK(hit.t == 4);
-    CHECK(hit.rod == 1);
+    CHECK(hit.cos_out == 1);
     CHECK(hit.position == Vec3{0.3, 0.4, 1});
     CHECK_FALSE(geometry.intersect_surface(low, {{3, 3, 3}, {0, 0, -1}}).exists());
 }

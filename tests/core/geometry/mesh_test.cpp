@@ -61,7 +61,7 @@ TEST_CASE(
     CHECK(length(low.perturbation - (normalize(Vec3{0.5, 0, 1}) - Vec3{0, 0, 1})) < 1e-12);
     const Hit high = geometry.intersect({{0.25, 0.75, -1}, {0, 0, 1}});
     CHECK(high.modifier == ModifierId{21});
-    CHECK(high.rod == -1);
+    CHECK(high.cos_out == -1);
     CHECK(high.u == doctest::Approx(0.25));
     CHECK(geometry.visibility({{0.75, 0.25, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
     CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::special);
@@ -78,7 +78,7 @@ TEST_CASE("normals and perturbations turn, mirror and keep their length with the
     const Hit hit = geometry.intersect({target + normal * 5, -normal});
     REQUIRE(hit.exists());
     CHECK(hit.t == doctest::Approx(5));
-    CHECK(hit.rod == doctest::Approx(1));
+    CHECK(hit.cos_out == doctest::Approx(1));
     CHECK(length(hit.normal - normal) < 1e-12);
     const Vec3 smooth = to_world.forward.vector(normalize(Vec3{0.5, 0, 1})) / 3;
     CHECK(length(hit.normal + hit.perturbation - smooth) < 1e-12);

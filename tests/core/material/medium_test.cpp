@@ -37,7 +37,7 @@ TEST_CASE("mist warns of sources that it does not find or that it names twice") 
     (void)scene.trace({0, 0, 3}, {0, 0, -1});
     REQUIRE(scene.warnings.messages.size() >= 2);
     CHECK(scene.warnings.messages[0] == "test.rad:1: mist \"m\": duplicate source \"lamp\"");
-    CHECK(scene.warnings.messages[1] == "mist \"m\": unknown source \"moon\"");
+    CHECK(scene.warnings.messages[1] == "test.rad:1: mist \"m\": unknown source \"moon\"");
 }
 
 namespace {
