@@ -33,6 +33,8 @@ Output
                      picture goes to standard output. A file of that name is replaced when the new one is whole.
   -z FILE            distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing there
   --exposure auto|EV for .png and .jpg: average brightness, or a fixed number of stops
+  --tone curve|linear  for .png and .jpg: compress what is brighter than middle grey, so that windows and lamps
+                     keep their drawing (default), or cut off at white
   --stats FILE.json  seconds to read, build and render, rays by kind, rays per second, memory
   -t SECONDS         report progress in lines; on a terminal there is a progress bar unless --quiet
   -e FILE            append messages to FILE

@@ -7,13 +7,43 @@
 namespace lightwalk {
 namespace {
 
-const std::vector<std::string> kOwnNames{
-    "-x",    "-y",       "-pa",       "-ps",        "-pt",        "-pj",
-    "-pd",   "-pm",      "-pc",       "-pRGB",      "-o",         "-z",
-    "-S",    "-t",       "-vp",       "-vd",        "-vu",        "-vh",
-    "-vv",   "-vo",      "-va",       "-vs",        "-vl",        "-vf",
-    "-vtv",  "-vtl",     "-vtc",      "-vth",       "-vta",       "-vts",
-    "-help", "-version", "-features", "--exposure", "--overture", "--deterministic"};
+const std::vector<std::string> kOwnNames{"-x",
+                                         "-y",
+                                         "-pa",
+                                         "-ps",
+                                         "-pt",
+                                         "-pj",
+                                         "-pd",
+                                         "-pm",
+                                         "-pc",
+                                         "-pRGB",
+                                         "-o",
+                                         "-z",
+                                         "-S",
+                                         "-t",
+                                         "-vp",
+                                         "-vd",
+                                         "-vu",
+                                         "-vh",
+                                         "-vv",
+                                         "-vo",
+                                         "-va",
+                                         "-vs",
+                                         "-vl",
+                                         "-vf",
+                                         "-vtv",
+                                         "-vtl",
+                                         "-vtc",
+                                         "-vth",
+                                         "-vta",
+                                         "-vts",
+                                         "-help",
+                                         "-version",
+                                         "-features",
+                                         "--exposure",
+                                         "--tone",
+                                         "--overture",
+                                         "--deterministic"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -29,15 +59,18 @@ bool parse_view(OptionWords& words, View& view) {
     return used > 0;
 }
 
-ToneMapping tone_mapping(const std::string& word) {
-    ToneMapping tone;
-    if (word == "auto") return tone;
-    tone.automatic = false;
-    if (!parse_real(word, tone.ev)) {
+void set_exposure(const std::string& word, ToneMapping& tone) {
+    tone.automatic = word == "auto";
+    if (!tone.automatic && !parse_real(word, tone.ev)) {
         throw UsageError("option --exposure: expected auto or a number of stops (EV), found \"" +
                          word + "\"");
     }
-    return tone;
+}
+
+ToneCurve tone_curve(const std::string& word) {
+    if (word != "curve" && word != "linear")
+        throw UsageError("option --tone: expected curve or linear, found \"" + word + "\"");
+    return word == "curve" ? ToneCurve::highlights : ToneCurve::linear;
 }
 
 bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
@@ -78,7 +111,9 @@ bool parse_output_option(OptionWords& words, RenderCommand& command) {
     else if (word == "-t")
         command.report_interval = words.real();
     else if (word == "--exposure")
-        command.tone = tone_mapping(words.text());
+        set_exposure(words.text(), command.tone);
+    else if (word == "--tone")
+        command.tone.curve = tone_curve(words.text());
     else if (word == "--deterministic") {
         command.deterministic = true;
         words.skip(1);

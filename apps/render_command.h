@@ -6,7 +6,7 @@
 
 #include "apps/common_options.h"
 #include "core/view/view.h"
-#include "io/picture/picture.h"
+#include "io/picture/tone.h"
 #include "parallel/pixel_rays.h"
 
 namespace lightwalk {
@@ -22,7 +22,7 @@ struct RenderCommand {
     std::string output;                              ///< -o; "" is standard output
     std::string depth;                               ///< -z; "" is none
     double report_interval = 0;                      ///< -t [s]
-    ToneMapping tone;                                ///< --exposure
+    ToneMapping tone;                                ///< --exposure --tone
     bool overture = true;                            ///< --overture auto|off
     bool deterministic = false;                      ///< --deterministic
     int first_frame = 0;         ///< -S: number of the first frame of a sequence; 0: one picture

@@ -1,7 +1,5 @@
 #pragma once
 // Pictures of radiance and their files.
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +7,8 @@
 #include "core/math/rgb.h"
 
 namespace lightwalk {
+
+struct ToneMapping;  // io/picture/tone.h
 
 /// Pixels row by row from the top, left to right, in W/(m² sr).
 struct Picture {
@@ -31,21 +31,7 @@ struct PictureHeader {
 [[nodiscard]] Picture read_hdr(std::string_view bytes, const std::string& name,
                                PictureHeader* header = nullptr);
 
-/// Tone mapping for 8-bit files: automatic places the log-average at middle grey (18 %), or a fixed
-/// exposure.
-struct ToneMapping {
-    bool automatic = true;
-    /// When not automatic [stops]: radiance 2^-ev W/(m² sr) is white, but for the shoulder.
-    double ev = 0;
-};
-/// Factor from radiance to display values, 1 = white. The log-average leaves out pixels without
-/// light. Source: Reinhard et al., "Photographic tone reproduction for digital images", SIGGRAPH
-/// 2002, eqs. 1 and 2.
-[[nodiscard]] double display_scale(const Picture& picture, const ToneMapping& tone);
-/// sRGB bytes r, g, b of one pixel: linear up to 0.6, beyond that a smooth shoulder towards white,
-/// then the sRGB curve (IEC 61966-2-1). Radiance's white is shown as the display's white.
-[[nodiscard]] std::array<std::uint8_t, 3> display_pixel(const Rgb& color, double scale);
-/// Write by extension: .hdr .pic (Radiance), .exr (float RGB), .png .jpg .jpeg (tone mapped sRGB).
+/// Write by extension: .hdr .pic (Radiance), .exr (float RGB), .png .jpg .jpeg (sRGB, see tone.h).
 /// The file appears whole or not at all (temporary name, then rename). Throws InputError for other
 /// extensions and failed writes, naming the path.
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,

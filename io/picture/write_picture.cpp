@@ -8,6 +8,7 @@
 #include "io/formats/header.h"
 #include "io/picture/image_encoder.h"
 #include "io/picture/picture.h"
+#include "io/picture/tone.h"
 
 namespace lightwalk {
 namespace {
@@ -38,10 +39,10 @@ void write_exr(const std::string& path, const Picture& picture, const PictureHea
 
 void write_display_image(const std::string& path, const char* format, const Picture& picture,
                          const ToneMapping& tone) {
-    const double scale = display_scale(picture, tone);
+    const DisplayTone settled = settle_tone(picture, tone);
     std::vector<std::array<std::uint8_t, 3>> pixels(picture.pixels.size());
     std::transform(picture.pixels.begin(), picture.pixels.end(), pixels.begin(),
-                   [&](const Rgb& color) { return display_pixel(color, scale); });
+                   [&](const Rgb& color) { return display_pixel(color, settled); });
     const ImageRequest request{format, picture.width, picture.height, 3, false, pixels.data(), "",
                                ""};
     write_file_atomically(path, characters(encode_image(path, request)));

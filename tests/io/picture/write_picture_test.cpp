@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "io/files/atomic_file.h"
 #include "io/picture/picture.h"
+#include "io/picture/tone.h"
 
 using namespace lightwalk;
 namespace fs = std::filesystem;
