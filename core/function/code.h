@@ -9,48 +9,24 @@
 
 namespace lightwalk::function {
 
-/// Operands dst, a, b, c are cells of the present frame unless said otherwise. "Checked" operations
-/// end with the language's test: a set error flag, or a result that is not finite, makes the result
-/// 0.
-// clang-format off
+/// The rows of instructions.def; then of library.def each function's own, which is checked, and
+/// each reduction's step, which is not.
 enum class Op : std::uint8_t {
-    move, load_tick,      ///< dst = a; dst = cell a of the tick's frame
-    negate, subtract, multiply, divide,  ///< plain IEEE
-    add,                  ///< (0 + a) + b: a sum that starts here has no negative zero
-    add3,                 ///< ((0 + a) + b) + c
-    multiply3,            ///< (a * b) * c
-    add_product,          ///< (0 + c) + (a * b), each operation rounded
-    subtract_product,     ///< c - (a * b)
-    lesser, greater,      ///< b if it is less (greater) than a, else a
-    divide_tested,        ///< a / b; a range error when b is 0
-    guard_divisor,        ///< if a is 0: dst = 0, range error, go to b
-    half_power,           ///< a to the power of half the integer b (not a cell), checked
-    power, min, max, rand, floor, ceil, sqrt, exp, log, log10, sin, cos, tan, asin, acos, atan,
-    atan2, erf, erfc, noise3, noise3x, noise3y, noise3z, fnoise3, arg, source_theta, source_phi,
-    source_corr, fprism_val,  ///< checked
-    modulo, fraction,     ///< a - floor(a / b) * b; a - floor(a); floor checked
-    absolute,             ///< max(a, -a), checked
-    check,                ///< dst = a, checked
-    pick,                 ///< dst = a > 0 ? b : c, checked
-    clear,                ///< clear the error flag
-    touch, touch_tick,    ///< clear it, the first time that cell dst is touched
-    forget,               ///< cell dst has not been computed
-    jump,                 ///< go to a
-    jump_unless_positive, ///< if not a > 0 go to b
-    jump_unless_above,    ///< if not a - c > 0 go to b
-    choose,               ///< select a of c cases, targets from b: number, first, .., none
-    ensure, ensure_tick,  ///< compute cell dst by the block at a, unless that has been done
-    force,                ///< the same for parameter dst
-    call,                 ///< dst = function a, arguments from b
-    give,                 ///< end of a block: a is the cell's value
-    give_call,            ///< end of a function: a is its value
-    halt,                 ///< end of an output: a is its value
-    fatal,                ///< throw message a
+#define INSTRUCTION(name, operands, lanes) name,
+#include "core/function/instructions.def"
+#define SPECIAL_FORM(name, spelling, arguments)
+#define REDUCTION(name, value) name, name##_step,
+#define ANY_FUNCTION(name) name,
+#include "core/function/library.def"
 };
-// clang-format on
 
-/// Whether evaluations side by side know the operation.
-[[nodiscard]] bool has_lanes(Op op);
+/// What a row says of an instruction.
+struct OpEntry {
+    const char* name;
+    const char* operands;
+    bool lanes;  ///< evaluations side by side know it
+};
+[[nodiscard]] const OpEntry& op_entry(Op op);
 
 struct Instruction {
     Op op = Op::halt;

@@ -44,7 +44,7 @@ CodeGenerator::Cell CodeGenerator::conditional(const Node& n, Cell want) {
         const Cell no = node(n.kids[2]);
         next_cell_ = mark;
         const Cell d = result(want);
-        emit(Op::pick, d, c, yes, no, keep);
+        emit(Op::conditional_move, d, c, yes, no, keep);
         error_clear_ = false;
         return d;
     }
@@ -80,7 +80,7 @@ CodeGenerator::Cell CodeGenerator::choice(const Node& n, Cell want) {
     const auto cases = static_cast<std::uint32_t>(n.kids.size() - 2);
     const auto table = static_cast<std::uint32_t>(code_.targets.size());
     code_.targets.resize(table + cases + 2);
-    emit(Op::choose, d, selector, table, cases);
+    emit(Op::jump_table, d, selector, table, cases);
     const bool clear_here = error_clear_;
     const std::size_t known = available_log_.size();
     std::vector<std::vector<std::size_t>> branches;

@@ -100,7 +100,7 @@ Program::Code CodeGenerator::generate() {
     patch_lazies();
     code_.has_lanes =
         inputs == 0 && std::all_of(code_.instructions.begin(), code_.instructions.end(),
-                                   [](const Instruction& i) { return has_lanes(i.op); });
+                                   [](const Instruction& i) { return op_entry(i.op).lanes; });
     return std::move(code_);
 }
 
@@ -146,7 +146,7 @@ void CodeGenerator::generate_frame(std::uint32_t frame) {
     parameters_ = function.parameters;
     high_cell_ = function.marked;
     start_block();
-    emit(Op::give_call, 0, node(instance.body));
+    emit(Op::return_call, 0, node(instance.body));
     generate_blocks(frame_blocks_);
     function.cells = high_cell_;
     function.cost = here() - start;
@@ -162,7 +162,7 @@ void CodeGenerator::generate_output(std::uint32_t output) {
     code.is_constant = graph_.nodes[root].kind == NodeKind::constant;
     code.value = graph_.nodes[root].value;
     for (LazyId id = 0; id < graph_.lazies.size(); ++id) {
-        if (graph_.lazies[id].output == output && shared_[id]) emit(Op::forget, lazy_cell(id));
+        if (graph_.lazies[id].output == output && shared_[id]) emit(Op::invalidate, lazy_cell(id));
     }
     emit(Op::halt, 0, node(root));
     code_.outputs.push_back(code);
@@ -178,13 +178,13 @@ void CodeGenerator::generate_blocks(std::vector<Block>& blocks) {
         } else {
             code_.arguments[block.argument].at = here();
         }
-        emit(Op::give, 0, node(block.node));
+        emit(Op::return_block, 0, node(block.node));
     }
 }
 
 void CodeGenerator::patch_lazies() {
     for (Instruction& i : code_.instructions) {
-        if (i.op == Op::ensure || i.op == Op::ensure_tick) i.a = entries_[i.a];
+        if (i.op == Op::force || i.op == Op::force_global) i.a = entries_[i.a];
     }
 }
 
@@ -233,7 +233,7 @@ void CodeGenerator::keep_common(std::vector<std::vector<std::size_t>> branches) 
 }
 
 void CodeGenerator::clear_error() {
-    if (!error_clear_) emit(Op::clear);
+    if (!error_clear_) emit(Op::clear_error);
     error_clear_ = true;
 }
 
@@ -251,7 +251,7 @@ void CodeGenerator::touch(LazyId id) {
     if (available_[id]) return;
     if (needed(id)) {
         const bool from_function = graph_.lazies[id].of_tick() && !in_tick();
-        emit(from_function ? Op::touch_tick : Op::touch, lazy_cell(id));
+        emit(from_function ? Op::clear_error_once_global : Op::clear_error_once, lazy_cell(id));
     } else {
         clear_error();
     }

@@ -58,7 +58,7 @@ class CodeGenerator {
     Cell quotient(const Node& n, Cell want);
     Cell power(const Node& n, Cell want);
     Cell library(const Node& n, Cell want);
-    Cell extremum(const Node& n, Op op, Cell want);
+    Cell reduction(const Node& n, LibraryFunction f, Cell want);
     Cell conditional(const Node& n, Cell want);
     Cell choice(const Node& n, Cell want);
     Cell check(const Node& n, Cell want);

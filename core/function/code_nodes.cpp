@@ -10,40 +10,29 @@
 namespace lightwalk::function {
 namespace {
 
-/// Operation of a function of up to three arguments that are evaluated in order.
+/// The function's own instruction; special forms have none.
 Op operation(LibraryFunction f) {
-    using F = LibraryFunction;
-    static constexpr std::array<std::pair<LibraryFunction, Op>, 26> kOperations{
-        {{F::rand, Op::rand},
-         {F::floor, Op::floor},
-         {F::ceil, Op::ceil},
-         {F::sqrt, Op::sqrt},
-         {F::exp, Op::exp},
-         {F::log, Op::log},
-         {F::log10, Op::log10},
-         {F::sin, Op::sin},
-         {F::cos, Op::cos},
-         {F::tan, Op::tan},
-         {F::asin, Op::asin},
-         {F::acos, Op::acos},
-         {F::atan, Op::atan},
-         {F::atan2, Op::atan2},
-         {F::arg, Op::arg},
-         {F::erf, Op::erf},
-         {F::erfc, Op::erfc},
-         {F::noise3, Op::noise3},
-         {F::noise3x, Op::noise3x},
-         {F::noise3y, Op::noise3y},
-         {F::noise3z, Op::noise3z},
-         {F::fnoise3, Op::fnoise3},
-         {F::source_theta, Op::source_theta},
-         {F::source_phi, Op::source_phi},
-         {F::source_corr, Op::source_corr},
-         {F::fprism_val, Op::fprism_val}}};
-    for (const auto& [function, op] : kOperations) {
-        if (function == f) return op;
+    switch (f) {
+#define SPECIAL_FORM(name, spelling, arguments)
+#define ANY_FUNCTION(name)      \
+    case LibraryFunction::name: \
+        return Op::name;
+#include "core/function/library.def"
+        default:
+            return Op::fatal;
     }
-    return Op::fatal;
+}
+
+/// Of a reduction: the instruction for all pairs but the last, whose result is not checked.
+Op step_operation(LibraryFunction f) {
+    switch (f) {
+#define REDUCTION(name, value)  \
+    case LibraryFunction::name: \
+        return Op::name##_step;
+#include "core/function/library.def"
+        default:
+            return Op::fatal;
+    }
 }
 
 /// Twice the exponent, where it is a constant that half_power takes.
@@ -67,7 +56,7 @@ CodeGenerator::Cell CodeGenerator::leaf(Cell cell, Cell want) {
 CodeGenerator::Cell CodeGenerator::tick_cell(Cell cell, Cell want) {
     if (in_tick()) return leaf(cell, want);
     const Cell d = result(want);
-    emit(Op::load_tick, d, cell);
+    emit(Op::load_global, d, cell);
     return d;
 }
 
@@ -153,7 +142,7 @@ CodeGenerator::Cell CodeGenerator::lazy(LazyId id, Cell want) {
                 block_queued_[id] = true;
                 (lazy.of_tick() ? tick_blocks_ : frame_blocks_).push_back({lazy.body, 0, id});
             }
-            emit(from_function ? Op::ensure_tick : Op::ensure, cell, id);
+            emit(from_function ? Op::force_global : Op::force, cell, id);
             error_clear_ = false;
         } else {
             emitting_[id] = true;
@@ -168,7 +157,7 @@ CodeGenerator::Cell CodeGenerator::lazy(LazyId id, Cell want) {
 CodeGenerator::Cell CodeGenerator::parameter(std::uint32_t index, Cell want) {
     const std::size_t mark = available_index_of_parameter(index);
     if (!available_[mark]) {
-        emit(Op::force, index);
+        emit(Op::force_parameter, index);
         error_clear_ = false;
         set_available(mark);
     }
@@ -346,8 +335,7 @@ CodeGenerator::Cell CodeGenerator::power(const Node& n, Cell want) {
 
 CodeGenerator::Cell CodeGenerator::library(const Node& n, Cell want) {
     const auto function = static_cast<LibraryFunction>(n.index);
-    if (function == LibraryFunction::min) return extremum(n, Op::lesser, want);
-    if (function == LibraryFunction::max) return extremum(n, Op::greater, want);
+    if (library_entry(function).kind == LibraryKind::reduction) return reduction(n, function, want);
     const Cell mark = next_cell_;
     const std::uint8_t keep = begin_checked(n.kids);
     std::array<Cell, 3> x{};
@@ -359,24 +347,24 @@ CodeGenerator::Cell CodeGenerator::library(const Node& n, Cell want) {
     return d;
 }
 
-/// The first argument, then from the last down to the second those that beat it.
-CodeGenerator::Cell CodeGenerator::extremum(const Node& n, Op op, Cell want) {
+/// The first argument with the last, then with those before it, down to the second.
+CodeGenerator::Cell CodeGenerator::reduction(const Node& n, LibraryFunction f, Cell want) {
     const Cell mark = next_cell_;
     const std::uint8_t keep = begin_checked(n.kids);
-    Cell best = node(n.kids[0]);
+    Cell total = node(n.kids[0]);
     for (std::size_t i = n.kids.size(); --i > 1;) {
         const Cell x = node(n.kids[i]);
         next_cell_ = mark;
         const Cell d = temporary();
-        emit(op, d, best, x);
-        best = d;
+        emit(step_operation(f), d, total, x);
+        total = d;
     }
     const Node& last = graph_.nodes[n.kids.back()];
-    if (op == Op::greater && n.kids.size() == 2 && last.kind == NodeKind::negation &&
+    if (f == LibraryFunction::max && n.kids.size() == 2 && last.kind == NodeKind::negation &&
         last.kids[0] == n.kids[0] && quiet(n.kids[0])) {
         next_cell_ = mark;
         const Cell d = result(want);
-        emit(Op::absolute, d, best, 0, 0, keep);
+        emit(Op::absolute, d, total, 0, 0, keep);
         error_clear_ = false;
         return d;
     }
@@ -384,13 +372,13 @@ CodeGenerator::Cell CodeGenerator::extremum(const Node& n, Op op, Cell want) {
         const Cell x = node(n.kids[1]);
         next_cell_ = mark;
         const Cell d = result(want);
-        emit(op == Op::lesser ? Op::min : Op::max, d, best, x, 0, keep);
+        emit(operation(f), d, total, x, 0, keep);
         error_clear_ = false;
         return d;
     }
     next_cell_ = mark;
     const Cell d = result(want);
-    emit(Op::check, d, best, 0, 0, keep);
+    emit(Op::check, d, total, 0, 0, keep);
     error_clear_ = false;
     return d;
 }

@@ -45,6 +45,16 @@ std::uint32_t deepest(const std::vector<Expr>& expressions) {
 
 }  // namespace
 
+std::string material_names(ChannelMask channels) {
+    std::string names;
+    for (const MaterialName& name : kMaterialNames) {
+        if ((channels & channel_bit(name.channel)) == 0) continue;
+        if (!names.empty()) names += ", ";
+        names += name.name;
+    }
+    return names;
+}
+
 Graph build_graph(const Specialisation& specialisation, std::span<const OutputRequest> outputs,
                   std::uint64_t& effort) {
     GraphBuilder builder(specialisation);
@@ -147,6 +157,12 @@ NodeId GraphBuilder::parameter(const Expr& e, const Activation* in) {
     const Binding& binding = in->bindings[e.index];
     if (binding.node == kNoNode) binding.node = remember(build(*binding.argument, binding.caller));
     return binding.node;
+}
+
+ChannelMask GraphBuilder::missing_channels(ChannelMask channels) const {
+    ChannelMask missing = 0;
+    for (const MaterialName& name : kMaterialNames) missing |= channel_bit(name.channel);
+    return missing & channels & ~with_.material_channels;
 }
 
 std::optional<Channel> GraphBuilder::material_channel(const Expr& e) const {

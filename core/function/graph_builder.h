@@ -22,6 +22,9 @@ struct InlineLimits {
     static constexpr std::size_t kTouches = 32;       ///< lazies behind one constant
 };
 
+/// Names of the material's variables in a mask: "DxA, DyA, DzA".
+[[nodiscard]] std::string material_names(ChannelMask channels);
+
 class GraphBuilder {
   public:
     explicit GraphBuilder(const Specialisation& specialisation) : with_(specialisation) {}
@@ -65,6 +68,8 @@ class GraphBuilder {
     NodeId variable(const Expr& e);
     NodeId build_in_tick(const Expr& body);
     [[nodiscard]] std::optional<Channel> material_channel(const Expr& e) const;
+    /// Those of `channels` that are a material's to provide, but not this one's.
+    [[nodiscard]] ChannelMask missing_channels(ChannelMask channels) const;
 
     NodeId call(const Expr& e, const Activation* in);
     [[nodiscard]] Callee callee(const Expr& e, const Activation* in) const;
@@ -81,7 +86,6 @@ class GraphBuilder {
     NodeId if_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
     NodeId select_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
     NodeId arg_call(NodeId index);
-    NodeId prism_call(std::vector<NodeId> kids);
     NodeId check(NodeId chosen, const std::vector<LazyId>& touches);
 
     // Nodes, folded where that is exact.

@@ -24,13 +24,14 @@ NodeId GraphBuilder::library_call(const LibraryEntry& entry, const Expr& e, cons
     }
     if (with_.constant && entry.channels != 0)
         return fatal("ray parameter used in constant expression");
+    if (const ChannelMask missing = missing_channels(entry.channels)) {
+        return fatal(material_names(missing) + ": undefined variable, needed by " +
+                     std::string(entry.name) + "()");
+    }
     std::vector<NodeId> kids;
-    // source_theta does not look at its argument.
-    const auto used = entry.function == LibraryFunction::source_theta ? 0u
-                      : entry.variadic                                ? e.kids.size()
-                                       : static_cast<std::size_t>(entry.arguments);
+    const bool all = entry.kind == LibraryKind::reduction;
+    const auto used = all ? e.kids.size() : static_cast<std::size_t>(entry.evaluated);
     for (std::size_t i = 0; i < used; ++i) kids.push_back(library_argument(entry, e, i, in));
-    if (entry.function == LibraryFunction::fprism_val) return prism_call(std::move(kids));
     return make(NodeKind::library, static_cast<std::uint32_t>(entry.function), std::move(kids));
 }
 
@@ -65,15 +66,6 @@ NodeId GraphBuilder::select_call(const LibraryEntry& entry, const Expr& e, const
     --conditions_;
     kids.push_back(constant(m));
     return make(NodeKind::choice, 0, std::move(kids));
-}
-
-NodeId GraphBuilder::prism_call(std::vector<NodeId> kids) {
-    for (const Channel c : {Channel::DxA, Channel::DyA, Channel::DzA}) {
-        if (with_.material_channels & channel_bit(c)) continue;
-        return fatal("DxA, DyA, DzA: undefined variable, needed by fprism_val()");
-    }
-    return make(NodeKind::library, static_cast<std::uint32_t>(LibraryFunction::fprism_val),
-                std::move(kids));
 }
 
 }  // namespace lightwalk::function

@@ -16,10 +16,6 @@ void merge(std::vector<LazyId>& into, const std::vector<LazyId>& more) {
     }
 }
 
-bool is_pure_function(LibraryFunction f) {
-    return library_entry(f).constant && f != LibraryFunction::if_ && f != LibraryFunction::select;
-}
-
 bool is_plain_one(const Node& n) {
     return n.kind == NodeKind::constant && n.value == 1 && !n.clears && n.touches.empty();
 }
@@ -72,9 +68,9 @@ std::optional<Node> GraphBuilder::fold(NodeKind kind, std::uint32_t index,
             result.value = std::pow(x[0], x[1]);
             break;
         case NodeKind::library: {
-            const auto function = static_cast<LibraryFunction>(index);
-            if (!is_pure_function(function)) return std::nullopt;
-            result.value = library_value(function, x.data(), x.size());
+            const auto value = constant_value(static_cast<LibraryFunction>(index), x);
+            if (!value) return std::nullopt;
+            result.value = *value;
             break;
         }
         default:

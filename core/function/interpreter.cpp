@@ -6,10 +6,8 @@
 
 #include "core/function/code.h"
 #include "core/function/library.h"
-#include "core/function/noise.h"
-#include "core/function/prism.h"
+#include "core/function/library_values.h"
 #include "core/function/program.h"
-#include "core/function/ray_functions.h"
 
 namespace lightwalk {
 namespace function {
@@ -91,35 +89,6 @@ Position leave(const Program::Code& code, EvalState& state, double value) {
     state.values[back.cell] = value;
     state.flags[back.cell] = 1;
     return {code.instructions.data() + back.instruction, back.frame};
-}
-
-double real_argument(const Program::Code& code, double n) {
-    const int k = rounded_index(n);
-    if (k < 1) return static_cast<double>(code.reals.size());
-    if (static_cast<std::size_t>(k) <= code.reals.size())
-        return code.reals[static_cast<std::size_t>(k) - 1];
-    throw InputError(code.where, "bad call to arg(" + std::to_string(k) + "): there are " +
-                                     std::to_string(code.reals.size()) + " real arguments");
-}
-
-double source_value(const Program::Code& code, const EvalState& state, Op op, double x, double y) {
-    try {
-        return op == Op::source_phi ? source_phi(*state.channels, x)
-                                    : source_corr(*state.channels, code.reals, x, y);
-    } catch (const InputError& error) {
-        throw InputError(code.where, error.what());
-    }
-}
-
-double prism_function(const Program::Code& code, EvalState& state, double v, double d, double n) {
-    if (!state.prism_traced) {
-        state.prism.clear();
-        if (!trace_prism(*state.channels, code.reals, state.prism)) {
-            return std::numeric_limits<double>::quiet_NaN();
-        }
-        state.prism_traced = true;
-    }
-    return prism_value(*state.channels, state.prism, v, d, n);
 }
 
 constexpr unsigned kDomain = static_cast<unsigned>(EvalError::domain);
@@ -220,7 +189,7 @@ class Machine {
         // clang-format off
         switch (i_->op) {
             case Op::move: plain(a()); break;
-            case Op::load_tick: plain(state_.values[i_->a]); break;
+            case Op::load_global: plain(state_.values[i_->a]); break;
             case Op::negate: plain(-a()); break;
             case Op::add: plain((0.0 + a()) + b()); break;
             case Op::add3: plain(((0.0 + a()) + b()) + c()); break;
@@ -231,60 +200,35 @@ class Machine {
             case Op::subtract_product: plain(c() - a() * b()); break;
             case Op::divide: plain(a() / b()); break;
             case Op::divide_tested: plain(b() == 0 ? zero_divisor() : a() / b()); break;
-            case Op::lesser: plain(b() < a() ? b() : a()); break;
-            case Op::greater: plain(b() > a() ? b() : a()); break;
             case Op::guard_divisor: guard_divisor(); break;
             case Op::half_power: checked(half_power(a(), static_cast<std::int32_t>(i_->b))); break;
             case Op::power: checked(std::pow(a(), b())); break;
-            case Op::min: checked(b() < a() ? b() : a()); break;
-            case Op::max: checked(b() > a() ? b() : a()); break;
-            case Op::rand: checked(rand_value(a())); break;
-            case Op::floor: checked(std::floor(a())); break;
-            case Op::ceil: checked(std::ceil(a())); break;
-            case Op::sqrt: checked(std::sqrt(a())); break;
-            case Op::exp: checked(std::exp(a())); break;
-            case Op::log: checked(std::log(a())); break;
-            case Op::log10: checked(std::log10(a())); break;
-            case Op::sin: checked(std::sin(a())); break;
-            case Op::cos: checked(std::cos(a())); break;
-            case Op::tan: checked(std::tan(a())); break;
-            case Op::asin: checked(std::asin(a())); break;
-            case Op::acos: checked(std::acos(a())); break;
-            case Op::atan: checked(std::atan(a())); break;
-            case Op::atan2: checked(std::atan2(a(), b())); break;
-            case Op::erf: checked(std::erf(a())); break;
-            case Op::erfc: checked(std::erfc(a())); break;
-            case Op::noise3: checked(noise3(a(), b(), c(), state_.noise)); break;
-            case Op::noise3x: checked(noise3_difference(0, a(), b(), c(), state_.noise)); break;
-            case Op::noise3y: checked(noise3_difference(1, a(), b(), c(), state_.noise)); break;
-            case Op::noise3z: checked(noise3_difference(2, a(), b(), c(), state_.noise)); break;
-            case Op::fnoise3: checked(fnoise3(a(), b(), c(), state_.fractal)); break;
-            case Op::arg: checked(real_argument(code_, a())); break;
-            case Op::source_theta: checked(source_theta(*state_.channels)); break;
-            case Op::source_phi:
-            case Op::source_corr: checked(source_value(code_, state_, i_->op, a(), b())); break;
-            case Op::fprism_val: checked(prism_function(code_, state_, a(), b(), c())); break;
             case Op::modulo: plain(a() - tested(std::floor(a() / b())) * b()); break;
             case Op::fraction: plain(a() - tested(std::floor(a()))); break;
             case Op::absolute: checked(-a() > a() ? -a() : a()); break;
             case Op::check: checked(a()); break;
-            case Op::pick: checked(a() > 0 ? b() : c()); break;
-            case Op::clear: error_ = 0; ++i_; break;
-            case Op::touch: touch(state_.flags[frame_ + i_->dst]); break;
-            case Op::touch_tick: touch(state_.flags[i_->dst]); break;
-            case Op::forget: state_.flags[frame_ + i_->dst] = 0; ++i_; break;
+            case Op::conditional_move: checked(a() > 0 ? b() : c()); break;
+            case Op::clear_error: error_ = 0; ++i_; break;
+            case Op::clear_error_once: touch(state_.flags[frame_ + i_->dst]); break;
+            case Op::clear_error_once_global: touch(state_.flags[i_->dst]); break;
+            case Op::invalidate: state_.flags[frame_ + i_->dst] = 0; ++i_; break;
             case Op::jump: jump_unless(false, i_->a); break;
             case Op::jump_unless_positive: jump_unless(a() > 0, i_->b); break;
             case Op::jump_unless_above: jump_unless(a() - c() > 0, i_->b); break;
-            case Op::choose: choose(); break;
-            case Op::ensure: ensure(frame_); break;
-            case Op::ensure_tick: ensure(0); break;
-            case Op::force: go(force_parameter(code_, state_, i_, frame_)); break;
+            case Op::jump_table: choose(); break;
+            case Op::force: ensure(frame_); break;
+            case Op::force_global: ensure(0); break;
+            case Op::force_parameter: go(force_parameter(code_, state_, i_, frame_)); break;
             case Op::call: call(); break;
-            case Op::give: go(leave(code_, state_, a())); break;
-            case Op::give_call: top_ = frame_; go(leave(code_, state_, a())); break;
+            case Op::return_block: go(leave(code_, state_, a())); break;
+            case Op::return_call: top_ = frame_; go(leave(code_, state_, a())); break;
             case Op::halt: state_.error = static_cast<EvalError>(error_); return a();
             case Op::fatal: throw InputError(code_.where, code_.messages[i_->a]);
+#define FUNCTION(name, ...) case Op::name: checked(library_value<LibraryFunction::name>(a(), b(), c(), state_)); break;
+#define REDUCTION(name, ...) FUNCTION(name) case Op::name##_step: plain(library_value<LibraryFunction::name>(a(), b(), 0, state_)); break;
+#define RAY_FUNCTION(name, ...) case Op::name: checked(ray_value<LibraryFunction::name>(a(), b(), c(), code_, state_)); break;
+#define SPECIAL_FORM(...)
+#include "core/function/library.def"
         }
         // clang-format on
     }
@@ -315,7 +259,7 @@ void Program::begin(EvalState& state, const ChannelValues& channels) const {
     std::copy(code.constants.begin(), code.constants.end(), state.values.begin() + kChannelCount);
     std::fill_n(state.flags.begin() + code.lazies_at, code.lazies, std::uint8_t{0});
     state.operations = 0;
-    state.prism_traced = false;
+    state.prism.valid = false;
 }
 
 double Program::evaluate(std::size_t output, EvalState& state) const {

@@ -5,6 +5,7 @@
 
 #include "core/function/code.h"
 #include "core/function/library.h"
+#include "core/function/library_values.h"
 #include "core/function/program.h"
 
 namespace lightwalk {
@@ -35,12 +36,9 @@ constexpr auto multiply3 = [](double x, double y, double z) { return (x * y) * z
 constexpr auto add_product = [](double x, double y, double z) { return (0.0 + z) + x * y; };
 constexpr auto subtract_product = [](double x, double y, double z) { return z - x * y; };
 constexpr auto divide = [](double x, double y) { return x / y; };
-constexpr auto lesser = [](double x, double y) { return y < x ? y : x; };
-constexpr auto greater = [](double x, double y) { return y > x ? y : x; };
 constexpr auto pick = [](double x, double y, double z) { return x > 0 ? y : z; };
 constexpr auto negate = [](double x) { return -x; };
 constexpr auto floor_of = [](double x) { return std::floor(x); };
-constexpr auto ceil_of = [](double x) { return std::ceil(x); };
 constexpr auto absolute = [](double x) { return -x > x ? -x : x; };
 constexpr auto reciprocal = [](double x) { return 1 / x; };
 constexpr auto root = [](double x) { return std::sqrt(x); };
@@ -49,8 +47,12 @@ constexpr auto root = [](double x) { return std::sqrt(x); };
 /// flag is always clear. Operations are those of the interpreter for one ray, to the bit.
 class LaneMachine {
   public:
-    LaneMachine(const Program::Code& code, Lanes* cells, std::uint32_t entry, std::size_t used)
-        : code_(code), i_(code.instructions.data() + entry), cells_(cells), used_(used) {}
+    LaneMachine(const Program::Code& code, EvalState& state, std::uint32_t entry, std::size_t used)
+        : code_(code),
+          state_(state),
+          i_(code.instructions.data() + entry),
+          cells_(state.lanes.data()),
+          used_(used) {}
     [[nodiscard]] std::optional<Lanes> run();
 
   private:
@@ -77,6 +79,23 @@ class LaneMachine {
         const double third = used_ > 2 ? f(operands.value[2]...) : first;
         const double fourth = used_ > 3 ? f(operands.value[3]...) : first;
         checked({{first, second, third, fourth}});
+    }
+    template <LibraryFunction f>
+    [[nodiscard]] Lanes vector_value() const {
+        return each(
+            [this](double x, double y, double z) { return library_value<f>(x, y, z, state_); }, a(),
+            b(), c());
+    }
+    /// False: not in lanes.
+    template <LibraryFunction f, LaneSupport support>
+    [[nodiscard]] bool library() {
+        if constexpr (support == LaneSupport::vector) {
+            checked(vector_value<f>());
+        } else if constexpr (support == LaneSupport::in_turn) {
+            call([this](double x, double y, double z) { return library_value<f>(x, y, z, state_); },
+                 a(), b(), c());
+        }
+        return support != LaneSupport::none;
     }
     /// As half_power of one number.
     [[nodiscard]] static Lanes half_power(const Lanes& x, std::int32_t n) {
@@ -117,6 +136,7 @@ class LaneMachine {
     }
 
     const Program::Code& code_;
+    EvalState& state_;
     const Instruction* i_;  ///< the present instruction
     Lanes* cells_;
     std::size_t used_;  ///< lanes
@@ -141,75 +161,31 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::divide: plain(each(divide, a(), b())); break;
             case Op::divide_tested: if (!divides(b())) return kPart; plain(each(divide, a(), b())); break;
             case Op::guard_divisor: if (!divides(a())) return kPart; ++i_; break;
-            case Op::lesser: plain(each(lesser, a(), b())); break;
-            case Op::greater: plain(each(greater, a(), b())); break;
             case Op::half_power: checked(half_power(a(), static_cast<std::int32_t>(i_->b))); break;
             case Op::power: call([](double x, double y) { return std::pow(x, y); }, a(), b()); break;
-            case Op::min: checked(each(lesser, a(), b())); break;
-            case Op::max: checked(each(greater, a(), b())); break;
-            case Op::rand: call(rand_value, a()); break;
-            case Op::floor: checked(each(floor_of, a())); break;
-            case Op::ceil: checked(each(ceil_of, a())); break;
-            case Op::sqrt: checked(each(root, a())); break;
-            case Op::exp: call([](double x) { return std::exp(x); }, a()); break;
-            case Op::log: call([](double x) { return std::log(x); }, a()); break;
-            case Op::log10: call([](double x) { return std::log10(x); }, a()); break;
-            case Op::sin: call([](double x) { return std::sin(x); }, a()); break;
-            case Op::cos: call([](double x) { return std::cos(x); }, a()); break;
-            case Op::tan: call([](double x) { return std::tan(x); }, a()); break;
-            case Op::asin: call([](double x) { return std::asin(x); }, a()); break;
-            case Op::acos: call([](double x) { return std::acos(x); }, a()); break;
-            case Op::atan: call([](double x) { return std::atan(x); }, a()); break;
-            case Op::atan2: call([](double x, double y) { return std::atan2(x, y); }, a(), b()); break;
-            case Op::erf: call([](double x) { return std::erf(x); }, a()); break;
-            case Op::erfc: call([](double x) { return std::erfc(x); }, a()); break;
             case Op::modulo: plain(each(subtract_product, floor_ratio(), b(), a())); break;
             case Op::fraction: plain(each(subtract, a(), tested(each(floor_of, a())))); break;
             case Op::absolute: checked(each(absolute, a())); break;
             case Op::check: checked(a()); break;
-            case Op::pick: checked(each(pick, a(), b(), c())); break;
-            case Op::clear:
-            case Op::touch:
-            case Op::touch_tick: ++i_; break;
+            case Op::conditional_move: checked(each(pick, a(), b(), c())); break;
+            case Op::clear_error:
+            case Op::clear_error_once:
+            case Op::clear_error_once_global: ++i_; break;
             case Op::jump: jump(i_->a); break;
             case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kPart; break;
             case Op::jump_unless_above: if (!jump_unless(count_above(a(), c()))) return kPart; break;
-            case Op::choose: if (!choose()) return kPart; break;
+            case Op::jump_table: if (!choose()) return kPart; break;
             case Op::halt: return count(is_zero, errors_) == kLanes ? std::optional(a()) : std::nullopt;
-            default: return kPart;  // see has_lanes
+#define FUNCTION(name, arguments, part, lanes, value) case Op::name: if (!library<LibraryFunction::name, LaneSupport::lanes>()) return kPart; break;
+#define REDUCTION(name, value) FUNCTION(name, 2, core, vector, value) case Op::name##_step: plain(vector_value<LibraryFunction::name>()); break;
+#include "core/function/library.def"
+            default: return kPart;  // OpEntry::lanes is false
         }
         // clang-format on
     }
 }
 
 }  // namespace
-
-bool has_lanes(Op op) {
-    switch (op) {
-        case Op::load_tick:
-        case Op::noise3:
-        case Op::noise3x:
-        case Op::noise3y:
-        case Op::noise3z:
-        case Op::fnoise3:
-        case Op::arg:
-        case Op::source_theta:
-        case Op::source_phi:
-        case Op::source_corr:
-        case Op::fprism_val:
-        case Op::forget:
-        case Op::ensure:
-        case Op::ensure_tick:
-        case Op::force:
-        case Op::call:
-        case Op::give:
-        case Op::give_call:
-        case Op::fatal:
-            return false;
-        default:
-            return true;
-    }
-}
 
 }  // namespace function
 
@@ -230,7 +206,7 @@ std::optional<Lanes> Program::evaluate_lanes(std::size_t output,
     Lanes* constant = state.lanes.data() + kChannelCount;
     for (const double value : code.constants) (constant++)->value.fill(value);
     const std::uint32_t entry = code.outputs[output].entry;
-    return function::LaneMachine(code, state.lanes.data(), entry, rays.size()).run();
+    return function::LaneMachine(code, state, entry, rays.size()).run();
 }
 
 }  // namespace lightwalk

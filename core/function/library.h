@@ -1,7 +1,8 @@
 #pragma once
-// The built-in functions of the language: names, argument counts, and what they need of a ray.
+// The built-in functions of the language; the table of them is library.def.
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -10,47 +11,29 @@
 
 namespace lightwalk::function {
 
+/// The built-in functions: the rows of library.def, in their order.
 enum class LibraryFunction : std::uint8_t {
-    if_,
-    select,
-    min,
-    max,
-    rand,
-    floor,
-    ceil,
-    sqrt,
-    exp,
-    log,
-    log10,
-    sin,
-    cos,
-    tan,
-    asin,
-    acos,
-    atan,
-    atan2,
-    arg,
-    erf,
-    erfc,
-    noise3,
-    noise3x,
-    noise3y,
-    noise3z,
-    fnoise3,
-    source_theta,
-    source_phi,
-    source_corr,
-    fprism_val,
+#define ANY_FUNCTION(name) name,
+#include "core/function/library.def"
 };
 
+enum class LibraryKind : std::uint8_t { special_form, reduction, function, ray_function };
+enum class LibraryPart : std::uint8_t { core, renderer };
+enum class LaneSupport : std::uint8_t { none, in_turn, vector };
+
+/// A row of library.def, which says what its columns mean.
 struct LibraryEntry {
     std::string_view name;
     LibraryFunction function;
-    int arguments;  ///< that it may use; 1 for the functions of any number
-    bool variadic;
-    bool constant;         ///< a call with constant arguments may be replaced by its value
-    bool core;             ///< known to the generators, too; the others belong to the renderer
-    ChannelMask channels;  ///< what it reads besides its arguments
+    LibraryKind kind;
+    int arguments;
+    int evaluated;  ///< of a reduction: all
+    LibraryPart part;
+    LaneSupport lanes;
+    ChannelMask channels;
+
+    /// Whether a call with constant arguments may be replaced by its value.
+    [[nodiscard]] bool constant() const { return kind != LibraryKind::ray_function; }
 };
 
 [[nodiscard]] std::span<const LibraryEntry> library_functions();
@@ -59,11 +42,11 @@ struct LibraryEntry {
                                                         FunctionEnvironment::Library library);
 [[nodiscard]] const LibraryEntry& library_entry(LibraryFunction function);
 
-/// Value of a function whose arguments are numbers and that needs no ray, before the test for
-/// numeric errors. `arguments` has at least as many values as the function uses.
-/// Not for if, select, arg and the source and prism functions.
-[[nodiscard]] double library_value(LibraryFunction function, const double* arguments,
-                                   std::size_t count);
+/// Value of a call whose arguments are these numbers, before the check for numeric errors. Nothing
+/// for special forms and for functions of the ray.
+/// @param arguments  at least as many as the function uses
+[[nodiscard]] std::optional<double> constant_value(LibraryFunction function,
+                                                   std::span<const double> arguments);
 
 /// trunc(x + 0.5) as the language rounds selectors; the limits of int stand for all beyond, and
 /// INT_MIN for NaN.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "core/function/library.h"
 #include "core/math/vec3.h"
@@ -324,8 +325,8 @@ void sort_by_energy(std::vector<double>& rays) {
     }
 }
 
-}  // namespace
-
+/// Direction and energy of each ray, four numbers. Nothing when Dx is 0.
+/// @return  false when a real argument is missing or out of range
 bool trace_prism(const ChannelValues& channels, std::span<const double> reals,
                  std::vector<double>& rays) {
     Prism prism{};
@@ -365,6 +366,19 @@ double prism_value(const ChannelValues& channels, std::span<const double> rays, 
             return rays[i + static_cast<std::size_t>(component)];
     }
     return component == 0 && dx != 0 ? 1 : 0;
+}
+
+}  // namespace
+
+double fprism_val(const ChannelValues& channels, std::span<const double> reals, double v, double d,
+                  double n, EvalState::PrismRays& cache) {
+    if (!cache.valid) {
+        cache.rays.clear();
+        if (!trace_prism(channels, reals, cache.rays))
+            return std::numeric_limits<double>::quiet_NaN();
+        cache.valid = true;
+    }
+    return prism_value(channels, cache.rays, v, d, n);
 }
 
 }  // namespace lightwalk::function

@@ -87,12 +87,15 @@ struct EvalState {
         std::uint32_t instruction = 0, frame = 0, cell = 0;
     };
     std::vector<Return> returns;
+    struct PrismRays {             ///< of fprism_val
+        std::vector<double> rays;  ///< direction and energy each
+        bool valid = false;        ///< whether they belong to this tick
+    };
     std::uint64_t operations = 0;  ///< done by calls in this tick; bounded
     std::vector<Lanes> lanes;      ///< registers of evaluations side by side
     function::NoiseMemory noise;
     function::FractalMemory fractal;
-    std::vector<double> prism;  ///< rays of fprism_val: direction and energy each
-    bool prism_traced = false;  ///< whether `prism` belongs to this tick
+    PrismRays prism;
 };
 
 /// What a primitive wants to evaluate: an expression in its file's context, or a function called by

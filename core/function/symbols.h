@@ -30,7 +30,7 @@ struct Symbol {
     /// Whether a call with constant arguments is replaced by its value.
     [[nodiscard]] bool is_constant_function() const {
         return definition ? definition->is_function && definition->constant
-                          : library && library->constant;
+                          : library && library->constant();
     }
 };
 

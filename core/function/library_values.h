@@ -1,0 +1,40 @@
+#pragma once
+// What the built-in functions compute: the column `value` of library.def as code, the same for
+// constants, for one ray and for several side by side.
+#include <cmath>
+
+#include "core/function/code.h"
+#include "core/function/library.h"
+#include "core/function/noise.h"
+#include "core/function/prism.h"
+#include "core/function/program.h"
+#include "core/function/ray_functions.h"
+
+namespace lightwalk::function {
+
+/// Of a function of up to three arguments (it ignores the others), or a step of a reduction.
+template <LibraryFunction f>
+double library_value(double x, double y, double z, EvalState& state);
+
+/// Of a function of the ray or of the primitive's real arguments.
+template <LibraryFunction f>
+double ray_value(double x, double y, double z, const Program::Code& code, EvalState& state);
+
+#define FUNCTION(name, arguments, part, lanes, value)                                    \
+    template <>                                                                          \
+    [[gnu::always_inline]] inline double library_value<LibraryFunction::name>(           \
+        [[maybe_unused]] double x, [[maybe_unused]] double y, [[maybe_unused]] double z, \
+        [[maybe_unused]] EvalState& state) {                                             \
+        return value;                                                                    \
+    }
+#define REDUCTION(name, value) FUNCTION(name, 2, core, vector, value)
+#define RAY_FUNCTION(name, arguments, evaluated, channels, value)                        \
+    template <>                                                                          \
+    [[gnu::always_inline]] inline double ray_value<LibraryFunction::name>(               \
+        [[maybe_unused]] double x, [[maybe_unused]] double y, [[maybe_unused]] double z, \
+        [[maybe_unused]] const Program::Code& code, [[maybe_unused]] EvalState& state) { \
+        return value;                                                                    \
+    }
+#include "core/function/library.def"
+
+}  // namespace lightwalk::function
