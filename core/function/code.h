@@ -30,16 +30,16 @@ struct OpEntry {
 
 struct Instruction {
     Op op = Op::halt;
-    std::uint8_t keep = 0;  ///< checked: 0 clears the error flag first, 0xff keeps it
+    std::uint8_t error_mask = 0;  ///< of checked ones: 0 clears the error flag first, 0xff keeps it
     std::uint32_t dst = 0, a = 0, b = 0, c = 0;
 };
 
-/// Cells of a frame: first those that are computed when needed (parameters first), then
-/// temporaries.
+/// A frame: a call's cells. First the cached ones, each of which has a flag that tells whether its
+/// value is valid: parameters, then thunks. Then temporaries.
 struct FunctionCode {
     std::uint32_t entry = 0;
     std::uint32_t cells = 0;
-    std::uint32_t marked = 0;  ///< cells with an "already computed" mark
+    std::uint32_t cached = 0;
     std::uint32_t parameters = 0;
     std::uint32_t cost = 0;  ///< instructions
 };
@@ -61,7 +61,8 @@ struct OutputCode {
 
 namespace lightwalk {
 
-/// The tick's frame: channels, constants, inputs, lazies, temporaries.
+/// The global frame, whose values live as long as the epoch: channels, constants, inputs, thunks,
+/// temporaries.
 struct Program::Code {
     std::vector<function::Instruction> instructions;
     std::vector<function::OutputCode> outputs;
@@ -73,8 +74,8 @@ struct Program::Code {
     std::vector<std::uint8_t> used_channels;  ///< those that instructions read from cells
     ChannelMask channels = 0;
     std::uint32_t inputs_at = 0;
-    std::uint32_t lazies_at = 0;
-    std::uint32_t lazies = 0;
+    std::uint32_t thunks_at = 0;
+    std::uint32_t thunks = 0;
     std::uint32_t cells = 0;
     std::vector<double> reals;
     SourceLocation where;

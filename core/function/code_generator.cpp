@@ -7,22 +7,22 @@
 namespace lightwalk::function {
 namespace {
 
-/// After so many passes every lazy becomes a block: text made to need many passes gets slower code.
+/// After so many passes all thunks go out of line: text made to need many passes gets slower code.
 constexpr int kPasses = 6;
 
 }  // namespace
 
 CodeGenerator::CodeGenerator(const Graph& graph)
     : graph_(graph),
-      shared_(graph.lazies.size(), false),
-      lazy_index_(graph.lazies.size(), 0),
-      frame_lazies_(graph.instances.size() + 1, 0) {
-    for (std::size_t i = 0; i < graph.lazies.size(); ++i) {
-        lazy_index_[i] = frame_lazies_[graph.lazies[i].frame]++;
+      out_of_line_(graph.thunks.size(), false),
+      thunk_index_(graph.thunks.size(), 0),
+      frame_thunks_(graph.instances.size() + 1, 0) {
+    for (std::size_t i = 0; i < graph.thunks.size(); ++i) {
+        thunk_index_[i] = frame_thunks_[graph.thunks[i].frame]++;
     }
 }
 
-/// Mark what evaluating `root` may evaluate.
+/// Note in `seen` what evaluating `root` may evaluate.
 void CodeGenerator::reach(NodeId root, std::vector<bool>& seen) {
     std::vector<NodeId> todo{root};
     while (!todo.empty()) {
@@ -32,12 +32,13 @@ void CodeGenerator::reach(NodeId root, std::vector<bool>& seen) {
         seen[id] = true;
         const Node& n = graph_.nodes[id];
         todo.insert(todo.end(), n.kids.begin(), n.kids.end());
-        if (n.kind == NodeKind::lazy) todo.push_back(graph_.lazies[n.index].body);
+        if (n.kind == NodeKind::thunk) todo.push_back(graph_.thunks[n.index].body);
         if (n.kind == NodeKind::call) todo.push_back(graph_.instances[n.index].body);
     }
 }
 
-/// Lazies of the tick that may be needed at times the tick's code does not see are always blocks.
+/// What the program reads, and which thunks have to be out of line whatever the passes say: those
+/// of the global frame that calls need, since the code of that frame does not see when.
 void CodeGenerator::measure_graph() {
     std::vector<bool> repeated(graph_.nodes.size(), false);
     std::vector<bool> used(graph_.nodes.size(), false);
@@ -71,14 +72,14 @@ void CodeGenerator::measure_graph() {
     const auto last = std::unique(code_.used_channels.begin(), code_.used_channels.end());
     code_.used_channels.erase(last, code_.used_channels.end());
 
-    const auto share = [this](LazyId id) {
-        const Lazy& lazy = graph_.lazies[id];
-        if (lazy.of_tick() && lazy.output == kNoNode) shared_[id] = true;
+    const auto share = [this](ThunkId id) {
+        const Thunk& thunk = graph_.thunks[id];
+        if (thunk.is_global() && thunk.output == kNoNode) out_of_line_[id] = true;
     };
     for (std::size_t id = 0; id < graph_.nodes.size(); ++id) {
         if (!repeated[id]) continue;
-        for (const LazyId touched : graph_.nodes[id].touches) share(touched);
-        if (graph_.nodes[id].kind == NodeKind::lazy) share(graph_.nodes[id].index);
+        for (const ThunkId folded : graph_.nodes[id].folded_thunks) share(folded);
+        if (graph_.nodes[id].kind == NodeKind::thunk) share(graph_.nodes[id].index);
     }
 }
 
@@ -87,17 +88,17 @@ Program::Code CodeGenerator::generate() {
     std::uint32_t inputs = 0;
     for (const std::uint32_t n : graph_.inputs) inputs = std::max(inputs, n);
     code_.inputs_at = static_cast<Cell>(kChannelCount + code_.constants.size());
-    code_.lazies_at = code_.inputs_at + inputs;
-    code_.lazies = frame_lazies_[0];
+    code_.thunks_at = code_.inputs_at + inputs;
+    code_.thunks = frame_thunks_[0];
     code_.messages = graph_.messages;
     int passes = 0;
     do {
-        if (++passes > kPasses) std::fill(shared_.begin(), shared_.end(), true);
+        if (++passes > kPasses) std::fill(out_of_line_.begin(), out_of_line_.end(), true);
         start_pass();
         for (const std::uint32_t i : instances_used_) generate_frame(i + 1);
         generate_frame(0);
     } while (changed_);
-    patch_lazies();
+    set_thunk_entries();
     code_.has_lanes =
         inputs == 0 && std::all_of(code_.instructions.begin(), code_.instructions.end(),
                                    [](const Instruction& i) { return op_entry(i.op).lanes; });
@@ -111,11 +112,11 @@ void CodeGenerator::start_pass() {
     code_.targets.clear();
     code_.outputs.clear();
     code_.functions.assign(graph_.instances.size(), {});
-    sites_.assign(graph_.lazies.size(), 0);
-    emitting_.assign(graph_.lazies.size(), false);
-    entries_.assign(graph_.lazies.size(), 0);
-    block_queued_.assign(graph_.lazies.size(), false);
-    tick_blocks_.clear();
+    first_uses_.assign(graph_.thunks.size(), 0);
+    emitting_.assign(graph_.thunks.size(), false);
+    entries_.assign(graph_.thunks.size(), 0);
+    block_queued_.assign(graph_.thunks.size(), false);
+    global_blocks_.clear();
 }
 
 void CodeGenerator::start_block() {
@@ -129,11 +130,11 @@ void CodeGenerator::generate_frame(std::uint32_t frame) {
     frame_ = frame;
     const std::uint32_t start = here();
     available_log_.clear();
-    if (in_tick()) {
-        available_.assign(graph_.lazies.size(), false);
-        high_cell_ = code_.lazies_at + code_.lazies;
+    if (in_global_frame()) {
+        available_.assign(graph_.thunks.size(), false);
+        high_cell_ = code_.thunks_at + code_.thunks;
         for (std::uint32_t k = 0; k < graph_.outputs.size(); ++k) generate_output(k);
-        generate_blocks(tick_blocks_);
+        generate_blocks(global_blocks_);
         code_.cells = high_cell_;
         return;
     }
@@ -141,10 +142,10 @@ void CodeGenerator::generate_frame(std::uint32_t frame) {
     FunctionCode function;
     function.entry = start;
     function.parameters = static_cast<std::uint32_t>(instance.functions.size());
-    function.marked = function.parameters + frame_lazies_[frame];
-    available_.assign(graph_.lazies.size() + function.parameters, false);
+    function.cached = function.parameters + frame_thunks_[frame];
+    available_.assign(graph_.thunks.size() + function.parameters, false);
     parameters_ = function.parameters;
-    high_cell_ = function.marked;
+    high_cell_ = function.cached;
     start_block();
     emit(Op::return_call, 0, node(instance.body));
     generate_blocks(frame_blocks_);
@@ -161,8 +162,9 @@ void CodeGenerator::generate_output(std::uint32_t output) {
     code.inputs = graph_.inputs[output];
     code.is_constant = graph_.nodes[root].kind == NodeKind::constant;
     code.value = graph_.nodes[root].value;
-    for (LazyId id = 0; id < graph_.lazies.size(); ++id) {
-        if (graph_.lazies[id].output == output && shared_[id]) emit(Op::invalidate, lazy_cell(id));
+    for (ThunkId id = 0; id < graph_.thunks.size(); ++id) {
+        if (graph_.thunks[id].output == output && out_of_line_[id])
+            emit(Op::invalidate, thunk_cell(id));
     }
     emit(Op::halt, 0, node(root));
     code_.outputs.push_back(code);
@@ -173,8 +175,8 @@ void CodeGenerator::generate_blocks(std::vector<Block>& blocks) {
         const Block block = blocks.back();
         blocks.pop_back();
         start_block();
-        if (block.lazy != kNoNode) {
-            entries_[block.lazy] = here();
+        if (block.thunk != kNoNode) {
+            entries_[block.thunk] = here();
         } else {
             code_.arguments[block.argument].at = here();
         }
@@ -182,15 +184,15 @@ void CodeGenerator::generate_blocks(std::vector<Block>& blocks) {
     }
 }
 
-void CodeGenerator::patch_lazies() {
+void CodeGenerator::set_thunk_entries() {
     for (Instruction& i : code_.instructions) {
         if (i.op == Op::force || i.op == Op::force_global) i.a = entries_[i.a];
     }
 }
 
 std::uint32_t CodeGenerator::emit(Op op, Cell dst, std::uint32_t a, std::uint32_t b,
-                                  std::uint32_t c, std::uint8_t keep) {
-    code_.instructions.push_back({op, keep, dst, a, b, c});
+                                  std::uint32_t c, std::uint8_t error_mask) {
+    code_.instructions.push_back({op, error_mask, dst, a, b, c});
     return here() - 1;
 }
 
@@ -200,10 +202,10 @@ CodeGenerator::Cell CodeGenerator::temporary() {
     return cell;
 }
 
-CodeGenerator::Cell CodeGenerator::lazy_cell(LazyId id) const {
-    const Lazy& lazy = graph_.lazies[id];
-    if (lazy.of_tick()) return code_.lazies_at + lazy_index_[id];
-    return parameters_ + lazy_index_[id];
+CodeGenerator::Cell CodeGenerator::thunk_cell(ThunkId id) const {
+    const Thunk& thunk = graph_.thunks[id];
+    if (thunk.is_global()) return code_.thunks_at + thunk_index_[id];
+    return parameters_ + thunk_index_[id];
 }
 
 void CodeGenerator::set_available(std::size_t index) {
@@ -211,11 +213,11 @@ void CodeGenerator::set_available(std::size_t index) {
     available_log_.push_back(index);
 }
 
-std::vector<std::size_t> CodeGenerator::undo_available(std::size_t mark) {
-    std::vector<std::size_t> undone(available_log_.begin() + static_cast<std::ptrdiff_t>(mark),
+std::vector<std::size_t> CodeGenerator::undo_available(std::size_t start) {
+    std::vector<std::size_t> undone(available_log_.begin() + static_cast<std::ptrdiff_t>(start),
                                     available_log_.end());
     for (const std::size_t index : undone) available_[index] = false;
-    available_log_.resize(mark);
+    available_log_.resize(start);
     return undone;
 }
 
@@ -237,39 +239,40 @@ void CodeGenerator::clear_error() {
     error_clear_ = true;
 }
 
-/// Note that a lazy is needed here though it may not have been computed: whether it is a block.
-bool CodeGenerator::needed(LazyId id) {
-    ++sites_[id];
-    if (!shared_[id] && (sites_[id] > 1 || emitting_[id] || depth_ > kDeepest)) {
-        shared_[id] = true;
+/// A thunk is needed here that need not be valid yet: count the place. Returns whether its code is
+/// out of line.
+bool CodeGenerator::note_first_use(ThunkId id) {
+    ++first_uses_[id];
+    if (!out_of_line_[id] && (first_uses_[id] > 1 || emitting_[id] || depth_ > kDeepest)) {
+        out_of_line_[id] = true;
         changed_ = true;
     }
-    return shared_[id];
+    return out_of_line_[id];
 }
 
-void CodeGenerator::touch(LazyId id) {
+void CodeGenerator::use_folded_thunk(ThunkId id) {
     if (available_[id]) return;
-    if (needed(id)) {
-        const bool from_function = graph_.lazies[id].of_tick() && !in_tick();
-        emit(from_function ? Op::clear_error_once_global : Op::clear_error_once, lazy_cell(id));
+    if (note_first_use(id)) {
+        const bool from_function = graph_.thunks[id].is_global() && !in_global_frame();
+        emit(from_function ? Op::clear_error_once_global : Op::clear_error_once, thunk_cell(id));
     } else {
         clear_error();
     }
     set_available(id);
 }
 
-bool CodeGenerator::quiet(NodeId id, int depth) const {
-    constexpr int kDeepestQuiet = 5;
+bool CodeGenerator::is_side_effect_free(NodeId id, int depth) const {
+    constexpr int kDeepestSearch = 5;
     constexpr std::size_t kMostKids = 8;
     const Node& n = graph_.nodes[id];
     switch (n.kind) {
         case NodeKind::constant:
-            return !n.clears && std::all_of(n.touches.begin(), n.touches.end(),
-                                            [this](LazyId l) { return available_[l]; });
+            return !n.clears && std::all_of(n.folded_thunks.begin(), n.folded_thunks.end(),
+                                            [this](ThunkId l) { return available_[l]; });
         case NodeKind::channel:
         case NodeKind::input:
             return true;
-        case NodeKind::lazy:
+        case NodeKind::thunk:
             return available_[n.index];
         case NodeKind::parameter:
             return available_[available_index_of_parameter(n.index)];
@@ -285,16 +288,16 @@ bool CodeGenerator::quiet(NodeId id, int depth) const {
         default:
             return false;
     }
-    return depth < kDeepestQuiet && n.kids.size() <= kMostKids &&
+    return depth < kDeepestSearch && n.kids.size() <= kMostKids &&
            std::all_of(n.kids.begin(), n.kids.end(),
-                       [&](NodeId kid) { return quiet(kid, depth + 1); });
+                       [&](NodeId kid) { return is_side_effect_free(kid, depth + 1); });
 }
 
-bool CodeGenerator::at_hand(NodeId id) const {
+bool CodeGenerator::is_in_cell(NodeId id) const {
     const NodeKind kind = graph_.nodes[id].kind;
     const bool is_leaf = kind == NodeKind::constant || kind == NodeKind::channel ||
-                         kind == NodeKind::input || kind == NodeKind::lazy;
-    return in_tick() && is_leaf && quiet(id);
+                         kind == NodeKind::input || kind == NodeKind::thunk;
+    return in_global_frame() && is_leaf && is_side_effect_free(id);
 }
 
 }  // namespace lightwalk::function

@@ -11,14 +11,16 @@
 
 namespace lightwalk::function {
 
-/// Lays out expressions in the language's order of evaluation. What is known on the way decides
-/// what is emitted: which lazies have been computed for certain, and whether the error flag is
-/// clear for certain.
+/// Lays out expressions in the language's order of evaluation. What is certain at a place decides
+/// what is emitted there: which thunks are valid ("available expressions" of a compiler), and
+/// whether the error flag is clear.
 ///
-/// A lazy that is first needed in one place only is computed right there. One that may be needed
-/// first in several becomes a block of its own, which each of them runs unless a mark says that it
-/// has been done. Which those are is found by generating the code again until there are no more of
-/// them.
+/// A thunk that is first needed in one place only is evaluated in line. One that may be needed
+/// first in several goes out of line: a block of its own, which `force` runs unless the cell is
+/// valid. Which those are is found by generating the code again until there are no more of them.
+///
+/// A `Cell into` is where the value is wanted; kAnyCell lets the generator choose, so that what is
+/// in a cell already is not copied.
 class CodeGenerator {
   public:
     explicit CodeGenerator(const Graph& graph);
@@ -27,13 +29,13 @@ class CodeGenerator {
   private:
     using Cell = std::uint32_t;
     static constexpr Cell kAnyCell = 0xffffffffu;
-    /// Deepest nesting of lazies that are computed in place.
+    /// Deepest nesting of thunks in line.
     static constexpr std::uint32_t kDeepest = 400;
-    /// A block to generate: of a lazy (node: its body), or of an argument of a call.
+    /// A block to generate: of a thunk (node: its body), or of an argument of a call.
     struct Block {
         NodeId node = kNoNode;
         std::uint32_t argument = 0;
-        LazyId lazy = kNoNode;
+        ThunkId thunk = kNoNode;
     };
 
     void measure_graph();
@@ -43,71 +45,75 @@ class CodeGenerator {
     void generate_frame(std::uint32_t frame);
     void generate_output(std::uint32_t output);
     void generate_blocks(std::vector<Block>& blocks);
-    void patch_lazies();
+    void set_thunk_entries();
 
-    Cell node(NodeId id, Cell want = kAnyCell);
-    Cell leaf(Cell cell, Cell want);
-    Cell tick_cell(Cell cell, Cell want);
-    Cell constant(const Node& n, Cell want);
-    Cell lazy(LazyId id, Cell want);
-    Cell parameter(std::uint32_t index, Cell want);
-    Cell sum(const Node& n, Cell want);
-    Cell product(const Node& n, Cell want);
-    Cell difference(const Node& n, Cell want);
-    Cell negation(const Node& n, Cell want);
-    Cell quotient(const Node& n, Cell want);
-    Cell power(const Node& n, Cell want);
-    Cell library(const Node& n, Cell want);
-    Cell reduction(const Node& n, LibraryFunction f, Cell want);
-    Cell conditional(const Node& n, Cell want);
-    Cell choice(const Node& n, Cell want);
-    Cell check(const Node& n, Cell want);
-    Cell call(const Node& n, Cell want);
+    Cell node(NodeId id, Cell into = kAnyCell);
+    Cell node_of_kind(const Node& n, Cell into);
+    Cell leaf(Cell cell, Cell into);
+    Cell global_cell(Cell cell, Cell into);
+    Cell constant(const Node& n, Cell into);
+    Cell thunk(ThunkId id, Cell into);
+    Cell parameter(std::uint32_t index, Cell into);
+    Cell sum(const Node& n, Cell into);
+    Cell product(const Node& n, Cell into);
+    Cell difference(const Node& n, Cell into);
+    Cell negation(const Node& n, Cell into);
+    Cell quotient(const Node& n, Cell into);
+    Cell power(const Node& n, Cell into);
+    Cell library(const Node& n, Cell into);
+    Cell reduction(const Node& n, LibraryFunction f, Cell into);
+    Cell conditional(const Node& n, Cell into);
+    Cell choice(const Node& n, Cell into);
+    Cell check(const Node& n, Cell into);
+    Cell call(const Node& n, Cell into);
     std::uint32_t jump_unless(NodeId condition);
     [[nodiscard]] bool is_simple_product(NodeId id) const;
     [[nodiscard]] std::optional<NodeId> remainder_divisor(const Node& n) const;
-    [[nodiscard]] bool settled(NodeId id) const;
-    bool needed(LazyId id);
-    void touch(LazyId id);
-    void touch_all(const Node& n);
+    [[nodiscard]] bool is_already_checked(NodeId id) const;
+    bool note_first_use(ThunkId id);
+    void use_folded_thunk(ThunkId id);
+    void use_folded_thunks(const Node& n);
     void clear_error();
     std::uint8_t begin_checked(std::span<const NodeId> arguments);
 
-    /// Whether evaluating it cannot touch the error flag, nor compute anything for the first time.
-    [[nodiscard]] bool quiet(NodeId id, int depth = 0) const;
-    /// Quiet, and without an instruction.
-    [[nodiscard]] bool at_hand(NodeId id) const;
+    /// Whether evaluating it leaves the error flag alone, and evaluates no thunk for the first
+    /// time: it may be done earlier or later, then. False where finding out takes long.
+    [[nodiscard]] bool is_side_effect_free(NodeId id, int depth = 0) const;
+    /// Whether its value is in a cell already: no side effect, and no instruction.
+    [[nodiscard]] bool is_in_cell(NodeId id) const;
 
     std::uint32_t emit(Op op, Cell dst = 0, std::uint32_t a = 0, std::uint32_t b = 0,
-                       std::uint32_t c = 0, std::uint8_t keep = 0);
+                       std::uint32_t c = 0, std::uint8_t error_mask = 0);
     [[nodiscard]] std::uint32_t here() const {
         return static_cast<std::uint32_t>(code_.instructions.size());
     }
-    Cell result(Cell want) { return want == kAnyCell ? temporary() : want; }
+    Cell result(Cell into) { return into == kAnyCell ? temporary() : into; }
     Cell temporary();
-    [[nodiscard]] Cell lazy_cell(LazyId id) const;
-    [[nodiscard]] bool in_tick() const { return frame_ == 0; }
+    [[nodiscard]] Cell thunk_cell(ThunkId id) const;
+    [[nodiscard]] bool in_global_frame() const { return frame_ == 0; }
 
-    // What is known at the present place. Marks are undone at the end of a branch.
+    // Which thunks and parameters are valid for certain at the present place. What a branch adds is
+    // taken back at its end: `start` is the length that available_log_ had before it.
     [[nodiscard]] std::size_t available_index_of_parameter(std::uint32_t i) const {
-        return graph_.lazies.size() + i;
+        return graph_.thunks.size() + i;
     }
     void set_available(std::size_t index);
-    [[nodiscard]] std::vector<std::size_t> undo_available(std::size_t mark);
+    [[nodiscard]] std::vector<std::size_t> undo_available(std::size_t start);
     void keep_common(std::vector<std::vector<std::size_t>> branches);
 
     const Graph& graph_;
     Program::Code code_;
-    std::vector<bool> shared_;               ///< lazies that are blocks
-    std::vector<std::uint32_t> sites_;       ///< places of this pass that a lazy is first needed at
-    std::vector<bool> emitting_;             ///< lazies whose body is being emitted in place
-    std::vector<std::uint32_t> entries_;     ///< of the lazies' blocks
-    std::vector<std::uint32_t> lazy_index_;  ///< within its frame
-    std::vector<std::uint32_t> frame_lazies_;                 ///< how many each frame has
+    std::vector<bool> out_of_line_;  ///< thunks that are blocks
+    std::vector<std::uint32_t>
+        first_uses_;                      ///< places of this pass where a thunk may be first needed
+    std::vector<bool> emitting_;          ///< thunks whose body is being emitted in line
+    std::vector<std::uint32_t> entries_;  ///< of the thunks' blocks
+    std::vector<std::uint32_t> thunk_index_;                  ///< within its frame
+    std::vector<std::uint32_t> frame_thunks_;                 ///< how many each frame has
     std::unordered_map<std::uint64_t, Cell> constant_cells_;  ///< by the bits of the value
     std::vector<bool> available_;
     std::vector<std::size_t> available_log_;
-    std::vector<Block> tick_blocks_, frame_blocks_;
+    std::vector<Block> global_blocks_, frame_blocks_;
     std::vector<bool> block_queued_;
     std::vector<std::uint32_t> instances_used_;
     bool changed_ = false;

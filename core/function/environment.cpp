@@ -34,7 +34,7 @@ class ConstantFolder {
         const function::Graph graph = function::build_graph(specialisation, request, effort_);
         const function::Node& root = graph.nodes[graph.outputs[0]];
         if (root.kind == function::NodeKind::constant) {
-            require_patience(where);
+            check_limits(where);
             return root.value;
         }
         Program::Code code = function::CodeGenerator(graph).generate();
@@ -45,7 +45,7 @@ class ConstantFolder {
         state_.clear_error();
         const double value = program.evaluate(0, state_);
         operations_ += state_.operations;
-        require_patience(where);
+        check_limits(where);
         if (state_.error != EvalError::none) {
             const char* kind = state_.error == EvalError::domain ? "domain" : "range";
             throw InputError(
@@ -55,7 +55,7 @@ class ConstantFolder {
     }
 
   private:
-    void require_patience(const SourceLocation& where) const {
+    void check_limits(const SourceLocation& where) const {
         if (operations_ <= kConstantOperations && effort_ <= kConstantEffort) return;
         throw InputError(where, "bad constant expression: the constants take too long to compute");
     }

@@ -15,14 +15,14 @@
 namespace lightwalk::function {
 
 using NodeId = std::uint32_t;
-using LazyId = std::uint32_t;
+using ThunkId = std::uint32_t;
 inline constexpr NodeId kNoNode = 0xffffffffu;
 
 enum class NodeKind : std::uint8_t {
     constant,   ///< `value`; evaluating it may clear the error flag, see Node
     channel,    ///< `index`: Channel
     input,      ///< the index-th value that an output is called with
-    lazy,       ///< `index`: LazyId, computed when first needed
+    thunk,      ///< `index`: ThunkId
     parameter,  ///< of the function instance, by need
     sum,        ///< kids, from 0, left to right
     product,    ///< kids, from 1, left to right
@@ -38,24 +38,27 @@ enum class NodeKind : std::uint8_t {
     fatal,        ///< error message `index`
 };
 
-/// Evaluating a node may change the language's error flag. A constant (and the head of a check)
-/// does so in one way only: it clears it, if `clears`, or when one of the lazies `touches` has not
-/// been touched before. Such a lazy has a known value; it is never computed.
+/// Evaluating a node may change the language's error flag; folding it to a constant must not hide
+/// that. A constant (and a check before its argument) may only clear the flag: always if `clears`;
+/// and when it is the first in its epoch to need one of `folded_thunks`, thunks with a constant
+/// value, whose evaluation would have cleared it. Those are never evaluated, but their cells are
+/// marked as valid.
 struct Node {
     NodeKind kind = NodeKind::constant;
     bool clears = false;
     std::uint32_t index = 0;
     double value = 0;
     std::vector<NodeId> kids;
-    std::vector<LazyId> touches;
+    std::vector<ThunkId> folded_thunks;
 };
 
-/// A variable, or an argument of an inlined call: computed at most once a tick, or a call.
-struct Lazy {
+/// What is evaluated when its value is first needed and then cached: a variable, or an argument of
+/// an inlined call. The cache holds for an epoch, or a call.
+struct Thunk {
     NodeId body = kNoNode;
-    std::uint32_t frame = 0;         ///< 0: of the tick; k + 1: of a call of function instance k
-    std::uint32_t output = kNoNode;  ///< the output it belongs to: forgotten when that starts
-    [[nodiscard]] bool of_tick() const { return frame == 0; }
+    std::uint32_t frame = 0;         ///< 0: the global one; k + 1: a call's of instance k
+    std::uint32_t output = kNoNode;  ///< the output it belongs to: invalid again when that starts
+    [[nodiscard]] bool is_global() const { return frame == 0; }
 };
 
 /// A user function that is called rather than inlined, with its functional arguments put in.
@@ -67,7 +70,7 @@ struct Instance {
 
 struct Graph {
     std::vector<Node> nodes;
-    std::vector<Lazy> lazies;
+    std::vector<Thunk> thunks;
     std::vector<Instance> instances;
     std::vector<NodeId> outputs;
     std::vector<std::uint32_t> inputs;  ///< values that each output is called with

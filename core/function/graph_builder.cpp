@@ -10,12 +10,12 @@ namespace {
 
 /// Sets a variable for as long as it lives.
 template <class T>
-class Restored {
+class ScopedValue {
   public:
-    Restored(T& variable, T value) : variable_(variable), old_(std::exchange(variable, value)) {}
-    ~Restored() { variable_ = old_; }
-    Restored(const Restored&) = delete;
-    Restored& operator=(const Restored&) = delete;
+    ScopedValue(T& variable, T value) : variable_(variable), old_(std::exchange(variable, value)) {}
+    ~ScopedValue() { variable_ = old_; }
+    ScopedValue(const ScopedValue&) = delete;
+    ScopedValue& operator=(const ScopedValue&) = delete;
 
   private:
     T& variable_;
@@ -80,17 +80,17 @@ void GraphBuilder::add_output(const OutputRequest& output) {
 Graph GraphBuilder::finish() {
     while (!pending_variables_.empty() || instances_built_ < graph_.instances.size()) {
         while (!pending_variables_.empty()) {
-            const auto [lazy, body] = pending_variables_.back();
+            const auto [thunk, body] = pending_variables_.back();
             pending_variables_.pop_back();
             const NodeId built = build(*body, nullptr);
-            graph_.lazies[lazy].body = built;
+            graph_.thunks[thunk].body = built;
         }
         if (instances_built_ == graph_.instances.size()) break;
         const auto i = static_cast<std::uint32_t>(instances_built_++);
         Activation root;
         root.symbol = graph_.instances[i].symbol;
         root.instance = i;
-        const Restored<std::uint32_t> frame(frame_, i + 1);
+        const ScopedValue<std::uint32_t> frame(frame_, i + 1);
         const NodeId body = build(with_.symbols[root.symbol].definition->body, &root);
         graph_.instances[i].body = body;
     }
@@ -107,7 +107,7 @@ NodeId GraphBuilder::build_list(NodeKind kind, const Expr& e, const Activation* 
 
 NodeId GraphBuilder::build(const Expr& e, const Activation* in) {
     ++effort_;
-    const Restored<std::uint32_t> deeper(depth_, depth_ + 1);
+    const ScopedValue<std::uint32_t> deeper(depth_, depth_ + 1);
     switch (e.kind) {
         case ExprKind::number:
             return constant(e.value);
@@ -155,7 +155,7 @@ NodeId GraphBuilder::parameter(const Expr& e, const Activation* in) {
         return fatal(name + "(): too few arguments");
     }
     const Binding& binding = in->bindings[e.index];
-    if (binding.node == kNoNode) binding.node = remember(build(*binding.argument, binding.caller));
+    if (binding.node == kNoNode) binding.node = memoise(build(*binding.argument, binding.caller));
     return binding.node;
 }
 
@@ -181,11 +181,11 @@ std::optional<Channel> GraphBuilder::material_channel(const Expr& e) const {
     return std::nullopt;
 }
 
-NodeId GraphBuilder::build_in_tick(const Expr& body) {
-    const Restored<std::uint32_t> frame(frame_, 0);
-    const Restored<std::uint32_t> output(output_, kNoNode);
-    const Restored<std::uint32_t> conditions(conditions_, 0);
-    return remember(build(body, nullptr));
+NodeId GraphBuilder::build_global(const Expr& body) {
+    const ScopedValue<std::uint32_t> frame(frame_, 0);
+    const ScopedValue<std::uint32_t> output(output_, kNoNode);
+    const ScopedValue<std::uint32_t> conditions(conditions_, 0);
+    return memoise(build(body, nullptr));
 }
 
 NodeId GraphBuilder::variable(const Expr& e) {
@@ -204,12 +204,12 @@ NodeId GraphBuilder::variable(const Expr& e) {
     }
     NodeId node = kNoNode;
     if (depth_ + body.depth > InlineLimits::kDepth) {
-        const auto lazy = static_cast<LazyId>(graph_.lazies.size());
-        graph_.lazies.push_back({});
-        pending_variables_.emplace_back(lazy, &body);
-        node = make(NodeKind::lazy, lazy, {});
+        const auto thunk = static_cast<ThunkId>(graph_.thunks.size());
+        graph_.thunks.push_back({});
+        pending_variables_.emplace_back(thunk, &body);
+        node = make(NodeKind::thunk, thunk, {});
     } else {
-        node = build_in_tick(body);
+        node = build_global(body);
     }
     variables_[e.index] = {Progress::built, node};
     return node;
@@ -263,7 +263,7 @@ bool GraphBuilder::may_inline(SymbolId symbol, std::uint32_t argument_depth,
 
 NodeId GraphBuilder::user_call(SymbolId symbol, const Expr& e, const Activation* in) {
     return may_inline(symbol, deepest(e.kids), in) ? inline_call(symbol, e, in)
-                                                   : real_call(symbol, e, in);
+                                                   : call_instance(symbol, e, in);
 }
 
 NodeId GraphBuilder::inline_call(SymbolId symbol, const Expr& e, const Activation* in) {
@@ -279,7 +279,7 @@ NodeId GraphBuilder::inline_call(SymbolId symbol, const Expr& e, const Activatio
     return build(definition.body, &activation);
 }
 
-NodeId GraphBuilder::real_call(SymbolId symbol, const Expr& e, const Activation* in) {
+NodeId GraphBuilder::call_instance(SymbolId symbol, const Expr& e, const Activation* in) {
     const Definition& definition = *with_.symbols[symbol].definition;
     std::vector<NodeId> kids;
     std::vector<SymbolId> functions;

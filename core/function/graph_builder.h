@@ -19,7 +19,7 @@ struct InlineLimits {
     static constexpr std::size_t kNodes = 20000;      ///< of the graph
     static constexpr std::uint64_t kEffort = 200000;  ///< expressions visited
     static constexpr std::size_t kInstances = 2000;   ///< of functions; more is an error
-    static constexpr std::size_t kTouches = 32;       ///< lazies behind one constant
+    static constexpr std::size_t kFoldedThunks = 32;  ///< behind one constant
 };
 
 /// Names of the material's variables in a mask: "DxA, DyA, DzA".
@@ -66,7 +66,7 @@ class GraphBuilder {
     NodeId channel(std::uint32_t index);
     NodeId parameter(const Expr& e, const Activation* in);
     NodeId variable(const Expr& e);
-    NodeId build_in_tick(const Expr& body);
+    NodeId build_global(const Expr& body);
     [[nodiscard]] std::optional<Channel> material_channel(const Expr& e) const;
     /// Those of `channels` that are a material's to provide, but not this one's.
     [[nodiscard]] ChannelMask missing_channels(ChannelMask channels) const;
@@ -75,7 +75,7 @@ class GraphBuilder {
     [[nodiscard]] Callee callee(const Expr& e, const Activation* in) const;
     NodeId user_call(SymbolId symbol, const Expr& e, const Activation* in);
     NodeId inline_call(SymbolId symbol, const Expr& e, const Activation* in);
-    NodeId real_call(SymbolId symbol, const Expr& e, const Activation* in);
+    NodeId call_instance(SymbolId symbol, const Expr& e, const Activation* in);
     [[nodiscard]] bool may_inline(SymbolId symbol, std::uint32_t argument_depth,
                                   const Activation* in) const;
     std::uint32_t instance(SymbolId symbol, std::vector<SymbolId> functions);
@@ -86,7 +86,7 @@ class GraphBuilder {
     NodeId if_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
     NodeId select_call(const LibraryEntry& entry, const Expr& e, const Activation* in);
     NodeId arg_call(NodeId index);
-    NodeId check(NodeId chosen, const std::vector<LazyId>& touches);
+    NodeId check(NodeId chosen, const std::vector<ThunkId>& folded_thunks);
 
     // Nodes, folded where that is exact.
     NodeId add(Node node);
@@ -96,16 +96,16 @@ class GraphBuilder {
     NodeId list(NodeKind kind, std::vector<NodeId> kids);
     std::optional<Node> fold(NodeKind kind, std::uint32_t index,
                              const std::vector<NodeId>& kids) const;
-    [[nodiscard]] bool known(NodeId id) const {
+    [[nodiscard]] bool is_constant(NodeId id) const {
         return graph_.nodes[id].kind == NodeKind::constant;
     }
-    /// A value that is computed once and used many times.
-    NodeId remember(NodeId body);
+    /// A node for a value that is needed more than once: a thunk, unless `body` costs nothing.
+    NodeId memoise(NodeId body);
 
     const Specialisation& with_;
     Graph graph_;
     std::unordered_map<SymbolId, Variable> variables_;
-    std::vector<std::pair<LazyId, const Expr*>> pending_variables_;
+    std::vector<std::pair<ThunkId, const Expr*>> pending_variables_;
     std::map<std::pair<SymbolId, std::vector<SymbolId>>, std::uint32_t> instances_;
     std::size_t instances_built_ = 0;
     std::uint32_t depth_ = 0;

@@ -25,7 +25,7 @@ NodeId GraphBuilder::library_call(const LibraryEntry& entry, const Expr& e, cons
     if (with_.constant && entry.channels != 0)
         return fatal("ray parameter used in constant expression");
     if (const ChannelMask missing = missing_channels(entry.channels)) {
-        return fatal(material_names(missing) + ": undefined variable, needed by " +
+        return fatal(material_names(missing) + ": undefined variable, note_first_use by " +
                      std::string(entry.name) + "()");
     }
     std::vector<NodeId> kids;
@@ -37,10 +37,10 @@ NodeId GraphBuilder::library_call(const LibraryEntry& entry, const Expr& e, cons
 
 NodeId GraphBuilder::if_call(const LibraryEntry& entry, const Expr& e, const Activation* in) {
     const NodeId condition = library_argument(entry, e, 0, in);
-    if (known(condition)) {
+    if (is_constant(condition)) {
         const bool yes = graph_.nodes[condition].value > 0;
         const NodeId chosen = library_argument(entry, e, yes ? 1 : 2, in);
-        return check(chosen, graph_.nodes[condition].touches);
+        return check(chosen, graph_.nodes[condition].folded_thunks);
     }
     ++conditions_;
     const NodeId yes = library_argument(entry, e, 1, in);
@@ -52,12 +52,12 @@ NodeId GraphBuilder::if_call(const LibraryEntry& entry, const Expr& e, const Act
 NodeId GraphBuilder::select_call(const LibraryEntry& entry, const Expr& e, const Activation* in) {
     const NodeId selector = library_argument(entry, e, 0, in);
     const auto m = static_cast<int>(e.kids.size()) - 1;
-    if (known(selector)) {
+    if (is_constant(selector)) {
         const int k = selected_case(graph_.nodes[selector].value, m);
         if (k >= 0) {
             const NodeId chosen =
                 k == 0 ? constant(m) : build(e.kids[static_cast<std::size_t>(k)], in);
-            return check(chosen, graph_.nodes[selector].touches);
+            return check(chosen, graph_.nodes[selector].folded_thunks);
         }
     }
     std::vector<NodeId> kids{selector};

@@ -10,14 +10,14 @@
 namespace lightwalk::function {
 namespace {
 
-void merge(std::vector<LazyId>& into, const std::vector<LazyId>& more) {
-    for (const LazyId id : more) {
+void merge(std::vector<ThunkId>& into, const std::vector<ThunkId>& more) {
+    for (const ThunkId id : more) {
         if (std::find(into.begin(), into.end(), id) == into.end()) into.push_back(id);
     }
 }
 
 bool is_plain_one(const Node& n) {
-    return n.kind == NodeKind::constant && n.value == 1 && !n.clears && n.touches.empty();
+    return n.kind == NodeKind::constant && n.value == 1 && !n.clears && n.folded_thunks.empty();
 }
 
 }  // namespace
@@ -46,13 +46,13 @@ std::optional<Node> GraphBuilder::fold(NodeKind kind, std::uint32_t index,
     Node result;
     std::vector<double> x;
     for (const NodeId id : kids) {
-        if (!known(id)) return std::nullopt;
+        if (!is_constant(id)) return std::nullopt;
         const Node& kid = graph_.nodes[id];
         x.push_back(kid.value);
         result.clears = result.clears || kid.clears;
-        merge(result.touches, kid.touches);
+        merge(result.folded_thunks, kid.folded_thunks);
     }
-    if (result.touches.size() > InlineLimits::kTouches) return std::nullopt;
+    if (result.folded_thunks.size() > InlineLimits::kFoldedThunks) return std::nullopt;
     switch (kind) {
         case NodeKind::negation:
             result.value = -x[0];
@@ -96,12 +96,12 @@ NodeId GraphBuilder::list(NodeKind kind, std::vector<NodeId> kids) {
     Node head;
     head.value = kind == NodeKind::sum ? 0.0 : 1.0;
     std::size_t n = 0;
-    for (; n < kids.size() && known(kids[n]); ++n) {
+    for (; n < kids.size() && is_constant(kids[n]); ++n) {
         const Node& kid = graph_.nodes[kids[n]];
-        std::vector<LazyId> touches = head.touches;
-        merge(touches, kid.touches);
-        if (touches.size() > InlineLimits::kTouches) break;
-        head.touches = std::move(touches);
+        std::vector<ThunkId> folded_thunks = head.folded_thunks;
+        merge(folded_thunks, kid.folded_thunks);
+        if (folded_thunks.size() > InlineLimits::kFoldedThunks) break;
+        head.folded_thunks = std::move(folded_thunks);
         head.clears = head.clears || kid.clears;
         head.value = kind == NodeKind::sum ? head.value + kid.value : head.value * kid.value;
     }
@@ -116,12 +116,12 @@ NodeId GraphBuilder::list(NodeKind kind, std::vector<NodeId> kids) {
     return add(std::move(node));
 }
 
-NodeId GraphBuilder::remember(NodeId body) {
+NodeId GraphBuilder::memoise(NodeId body) {
     const Node& node = graph_.nodes[body];
     switch (node.kind) {
         case NodeKind::channel:
         case NodeKind::input:
-        case NodeKind::lazy:
+        case NodeKind::thunk:
         case NodeKind::parameter:
         case NodeKind::fatal:
             return body;
@@ -131,37 +131,39 @@ NodeId GraphBuilder::remember(NodeId body) {
         default:
             break;
     }
-    const auto id = static_cast<LazyId>(graph_.lazies.size());
-    graph_.lazies.push_back({body, frame_, frame_ == 0 ? output_ : kNoNode});
+    const auto id = static_cast<ThunkId>(graph_.thunks.size());
+    graph_.thunks.push_back({body, frame_, frame_ == 0 ? output_ : kNoNode});
     Node reference;
-    if (node.kind == NodeKind::constant && node.touches.size() < InlineLimits::kTouches) {
+    if (node.kind == NodeKind::constant &&
+        node.folded_thunks.size() < InlineLimits::kFoldedThunks) {
         reference.value = node.value;
-        reference.touches = node.touches;
-        reference.touches.push_back(id);
+        reference.folded_thunks = node.folded_thunks;
+        reference.folded_thunks.push_back(id);
     } else {
-        reference.kind = NodeKind::lazy;
+        reference.kind = NodeKind::thunk;
         reference.index = id;
     }
     return add(std::move(reference));
 }
 
 /// What is left of a library call of which only one argument is ever chosen.
-NodeId GraphBuilder::check(NodeId chosen, const std::vector<LazyId>& touches) {
+NodeId GraphBuilder::check(NodeId chosen, const std::vector<ThunkId>& folded_thunks) {
     const Node& node = graph_.nodes[chosen];
     if (node.kind == NodeKind::fatal) return chosen;
     if (node.kind == NodeKind::constant && std::isfinite(node.value)) {
         Node folded = node;
-        merge(folded.touches, touches);
+        merge(folded.folded_thunks, folded_thunks);
         folded.clears = true;
-        if (folded.touches.size() <= InlineLimits::kTouches) return add(std::move(folded));
+        if (folded.folded_thunks.size() <= InlineLimits::kFoldedThunks)
+            return add(std::move(folded));
     }
     const bool checked = node.kind == NodeKind::library || node.kind == NodeKind::power ||
                          node.kind == NodeKind::conditional || node.kind == NodeKind::choice ||
                          node.kind == NodeKind::check;
-    if (checked && touches.empty()) return chosen;
+    if (checked && folded_thunks.empty()) return chosen;
     Node result;
     result.kind = NodeKind::check;
-    result.touches = touches;
+    result.folded_thunks = folded_thunks;
     result.kids = {chosen};
     return add(std::move(result));
 }
@@ -169,7 +171,7 @@ NodeId GraphBuilder::check(NodeId chosen, const std::vector<LazyId>& touches) {
 NodeId GraphBuilder::arg_call(NodeId index) {
     if (with_.constant)
         return fatal("bad call to arg(n): it has no value in a constant expression");
-    if (!known(index)) {
+    if (!is_constant(index)) {
         return make(NodeKind::library, static_cast<std::uint32_t>(LibraryFunction::arg), {index});
     }
     Node node = graph_.nodes[index];

@@ -13,8 +13,8 @@ namespace lightwalk {
 namespace function {
 namespace {
 
-/// Bounds on what the calls of one tick may use: recursion of a function file ends with an error
-/// long before memory or patience do.
+/// Bounds on what the calls of one epoch may use: recursion of a function file that does not end is
+/// an error long before memory is full or a user gives up.
 constexpr std::uint64_t kMostOperations = 100000000;
 constexpr std::size_t kMostReturns = 200000;
 constexpr std::size_t kMostCells = std::size_t{1} << 21;
@@ -24,13 +24,13 @@ struct Position {
     std::uint32_t frame;
 };
 
-[[noreturn]] void too_much(const Program::Code& code, const char* what) {
+[[noreturn]] void limit_exceeded(const Program::Code& code, const char* what) {
     throw InputError(code.where, std::string("function file: ") + what);
 }
 
 void push_return(const Program::Code& code, EvalState& state, const Instruction* from,
                  std::uint32_t frame, std::uint32_t cell) {
-    if (state.returns.size() >= kMostReturns) too_much(code, "recursion is too deep");
+    if (state.returns.size() >= kMostReturns) limit_exceeded(code, "recursion is too deep");
     state.returns.push_back(
         {static_cast<std::uint32_t>(from - code.instructions.data()) + 1, frame, cell});
 }
@@ -41,20 +41,20 @@ Position compute_cell(const Program::Code& code, EvalState& state, const Instruc
                       std::uint32_t caller, std::uint32_t frame, std::uint32_t cell,
                       std::uint32_t entry) {
     push_return(code, state, from, caller, cell);
-    state.flags[cell] = 1;
+    state.valid[cell] = 1;
     state.values[cell] = 0;
     return {code.instructions.data() + entry, frame};
 }
 
-/// A parameter that has not been used yet holds where to compute it.
-double pack_thunk(std::uint32_t entry, std::uint32_t frame) {
+/// A parameter that is not valid yet holds its closure: the block to run, and the caller's frame.
+double pack_closure(std::uint32_t entry, std::uint32_t frame) {
     return std::bit_cast<double>((std::uint64_t{entry} << 32) | frame);
 }
 
 Position force_parameter(const Program::Code& code, EvalState& state, const Instruction* from,
                          std::uint32_t frame) {
     const std::uint32_t cell = frame + from->dst;
-    if (state.flags[cell]) return {from + 1, frame};
+    if (state.valid[cell]) return {from + 1, frame};
     const auto thunk = std::bit_cast<std::uint64_t>(state.values[cell]);
     return compute_cell(code, state, from, frame, static_cast<std::uint32_t>(thunk), cell,
                         static_cast<std::uint32_t>(thunk >> 32));
@@ -65,29 +65,29 @@ Position enter_call(const Program::Code& code, EvalState& state, const Instructi
                     std::uint32_t frame, std::uint32_t base) {
     const FunctionCode& function = code.functions[from->a];
     state.operations += function.cost;
-    if (state.operations > kMostOperations) too_much(code, "evaluation takes too long");
+    if (state.operations > kMostOperations) limit_exceeded(code, "evaluation takes too long");
     push_return(code, state, from, frame, frame + from->dst);
     const std::size_t end = std::size_t{base} + function.cells;
-    if (end > kMostCells) too_much(code, "recursion is too deep");
+    if (end > kMostCells) limit_exceeded(code, "recursion is too deep");
     if (end > state.values.size()) {
         state.values.resize(std::max(end, state.values.size() * 2));
-        state.flags.resize(state.values.size());
+        state.valid.resize(state.values.size());
     }
-    std::fill_n(state.flags.begin() + base, function.marked, std::uint8_t{0});
+    std::fill_n(state.valid.begin() + base, function.cached, std::uint8_t{0});
     for (std::uint32_t i = 0; i < function.parameters; ++i) {
         const Argument& argument = code.arguments[from->b + i];
-        state.values[base + i] =
-            argument.is_value ? state.values[frame + argument.at] : pack_thunk(argument.at, frame);
-        state.flags[base + i] = argument.is_value;
+        state.values[base + i] = argument.is_value ? state.values[frame + argument.at]
+                                                   : pack_closure(argument.at, frame);
+        state.valid[base + i] = argument.is_value;
     }
     return {code.instructions.data() + function.entry, base};
 }
 
-Position leave(const Program::Code& code, EvalState& state, double value) {
+Position return_to_caller(const Program::Code& code, EvalState& state, double value) {
     const EvalState::Return back = state.returns.back();
     state.returns.pop_back();
     state.values[back.cell] = value;
-    state.flags[back.cell] = 1;
+    state.valid[back.cell] = 1;
     return {code.instructions.data() + back.instruction, back.frame};
 }
 
@@ -118,7 +118,7 @@ class Machine {
     }
     /// The end of a library function: a set flag or a result that is not finite makes it 0.
     [[gnu::always_inline]] double tested(double v) {
-        error_ &= i_->keep;
+        error_ &= i_->error_mask;
         if (error_ == 0 && std::abs(v) <= std::numeric_limits<double>::max()) [[likely]]
             return v;
         if (error_ == 0) error_ = std::isnan(v) ? kDomain : kRange;
@@ -131,9 +131,9 @@ class Machine {
         ++state_.warnings;
         return 0;
     }
-    void touch(std::uint8_t& touched) {
-        if (!touched) error_ = 0;
-        touched = 1;
+    void clear_error_once(std::uint8_t& valid) {
+        if (!valid) error_ = 0;
+        valid = 1;
         ++i_;
     }
     void jump_unless(bool stay, std::uint32_t target) {
@@ -156,21 +156,21 @@ class Machine {
         const std::uint32_t target = k < 0 ? i_->c + 1 : static_cast<std::uint32_t>(k);
         i_ = code_.instructions.data() + code_.targets[i_->b + target];
     }
-    [[gnu::always_inline]] void go(const Position& to) {
+    [[gnu::always_inline]] void go_to(const Position& to) {
         i_ = to.next;
         frame_ = to.frame;
         cells_ = state_.values.data() + frame_;
     }
     [[gnu::always_inline]] void call() {
         const std::uint32_t cells = code_.functions[i_->a].cells;
-        go(enter_call(code_, state_, i_, frame_, top_));
+        go_to(enter_call(code_, state_, i_, frame_, top_));
         top_ = frame_ + cells;
     }
     [[gnu::always_inline]] void ensure(std::uint32_t of_frame) {
-        if (state_.flags[of_frame + i_->dst]) {
+        if (state_.valid[of_frame + i_->dst]) {
             ++i_;
         } else {
-            go(compute_cell(code_, state_, i_, frame_, of_frame, of_frame + i_->dst, i_->a));
+            go_to(compute_cell(code_, state_, i_, frame_, of_frame, of_frame + i_->dst, i_->a));
         }
     }
 
@@ -209,19 +209,19 @@ class Machine {
             case Op::check: checked(a()); break;
             case Op::conditional_move: checked(a() > 0 ? b() : c()); break;
             case Op::clear_error: error_ = 0; ++i_; break;
-            case Op::clear_error_once: touch(state_.flags[frame_ + i_->dst]); break;
-            case Op::clear_error_once_global: touch(state_.flags[i_->dst]); break;
-            case Op::invalidate: state_.flags[frame_ + i_->dst] = 0; ++i_; break;
+            case Op::clear_error_once: clear_error_once(state_.valid[frame_ + i_->dst]); break;
+            case Op::clear_error_once_global: clear_error_once(state_.valid[i_->dst]); break;
+            case Op::invalidate: state_.valid[frame_ + i_->dst] = 0; ++i_; break;
             case Op::jump: jump_unless(false, i_->a); break;
             case Op::jump_unless_positive: jump_unless(a() > 0, i_->b); break;
             case Op::jump_unless_above: jump_unless(a() - c() > 0, i_->b); break;
             case Op::jump_table: choose(); break;
             case Op::force: ensure(frame_); break;
             case Op::force_global: ensure(0); break;
-            case Op::force_parameter: go(force_parameter(code_, state_, i_, frame_)); break;
+            case Op::force_parameter: go_to(force_parameter(code_, state_, i_, frame_)); break;
             case Op::call: call(); break;
-            case Op::return_block: go(leave(code_, state_, a())); break;
-            case Op::return_call: top_ = frame_; go(leave(code_, state_, a())); break;
+            case Op::return_block: go_to(return_to_caller(code_, state_, a())); break;
+            case Op::return_call: top_ = frame_; go_to(return_to_caller(code_, state_, a())); break;
             case Op::halt: state_.error = static_cast<EvalError>(error_); return a();
             case Op::fatal: throw InputError(code_.where, code_.messages[i_->a]);
 #define FUNCTION(name, ...) case Op::name: checked(library_value<LibraryFunction::name>(a(), b(), c(), state_)); break;
@@ -253,11 +253,11 @@ void Program::begin(EvalState& state, const ChannelValues& channels) const {
     state.channels = &channels;
     if (state.values.size() < code.cells) {
         state.values.resize(code.cells);
-        state.flags.resize(code.cells);
+        state.valid.resize(code.cells);
     }
     for (const std::uint8_t c : code.used_channels) state.values[c] = channels[c];
     std::copy(code.constants.begin(), code.constants.end(), state.values.begin() + kChannelCount);
-    std::fill_n(state.flags.begin() + code.lazies_at, code.lazies, std::uint8_t{0});
+    std::fill_n(state.valid.begin() + code.thunks_at, code.thunks, std::uint8_t{0});
     state.operations = 0;
     state.prism.valid = false;
 }

@@ -144,7 +144,7 @@ class LaneMachine {
 };
 
 std::optional<Lanes> LaneMachine::run() {
-    constexpr std::nullopt_t kPart = std::nullopt;
+    constexpr std::nullopt_t kDiverged = std::nullopt;
     for (;;) {
         // A line an instruction.
         // clang-format off
@@ -159,8 +159,8 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::add_product: plain(each(add_product, a(), b(), c())); break;
             case Op::subtract_product: plain(each(subtract_product, a(), b(), c())); break;
             case Op::divide: plain(each(divide, a(), b())); break;
-            case Op::divide_tested: if (!divides(b())) return kPart; plain(each(divide, a(), b())); break;
-            case Op::guard_divisor: if (!divides(a())) return kPart; ++i_; break;
+            case Op::divide_tested: if (!divides(b())) return kDiverged; plain(each(divide, a(), b())); break;
+            case Op::guard_divisor: if (!divides(a())) return kDiverged; ++i_; break;
             case Op::half_power: checked(half_power(a(), static_cast<std::int32_t>(i_->b))); break;
             case Op::power: call([](double x, double y) { return std::pow(x, y); }, a(), b()); break;
             case Op::modulo: plain(each(subtract_product, floor_ratio(), b(), a())); break;
@@ -172,14 +172,14 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::clear_error_once:
             case Op::clear_error_once_global: ++i_; break;
             case Op::jump: jump(i_->a); break;
-            case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kPart; break;
-            case Op::jump_unless_above: if (!jump_unless(count_above(a(), c()))) return kPart; break;
-            case Op::jump_table: if (!choose()) return kPart; break;
+            case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kDiverged; break;
+            case Op::jump_unless_above: if (!jump_unless(count_above(a(), c()))) return kDiverged; break;
+            case Op::jump_table: if (!choose()) return kDiverged; break;
             case Op::halt: return count(is_zero, errors_) == kLanes ? std::optional(a()) : std::nullopt;
-#define FUNCTION(name, arguments, part, lanes, value) case Op::name: if (!library<LibraryFunction::name, LaneSupport::lanes>()) return kPart; break;
+#define FUNCTION(name, arguments, part, lanes, value) case Op::name: if (!library<LibraryFunction::name, LaneSupport::lanes>()) return kDiverged; break;
 #define REDUCTION(name, value) FUNCTION(name, 2, core, vector, value) case Op::name##_step: plain(vector_value<LibraryFunction::name>()); break;
 #include "core/function/library.def"
-            default: return kPart;  // OpEntry::lanes is false
+            default: return kDiverged;  // OpEntry::lanes is false
         }
         // clang-format on
     }

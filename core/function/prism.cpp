@@ -98,8 +98,8 @@ class PrismTracer {
     [[nodiscard]] PrismRay turned(PrismRay ray, double c, double s) const;
     [[nodiscard]] PrismRay reflected(PrismRay ray, Face at) const;
     [[nodiscard]] PrismRay transmitted(PrismRay ray, Face at) const;
-    template <class Deed>
-    [[nodiscard]] PrismRay in_frame(const PrismRay& ray, Face at, const Deed& deed) const;
+    template <class Operation>
+    [[nodiscard]] PrismRay in_frame(const PrismRay& ray, Face at, const Operation& operation) const;
 
     const Prism& prism_;
     std::vector<double>& rays_;
@@ -205,11 +205,11 @@ PrismRay PrismTracer::transmitted(PrismRay ray, Face at) const {
 }
 
 /// Do something in the frame of a sloped face, and come back to alpha's.
-template <class Deed>
-PrismRay PrismTracer::in_frame(const PrismRay& ray, Face at, const Deed& deed) const {
+template <class Operation>
+PrismRay PrismTracer::in_frame(const PrismRay& ray, Face at, const Operation& operation) const {
     const double c = at == Face::beta ? cos_beta_ : cos_gamma_;
     const double s = at == Face::beta ? sin_beta_ : sin_gamma_;
-    return turned(deed(turned(ray, c, s)), c, -s);
+    return turned(operation(turned(ray, c, s)), c, -s);
 }
 
 void PrismTracer::follow(PrismRay ray, double probability, Face to) {

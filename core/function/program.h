@@ -73,13 +73,14 @@ struct alignas(32) Lanes {
     std::array<double, kLanes> value{};
 };
 
-/// Scratch of one evaluation at a time; one per thread, reused without allocation after warming up.
+/// Caches and scratch of one evaluation at a time; one per thread, reused without allocation after
+/// the first evaluations.
 /// After Program::begin it belongs to that program until the next begin.
 struct EvalState {
     const ChannelValues* channels = nullptr;
     EvalError error = EvalError::none;
-    std::vector<double> values;       ///< implementation's registers
-    std::vector<std::uint8_t> flags;  ///< implementation's "already computed" marks
+    std::vector<double> values;       ///< cells of all frames
+    std::vector<std::uint8_t> valid;  ///< cached cells that have been computed
     std::uint64_t warnings = 0;       ///< numeric errors met
     void clear_error() { error = EvalError::none; }
 
@@ -89,9 +90,9 @@ struct EvalState {
     std::vector<Return> returns;
     struct PrismRays {             ///< of fprism_val
         std::vector<double> rays;  ///< direction and energy each
-        bool valid = false;        ///< whether they belong to this tick
+        bool valid = false;        ///< whether they are this epoch's
     };
-    std::uint64_t operations = 0;  ///< done by calls in this tick; bounded
+    std::uint64_t operations = 0;  ///< done by calls in this epoch; bounded
     std::vector<Lanes> lanes;      ///< registers of evaluations side by side
     function::NoiseMemory noise;
     function::FractalMemory fractal;
@@ -118,15 +119,15 @@ class Program {
     [[nodiscard]] ChannelMask channels()
         const;  ///< channels that any output may read: fill at least these
 
-    /// Start a tick: forget cached variables. `channels` must stay alive and unchanged until the
-    /// next begin.
+    /// Start an epoch: a new ray, for which no variable has been computed. It ends with the next
+    /// begin; until then `channels` must stay alive and unchanged.
     void begin(EvalState& state, const ChannelValues& channels) const;
 
-    /// Evaluate output k, once a tick: variables that no other output needs are computed anew each
-    /// time. Numeric errors set state.error and follow the language's rules (value 0); they are
-    /// sticky or cleared as the language says, so call state.clear_error() where the primitive
-    /// clears. Throws InputError for what the language calls fatal (undefined name met, missing
-    /// argument).
+    /// Evaluate output k. Values that other outputs need, too, are cached for the epoch; the others
+    /// are computed anew by each call. Numeric errors set state.error and follow the language's
+    /// rules (value 0); they are sticky or cleared as the language says, so call
+    /// state.clear_error() where the primitive clears. Throws InputError for what the language
+    /// calls fatal (undefined name met, missing argument).
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const;
     /// The same for an output with `parameters >= 0`; arguments.size() must equal it.
     [[nodiscard]] double call(std::size_t output, std::span<const double> arguments,
@@ -135,7 +136,7 @@ class Program {
     /// Whether evaluate_lanes can succeed: the program needs neither noise, nor calls (recursion),
     /// nor more of the ray than its channels. Inputs (`parameters` > 0) have no lanes.
     [[nodiscard]] bool has_lanes() const;
-    /// Output k for 1 to kLanes rays side by side, each a tick of its own. Same values as
+    /// Output k for 1 to kLanes rays side by side, each an epoch of its own. Same values as
     /// evaluate(), to the bit; those of further lanes mean nothing. Nothing where rays take
     /// different branches or one meets a numeric error: they have to be evaluated one by one then.
     [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output,

@@ -47,7 +47,7 @@ class FunctionBinding {
                     std::vector<ExpressionRequest> requests, std::size_t first_transform_word,
                     ChannelMask material_channels = 0);
 
-    /// Start a tick for this ray: fills the channels the program reads. The state belongs to the
+    /// Start an epoch for this ray: fills the channels the program reads. The state belongs to the
     /// context and is valid until the next begin on the same context, so begin again after tracing
     /// a child ray.
     EvalState& begin(const Ray& ray, TraceContext& context,

@@ -36,7 +36,7 @@ struct Evaluated {
     EvalError error = EvalError::none;
 };
 
-/// Several expressions, in the order given, in one tick.
+/// Several expressions, in the order given, in one epoch.
 inline std::vector<Evaluated> evaluate_all(const std::vector<std::string>& expressions,
                                            const Setting& in) {
     FunctionEnvironment environment;

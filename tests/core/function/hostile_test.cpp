@@ -94,7 +94,7 @@ TEST_CASE("inlining does not multiply the code without bound") {
           16 * 32768.0);
     // Arguments used many times are computed once, however deep.
     CHECK(value_of("f200(Rdot)", "f0(x) = x;" + chain("f", "(x) = f#((x+x)/2);", 200)) == 1);
-    // A variable is computed once a tick.
+    // A variable is computed once an epoch.
     CHECK(value_of("v1000", "v0 = Rdot;" + chain("v", " = (v#+v#)/2;", 1000)) == 1);
 }
 

@@ -216,7 +216,7 @@ TEST_CASE("what is wrong for certain throws") {
     }
 }
 
-TEST_CASE("the error flag lives on from one output of a tick to the next") {
+TEST_CASE("the error flag lives on from one output of an epoch to the next") {
     const auto skips = [](const std::vector<std::string>& in_order) {
         return evaluate_all(in_order, ray_over(kFaulty)).back().error != EvalError::none;
     };

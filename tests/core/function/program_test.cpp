@@ -1,4 +1,4 @@
-// Programs: ticks, channels, real arguments, calls by name, variables of materials.
+// Programs: epochs, channels, real arguments, calls by name, variables of materials.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -23,7 +23,7 @@ struct Compiled {
         environment.load("tt.cal", definitions);
         program = environment.compile("tt.cal", requests, reals, mask, {"scene.rad", 7});
     }
-    void tick() {
+    void begin() {
         program.begin(state, channels);
         state.clear_error();
     }
@@ -51,7 +51,7 @@ TEST_CASE("each channel has its number and its name") {
                         {"$ " + std::to_string(i + 1), -1}});
         for (std::size_t k = 1; k < kChannelCount; ++k)
             c.channels[k] = 100.0 + static_cast<double>(k);
-        c.tick();
+        c.begin();
         for (std::size_t k = 0; k < 3; ++k) CHECK(c(k) == 101.0 + static_cast<double>(i));
         CHECK(c.program.channels() == ChannelMask{1} << (i + 1));
     }
@@ -67,18 +67,18 @@ TEST_CASE("a program says which channels it reads: untaken branches count not") 
     CHECK(Program().empty());
 }
 
-TEST_CASE("variables are computed once a tick, and anew in the next") {
+TEST_CASE("variables are computed once an epoch, and anew in the next") {
     Compiled c("v = sqrt(Px); w = v+v*Py;", {{"v", -1}, {"w", -1}, {"v-1", -1}});
     for (const double x : {4.0, 9.0, 0.25}) {
         c.set_channel(Channel::Px, x);
         c.set_channel(Channel::Py, 2);
-        c.tick();
+        c.begin();
         CHECK(c(1) == 3 * std::sqrt(x));
         CHECK(c(0) == std::sqrt(x));
         CHECK(c(2) == std::sqrt(x) - 1);
     }
     c.set_channel(Channel::Px, -1);
-    c.tick();
+    c.begin();
     CHECK(c(0) == 0);
     CHECK(c.state.error == EvalError::domain);
     CHECK(c.state.warnings == 1);
@@ -115,7 +115,7 @@ TEST_CASE("functions called by name get exactly the values given") {
                 {"max", 3},
                 {"v", 1}});
     c.set_channel(Channel::Px, 10);
-    c.tick();
+    c.begin();
     CHECK(c.call(0, {5, 2}) == -15);
     CHECK(c.call(0, {7, 1}) == -3);
     CHECK(c.call(2, {3}) == 1);
@@ -137,7 +137,7 @@ TEST_CASE("functions called by name get exactly the values given") {
 TEST_CASE("a function called by name may use its value more than once, and recursively") {
     Compiled c("p(x) = sqrt(x)*sqrt(x)+h(x*x); h(y) = y-y; sum(n) = if(n-.5, n+sum(n-1), 0);",
                {{"p", 1}, {"sum", 1}});
-    c.tick();
+    c.begin();
     for (const double x : {4.0, 9.0, 16.0}) {
         CHECK(c.call(0, {x}) == x);
         CHECK(c.call(1, {x}) == x * (x + 1) / 2);
@@ -163,7 +163,7 @@ TEST_CASE("outputs that do not depend on the ray are known constants") {
     CHECK_FALSE(c.program.constant(3));
     CHECK_FALSE(c.program.constant(4));
     CHECK_FALSE(c.program.constant(5));  // it fails: at run time
-    c.tick();
+    c.begin();
     CHECK(c(1) == 11);
     CHECK(c(5) == 0);
     CHECK(c.state.error == EvalError::domain);
@@ -174,7 +174,7 @@ TEST_CASE("real arguments are counted from one, and missing ones are errors when
     Compiled c("k = arg(Px); safe = if(AC-2.5, A3, 7);",
                {{"A2", -1}, {"arg(0)", -1}, {"k", -1}, {"A3", -1}, {"safe", -1}, {"arg(-5)", -1}},
                {10, 20});
-    c.tick();
+    c.begin();
     CHECK(c(0) == 20);
     CHECK(c(1) == 2);
     CHECK(c(4) == 7);
@@ -183,14 +183,14 @@ TEST_CASE("real arguments are counted from one, and missing ones are errors when
     CHECK_THROWS_WITH_AS(c(3), "scene.rad:7: bad call to arg(3): there are 2 real arguments",
                          InputError);
     c.set_channel(Channel::Px, 1.4);
-    c.tick();
+    c.begin();
     CHECK(c(2) == 10);
     c.set_channel(Channel::Px, 3);
-    c.tick();
+    c.begin();
     CHECK_THROWS_WITH_AS(c(2), "scene.rad:7: bad call to arg(3): there are 2 real arguments",
                          InputError);
     c.set_channel(Channel::Px, std::numeric_limits<double>::quiet_NaN());
-    c.tick();
+    c.begin();
     CHECK(c(2) == 2);
 }
 
@@ -202,7 +202,7 @@ TEST_CASE("variables of materials are undefined where the material does not set 
     with.set_channel(Channel::CgP, .5);
     with.set_channel(Channel::NxP, -1);
     with.set_channel(Channel::RdotP, .125);
-    with.tick();
+    with.begin();
     CHECK(with(0) == .5);
     CHECK(with(1) == -1);
     CHECK(with(2) == .625);
@@ -211,7 +211,7 @@ TEST_CASE("variables of materials are undefined where the material does not set 
           (channel_bit(Channel::CrP) | channel_bit(Channel::CgP) | channel_bit(Channel::NxP) |
            channel_bit(Channel::RdotP)));
     Compiled without(file, {{"r", -1}, {"n", -1}});
-    without.tick();
+    without.begin();
     CHECK_THROWS_WITH_AS(without(0), "scene.rad:7: CrP: undefined variable", InputError);
     CHECK_THROWS_WITH_AS(without(1), "scene.rad:7: NxP: undefined variable", InputError);
     CHECK(without.program.channels() == 0);
@@ -237,7 +237,7 @@ TEST_CASE("the local frame is orthonormal about the perturbed normal") {
     for (std::size_t i = 0; i < 3; ++i)
         c.channels[static_cast<std::size_t>(Channel::NxP) + i] = normal[i];
     c.set_channel(Channel::RdotP, .375);
-    c.tick();
+    c.begin();
     std::array<std::array<double, 3>, 3> axes{};
     for (std::size_t k = 0; k < 9; ++k) axes[k / 3][k % 3] = c(k);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -262,7 +262,7 @@ TEST_CASE("infinities pass through arithmetic and end in functions") {
                     {"Px*10-Px*10", -1},
                     {"max(Px*10,0)", -1}});
     c.set_channel(Channel::Px, 1e308);
-    c.tick();
+    c.begin();
     CHECK(std::isinf(c(0)));
     CHECK(std::isinf(c(1)));
     CHECK(std::isnan(c(3)));
@@ -284,7 +284,7 @@ TEST_CASE("what a prism does with light needs sensible arguments") {
         Compiled c("", {{"fprism_val(3,1,1)", -1}}, reals, aim);
         c.set_channel(Channel::Dx, .6);
         c.set_channel(Channel::Dz, -.8);
-        c.tick();
+        c.begin();
         (void)c();
         CAPTURE(i);
         CHECK(c.state.error == (i == 7 ? EvalError::none : EvalError::domain));
@@ -296,7 +296,7 @@ TEST_CASE("what a prism does with light needs sensible arguments") {
                good, aim);
     c.set_channel(Channel::Dx, .6);
     c.set_channel(Channel::Dz, -.8);
-    c.tick();
+    c.begin();
     const double shares = c();
     CHECK(shares > .3);
     CHECK(shares < 1);  // no more light leaves than came
@@ -307,10 +307,10 @@ TEST_CASE("what a prism does with light needs sensible arguments") {
     Compiled trap("", {{"fprism_val(3,1,1)", -1}}, {1, 1, 1, .5, 9, 0, 1, 1, .01, .05}, aim);
     trap.set_channel(Channel::Dx, .8);
     trap.set_channel(Channel::Dy, .6);
-    trap.tick();
+    trap.begin();
     CHECK(trap() <= 1);
     Compiled needs("", {{"fprism_val(3,1,1)", -1}}, good);
-    needs.tick();
+    needs.begin();
     CHECK_THROWS_AS(needs(), InputError);
 }
 

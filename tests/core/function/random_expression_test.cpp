@@ -113,10 +113,10 @@ class Reference {
         return (*this)(t.kids[0]) / b;
     }
 
-    template <class Deed>
-    double checked(const std::string&, const Deed& deed) {
+    template <class Operation>
+    double checked(const std::string&, const Operation& operation) {
         error = EvalError::none;
-        const double v = deed();
+        const double v = operation();
         if (error == EvalError::none && std::isnan(v)) error = EvalError::domain;
         if (error == EvalError::none && std::isinf(v)) error = EvalError::range;
         return error == EvalError::none ? v : 0;
@@ -279,7 +279,7 @@ TEST_CASE("programs compute what the rules of the language say, bit for bit, err
         const Program program = environment.compile("tt.cal", requests, reals, 0, {"scene.rad", 1});
         EvalState state;
         ChannelValues channels{};
-        for (int tick = 0; tick < 3; ++tick) {
+        for (int epoch = 0; epoch < 3; ++epoch) {
             for (const Channel c : {Channel::Px, Channel::Py, Channel::Pz})
                 set(channels, c, generator.number());
             Reference reference(channels, reals);
