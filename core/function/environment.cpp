@@ -7,6 +7,7 @@
 
 #include "core/function/code_generator.h"
 #include "core/function/graph.h"
+#include "core/function/listing.h"
 #include "core/function/parser.h"
 #include "core/function/symbols.h"
 
@@ -112,6 +113,20 @@ struct FunctionEnvironment::Impl {
         return {std::move(call), static_cast<std::uint32_t>(request.parameters)};
     }
 
+    [[nodiscard]] function::Graph graph(std::string_view file,
+                                        std::span<const ExpressionRequest> requests,
+                                        std::span<const double> reals,
+                                        ChannelMask material_channels,
+                                        const SourceLocation& where) const {
+        const std::string context = function::context_of_file(file);
+        std::vector<function::OutputRequest> outputs;
+        for (const ExpressionRequest& request : requests)
+            outputs.push_back(output(request, context, where));
+        std::uint64_t effort = 0;
+        return function::build_graph({symbols, reals, material_channels, false, where}, outputs,
+                                     effort);
+    }
+
     [[nodiscard]] const function::Symbol* symbol(std::string_view file,
                                                  std::string_view name) const {
         const std::string context = function::context_of_file(file);
@@ -145,18 +160,19 @@ Program FunctionEnvironment::compile(std::string_view file,
                                      std::span<const ExpressionRequest> requests,
                                      std::span<const double> reals, ChannelMask material_channels,
                                      const SourceLocation& where) const {
-    const std::string context = function::context_of_file(file);
-    std::vector<function::OutputRequest> outputs;
-    for (const ExpressionRequest& request : requests)
-        outputs.push_back(impl_->output(request, context, where));
-    const function::Specialisation specialisation{impl_->symbols, reals, material_channels, false,
-                                                  where};
-    std::uint64_t effort = 0;
-    const function::Graph graph = function::build_graph(specialisation, outputs, effort);
+    const function::Graph graph = impl_->graph(file, requests, reals, material_channels, where);
     Program::Code code = function::CodeGenerator(graph).generate();
     code.reals.assign(reals.begin(), reals.end());
     code.where = where;
     return Program(std::make_shared<const Program::Code>(std::move(code)));
+}
+
+FunctionEnvironment::Listing FunctionEnvironment::listing(
+    std::string_view file, std::span<const ExpressionRequest> requests,
+    std::span<const double> reals, ChannelMask material_channels,
+    const SourceLocation& where) const {
+    const function::Graph graph = impl_->graph(file, requests, reals, material_channels, where);
+    return {function::listing(graph), function::listing(function::CodeGenerator(graph).generate())};
 }
 
 int FunctionEnvironment::parameters(std::string_view file, std::string_view name) const {

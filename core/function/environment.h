@@ -42,6 +42,15 @@ class FunctionEnvironment {
                                   std::span<const double> reals, ChannelMask material_channels,
                                   const SourceLocation& where) const;
 
+    /// What compile() makes of the same on its way, as text: README.md in core/function reads one.
+    struct Listing {
+        std::string graph, code;
+    };
+    [[nodiscard]] Listing listing(std::string_view file,
+                                  std::span<const ExpressionRequest> requests,
+                                  std::span<const double> reals, ChannelMask material_channels,
+                                  const SourceLocation& where) const;
+
     /// Number of parameters of the function that `name` means in the context of `file`; 0 when it
     /// is unknown. Library functions: their argument count (1 for min, max, select).
     [[nodiscard]] int parameters(std::string_view file, std::string_view name) const;

@@ -1,9 +1,10 @@
 #include "core/function/graph_builder.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <utility>
+
+#include "core/function/channel_names.h"
 
 namespace lightwalk::function {
 namespace {
@@ -22,20 +23,7 @@ class ScopedValue {
     T old_;
 };
 
-struct MaterialName {
-    std::string_view name;
-    Channel channel;
-};
-constexpr std::array<MaterialName, 10> kMaterialNames{{{"NxP", Channel::NxP},
-                                                       {"NyP", Channel::NyP},
-                                                       {"NzP", Channel::NzP},
-                                                       {"RdotP", Channel::RdotP},
-                                                       {"CrP", Channel::CrP},
-                                                       {"CgP", Channel::CgP},
-                                                       {"CbP", Channel::CbP},
-                                                       {"DxA", Channel::DxA},
-                                                       {"DyA", Channel::DyA},
-                                                       {"DzA", Channel::DzA}}};
+constexpr auto kFirstOfMaterial = static_cast<std::size_t>(Channel::NxP);
 
 std::uint32_t deepest(const std::vector<Expr>& expressions) {
     std::uint32_t depth = 0;
@@ -47,10 +35,10 @@ std::uint32_t deepest(const std::vector<Expr>& expressions) {
 
 std::string material_names(ChannelMask channels) {
     std::string names;
-    for (const MaterialName& name : kMaterialNames) {
-        if ((channels & channel_bit(name.channel)) == 0) continue;
+    for (std::size_t c = kFirstOfMaterial; c < kChannelCount; ++c) {
+        if ((channels & channel_bit(static_cast<Channel>(c))) == 0) continue;
         if (!names.empty()) names += ", ";
-        names += name.name;
+        names += kChannelNames[c];
     }
     return names;
 }
@@ -160,25 +148,23 @@ NodeId GraphBuilder::parameter(const Expr& e, const Activation* in) {
 }
 
 ChannelMask GraphBuilder::missing_channels(ChannelMask channels) const {
-    ChannelMask missing = 0;
-    for (const MaterialName& name : kMaterialNames) missing |= channel_bit(name.channel);
-    return missing & channels & ~with_.material_channels;
+    const ChannelMask of_material = ~(channel_bit(Channel::NxP) - 1);
+    return channels & of_material & ~with_.material_channels;
 }
 
 std::optional<Channel> GraphBuilder::material_channel(const Expr& e) const {
     std::string_view name = e.name;
     if (!name.empty() && name.front() == '`') name.remove_prefix(1);
     name = name.substr(0, name.find('`'));
-    for (const MaterialName& known_name : kMaterialNames) {
-        if (known_name.name != name) continue;
-        if (!(with_.material_channels & channel_bit(known_name.channel))) return std::nullopt;
-        // The normal's variables are global: a definition of the file hides them.
-        const bool global = known_name.channel <= Channel::RdotP;
-        if (global && e.index != kNoSymbol && with_.symbols[e.index].is_variable())
-            return std::nullopt;
-        return known_name.channel;
-    }
-    return std::nullopt;
+    const auto first = kChannelNames.begin() + kFirstOfMaterial;
+    const auto found = std::find(first, kChannelNames.end(), name);
+    if (found == kChannelNames.end()) return std::nullopt;
+    const auto channel = static_cast<Channel>(found - kChannelNames.begin());
+    if (!(with_.material_channels & channel_bit(channel))) return std::nullopt;
+    // The normal's variables are global: a definition of the file hides them.
+    const bool global = channel <= Channel::RdotP;
+    if (global && e.index != kNoSymbol && with_.symbols[e.index].is_variable()) return std::nullopt;
+    return channel;
 }
 
 NodeId GraphBuilder::build_global(const Expr& body) {

@@ -1,0 +1,106 @@
+// The worked example of core/function/README.md is what the program does.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/core/function/evaluate.h"
+
+namespace lightwalk::test {
+namespace {
+
+/// The README's texts between ```language and ```, in order.
+std::vector<std::string> blocks(const std::string& language) {
+    std::ifstream in(LIGHTWALK_SOURCE "/core/function/README.md");
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::string start = "\n```" + language + "\n", end = "```\n";
+    std::vector<std::string> found;
+    for (std::size_t at = 0; (at = text.find(start, at)) != std::string::npos;) {
+        at += start.size();
+        const std::size_t length = text.find(end, at) - at;
+        found.push_back(text.substr(at, length));
+        at += length;
+    }
+    return found;
+}
+
+const std::vector<ExpressionRequest> kRings{{"rings", -1}};
+const std::vector<double> kReals{.2, .9};
+const SourceLocation kWhere{"scene.rad", 7};
+
+FunctionEnvironment rings() {
+    const std::vector<std::string> definitions = blocks("cal");
+    REQUIRE(definitions.size() == 1);
+    FunctionEnvironment environment;
+    environment.load("rings.cal", definitions.front());
+    return environment;
+}
+
+std::string row(const std::string& name, const std::array<double, kLanes>& values) {
+    std::string text = name;
+    for (const double x : values) {
+        std::array<char, 32> number{};
+        std::snprintf(number.data(), number.size(), "  %8.6f", x);
+        text += number.data();
+    }
+    return text + "\n";
+}
+
+/// Rays that meet (x, 0, 0), and what they give side by side: as the README has it.
+std::string in_lanes(const Program& program, const std::array<double, kLanes>& x) {
+    std::vector<ChannelValues> rays(kLanes, straight_down());
+    for (std::size_t k = 0; k < kLanes; ++k) set(rays[k], Channel::Px, x[k]);
+    EvalState state;
+    const auto values = program.evaluate_lanes(0, rays, state);
+    if (!values) return row("Px   ", x) + "rings  none\n";
+    for (std::size_t k = 0; k < kLanes; ++k) {
+        program.begin(state, rays[k]);
+        state.clear_error();
+        const double alone = program.evaluate(0, state);
+        CHECK(std::bit_cast<std::uint64_t>(values->value[k]) ==
+              std::bit_cast<std::uint64_t>(alone));
+    }
+    return row("Px   ", x) + row("rings", values->value);
+}
+
+}  // namespace
+
+TEST_CASE("the function language's worked example: graph and code are as its README shows") {
+    const auto listing = rings().listing("rings.cal", kRings, kReals, 0, kWhere);
+    CHECK(blocks("graph") == std::vector<std::string>{listing.graph});
+    CHECK(blocks("code") == std::vector<std::string>{listing.code});
+}
+
+TEST_CASE("the function language's worked example: lanes are as its README shows") {
+    const Program program = rings().compile("rings.cal", kRings, kReals, 0, kWhere);
+    CHECK(blocks("lanes") == std::vector<std::string>{in_lanes(program, {.21, .25, .28, .42}),
+                                                      in_lanes(program, {.21, .25, .28, .38})});
+}
+
+TEST_CASE("listings name every kind of cell, and number what is none") {
+    FunctionEnvironment environment;
+    environment.load("t.cal", "f(n) = if(n-.5, n*f(n-1)+v, 1); v = sqrt(Px); g(x) = x*2;");
+    const std::vector<ExpressionRequest> requests{{"f(Py)", -1}, {"g", 1}};
+    const auto listing = environment.listing("t.cal", requests, {}, 0, kWhere);
+    for (const char* part :
+         {"output0 = conditional(sum(Py, -0.5), sum(product(Py, instance0(sum(Py, -1))), ",
+          "instance0 = conditional(sum(parameter0, -0.5), ", "product(input0, 2)"}) {
+        CAPTURE(listing.graph);
+        CHECK(listing.graph.find(part) != std::string::npos);
+    }
+    for (const char* part :
+         {"instance0:\n  0  ", "force_parameter parameter0\n", "load_global -0.5\n",
+          "force_global thunk", " = call #0, #", "return_call t0\n", "output0:\n",
+          "multiply input0, 2\n", "  halt t0\n"}) {
+        CAPTURE(listing.code);
+        CHECK(listing.code.find(part) != std::string::npos);
+    }
+}
+
+}  // namespace lightwalk::test
