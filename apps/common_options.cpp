@@ -86,10 +86,6 @@ std::vector<std::string> common_option_names() {
             "--help", "--version", "-defaults"};
 }
 
-void settle_render_settings(RenderSettings& settings, WarningSink& /*warnings*/) {
-    check_render_settings(settings);
-}
-
 void redirect_messages(const CommonOptions& options, const std::string& history) {
     if (options.error_file.empty()) return;
     if (std::freopen(options.error_file.c_str(), "a", stderr) == nullptr) {

@@ -34,10 +34,6 @@ struct CommonOptions {
 /// Names of the options above, for suggestions.
 [[nodiscard]] std::vector<std::string> common_option_names();
 
-/// -ab and its relatives are understood; says once that they have no effect yet. Throws UsageError
-/// for settings that contradict each other.
-void settle_render_settings(RenderSettings& settings, WarningSink& warnings);
-
 /// Append messages to the file that -e names, from here on. Throws InputError.
 void redirect_messages(const CommonOptions& options, const std::string& history);
 

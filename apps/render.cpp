@@ -68,7 +68,7 @@ class RenderRun {
     explicit RenderRun(RenderCommand command) : command_(std::move(command)), warnings_(kProgram) {
         redirect_messages(command_.common, command_.history);
         warnings_.enable(command_.settings.warnings && !command_.common.quiet);
-        settle_render_settings(command_.settings, warnings_);
+        check_render_settings(command_.settings);
         settle_spacing();
         if (command_.first_frame == 0)
             (void)Camera(command_.view);  // a bad view is told before the scene is read

@@ -131,7 +131,7 @@ class TraceRun {
           reader_(STDIN_FILENO, command_.formats.input) {
         redirect_messages(command_.common, command_.history);
         warnings_.enable(command_.settings.warnings && !command_.common.quiet);
-        settle_render_settings(command_.settings, warnings_);
+        check_render_settings(command_.settings);
         check();
         options_ = {records_.shades() || command_.sensor, command_.sensor, command_.limit_by_length,
                     command_.settings.light.seed};

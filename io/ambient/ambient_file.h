@@ -5,11 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/ambient/ambient_record.h"
+#include "core/ambient/ambient_bytes.h"
 
 namespace lightwalk {
-
-inline constexpr std::size_t kAmbientRecordSize = 67;  ///< bytes, with three channels
 
 /// What an ambient file holds. Whole records up to the first damaged one are taken.
 struct AmbientFile {
@@ -24,7 +22,5 @@ struct AmbientFile {
 
 /// Header and magic number of a new file. `lines` are header lines, without FORMAT and NCOMP.
 [[nodiscard]] std::string encode_ambient_header(const std::vector<std::string>& lines);
-/// 67 bytes.
-[[nodiscard]] std::string encode_ambient_record(const AmbientRecord& record);
 
 }  // namespace lightwalk

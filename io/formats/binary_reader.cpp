@@ -1,6 +1,6 @@
 #include "io/formats/binary_reader.h"
 
-#include <cmath>
+#include "core/math/portable_numbers.h"
 
 namespace lightwalk {
 
@@ -17,26 +17,26 @@ void BinaryReader::skip(std::uint64_t count) {
     at_ += static_cast<std::size_t>(count);
 }
 
+std::string_view BinaryReader::next(int size) {
+    const auto count = static_cast<std::size_t>(size);
+    expect(count, 1);
+    at_ += count;
+    return bytes_.substr(at_ - count, count);
+}
+
 std::uint64_t BinaryReader::unsigned_integer(int size) {
-    expect(static_cast<std::uint64_t>(size), 1);
-    std::uint64_t value = 0;
-    for (int i = 0; i < size; ++i) {
-        value = value << 8 | static_cast<std::uint8_t>(bytes_[at_++]);
-    }
-    return value;
+    std::string_view bytes = next(size);
+    return take_unsigned_integer(bytes, size);
 }
 
 std::int64_t BinaryReader::integer(int size) {
-    const std::uint64_t value = unsigned_integer(size);
-    const std::uint64_t sign = std::uint64_t{1} << (8 * size - 1);
-    return static_cast<std::int64_t>((value ^ sign) - sign);
+    std::string_view bytes = next(size);
+    return take_integer(bytes, size);
 }
 
 double BinaryReader::real() {
-    const auto mantissa = static_cast<double>(integer(4));
-    const auto exponent = static_cast<int>(integer(1));
-    if (mantissa == 0) return 0;
-    return std::ldexp((mantissa + (mantissa > 0 ? 0.5 : -0.5)) / 2147483647.0, exponent);
+    std::string_view bytes = next(kPortableRealSize);
+    return take_real(bytes);
 }
 
 std::string BinaryReader::string() {

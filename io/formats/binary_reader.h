@@ -34,6 +34,8 @@ class BinaryReader {
     [[nodiscard]] const std::string& name() const { return name_; }
 
   private:
+    [[nodiscard]] std::string_view next(int size);
+
     std::string_view bytes_;
     std::size_t at_ = 0;
     std::string name_, kind_;

@@ -8,8 +8,6 @@
 
 namespace {
 
-constexpr int kJpegQuality = 95;
-
 OIIO::ImageSpec describe(const lightwalk::ImageRequest& request) {
     OIIO::ImageSpec spec(request.width, request.height, request.channels,
                          request.is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
@@ -21,7 +19,7 @@ OIIO::ImageSpec describe(const lightwalk::ImageRequest& request) {
     if (!request.is_float) {
         spec.attribute("oiio:ColorSpace", "sRGB");
         if (std::string(request.format) == "jpeg")
-            spec.attribute("CompressionQuality", kJpegQuality);
+            spec.attribute("CompressionQuality", request.quality);
         return spec;
     }
     constexpr std::array<float, 8> kPrimaries{0.64f, 0.33f, 0.29f,    0.6f,

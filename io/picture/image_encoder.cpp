@@ -35,15 +35,15 @@ EncodeImage load_encoder(std::string& error) {
 
 }  // namespace
 
-std::vector<unsigned char> encode_image(const std::string& path, const ImageRequest& request) {
+std::string encode_image(const ImageRequest& request) {
+    const std::string failed = std::string("cannot encode ") + request.format + ": ";
     std::string error;
     const EncodeImage encode = load_encoder(error);
-    if (!encode)
-        throw InputError({path, 0}, "cannot write: OpenImageIO's module does not load: " + error);
+    if (!encode) throw InputError(failed + "OpenImageIO's module does not load: " + error);
     std::vector<unsigned char> bytes;
     encode(request, bytes, error = {});
-    if (!error.empty()) throw InputError({path, 0}, "cannot write: " + error);
-    return bytes;
+    if (!error.empty()) throw InputError(failed + error);
+    return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace lightwalk

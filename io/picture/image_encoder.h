@@ -15,12 +15,12 @@ struct ImageRequest {
     const void* pixels = nullptr;  ///< row by row from the top
     const char* history = "";      ///< comment lines
     const char* date = "";         ///< CAPDATE, or empty
+    int quality = 95;              ///< of jpeg, 1 to 100
 };
 
-/// The bytes of the image file. Throws InputError "PATH: cannot write: ..." when the format or
+/// The bytes of the image file. Throws InputError "cannot encode FORMAT: ..." when the format or
 /// module is missing.
-[[nodiscard]] std::vector<unsigned char> encode_image(const std::string& path,
-                                                      const ImageRequest& request);
+[[nodiscard]] std::string encode_image(const ImageRequest& request);
 
 /// The module's one function: empty `error` when it worked.
 using EncodeImage = void (*)(const ImageRequest& request, std::vector<unsigned char>& bytes,

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <filesystem>
 
 #include "core/error.h"
 #include "io/files/atomic_file.h"
-#include "io/formats/header.h"
-#include "io/picture/image_encoder.h"
+#include "io/picture/encode_picture.h"
 #include "io/picture/picture.h"
 #include "io/picture/tone.h"
 
@@ -21,31 +19,23 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-std::string_view characters(const std::vector<unsigned char>& bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-void write_exr(const std::string& path, const Picture& picture, const PictureHeader& header) {
-    std::string history, date;
-    for (const std::string& line : header.lines) {
-        history += line + '\n';
-        if (const auto taken = header_variable(line, "CAPDATE")) date = *taken;
+/// What `encode` gives; its errors name the file that it is for.
+template <class Encode>
+std::string encode_for(const std::string& path, const Encode& encode) {
+    try {
+        return encode();
+    } catch (const InputError& error) {
+        throw InputError({path, 0}, std::string("cannot write: ") + error.what());
     }
-    static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    const ImageRequest request{"openexr", picture.width,         picture.height,  3,
-                               true,      picture.pixels.data(), history.c_str(), date.c_str()};
-    write_file_atomically(path, characters(encode_image(path, request)));
 }
 
-void write_display_image(const std::string& path, const char* format, const Picture& picture,
-                         const ToneMapping& tone) {
-    const DisplayTone settled = settle_tone(picture, tone);
-    std::vector<std::array<std::uint8_t, 3>> pixels(picture.pixels.size());
-    std::transform(picture.pixels.begin(), picture.pixels.end(), pixels.begin(),
-                   [&](const Rgb& color) { return display_pixel(color, settled); });
-    const ImageRequest request{format, picture.width, picture.height, 3, false, pixels.data(), "",
-                               ""};
-    write_file_atomically(path, characters(encode_image(path, request)));
+std::string encode_by_extension(const std::string& extension, const Picture& picture,
+                                const PictureHeader& header, const ToneMapping& tone) {
+    if (extension == ".exr") return encode_exr(picture, header);
+    if (extension == ".png") return encode_png(picture, settle_tone(picture, tone));
+    if (extension == ".jpg" || extension == ".jpeg")
+        return encode_jpeg(picture, settle_tone(picture, tone));
+    return encode_hdr(picture, header);
 }
 
 }  // namespace
@@ -53,29 +43,25 @@ void write_display_image(const std::string& path, const char* format, const Pict
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone) {
     const std::string extension = extension_of(path);
-    if (extension == ".hdr" || extension == ".pic") {
-        write_file_atomically(path, encode_hdr(picture, header));
-    } else if (extension == ".exr") {
-        write_exr(path, picture, header);
-    } else if (extension == ".png") {
-        write_display_image(path, "png", picture, tone);
-    } else if (extension == ".jpg" || extension == ".jpeg") {
-        write_display_image(path, "jpeg", picture, tone);
-    } else {
-        throw InputError({path, 0}, "unknown kind of picture \"" + extension +
-                                        "\", expected .hdr .pic .exr .png .jpg or .jpeg");
+    for (const char* known : {".hdr", ".pic", ".exr", ".png", ".jpg", ".jpeg"}) {
+        if (extension != known) continue;
+        const auto encode = [&] { return encode_by_extension(extension, picture, header, tone); };
+        write_file_atomically(path, encode_for(path, encode));
+        return;
     }
+    throw InputError({path, 0}, "unknown kind of picture \"" + extension +
+                                    "\", expected .hdr .pic .exr .png .jpg or .jpeg");
 }
 
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth) {
     assert(depth.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    if (extension_of(path) != ".exr") {
-        write_file_atomically(
-            path, {reinterpret_cast<const char*>(depth.data()), depth.size() * sizeof(float)});
+    if (extension_of(path) == ".exr") {
+        const auto encode = [&] { return encode_exr(width, height, depth); };
+        write_file_atomically(path, encode_for(path, encode));
         return;
     }
-    const ImageRequest request{"openexr", width, height, 1, true, depth.data(), "", ""};
-    write_file_atomically(path, characters(encode_image(path, request)));
+    write_file_atomically(
+        path, {reinterpret_cast<const char*>(depth.data()), depth.size() * sizeof(float)});
 }
 
 }  // namespace lightwalk

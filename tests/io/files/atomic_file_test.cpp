@@ -1,0 +1,53 @@
+#include "io/files/atomic_file.h"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/error.h"
+#include "io/files/library_path.h"
+#include "tests/temporary_folder.h"
+
+using namespace lightwalk;
+using test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+TEST_CASE("files appear whole, replace older ones, and leave nothing beside them") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("a.txt");
+    write_file_atomically(path, "first, longer");
+    CHECK(read_file(path) == "first, longer");
+    write_file_atomically(path, "second");
+    CHECK(read_file(path) == "second");
+    CHECK(folder.files().size() == 1);
+    struct stat status {};
+    REQUIRE(::stat(path.c_str(), &status) == 0);
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    CHECK((status.st_mode & 0777) == (0666 & ~mask));
+}
+
+TEST_CASE("links are followed, devices written to directly") {
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path("real"), "old");
+    fs::create_symlink("real", folder.path("link"));
+    write_file_atomically(folder.path("link"), "new");
+    CHECK(fs::is_symlink(folder.path("link")));
+    CHECK(read_file(folder.path("real")) == "new");
+    write_file_atomically("/dev/null", "gone");
+    CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("a failed write names the file and leaves nothing") {
+    const TemporaryFolder folder;
+    CHECK_THROWS_WITH_AS(write_file_atomically(folder.path("no/such/folder"), "x"),
+                         doctest::Contains("no/such/folder: cannot write: No such file"),
+                         InputError);
+    fs::create_directory(folder.path("taken"));
+    CHECK_THROWS_WITH_AS(write_file_atomically(folder.path("taken"), "x"),
+                         doctest::Contains("taken: cannot write: "), InputError);
+    CHECK(folder.files().size() == 1);
+    CHECK_THROWS_AS(write_file_atomically("/dev/full", "x"), InputError);
+}
