@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "io/formats/decode.h"
@@ -13,6 +14,23 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kLongestTextLine = 511;
+
+/// Radiance's pictures are called .hdr or .pic, and scenes are older than their pictures' names:
+/// the same name with the other ending; nothing for other names.
+std::optional<std::string> other_picture_name(const std::string& name) {
+    for (const auto& [ending, other] : {std::pair(".pic", ".hdr"), std::pair(".hdr", ".pic")}) {
+        if (name.ends_with(ending)) return name.substr(0, name.size() - 4) + other;
+    }
+    return std::nullopt;
+}
+
+std::string locate_picture(const LibraryPath& path, const std::string& name) {
+    if (std::optional<std::string> found = path.find(name)) return *std::move(found);
+    if (const std::optional<std::string> other = other_picture_name(name)) {
+        if (std::optional<std::string> found = path.find(*other)) return *std::move(found);
+    }
+    return path.locate(name, "picture file");  // which says that it is not there
+}
 
 /// The cached value of `name`, or what `load` makes of it.
 template <class T, class Load>
@@ -43,7 +61,7 @@ std::shared_ptr<const DataArray> FileResources::data(const std::string& name) {
 
 std::shared_ptr<const PictureData> FileResources::picture(const std::string& name) {
     return cached(pictures_, name, [&] {
-        const std::string path = path_.locate(name, "picture file");
+        const std::string path = locate_picture(path_, name);
         return std::make_shared<const PictureData>(decode_picture(read_file(path), path));
     });
 }

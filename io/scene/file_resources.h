@@ -17,6 +17,7 @@ class FileResources final : public Resources {
     FileResources(LibraryPath path, bool allow_commands, WarningSink& warnings);
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
+    /// Where NAME.pic is not there NAME.hdr is taken, and the other way round.
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Font> font(const std::string& name) override;
     /// Lines longer than 511 bytes are broken there; the last line end is optional.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/picture/picture.h"
 #include "tests/io/scene/binary_writer.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
@@ -22,6 +23,31 @@ TEST_CASE("files are found along the path, decoded once, and shared") {
     const auto table = resources.data("ramp.dat");
     CHECK(table->values == std::vector<float>{3, 5});
     CHECK(resources.data("ramp.dat") == table);
+}
+
+TEST_CASE("a picture that is not there may have the other ending, .pic for .hdr and back") {
+    const test::TemporaryFolder folder;
+    const auto grey = [](float value) { return encode_hdr({1, 1, {Rgb::grey(value)}}, {}); };
+    folder.write("a/new.hdr", grey(1));
+    folder.write("a/old.pic", grey(2));
+    folder.write("a/both.hdr", grey(4));
+    folder.write("b/both.pic", grey(8));
+    test::Silence silence;
+    FileResources resources(LibraryPath({"a", "b"}).relative_to(folder.path()), false, silence);
+    const auto value = [&](const std::string& name) {
+        return static_cast<double>(resources.picture(name)->values.at(0).r);
+    };
+    const auto about = [](double x) { return doctest::Approx(x).epsilon(1.0 / 256); };  // RGBE
+    CHECK(value("new.pic") == about(1));
+    CHECK(value("new.hdr") == about(1));
+    CHECK(value("old.hdr") == about(2));
+    CHECK(value("both.hdr") == about(4));
+    CHECK(value("both.pic") == about(8));  // the name as it stands comes first, in every folder
+    for (const std::string name : {"none.pic", "none.hdr", "new.exr", "new", ".pic"}) {
+        CHECK_THROWS_WITH_AS((void)resources.picture(name),
+                             doctest::Contains(("cannot find picture file \"" + name).c_str()),
+                             InputError);
+    }
 }
 
 TEST_CASE("an octree that is not frozen reads its scene files from the base directory") {
