@@ -6,10 +6,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <sstream>
 #include <system_error>
 
 #include "io/ambient/ambient_file.h"
@@ -19,12 +15,6 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& doing) {
     throw InputError({path, 0}, doing + ": " + std::system_category().message(errno));
-}
-
-std::string text(const char* format, double value) {
-    std::array<char, 64> buffer{};
-    (void)std::snprintf(buffer.data(), buffer.size(), format, value);
-    return buffer.data();
 }
 
 /// Bytes of the file from `begin` to its end.
@@ -106,24 +96,43 @@ void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
         throw InputError({path_, 0}, "an ambient file must be a plain file");
     const std::string bytes = read_from(file_, 0, path_);
     if (bytes.empty() && writable_) {
-        const std::string header = encode_ambient_header({ambient_option_line(options)});
+        const std::vector<std::string> lines{ambient_option_line(options)};
+        const std::string header = encode_ambient_header(lines);
         write_at(file_, 0, header, path_);
         known_ = header.size();
+        fit_.emplace(lines, options, cache_.limits());
         return;
     }
     const AmbientFile contents = decode_ambient_file(bytes, path_);
-    if (const std::string difference = ambient_option_difference(contents.header, options);
-        !difference.empty()) {
-        throw InputError({path_, 0}, "the ambient file was made with " + difference);
-    }
-    for (const AmbientRecord& record : contents.records) cache_.insert(record);
+    fit_.emplace(contents.header, options, cache_.limits());
+    const std::size_t used = use(contents.records);
     known_ = contents.size;
+    if (!fit_->difference().empty()) {
+        std::string text = path_ + ": the ambient file was made with " + fit_->difference() + ": ";
+        text += std::to_string(used) + " of its " + std::to_string(contents.records.size()) +
+                " values are used";
+        if (fit_->loses_values() && writable_)
+            text += ", and values of more bounces than it knows are not kept";
+        warnings.warn(text);
+    }
     if (contents.damage.empty()) return;
     warnings.warn(path_ + ": " + contents.damage + "; the " +
                   std::to_string(contents.records.size()) + " values before are used" +
                   (writable_ ? ", the rest is cut off" : ""));
     if (writable_ && ftruncate(file_, static_cast<off_t>(known_)) != 0)
         fail(path_, "cannot cut off the damaged end");
+}
+
+/// Take over those that serve; returns how many do.
+std::size_t AmbientStore::use(const std::vector<AmbientRecord>& records) {
+    std::size_t used = 0;
+    for (const AmbientRecord& record : records) {
+        const std::optional<AmbientRecord> fitted = fit_->for_run(record);
+        if (!fitted) continue;
+        cache_.insert(*fitted);
+        ++used;
+    }
+    return used;
 }
 
 /// Whole records that other processes have appended; the file is locked.
@@ -133,54 +142,21 @@ void AmbientStore::take_over_appended() {
     if (static_cast<std::size_t>(status.st_size) < known_ + kAmbientRecordSize) return;
     const std::string bytes = read_from(file_, known_, path_);
     const AmbientFile contents = decode_ambient_file(encode_ambient_header({}) + bytes, path_);
-    for (const AmbientRecord& record : contents.records) cache_.insert(record);
+    (void)use(contents.records);
     known_ += contents.records.size() * kAmbientRecordSize;
 }
 
 void AmbientStore::insert(const AmbientRecord& record) {
     cache_.insert(record);
     if (!writable_) return;
-    const std::string bytes = encode_ambient_record(record);
+    const std::optional<AmbientRecord> kept = fit_->for_file(record);
+    if (!kept) return;
+    const std::string bytes = encode_ambient_record(*kept);
     const std::lock_guard guard(mutex_);
     const Lock lock(file_, true, path_);
     take_over_appended();
     write_at(file_, known_, bytes, path_);
     known_ += bytes.size();
-}
-
-std::string ambient_option_line(const RenderOptions& o) {
-    std::string line = "lightwalk -av";
-    for (std::size_t k = 0; k < 3; ++k)
-        line += text(" %g", static_cast<double>(o.ambient_value[k]));
-    line += text(" -aw %.0f", o.ambient_weight) + text(" -ab %.0f", o.ambient_bounces) +
-            text(" -aa %g", o.ambient_accuracy);
-    line += text(" -ad %.0f", o.ambient_divisions) + text(" -as %.0f", o.ambient_super_samples);
-    line += text(" -ar %.0f", o.ambient_resolution) + text(" -dt %g", o.shadow_threshold) +
-            text(" -dc %g", o.shadow_certainty);
-    line += text(" -ss %g", o.specular_samples) + text(" -st %g", o.specular_threshold);
-    return line + text(" -lr %.0f", o.reflection_limit) + text(" -lw %g", o.weight_limit);
-}
-
-std::string ambient_option_difference(const std::vector<std::string>& header,
-                                      const RenderOptions& o) {
-    const std::array<std::pair<const char*, double>, 5> wanted{{{"-ab", o.ambient_bounces},
-                                                                {"-aa", o.ambient_accuracy},
-                                                                {"-ad", o.ambient_divisions},
-                                                                {"-as", o.ambient_super_samples},
-                                                                {"-ar", o.ambient_resolution}}};
-    for (const std::string& line : header) {
-        std::istringstream words(line);
-        for (std::string word, value; words >> word;) {
-            for (const auto& [name, number] : wanted) {
-                if (word != name || !(words >> value)) continue;
-                const double found = std::strtod(value.c_str(), nullptr);
-                if (std::abs(found - number) > 1e-4 * std::abs(number)) {
-                    return word + " " + value + ", not " + text("%g", number);
-                }
-            }
-        }
-    }
-    return {};
 }
 
 }  // namespace lightwalk

@@ -1,12 +1,15 @@
 #pragma once
 // A cache that keeps its values in an ambient file, which other processes may use at the same time.
+#include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/ambient/ambient_cache.h"
 #include "core/error.h"
 #include "core/transport/options.h"
+#include "io/ambient/ambient_fit.h"
 
 namespace lightwalk {
 
@@ -15,9 +18,11 @@ namespace lightwalk {
 /// written, as Radiance's programs do.
 class AmbientStore final : public AmbientCache {
   public:
-    /// Opens or makes the file, and fills `cache` with its values. A damaged end is reported and
-    /// cut off. Where the file cannot be written its values are used, with a warning, and it stays
-    /// as it is. Throws InputError for a file that is none, or was made with other ambient options.
+    /// Opens or makes the file, and fills `cache` with those of its values that serve under
+    /// `options` (see AmbientFit); one warning says which options the file was made with, where
+    /// they are others. A damaged end is reported and cut off. Where the file cannot be written its
+    /// values are used, with a warning, and it stays as it is. Throws InputError for a file that is
+    /// none, is of another version of the format, or cannot be read.
     AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
                  WarningSink& warnings);
     ~AmbientStore() override;
@@ -38,20 +43,16 @@ class AmbientStore final : public AmbientCache {
   private:
     class Lock;
     void load(const RenderOptions& options, WarningSink& warnings);
+    [[nodiscard]] std::size_t use(const std::vector<AmbientRecord>& records);
     void take_over_appended();
 
     std::string path_;
     AmbientCache& cache_;
     int file_ = -1;
     bool writable_ = true;
-    std::mutex mutex_;       ///< guards the file
-    std::size_t known_ = 0;  ///< bytes of the file that are in the cache
+    std::optional<AmbientFit> fit_;  ///< set from the header on
+    std::mutex mutex_;               ///< guards the file
+    std::size_t known_ = 0;          ///< bytes of the file that are in the cache
 };
-
-/// The header line of a file made with these options, as Radiance orders them.
-[[nodiscard]] std::string ambient_option_line(const RenderOptions& options);
-/// What makes a file's values unfit for these options, as "-aa 0.1, not 0.2"; "" when nothing does.
-[[nodiscard]] std::string ambient_option_difference(const std::vector<std::string>& header,
-                                                    const RenderOptions& options);
 
 }  // namespace lightwalk
