@@ -1,8 +1,9 @@
 #!/bin/sh
-# Install what Lightwalk is built from, on Debian 12 as root or with sudo. Does nothing when all is there.
+# Install what Lightwalk is built from, on Debian 12 as root or with sudo, and the packages given as arguments. Does
+# nothing when all is there.
 set -eu
 packages="g++ cmake ninja-build libtbb-dev libembree-dev libopenimageio-dev nlohmann-json3-dev doctest-dev
-libbenchmark-dev python3 python3-numpy"
+libbenchmark-dev python3 python3-numpy $*"
 missing=""
 for package in $packages; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"

@@ -3,7 +3,7 @@
 # go to ctest.
 set -eu
 cd "$(dirname "$0")/.."
-sh apps/install_packages.sh
+sh apps/install_packages.sh qemu-user
 preset="${1:-release}"
 [ $# -eq 0 ] || shift
 cmake --preset "$preset"

@@ -4,6 +4,9 @@
 
 #include <bit>
 #include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "tests/core/geometry/geometry_scenes.h"
 
@@ -55,6 +58,18 @@ bool same_bits(const Hit& a, const Hit& b) {
            a.frame == b.frame;
 }
 
+/// With the instructions that Embree would use on another processor; nothing where this one lacks
+/// them.
+std::optional<Geometry> built_for(const TestModels& scene, const std::string& instructions) {
+    try {
+        return scene.build("isa=" + instructions);
+    } catch (const std::runtime_error& error) {
+        CHECK(std::string(error.what()) == "Embree does not start on this machine");
+        MESSAGE("skipped: this processor has no " << instructions);
+        return std::nullopt;
+    }
+}
+
 /// A unit square at height z, facing up.
 std::vector<double> square(double z) {
     return {0, 0, z, 1, 0, z, 1, 1, z, 0, 1, z};
@@ -99,6 +114,28 @@ TEST_CASE("the nearest hit is the one that trying every surface gives") {
                 CHECK(hit.cos_out == doctest::Approx(-dot(ray.direction, hit.normal)));
             }
             CHECK(hits > 40);
+        }
+    }
+}
+
+TEST_CASE("Embree proposes, doubles decide: hits are the same bits whatever instructions it uses") {
+    for (const std::string instructions : {"sse2", "sse4.2", "avx", "avx2", "avx512"}) {
+        CAPTURE(instructions);
+        for (std::uint64_t seed = 20; seed < 24; ++seed) {
+            const TestModels scene = random_models(seed, 40);
+            const std::optional<Geometry> other = built_for(scene, instructions);
+            if (!other) break;
+            const Geometry geometry = scene.build();
+            const std::vector<RaySegment> rays = test_rays(seed, 1000);
+            std::vector<Hit> hits(rays.size()), other_hits(rays.size());
+            geometry.intersect(rays, hits);
+            other->intersect(rays, other_hits);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                REQUIRE(same_bits(other_hits[i], hits[i]));
+                REQUIRE(same_bits(other->intersect(rays[i]), hits[i]));
+                REQUIRE(other->visibility(rays[i], kNoSurface) ==
+                        geometry.visibility(rays[i], kNoSurface));
+            }
         }
     }
 }
