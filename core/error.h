@@ -30,6 +30,12 @@ class InputError : public std::runtime_error {
         : std::runtime_error(to_prefix(where) + message) {}
 };
 
+/// A file that a scene names is not there. Whoever does not need it yet may go on without.
+class MissingFile : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 /// Receives warnings. Implementations must be callable from many threads at once and should limit
 /// repetition.
 class WarningSink {

@@ -46,8 +46,8 @@ class MemoryResources final : public Resources {
     }
 
   private:
-    static InputError missing(const std::string& name) {
-        return InputError("cannot find file \"" + name + "\"");
+    static MissingFile missing(const std::string& name) {
+        return MissingFile("cannot find file \"" + name + "\"");
     }
     template <class Value>
     static Value find(const std::map<std::string, Value>& files, const std::string& name) {

@@ -48,11 +48,7 @@ FunctionBinding LobeFunction::bind(const ModifierBuild& build,
                                kNormalChannels);
     }
     require_least_strings(primitive, 4);
-    try {
-        table = build.resources.data(s[1]);
-    } catch (const InputError& error) {
-        throw modifier_error(primitive, error.what());
-    }
+    table = load_for(primitive, [&] { return build.resources.data(s[1]); });
     const std::size_t dimensions = table->axes.size();
     if (dimensions > kMaxDimensions)
         throw modifier_error(primitive, "too many dimensions in data file");

@@ -42,8 +42,8 @@ struct Font {
     int mean_width = 0;
 };
 
-/// Finds and decodes files by the names that stand in a scene. Every method throws InputError,
-/// naming the search path, when the file is missing or damaged. Each name is decoded once and
+/// Finds and decodes files by the names that stand in a scene. Every method throws MissingFile,
+/// naming the search path, when there is no such file, and InputError when it is damaged. Each name is decoded once and
 /// shared.
 class Resources {
   public:

@@ -17,6 +17,16 @@ const Primitive& alias_target(const Model& model, const Primitive& primitive) {
     return *p;
 }
 
+/// Stands for a modifier whose file is missing: a scene that never shows it can be rendered.
+class UnavailableModifier final : public Modifier {
+  public:
+    explicit UnavailableModifier(std::string problem) : problem_(std::move(problem)) {}
+    [[nodiscard]] bool shade(Ray&, TraceContext&) const override { throw InputError(problem_); }
+
+  private:
+    std::string problem_;
+};
+
 ModifierId global(std::int32_t base, std::int32_t local) {
     return local < 0 ? kVoid : ModifierId{base + local};
 }
@@ -95,7 +105,12 @@ void ModifierTable::compile(const std::vector<LoadedModel>& models,
                                                  primitive.references[k] == kUndefinedIndex;
                                       },
                                       [this](ModifierId m) { return is_transparent(m); }};
-            record.node = factory(build);
+            try {
+                record.node = factory(build);
+            } catch (const MissingFile& missing) {
+                warnings.warn(missing.what());
+                record.node = std::make_unique<UnavailableModifier>(missing.what());
+            }
         }
     }
 }

@@ -22,7 +22,8 @@ class Scene {
   public:
     /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
     /// others are never reported. `modifier_factory` must know plastic. Throws InputError for bad
-    /// surfaces, bad used modifiers, missing files, circular instances. `model` and what
+    /// surfaces, bad used modifiers, missing octrees and meshes, circular instances. A file that a
+    /// modifier misses is a warning, and an InputError when a ray needs it. `model` and what
     /// `resources` hands out are kept alive by the scene.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
           Resources& resources, WarningSink& warnings);

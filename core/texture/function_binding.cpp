@@ -85,21 +85,19 @@ void fill_material(ChannelValues& out, const ToFunction& space, const MaterialVa
 
 }  // namespace
 
+void load_functions(const ModifierBuild& build, const std::string& file) {
+    if (build.functions.loaded(file)) return;
+    build.functions.load(
+        file, load_for(build.primitive, [&] { return build.resources.function_file(file); }));
+}
+
 FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
                                  std::vector<ExpressionRequest> requests,
                                  std::size_t first_transform_word, ChannelMask material_channels) {
     const Primitive& primitive = build.primitive;
     require_arguments(primitive, std::max(file + 1, first_transform_word));
     const std::string& name = primitive.strings[file];
-    if (!build.functions.loaded(name)) {
-        std::string text;
-        try {
-            text = build.resources.function_file(name);
-        } catch (const InputError& error) {
-            throw modifier_error(primitive, error.what());
-        }
-        build.functions.load(name, text);
-    }
+    load_functions(build, name);
     program_ = build.functions.compile(name, requests, primitive.reals, material_channels,
                                        primitive.where);
     channels_ = program_.channels();

@@ -29,6 +29,10 @@ inline constexpr ChannelMask kNormalChannels =
 inline constexpr ChannelMask kAimChannels =
     channel_bit(Channel::DxA) | channel_bit(Channel::DyA) | channel_bit(Channel::DzA);
 
+/// Define what a function file holds, unless that was done. Throws MissingFile and InputError with
+/// the primitive's place.
+void load_functions(const ModifierBuild& build, const std::string& file);
+
 /// Where a ray met a surface, and whence.
 struct RayHit {
     Vec3 direction;

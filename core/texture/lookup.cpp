@@ -43,23 +43,6 @@ std::vector<ExpressionRequest> function_requests(const Primitive& primitive, std
     return requests;
 }
 
-/// Load a file that a primitive names, with the primitive's place in the message.
-template <class Load>
-auto load_for(const Primitive& primitive, const Load& load) {
-    try {
-        return load();
-    } catch (const InputError& error) {
-        throw modifier_error(primitive, error.what());
-    }
-}
-
-/// The function file's definitions have to be known before functions are counted.
-void load_functions(const ModifierBuild& build, const std::string& file) {
-    if (build.functions.loaded(file)) return;
-    build.functions.load(
-        file, load_for(build.primitive, [&] { return build.resources.function_file(file); }));
-}
-
 }  // namespace
 
 FunctionBinding DataLookup::bind(const ModifierBuild& build, std::size_t first, std::size_t values,

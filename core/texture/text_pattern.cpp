@@ -57,13 +57,11 @@ TextLayout make_text_layout(const ModifierBuild& build, std::size_t font, std::s
     const std::vector<double>& a = primitive.reals;
     std::optional<double> spacing;
     if (a.size() > 9 + colors) spacing = a[9 + colors];
-    try {
+    return load_for(primitive, [&] {
         return TextLayout(text_of(build, font), build.resources.font(primitive.strings[font]),
                           Vec3{a[0], a[1], a[2]}, Vec3{a[3], a[4], a[5]}, Vec3{a[6], a[7], a[8]},
                           spacing);
-    } catch (const InputError& error) {
-        throw modifier_error(primitive, error.what());
-    }
+    });
 }
 
 bool inside_text(const TextLayout& layout, const Ray& ray, const TraceContext& context) {

@@ -136,7 +136,7 @@ std::optional<std::string> LibraryPath::find(const std::string& name) const {
 
 std::string LibraryPath::locate(const std::string& name, const std::string& kind) const {
     if (std::optional<std::string> path = find(name)) return *path;
-    throw InputError("cannot find " + kind + " \"" + name + "\" in " + describe());
+    throw MissingFile("cannot find " + kind + " \"" + name + "\" in " + describe());
 }
 
 std::string LibraryPath::describe() const {

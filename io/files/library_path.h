@@ -17,7 +17,7 @@ class LibraryPath {
     /// First readable regular file; nothing when there is none. Names beginning with / or . are not
     /// searched, ~ and ~user are home directories.
     [[nodiscard]] std::optional<std::string> find(const std::string& name) const;
-    /// The path to open; throws InputError "cannot find KIND \"NAME\" in A:B:C".
+    /// The path to open; throws MissingFile "cannot find KIND \"NAME\" in A:B:C".
     [[nodiscard]] std::string locate(const std::string& name, const std::string& kind) const;
     [[nodiscard]] std::string describe() const;  ///< "A:B:C"
     [[nodiscard]] const std::vector<std::string>& directories() const { return directories_; }
