@@ -147,7 +147,7 @@ class FrameRenderer {
         const RefineOptions options{options_.pixels.spacing, options_.pixels.threshold,
                                     options_.use_distances};
         refine_tile(
-            tile, options_.width, options_.height, options, trace,
+            tile, options, trace,
             [this](const PixelPlace& place, const PixelValue& value) { store(place, value); });
     }
 
