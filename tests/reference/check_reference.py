@@ -5,7 +5,7 @@
 
 KIND: cases (radiances of tiny scenes), ambient_cases (with indirect light), distances, pixels, rays (single rays
 through real models), picture NAME, defaults NAME (the mean with default options),
-ambient_error (of indirect light against a converged picture). Exit 0: holds, 1: does not, 77: the data are not here (skipped).
+ambient_error (of indirect light against a converged picture), adaptive (means and rays of -ps 2 and 4). Exit 0: holds, 1: does not, 77: the data are not here (skipped).
 """
 import csv, gzip, json, os, pathlib, subprocess, sys, tempfile
 
@@ -221,6 +221,88 @@ def ambient_error(program, data):
     return ok
 
 
+def rpict_rays(picture, spacing, threshold):
+    """How many pixels rpict's pattern traces where tracing gives `picture` (rows from the top); the same as
+    tests/parallel/rpict_pattern.h, where its rules are."""
+    pixel = [[tuple(p) for p in row] for row in picture[::-1].tolist()]
+    height, width, rays = len(pixel), len(pixel[0]), 0
+    across, up = (140 * spacing + 49) // 99, (99 * spacing + 70) // 140
+    density, shown = [across] * (width // across + 3), [[None] * width for _ in range(height)]
+
+    def trace(x, y):
+        nonlocal rays
+        shown[y][x], rays = pixel[y][x], rays + 1
+
+    def refine(x, y, dx, dy, n, budget):
+        if n <= 1:
+            return 0
+        half, a, b = n // 2, shown[y][x], shown[y + n * dy][x + n * dx]
+        mx, my, traced = x + half * dx, y + half * dy, budget > 0 or any(abs(p - q) > threshold * min(p, q) for p, q in zip(a, b))
+        if traced:
+            trace(mx, my)
+        else:
+            shown[my][mx] = tuple(p + (q - p) * half / n for p, q in zip(a, b))
+        before = refine(x, y, dx, dy, half, int((budget - 1) / 2))
+        return traced + before + refine(mx, my, dx, dy, n - half, budget // 2)
+
+    def base_row(y, odd):
+        trace(0, y)
+        previous, count = 0, across
+        for i, anchor in enumerate(range(across if odd else across // 2, width - 1 + across, across)):
+            anchor = min(anchor, width - 1)
+            trace(anchor, y)
+            before, budget = count, count if across <= 2 else max(density[i:i + 2] or [0])
+            count = refine(previous, y, 1, 0, anchor - previous, budget // 2)
+            density[i:i + 1] = [before if odd else count] if i < len(density) else []
+            previous = anchor
+        if odd and i + 1 < len(density):
+            density[i + 1] = count
+
+    y, odd = height - 1, True
+    base_row(y, odd)
+    while y > 0:
+        below, odd = max(y - up, 0), not odd
+        base_row(below, odd)
+        count = y - below
+        for x in range(width):
+            count = refine(x, below, 0, 1, y - below, count // 2)
+        y = below
+    return rays
+
+
+def adaptive(program, data):
+    """Means of ten seeds with -ps 2 and 4 are those of -ps 1 within 1 %, for no more rays than rpict's pattern takes."""
+    rows = [(name, reference_row(data, name), data / "scenes") for name in ("summer-bath", "virtual-back", "examp")]
+    lodge = pathlib.Path(__file__).resolve().parents[2] / "apps" / "scenes"
+    rows.append(("lodge", {"folder": "lodge", "scene files": "lodge.rad day.rad", "options": "-vf views/living.vf -av .35 .33 .30"}, lodge))
+    sys.path.insert(0, str(data / "tools"))
+    import compare_pictures
+    ok = True
+    for name, row, scenes in rows:
+        words = row["options"].split()
+        common = ["-x", "320", "-y", "240", *words[words.index("-vf"):][:2], *words[words.index("-av"):][:4]]
+        kinds, means = {"-ps 1": [], "-ps 2 -pt .08": [], "-ps 4 -pt .05": []}, {}
+        rays, theirs = dict.fromkeys(kinds, 0), dict.fromkeys(kinds, 0)
+        with tempfile.TemporaryDirectory() as temp:
+            out, stats = os.path.join(temp, "mine.hdr"), os.path.join(temp, "stats.json")
+            for seed in range(10):
+                for kind in kinds:
+                    options = ["--quiet", *common, *kind.split(), "--seed", str(seed), "--stats", stats, "-o", out]
+                    run(program, "render", options, row["scene files"].split(), scenes / row["folder"])
+                    picture = compare_pictures.read_hdr(out)
+                    picture = picture[0] if isinstance(picture, tuple) else picture
+                    kinds[kind].append(picture.mean())
+                    if seed == 0:  # counting takes a second, and the counts of seeds are alike
+                        full = picture if kind == "-ps 1" else full
+                        rays[kind] = json.loads(pathlib.Path(stats).read_text())["rays"]["primary"]
+                        theirs[kind] = rays[kind] if kind == "-ps 1" else rpict_rays(full, int(kind.split()[1]), float(kind.split()[3]))
+        for kind, values in kinds.items():
+            means[kind] = sum(values) / sum(kinds["-ps 1"])
+            print(f"{name} {kind}: mean {means[kind]:.4f} of -ps 1, {rays[kind]} rays, rpict's pattern {theirs[kind]}")
+            ok = ok and abs(means[kind] - 1) < 0.01 and rays[kind] <= theirs[kind]
+    return ok
+
+
 def main(argv):
     if len(argv) < 4:
         print(__doc__, file=sys.stderr)
@@ -230,7 +312,7 @@ def main(argv):
         print("skipped: the reference data are not here")
         return SKIP
     check = {"cases": cases, "ambient_cases": ambient_cases, "distances": distances, "pixels": pixels, "rays": rays,
-             "ambient_error": ambient_error}.get(kind)
+             "ambient_error": ambient_error, "adaptive": adaptive}.get(kind)
     if check:
         return 0 if check(program, data) else 1
     return 0 if {"picture": picture, "defaults": defaults}[kind](program, data, argv[4]) else 1
