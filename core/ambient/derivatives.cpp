@@ -190,6 +190,7 @@ std::uint32_t corral_of(const Hemisphere& h, const Axes& axes, double r0, double
     }
     overhead *= 4.0 / (static_cast<double>(n) * n);
     if (overhead * r0 >= 1 || overhead >= most_nearness) return 0;
+    // The 1.01 makes the last step end before the reach does; Radiance's, as its values show it.
     const double reach = kPi / (2 * n), step = reach / (std::floor(16 * reach / kPi) + 1.01);
     std::uint32_t flags = 0;
     const auto add = [&](int i, int j) {

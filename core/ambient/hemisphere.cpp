@@ -138,7 +138,8 @@ std::vector<double> Sampler::error_map() const {
         }
     }
     for (int k = 0; k < n; ++k) {
-        const double rim = k == 0 || k == n - 1 ? 2 : 6.0 / 5;  // corners have two neighbours
+        // Cells at the rim have fewer neighbours. Radiance's factors, as its values show them.
+        const double rim = k == 0 || k == n - 1 ? 2 : 6.0 / 5;
         raw[at(k, 0)] *= rim;
         raw[at(k, n - 1)] *= rim;
         if (k == 0 || k == n - 1) continue;
@@ -185,7 +186,7 @@ DiskPoint square_to_disk(double x, double y) {
         r = a < b ? -a : -b;
         phi = a < b ? kPi / 4 * (4 + b / a) : b != 0 ? kPi / 4 * (6 - a / b) : 0;
     }
-    r *= 0.9999999999999;
+    r *= 0.9999999999999;  // keeps off the horizon; Radiance's factor, as its values show it
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Where a source is sampled from a point: its parts, and one direction with its solid angle for
-// each. Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering
-// 1991; the -ds and -dj options of rpict(1).
+// each. Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994
+// ("adaptive source subdivision"); the -ds and -dj options of rpict(1).
 #include <array>
 #include <optional>
 #include <vector>

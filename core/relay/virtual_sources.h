@@ -1,7 +1,7 @@
 #pragma once
 // Virtual sources: where lights appear in flat mirrors and through prisms, so that their light can
-// be sampled. Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994,
-// section 3.2 ("virtual light sources"); the -dr and -dp options of rpict(1).
+// be sampled. Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994
+// ("virtual light source calculation"); the -dr and -dp options of rpict(1).
 #include <vector>
 
 #include "core/light/light_sources.h"
