@@ -29,8 +29,6 @@ void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random,
     const double farthest = ray.limit > kEpsilon ? ray.limit : kHuge;
     const Hit first = tracer.scene().geometry().intersect({ray.origin, ray.direction, farthest});
     if (options.shade) {
-        context.clip_sets.clear();
-        context.scatter_lists.clear();
         tracer.shade_hit(ray, first, context);
     } else {
         ray.hit = first;

@@ -27,11 +27,30 @@ bool is_finite(const Rgb& c) {
     return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
 
+/// While it lives a ray is being evaluated; the outermost one starts a path.
+class OpenRay {
+  public:
+    explicit OpenRay(TraceContext& context) : context_(context) {
+        if (context_.depth++ == 0) context_.start_path();
+    }
+    ~OpenRay() { --context_.depth; }
+    OpenRay(const OpenRay&) = delete;
+    OpenRay& operator=(const OpenRay&) = delete;
+
+  private:
+    TraceContext& context_;
+};
+
 }  // namespace
 
 TraceContext::TraceContext(const Tracer& for_tracer, WarningSink& to_warnings)
     : tracer(for_tracer), warnings(to_warnings), light(std::make_unique<LightScratch>()) {}
 TraceContext::~TraceContext() = default;
+
+void TraceContext::start_path() {
+    clip_sets.clear();
+    scatter_lists.clear();
+}
 
 Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings)
     : scene_(scene),
@@ -47,13 +66,9 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
 Tracer::~Tracer() = default;
 
 void Tracer::trace(Ray& ray, TraceContext& context) const {
-    if (ray.kind == kPrimary) {
-        context.clip_sets.clear();
-        context.scatter_lists.clear();
-    }
     if (context.depth >= kMaxDepth) return;
     if (ray.aimed) {
-        ++context.depth;
+        const OpenRay open(context);
         count(ray, context.counters);
         if (lights_->intersect_target(ray, *this)) {
             ray.unmirrored_distance = ray.hit.t;
@@ -64,7 +79,6 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
             }
             apply_medium(ray, context);
         }
-        --context.depth;
         return;
     }
     const double limit = ray.limit > kEpsilon ? ray.limit : kHuge;
@@ -73,7 +87,7 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
 
 void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
     if (context.depth >= kMaxDepth) return;
-    ++context.depth;
+    const OpenRay open(context);
     count(ray, context.counters);
     ray.hit = hit;
     ray.next_clip = ray.clip;
@@ -103,14 +117,11 @@ void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
         context.warnings.warn("a ray's value is not finite; it counts as black");
         ray.value = ray.mirrored = Rgb{};
     }
-    --context.depth;
 }
 
 Ray Tracer::irradiance(const Vec3& point, const Vec3& normal, RandomStream random,
                        TraceContext& context) const {
     constexpr double kStandOff = 1.1e-4, kDistance = 1e-5;  // [m]
-    context.clip_sets.clear();
-    context.scatter_lists.clear();
     const Vec3 facing = normalize(normal);
     Ray ray = primary(point + facing * kStandOff, -facing, 0, random);
     Hit hit;

@@ -60,6 +60,10 @@ struct TraceContext {
     TraceContext(const TraceContext&) = delete;
     TraceContext& operator=(const TraceContext&) = delete;
 
+    /// A path starts: the sets of the one before are forgotten. Tracer calls it where a ray is
+    /// evaluated while no other is open.
+    void start_path();
+
     const Tracer& tracer;
     WarningSink& warnings;
     RayCounters counters;
@@ -70,7 +74,7 @@ struct TraceContext {
     int depth = 0;          ///< nesting of rays, bounded by Tracer::kMaxDepth
     int ambient_level = 0;  ///< ambient evaluations that are open
     AmbientCounters ambient;
-    // Sets made on the way (antimatter, mist); forgotten when a primary ray starts.
+    // Sets made on the way (antimatter, mist); forgotten when a path starts.
     std::deque<ClipSet> clip_sets;
     std::deque<ScatterList> scatter_lists;
 };

@@ -84,3 +84,23 @@ TEST_CASE("antimatter leaves other modifiers alone, and warns of names that it d
     CHECK(scene.warnings.messages[1] ==
           "test.rad:4: antimatter \"m\": undefined modifier \"nothing\"");
 }
+
+TEST_CASE("sets made on a path are forgotten when the next one starts, however it starts") {
+    // Within both bites other matter is clipped than within one: a set of its own.
+    TestScene scene(
+        bitten("void antimatter m 2 void ball 0 0\nvoid antimatter n 2 void other 0 0\n") +
+        "n sphere inner 0 0 4 0 -1 0 .3\n");
+    const auto bite = [&](std::uint16_t kind) {
+        Ray ray = scene.tracer.primary({0, -3, 0}, {0, 1, 0}, 0, RandomStream());
+        ray.kind = kind;  // small light sources start with a shadow ray
+        scene.tracer.trace(ray, scene.context);
+        return scene.context.clip_sets.size();
+    };
+    const std::size_t one = bite(kPrimary);
+    CHECK(one > 0);
+    CHECK(bite(kPrimary) == one);
+    CHECK(bite(kShadow) <= one);
+    (void)scene.tracer.irradiance({0, 0, 50}, {0, 0, 1}, RandomStream(), scene.context);
+    CHECK(scene.context.clip_sets.empty());
+    CHECK(scene.context.depth == 0);
+}
