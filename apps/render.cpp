@@ -16,6 +16,7 @@
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
 #include "parallel/frame.h"
+#include "parallel/overture.h"
 
 namespace lightwalk {
 namespace {
@@ -87,6 +88,8 @@ class RenderRun {
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
         session_->build(command_.settings);
         executor_ = make_executor(command_.common.executor, command_.common.workers);
+        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
+                                                     executor_->concurrency());
         statistics_.command = "render";
         statistics_.read_seconds = session_->read_seconds;
         statistics_.build_seconds = session_->build_seconds;
@@ -145,12 +148,13 @@ class RenderRun {
         if (frame_number > 0 && command_.report_interval > 0) {
             std::fprintf(stderr, "FRAME %d:%s\n", frame_number, view_text(view).c_str());
         }
-        FrameOptions options{size.width,
-                             size.height,
-                             command_.pixels,
-                             command_.settings.light.seed,
-                             !command_.depth.empty(),
-                             previous ? &*previous : nullptr};
+        FrameOptions options;
+        options.width = size.width;
+        options.height = size.height;
+        options.pixels = command_.pixels;
+        options.seed = command_.settings.light.seed;
+        options.use_distances = !command_.depth.empty();
+        options.previous = previous ? &*previous : nullptr;
         set_interrupt_phase(InterruptPhase::request);
         const std::optional<Frame> frame = trace(camera, options);
         if (!frame) return false;
@@ -177,16 +181,22 @@ class RenderRun {
         }
     }
 
+    static Frame empty_frame() {
+        Frame frame;
+        frame.complete = true;
+        return frame;
+    }
+
     /// Nothing: interrupted.
     std::optional<Frame> trace(const Camera& camera, const FrameOptions& options) {
-        if (options.width <= 0 || options.height <= 0) return Frame{0, 0, {}, {}, {}, true};
+        if (options.width <= 0 || options.height <= 0) return empty_frame();
         const bool bar = !command_.common.quiet && command_.common.error_file.empty() &&
                          isatty(STDERR_FILENO) != 0;
         ProgressMeter meter({bar, command_.report_interval, kProgram});
         warnings_.use_terminal_line(bar);
         const Stopwatch watch;
-        if (session_->freezable && !fill_cache(camera, options)) return std::nullopt;
-        Frame frame = render_frame(session_->tracer(), camera, options, *executor_, warnings_,
+        if (session_->freezable && !play_overture(camera, options)) return std::nullopt;
+        Frame frame = render_frame(session_->tracer(), camera, options, *executor_, *contexts_,
                                    interrupt_flag(),
                                    [&](const FrameProgress& progress) { meter.update(progress); });
         statistics_.render_seconds += watch.seconds();
@@ -201,33 +211,19 @@ class RenderRun {
         return frame;
     }
 
-    /// Coarse pictures that leave nothing but ambient values, so that the picture itself finds most
-    /// of them. Their pixels are not kept: computed while the cache was nearly empty, they would
-    /// stand out in a grid. In deterministic mode one thread makes them, finer and finer, and the
-    /// cache is closed after. False: interrupted.
-    bool fill_cache(const Camera& camera, const FrameOptions& options) {
-        constexpr int kOverture = 6;
-        std::vector<int> steps{kOverture};
-        if (command_.deterministic)
-            steps = {16, 8, 4, 2};
-        else if (!command_.overture)
-            steps.clear();
-        const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
-        session_->freezable->freeze(false);
-        for (const int step : steps) {
-            FrameOptions coarse = options;
-            coarse.step = step;
-            coarse.pixels.spacing = 1;
-            coarse.previous = nullptr;
-            const Frame frame = render_frame(session_->tracer(), camera, coarse,
-                                             command_.deterministic ? *one : *executor_, warnings_,
-                                             interrupt_flag(), [](const FrameProgress&) {});
-            statistics_.rays += frame.rays;
-            statistics_.ambient += frame.ambient;
-            if (!frame.complete) return false;
-        }
-        session_->freezable->freeze(command_.deterministic);
-        return true;
+    [[nodiscard]] Overture overture() const {
+        if (command_.deterministic) return Overture::deterministic;
+        return command_.overture ? Overture::quick : Overture::none;
+    }
+
+    /// False: interrupted.
+    bool play_overture(const Camera& camera, const FrameOptions& options) {
+        const OvertureResult played = fill_ambient_cache(
+            session_->tracer(), camera, options, overture(), *session_->freezable, *executor_,
+            *contexts_, interrupt_flag(), [](const FrameProgress&) {});
+        statistics_.rays += played.rays;
+        statistics_.ambient += played.ambient;
+        return played.complete;
     }
 
     void write(const Frame& frame, const PictureHeader& header, int number) {
@@ -246,6 +242,7 @@ class RenderRun {
     StderrWarnings warnings_;
     std::unique_ptr<SceneSession> session_;
     std::unique_ptr<Executor> executor_;
+    std::unique_ptr<WorkerContexts> contexts_;
     RunStatistics statistics_;
 };
 

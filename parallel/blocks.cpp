@@ -18,10 +18,11 @@ int block_side(int width, int height, int workers, int alignment) {
     return side;
 }
 
-std::vector<Block> make_blocks(int width, int height, int side) {
-    if (width <= 0 || height <= 0) return {};
-    const std::size_t columns = static_cast<std::size_t>((width - 1) / side) + 1;
-    const std::size_t rows = static_cast<std::size_t>((height - 1) / side) + 1;
+std::vector<Block> make_blocks(const PixelRectangle& area, int side) {
+    if (area.empty()) return {};
+    const int left = area.x0 / side, bottom = area.y0 / side;
+    const auto columns = static_cast<std::size_t>((area.x1 - 1) / side - left + 1);
+    const auto rows = static_cast<std::size_t>((area.y1 - 1) / side - bottom + 1);
     const std::size_t count = columns * rows;
     // Multiples of the golden ratio spread evenly (Knuth, TAOCP vol. 3, section 6.4).
     std::size_t stride = std::max<std::size_t>(
@@ -31,9 +32,10 @@ std::vector<Block> make_blocks(int width, int height, int side) {
     blocks.reserve(count);
     std::size_t at = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const int x0 = static_cast<int>(at % columns) * side;
-        const int y0 = static_cast<int>(at / columns) * side;
-        blocks.push_back({x0, y0, std::min(x0 + side, width), std::min(y0 + side, height)});
+        const int x = (left + static_cast<int>(at % columns)) * side;
+        const int y = (bottom + static_cast<int>(at / columns)) * side;
+        blocks.push_back({std::max(x, area.x0), std::max(y, area.y0), std::min(x + side, area.x1),
+                          std::min(y + side, area.y1)});
         at = (at + stride) % count;
     }
     return blocks;

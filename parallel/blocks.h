@@ -1,5 +1,9 @@
 #pragma once
-// Rectangles of pixels: the unit of work that is handed out.
+// Rectangles of pixels: the unit of work that is handed out, and who hands it out.
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/view/pixels.h"
@@ -13,9 +17,32 @@ using Block = PixelRectangle;  ///< a rectangle in its role as a unit of work
 /// pixels.
 [[nodiscard]] int block_side(int width, int height, int workers, int alignment);
 
-/// All blocks of a width x height picture with corners at multiples of `side`; those at the right
-/// and upper edge may be smaller. In stride order: consecutive blocks lie far apart, so that a
-/// costly region is shared out and what is done early covers the picture evenly.
-[[nodiscard]] std::vector<Block> make_blocks(int width, int height, int side);
+/// All blocks of `area`, with corners at multiples of `side` or at the area's edge, where they may
+/// be smaller. In stride order: consecutive blocks lie far apart, so that a costly region is shared
+/// out and what is done early covers the area evenly.
+[[nodiscard]] std::vector<Block> make_blocks(const PixelRectangle& area, int side);
+
+/// Where those who render get their blocks from: each pulls its next one when it is free.
+class BlockSource {
+  public:
+    virtual ~BlockSource() = default;
+    /// The next block, which no one else gets; nothing: there is none left. May wait. Called by
+    /// many threads at once.
+    [[nodiscard]] virtual std::optional<Block> next() = 0;
+};
+
+/// A list of blocks, handed out in its order to the threads of one process.
+class BlockQueue final : public BlockSource {
+  public:
+    explicit BlockQueue(std::vector<Block> blocks) : blocks_(std::move(blocks)) {}
+    [[nodiscard]] std::optional<Block> next() override {
+        const std::size_t i = next_.fetch_add(1, std::memory_order_relaxed);
+        return i < blocks_.size() ? std::optional(blocks_[i]) : std::nullopt;
+    }
+
+  private:
+    std::vector<Block> blocks_;
+    std::atomic<std::size_t> next_{0};
+};
 
 }  // namespace lightwalk

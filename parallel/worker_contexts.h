@@ -21,6 +21,17 @@ class WorkerContexts {
         return *context;
     }
 
+    [[nodiscard]] int size() const { return static_cast<int>(contexts_.size()); }
+
+    /// Counters start from zero again; only while no task runs.
+    void reset_counters() {
+        for (const auto& context : contexts_) {
+            if (!context) continue;
+            context->counters = {};
+            context->ambient = {};
+        }
+    }
+
     /// Rays traced by all workers so far; only while no task runs.
     [[nodiscard]] RayCounters rays() const {
         RayCounters sum;

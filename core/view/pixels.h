@@ -4,6 +4,8 @@
 #include <cstddef>
 
 #include "core/math/rgb.h"
+#include "core/math/vec3.h"
+#include "core/model/ids.h"
 
 namespace lightwalk {
 
@@ -18,6 +20,17 @@ struct PixelValue {
     Rgb radiance;        ///< [W/(m² sr)]
     float distance = 0;  ///< along the pixel's ray [m]; 0 where there is no ray
     friend bool operator==(const PixelValue&, const PixelValue&) = default;
+};
+
+/// What a pixel's ray met first, for those who carry pixels from frame to frame.
+struct PixelHit {
+    bool traced = false;  ///< false: the pixel has no ray of its own, its value is interpolated
+    SurfaceId surface = kNoSurface;  ///< a source at infinity, too; kNoSurface: nothing
+    ModifierId modifier = kVoid;     ///< the surface's own, which shades it
+    Vec3 position;                   ///< world; where nothing finite was met, the ray's origin [m]
+    double mirrored_distance = 0;    ///< along the ray to what is seen in a mirror-like surface;
+                                     ///< kHuge: nothing is [m]
+    friend bool operator==(const PixelHit&, const PixelHit&) = default;
 };
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.

@@ -22,7 +22,7 @@ TEST_CASE("blocks cover every pixel of a picture exactly once") {
             CAPTURE(size.width);
             CAPTURE(side);
             std::vector<int> covered(static_cast<std::size_t>(size.width * size.height));
-            for (const Block& block : make_blocks(size.width, size.height, side)) {
+            for (const Block& block : make_blocks({0, 0, size.width, size.height}, side)) {
                 CHECK(block.x0 % side == 0);
                 CHECK(block.y0 % side == 0);
                 for (int y = block.y0; y < block.y1; ++y) {
@@ -33,13 +33,13 @@ TEST_CASE("blocks cover every pixel of a picture exactly once") {
             CHECK(std::all_of(covered.begin(), covered.end(), [](int n) { return n == 1; }));
         }
     }
-    CHECK(make_blocks(0, 10, 8).empty());
+    CHECK(make_blocks({0, 0, 0, 10}, 8).empty());
 }
 
 TEST_CASE("early blocks are spread over the picture: any tenth of them touches all four quarters") {
     const int side = 16;
     const int size = 640;
-    const std::vector<Block> blocks = make_blocks(size, size, side);
+    const std::vector<Block> blocks = make_blocks({0, 0, size, size}, side);
     const std::size_t tenth = blocks.size() / 10;
     for (std::size_t first = 0; first + tenth <= blocks.size(); first += tenth) {
         std::vector<int> quarters(4);
@@ -53,7 +53,7 @@ TEST_CASE("early blocks are spread over the picture: any tenth of them touches a
 
 TEST_CASE("consecutive blocks lie apart") {
     const int side = 16;
-    const std::vector<Block> blocks = make_blocks(640, 480, side);
+    const std::vector<Block> blocks = make_blocks({0, 0, 640, 480}, side);
     for (std::size_t i = 1; i < blocks.size(); ++i) {
         const int dx = std::abs(blocks[i].x0 - blocks[i - 1].x0);
         const int dy = std::abs(blocks[i].y0 - blocks[i - 1].y0);

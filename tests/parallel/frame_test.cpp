@@ -61,7 +61,8 @@ FrameOptions options_of(int width, int height, int spacing, double jitter = 0) {
 Frame render(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
              Executor& executor) {
     Silence warnings;
-    return render_frame(tracer, camera, options, executor, warnings, StopFlag(),
+    WorkerContexts contexts(tracer, warnings, executor.concurrency());
+    return render_frame(tracer, camera, options, executor, contexts, StopFlag(),
                         [](const FrameProgress&) {});
 }
 
@@ -206,8 +207,9 @@ TEST_CASE("a requested stop ends the frame early and marks it") {
         Silence warnings;
         StopFlag stop;
         const std::unique_ptr<Executor> executor = make_executor(kind, 2);
+        WorkerContexts contexts(scene.tracer, warnings, executor->concurrency());
         const Frame frame =
-            render_frame(scene.tracer, camera, options_of(512, 512, 1), *executor, warnings, stop,
+            render_frame(scene.tracer, camera, options_of(512, 512, 1), *executor, contexts, stop,
                          [&](const FrameProgress&) { stop.request(); });
         CHECK_FALSE(frame.complete);
         CHECK(frame.rays.primary < 512 * 512 / 2);
@@ -220,8 +222,9 @@ TEST_CASE("progress grows to all pixels and counts the rays") {
     Silence warnings;
     double last = 0;
     std::uint64_t rays = 0;
+    WorkerContexts contexts(scene.tracer, warnings, 1);
     const Frame frame = render_frame(scene.tracer, camera, options_of(64, 64, 1),
-                                     *make_executor(ExecutorKind::serial, 1), warnings, StopFlag(),
+                                     *make_executor(ExecutorKind::serial, 1), contexts, StopFlag(),
                                      [&](const FrameProgress& progress) {
                                          CHECK(progress.done > last);
                                          CHECK(progress.rays >= rays);

@@ -39,7 +39,7 @@ Refined refine(const Image& image, int width, int height, const RefineOptions& o
     result.stored.resize(result.pixels.size());
     result.traced.resize(result.pixels.size());
     for (const PixelRectangle& tile :
-         make_blocks(width, height, refine_tile_side(options.spacing))) {
+         make_blocks({0, 0, width, height}, refine_tile_side(options.spacing))) {
         const auto count = [&](const PixelPlace& place, std::vector<int>& times) {
             if (!tile.contains(place)) ++result.strays;
             const auto i = static_cast<std::size_t>(place.y * width + place.x);

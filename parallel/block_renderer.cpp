@@ -1,0 +1,106 @@
+#include "parallel/block_renderer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "parallel/refine.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kPacketSide = 8;  ///< pixels traced together when every pixel is traced
+
+}  // namespace
+
+BlockRenderer::BlockRenderer(const Tracer& tracer, const Camera& camera,
+                             const FrameOptions& options, WorkerContexts& contexts,
+                             const StopFlag& stop)
+    : tracer_(tracer),
+      options_(options),
+      rays_(camera, options.previous, options.width, options.height, options.pixels, options.seed,
+            options.step),
+      contexts_(contexts),
+      stop_(stop) {
+    if (rays_.pinhole() && options.step == 1)
+        small_sources_.emplace(tracer, camera, options.width, options.height,
+                               options.pixels.spacing);
+}
+
+int BlockRenderer::alignment() const {
+    return options_.pixels.spacing > 1 ? refine_tile_side(options_.pixels.spacing) : kPacketSide;
+}
+
+bool BlockRenderer::render(const Block& block, int worker, BlockPixels& pixels) const {
+    pixels.block = block;
+    pixels.values.assign(block.pixels(), PixelValue{});
+    pixels.hits.assign(options_.hits ? block.pixels() : 0, PixelHit{});
+    PixelTracer trace(tracer_, rays_, contexts_[worker], stop_);
+    if (options_.pixels.spacing > 1)
+        refine(trace, pixels);
+    else
+        trace_all(trace, pixels);
+    if (small_sources_ && !stop_.requested()) draw_small_sources(worker, pixels);
+    return !stop_.requested();
+}
+
+void BlockRenderer::trace_all(PixelTracer& trace, BlockPixels& pixels) const {
+    constexpr std::size_t kPacket = kPacketSide * kPacketSide;
+    std::array<PixelPlace, kPacket> places;
+    std::array<PixelValue, kPacket> values;
+    std::array<PixelHit, kPacket> hits;
+    const Block& block = pixels.block;
+    for (int y0 = block.y0; y0 < block.y1; y0 += kPacketSide) {
+        for (int x0 = block.x0; x0 < block.x1; x0 += kPacketSide) {
+            std::size_t count = 0;
+            for (int y = std::min(y0 + kPacketSide, block.y1); y-- > y0;) {  // from the top
+                for (int x = x0; x < std::min(x0 + kPacketSide, block.x1); ++x)
+                    places[count++] = {x, y};
+            }
+            trace({places.data(), count}, {values.data(), count},
+                  {hits.data(), options_.hits ? count : 0});
+            for (std::size_t i = 0; i < count; ++i) {
+                pixels.values[pixels.index(places[i])] = values[i];
+                if (options_.hits) pixels.hits[pixels.index(places[i])] = hits[i];
+            }
+        }
+    }
+}
+
+/// Whole tiles of the picture, whatever part of them the block covers: where a tile is refined does
+/// not depend on blocks.
+void BlockRenderer::refine(PixelTracer& trace, BlockPixels& pixels) const {
+    const RefineOptions options{options_.pixels.spacing, options_.pixels.threshold,
+                                options_.use_distances};
+    const PixelRectangle picture = options_.whole();
+    const Block& block = pixels.block;
+    const int side = alignment();
+    std::vector<PixelHit> hits;
+    const auto trace_places = [&](std::span<const PixelPlace> places,
+                                  std::span<PixelValue> values) {
+        if (!options_.hits) return trace(places, values);
+        hits.resize(places.size());
+        trace(places, values, hits);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (block.contains(places[i])) pixels.hits[pixels.index(places[i])] = hits[i];
+        }
+    };
+    const auto store = [&](const PixelPlace& place, const PixelValue& value) {
+        if (block.contains(place)) pixels.values[pixels.index(place)] = value;
+    };
+    for (int y = block.y0 - block.y0 % side; y < block.y1; y += side) {
+        for (int x = block.x0 - block.x0 % side; x < block.x1; x += side) {
+            const PixelRectangle tile{x, y, std::min(x + side, picture.x1),
+                                      std::min(y + side, picture.y1)};
+            refine_tile(tile, options, trace_places, store);
+        }
+    }
+}
+
+void BlockRenderer::draw_small_sources(int worker, BlockPixels& pixels) const {
+    small_sources_->draw(pixels.block, contexts_[worker], [&](const SourcePixel& source) {
+        PixelValue& value = pixels.values[pixels.index({source.x, source.y})];
+        blend_source(source, value.radiance, options_.use_distances ? &value.distance : nullptr);
+    });
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,67 @@
+#pragma once
+// A block in, its pixels out.
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/light/small_sources.h"
+#include "core/transport/tracer.h"
+#include "core/view/pixels.h"
+#include "parallel/blocks.h"
+#include "parallel/frame_options.h"
+#include "parallel/pixel_rays.h"
+#include "parallel/pixel_tracer.h"
+#include "parallel/stop_flag.h"
+#include "parallel/worker_contexts.h"
+
+namespace lightwalk {
+
+/// The finished pixels of a block: row by row from its bottom, left to right.
+struct BlockPixels {
+    Block block;
+    std::vector<PixelValue> values;
+    std::vector<PixelHit> hits;  ///< empty unless asked for
+
+    [[nodiscard]] std::size_t index(const PixelPlace& place) const {
+        return static_cast<std::size_t>(place.y - block.y0) *
+                   static_cast<std::size_t>(block.width()) +
+               static_cast<std::size_t>(place.x - block.x0);
+    }
+};
+
+/// Renders any block of a picture, refinement and small light sources included. A block's pixels
+/// are a function of picture and place alone: whatever the blocks, windows and workers, the same
+/// bytes (with indirect light: as far as the ambient cache gives the same answers).
+class BlockRenderer {
+  public:
+    /// The arguments, and options.previous, must outlive this; `stop` ends a block within about the
+    /// time of one pixel.
+    BlockRenderer(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                  WorkerContexts& contexts, const StopFlag& stop);
+
+    [[nodiscard]] const FrameOptions& options() const { return options_; }
+    [[nodiscard]] WorkerContexts& contexts() const { return contexts_; }
+
+    /// Blocks whose corners lie at multiples of it, or at the picture's edge, cost least: others
+    /// trace pixels beyond their edges.
+    [[nodiscard]] int alignment() const;
+
+    /// Render `block`, which lies inside the picture. False: stopped; then `pixels` is not whole.
+    /// Workers may render at the same time. Throws what the tracer throws (InputError for errors
+    /// that only show while shading).
+    [[nodiscard]] bool render(const Block& block, int worker, BlockPixels& pixels) const;
+
+  private:
+    void trace_all(PixelTracer& trace, BlockPixels& pixels) const;
+    void refine(PixelTracer& trace, BlockPixels& pixels) const;
+    void draw_small_sources(int worker, BlockPixels& pixels) const;
+
+    const Tracer& tracer_;
+    FrameOptions options_;
+    PixelRays rays_;
+    WorkerContexts& contexts_;
+    const StopFlag& stop_;
+    std::optional<SmallSources> small_sources_;  ///< nothing when the picture is blurred
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,43 @@
+#pragma once
+// Before a picture with indirect light: fill the ambient cache, evenly over the view.
+#include "core/transport/tracer.h"
+#include "core/view/view.h"
+#include "parallel/executor.h"
+#include "parallel/frame.h"
+#include "parallel/freezable_cache.h"
+
+namespace lightwalk {
+
+enum class Overture {
+    none,   ///< the picture fills the cache as it goes
+    quick,  ///< one coarse picture, by all workers
+    /// Finer and finer pictures by one worker; then the cache takes no more values, so that what is
+    /// looked up no longer depends on who computes what when.
+    deterministic,
+};
+
+struct OvertureResult {
+    RayCounters rays;
+    AmbientCounters ambient;
+    bool complete = false;  ///< false: stopped early
+};
+
+/// Number of pixels that the overture of a picture traces.
+[[nodiscard]] std::size_t overture_pixels(const FrameOptions& options, Overture overture);
+
+/// Trace coarse pictures of the view that leave nothing but ambient values, so that the picture
+/// itself finds most of them. Their pixels are not kept: computed while the cache was nearly empty,
+/// they would stand out in a grid.
+/// @param options   of the picture that is to come. `deterministic` looks at all of it even when
+///                  only a window is wanted, so that every window finds the same values
+/// @param cache     the one that `tracer` uses; open while the overture lasts, and after it unless
+///                  `deterministic`
+/// @param progress  of the overture as a whole; otherwise as in render_frame, as are the others
+/// Values are those of one thread for `deterministic`, whatever the executor.
+[[nodiscard]] OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
+                                                const FrameOptions& options, Overture overture,
+                                                FreezableCache& cache, Executor& executor,
+                                                WorkerContexts& contexts, const StopFlag& stop,
+                                                TakeProgress progress);
+
+}  // namespace lightwalk

@@ -1,0 +1,36 @@
+#include "parallel/pixel_tracer.h"
+
+namespace lightwalk {
+
+void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
+                             std::span<PixelHit> hits) {
+    rays_.clear();
+    segments_.clear();
+    targets_.clear();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        values[i] = {};
+        if (!hits.empty()) hits[i] = {true, kNoSurface, kVoid, Vec3{}, kHuge};
+        const PixelRay pixel = pixel_rays_(places[i].x, places[i].y);
+        if (!pixel.ray) continue;
+        const double limit = pixel.ray->limit;
+        rays_.push_back(
+            tracer_.primary(pixel.ray->origin, pixel.ray->direction, limit, pixel.random));
+        segments_.push_back(
+            {rays_.back().origin, rays_.back().direction, limit > kEpsilon ? limit : kHuge});
+        targets_.push_back(i);
+    }
+    hits_.assign(rays_.size(), Hit{});
+    tracer_.scene().geometry().intersect(segments_, hits_);
+    for (std::size_t k = 0; k < rays_.size() && !stop_.requested(); ++k) {
+        Ray& ray = rays_[k];
+        tracer_.shade_hit(ray, hits_[k], context_);
+        values[targets_[k]] = {ray.value, static_cast<float>(ray.effective_distance())};
+        if (hits.empty()) continue;
+        // Shading finds sources at infinity; what is nearer was known before.
+        const Hit& first = hits_[k].exists() ? hits_[k] : ray.hit;
+        hits[targets_[k]] = {true, first.surface, first.modifier, first.position,
+                             ray.mirrored_distance};
+    }
+}
+
+}  // namespace lightwalk

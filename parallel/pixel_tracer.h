@@ -1,0 +1,40 @@
+#pragma once
+// Any pixels of a picture, traced in packets.
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/transport/tracer.h"
+#include "core/view/pixels.h"
+#include "parallel/pixel_rays.h"
+#include "parallel/stop_flag.h"
+
+namespace lightwalk {
+
+/// Nearest hits at once, then shading one by one. Scratch of one worker. What a pixel gets does not
+/// depend on those that are traced with it.
+class PixelTracer {
+  public:
+    /// All must outlive this; the context is used while pixels are traced.
+    PixelTracer(const Tracer& tracer, const PixelRays& rays, TraceContext& context,
+                const StopFlag& stop)
+        : tracer_(tracer), pixel_rays_(rays), context_(context), stop_(stop) {}
+
+    /// Set values[i], and hits[i] unless `hits` is empty, for places[i]. Pixels outside the view's
+    /// domain are black at distance 0 and hit nothing; likewise those that a requested stop leaves
+    /// undone.
+    void operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
+                    std::span<PixelHit> hits = {});
+
+  private:
+    const Tracer& tracer_;
+    const PixelRays& pixel_rays_;
+    TraceContext& context_;
+    const StopFlag& stop_;
+    std::vector<Ray> rays_;
+    std::vector<RaySegment> segments_;
+    std::vector<Hit> hits_;
+    std::vector<std::size_t> targets_;  ///< into places
+};
+
+}  // namespace lightwalk

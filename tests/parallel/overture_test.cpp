@@ -1,0 +1,177 @@
+#include "parallel/overture.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "parallel/concurrent_cache.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using lightwalk::test::Silence;
+using lightwalk::test::TestScene;
+
+namespace {
+
+/// A room with a block in it, open to a sky on one side.
+const std::string kRoom = R"(
+void plastic paint 0 0 5 .6 .5 .4 0 0
+void glow sky 0 0 4 1 1 2 0
+sky source dome 0 0 4 0 -1 0 180
+paint polygon ground 0 0 12  -3 -3 0  3 -3 0  3 3 0  -3 3 0
+paint polygon ceiling 0 0 12  -3 -3 3  -3 3 3  3 3 3  3 -3 3
+paint polygon back 0 0 12  -3 3 0  3 3 0  3 3 3  -3 3 3
+paint sphere ball 0 0 4 0 1 1 .7
+)";
+
+RenderOptions indirect() {
+    RenderOptions options;
+    options.ambient_bounces = 1;
+    options.ambient_divisions = 32;
+    options.ambient_super_samples = 0;
+    options.ambient_accuracy = 0.5;
+    options.ambient_resolution = 8;
+    return options;
+}
+
+/// A scene with a cache of its own, the overture played and a picture made after it.
+struct Played {
+    explicit Played(Overture overture, int workers = 1, const FrameOptions& frame = small(),
+                    ExecutorKind kind = ExecutorKind::threads)
+        : scene(kRoom, indirect()),
+          shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.5, 8)),
+          cache(shared),
+          executor(make_executor(kind, workers)),
+          contexts(scene.tracer, scene.warnings, workers),
+          options(frame) {
+        scene.tracer.use_ambient_cache(&cache);
+        result = play(overture, [](const FrameProgress&) {});
+    }
+
+    static FrameOptions small() {
+        FrameOptions options;
+        options.width = 66;
+        options.height = 50;
+        return options;
+    }
+    static Camera camera() {
+        View view;
+        view.position = {0.5, -5, 1.4};
+        view.direction = {0, 1, 0};
+        return Camera(view);
+    }
+
+    OvertureResult play(Overture overture, TakeProgress progress) {
+        return fill_ambient_cache(scene.tracer, eye, options, overture, cache, *executor, contexts,
+                                  stop, progress);
+    }
+    Frame picture() {
+        return render_frame(scene.tracer, eye, options, *executor, contexts, stop,
+                            [](const FrameProgress&) {});
+    }
+
+    TestScene scene;
+    ConcurrentCache shared;
+    FreezableCache cache;
+    std::unique_ptr<Executor> executor;
+    WorkerContexts contexts;
+    FrameOptions options;
+    Camera eye = camera();
+    StopFlag stop;
+    OvertureResult result;
+};
+
+bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("the overture computes most of the values that the picture needs, and leaves them") {
+    Played none(Overture::none);
+    CHECK(none.result.complete);
+    CHECK(none.result.rays.total() == 0);
+    CHECK(none.shared.size() == 0);
+    const std::uint64_t alone = none.picture().ambient.computed;
+    Played quick(Overture::quick);
+    CHECK(quick.result.complete);
+    CHECK(quick.result.rays.primary == 11 * 9);  // one pixel of 6 x 6
+    CHECK(quick.result.ambient.computed > 0);
+    CHECK(quick.shared.size() == quick.result.ambient.computed);
+    const std::uint64_t after = quick.picture().ambient.computed;
+    CHECK(after < alone / 2);
+    CHECK(quick.shared.size() == quick.result.ambient.computed + after);
+}
+
+TEST_CASE("after a deterministic overture the cache is closed and pictures are the same bytes") {
+    Played expected(Overture::deterministic, 1);
+    const std::size_t values = expected.shared.size();
+    CHECK(values > 0);
+    const Frame picture = expected.picture();
+    CHECK(expected.shared.size() == values);
+    CHECK(expected.picture().radiance == picture.radiance);
+    for (const int workers : {2, 7}) {
+        CAPTURE(workers);
+        Played other(Overture::deterministic, workers);
+        CHECK(other.shared.size() == values);
+        CHECK(other.result.rays.total() == expected.result.rays.total());
+        CHECK(same_bytes(other.picture().radiance, picture.radiance));
+    }
+}
+
+TEST_CASE("windows of a picture after a deterministic overture are parts of the whole") {
+    const Frame whole = Played(Overture::deterministic, 2).picture();
+    FrameOptions part = Played::small();
+    part.window = PixelRectangle{13, 5, 40, 31};
+    const Frame window = Played(Overture::deterministic, 2, part).picture();
+    REQUIRE(window.width == 27);
+    for (int y = 5; y < 31; ++y) {
+        for (int x = 13; x < 40; ++x) {
+            CHECK(window.radiance[static_cast<std::size_t>((30 - y) * 27 + x - 13)] ==
+                  whole.radiance[static_cast<std::size_t>((49 - y) * 66 + x)]);
+        }
+    }
+    // The quick one looks at no more than it has to.
+    CHECK(overture_pixels(part, Overture::quick) == 5 * 6);
+    CHECK(overture_pixels(Played::small(), Overture::quick) == 11 * 9);
+    CHECK(overture_pixels(part, Overture::none) == 0);
+    CHECK(overture_pixels(part, Overture::deterministic) ==
+          overture_pixels(Played::small(), Overture::deterministic));
+}
+
+TEST_CASE(
+    "the overture tells how far it is: to all of its pixels, rays and values, over all steps") {
+    for (const Overture overture : {Overture::quick, Overture::deterministic}) {
+        Played scene(Overture::none);
+        FrameProgress last;
+        std::size_t told = 0;
+        const OvertureResult result = scene.play(overture, [&](const FrameProgress& now) {
+            CHECK(now.done > last.done);
+            CHECK(now.rays >= last.rays);
+            CHECK(now.ambient_values >= last.ambient_values);
+            last = now;
+            ++told;
+        });
+        CHECK(told > 1);
+        CHECK(last.done == doctest::Approx(1).epsilon(1e-12));  // sums of shares are rounded
+        CHECK(last.rays == result.rays.total());
+        CHECK(last.ambient_values == result.ambient.computed);
+    }
+}
+
+TEST_CASE("a requested stop ends the overture early, and the cache stays open") {
+    for (const Overture overture : {Overture::quick, Overture::deterministic}) {
+        Played scene(Overture::none, 2);
+        const OvertureResult result =
+            scene.play(overture, [&](const FrameProgress&) { scene.stop.request(); });
+        CHECK_FALSE(result.complete);
+        CHECK(result.rays.primary < overture_pixels(scene.options, overture));
+        scene.stop.clear();
+        const std::size_t before = scene.shared.size();
+        CHECK(scene.picture().complete);
+        CHECK(scene.shared.size() > before);
+    }
+}
