@@ -2,8 +2,10 @@
 // How far a picture is, for people who wait.
 #include <chrono>
 #include <string>
+#include <vector>
 
-#include "parallel/frame.h"
+#include "parallel/progress.h"
+#include "parallel/time_estimate.h"
 
 namespace lightwalk {
 
@@ -15,19 +17,25 @@ struct ProgressOptions {
 
 class ProgressMeter {
   public:
-    explicit ProgressMeter(ProgressOptions options);
-    /// Takes what the frame reports; prints when it is time.
-    void update(const FrameProgress& progress);
+    /// @param phases  of the picture, in their order
+    ProgressMeter(ProgressOptions options, std::vector<WorkPhase> phases);
+    /// Takes what a phase reports; prints when it is time. Phases do not go back.
+    void update(std::size_t phase, const FrameProgress& progress);
     /// Last line, and the bar goes away.
-    void finish(const FrameProgress& progress);
+    /// @param complete  the picture is finished; false: stopped
+    /// @param rays      traced by all phases
+    void finish(bool complete, std::uint64_t rays);
 
   private:
     using Clock = std::chrono::steady_clock;
     [[nodiscard]] double seconds_since(Clock::time_point then) const;
-    void print_bar(const FrameProgress& progress);
-    void print_report(const FrameProgress& progress);
+    void print_bar() const;
+    void print_report(double done) const;
 
     ProgressOptions options_;
+    TimeEstimator estimator_;
+    std::size_t phase_ = 0;
+    std::uint64_t rays_before_ = 0, rays_ = 0;  ///< before the present phase, and with it
     Clock::time_point start_, last_;
 };
 

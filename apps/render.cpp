@@ -17,6 +17,7 @@
 #include "io/options/view_text.h"
 #include "parallel/frame.h"
 #include "parallel/overture.h"
+#include "parallel/time_estimate.h"
 
 namespace lightwalk {
 namespace {
@@ -192,17 +193,23 @@ class RenderRun {
         if (options.width <= 0 || options.height <= 0) return empty_frame();
         const bool bar = !command_.common.quiet && command_.common.error_file.empty() &&
                          isatty(STDERR_FILENO) != 0;
-        ProgressMeter meter({bar, command_.report_interval, kProgram});
+        const std::vector<WorkPhase> phases =
+            plan_picture(options, overture(), executor_->concurrency());
+        const std::size_t picture = phases.size() - 1;
+        ProgressMeter meter({bar, command_.report_interval, kProgram}, phases);
         warnings_.use_terminal_line(bar);
         const Stopwatch watch;
-        if (session_->freezable && !play_overture(camera, options)) return std::nullopt;
-        Frame frame = render_frame(session_->tracer(), camera, options, *executor_, *contexts_,
-                                   interrupt_flag(),
-                                   [&](const FrameProgress& progress) { meter.update(progress); });
-        statistics_.render_seconds += watch.seconds();
-        meter.finish({frame.complete ? 1.0 : 0.0, frame.rays.total()});
-        warnings_.use_terminal_line(false);
+        const RayCounters before = statistics_.rays;
+        Frame frame;
+        if (play_overture(camera, options, meter)) {
+            frame = render_frame(
+                session_->tracer(), camera, options, *executor_, *contexts_, interrupt_flag(),
+                [&](const FrameProgress& progress) { meter.update(picture, progress); });
+        }
         statistics_.rays += frame.rays;
+        statistics_.render_seconds += watch.seconds();
+        meter.finish(frame.complete, statistics_.rays.total() - before.total());
+        warnings_.use_terminal_line(false);
         statistics_.ambient += frame.ambient;
         statistics_.width = options.width;
         statistics_.height = options.height;
@@ -212,15 +219,18 @@ class RenderRun {
     }
 
     [[nodiscard]] Overture overture() const {
+        if (!session_->freezable) return Overture::none;
         if (command_.deterministic) return Overture::deterministic;
         return command_.overture ? Overture::quick : Overture::none;
     }
 
     /// False: interrupted.
-    bool play_overture(const Camera& camera, const FrameOptions& options) {
-        const OvertureResult played = fill_ambient_cache(
-            session_->tracer(), camera, options, overture(), *session_->freezable, *executor_,
-            *contexts_, interrupt_flag(), [](const FrameProgress&) {});
+    bool play_overture(const Camera& camera, const FrameOptions& options, ProgressMeter& meter) {
+        if (!session_->freezable) return true;
+        const OvertureResult played =
+            fill_ambient_cache(session_->tracer(), camera, options, overture(),
+                               *session_->freezable, *executor_, *contexts_, interrupt_flag(),
+                               [&](const FrameProgress& progress) { meter.update(0, progress); });
         statistics_.rays += played.rays;
         statistics_.ambient += played.ambient;
         return played.complete;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -219,6 +221,33 @@ TEST_CASE("render: --stats tells times, rays by kind, threads and memory") {
     for (const char* step : {"read", "build", "render"}) CHECK(json["seconds"][step] >= 0);
     CHECK(json["picture"]["width"] == 48);
     CHECK(json["version"].is_string());
+}
+
+TEST_CASE("render: -t reports tell of the overture, too, and neither shares nor rays ever fall") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string stats = folder.path("s.json");
+    const ProgramResult result =
+        run_program(line({"-ab", "1", "-ad", "256", "-aa", ".1", "-ps", "1", "-t", "1e-6",
+                          "--stats", stats, "-n", "2", scene}));
+    REQUIRE(result.status == 0);
+    std::istringstream lines(result.err);
+    std::vector<double> shares;
+    double last_rays = 0;
+    for (std::string text; std::getline(lines, text);) {
+        CAPTURE(text);
+        double rays = 0, share = 0;
+        REQUIRE(std::sscanf(text.c_str(), "lightwalk render: %lf rays, %lf%%", &rays, &share) == 2);
+        CHECK(rays >= last_rays);
+        if (!shares.empty()) CHECK(share >= shares.back());
+        shares.push_back(share);
+        last_rays = rays;
+    }
+    REQUIRE(shares.size() > 10);
+    CHECK(shares.front() == 0);
+    CHECK(shares.back() == 100);
+    const nlohmann::json json = nlohmann::json::parse(read_whole(stats));
+    CHECK(last_rays == json["rays"]["total"].get<double>());
 }
 
 TEST_CASE(
