@@ -32,22 +32,17 @@ class Room {
   public:
     /// The picture with these options.
     Picture render(std::vector<std::string> words) {
-        words.insert(words.begin(), {"render",  "-vp",
-                                     ".2",      ".3",
-                                     "1.4",     "-vd",
-                                     "1",       ".6",
-                                     "-.2",     "-vh",
-                                     "80",      "-vv",
-                                     "60",      "-x",
-                                     "64",      "-y",
-                                     "48",      "-ps",
-                                     "1",       "-pj",
-                                     "0",       "-dj",
-                                     "0",       "-ad",
-                                     "128",     "-as",
-                                     "0",       "-ar",
-                                     "32",      "--deterministic",
-                                     "--stats", folder_.path("s.json")});
+        words.insert(words.begin(), {"render", "-vp",     ".2",
+                                     ".3",     "1.4",     "-vd",
+                                     "1",      ".6",      "-.2",
+                                     "-vh",    "80",      "-vv",
+                                     "60",     "-x",      "64",
+                                     "-y",     "48",      "-ps",
+                                     "1",      "-pj",     "0",
+                                     "-dj",    "0",       "-ad",
+                                     "128",    "-as",     "0",
+                                     "-ar",    "32",      "-n",
+                                     "1",      "--stats", folder_.path("s.json")});
         words.push_back(scene_);
         const ProgramResult result = run_program(words);
         CAPTURE(result.err);

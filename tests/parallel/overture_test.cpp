@@ -55,6 +55,7 @@ struct Played {
         FrameOptions options;
         options.width = 66;
         options.height = 50;
+        options.pixels.spacing = 1;  // every pixel, however refinement chooses
         return options;
     }
     static Camera camera() {
@@ -91,14 +92,17 @@ bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
 }  // namespace
 
 TEST_CASE("the overture computes most of the values that the picture needs, and leaves them") {
-    Played none(Overture::none);
+    FrameOptions large = Played::small();
+    large.width = 198;
+    large.height = 150;
+    Played none(Overture::none, 1, large);
     CHECK(none.result.complete);
     CHECK(none.result.rays.total() == 0);
     CHECK(none.shared.size() == 0);
     const std::uint64_t alone = none.picture().ambient.computed;
-    Played quick(Overture::quick);
+    Played quick(Overture::quick, 1, large);
     CHECK(quick.result.complete);
-    CHECK(quick.result.rays.primary == 11 * 9);  // one pixel of 6 x 6
+    CHECK(quick.result.rays.primary == 33 * 25);  // one pixel of 6 x 6
     CHECK(quick.result.ambient.computed > 0);
     CHECK(quick.shared.size() == quick.result.ambient.computed);
     const std::uint64_t after = quick.picture().ambient.computed;
