@@ -62,10 +62,4 @@ class FunctionEnvironment {
     std::unique_ptr<Impl> impl_;
 };
 
-/// The noise functions of the language; pure. Sources: K. Perlin, "Improving Noise", SIGGRAPH 2002
-/// (noise3); noise3x/y/z are backward differences with step 0.0005; fnoise3 is fractal midpoint
-/// displacement.
-[[nodiscard]] double noise3(double x, double y, double z);
-[[nodiscard]] double fnoise3(double x, double y, double z);
-
 }  // namespace lightwalk

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-
-#include "core/function/environment.h"
 
 namespace lightwalk {
 namespace {
@@ -108,16 +105,6 @@ double noise3(double x, double y, double z) {
 }
 
 namespace function {
-
-double noise3(double x, double y, double z, NoiseMemory& memory) {
-    const std::array<double, 3> p{x, y, z};
-    // Equal bits: -0 is another point than 0.
-    using Bits = std::array<std::uint64_t, 3>;
-    if (std::bit_cast<Bits>(p) != std::bit_cast<Bits>(memory.point)) {
-        memory = {p, lightwalk::noise3(x, y, z)};
-    }
-    return memory.value;
-}
 
 double noise3_difference(int axis, double x, double y, double z, NoiseMemory& memory) {
     const double before =

@@ -2,9 +2,19 @@
 // The noise functions with a memory of the last point: neighbouring points, and functions of one
 // point, share most of the work.
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+
+namespace lightwalk {
+
+/// The noise functions of the language; pure. noise3: K. Perlin, "Improving Noise", SIGGRAPH 2002;
+/// fnoise3: fractal midpoint displacement, as Radiance does it.
+[[nodiscard]] double noise3(double x, double y, double z);
+[[nodiscard]] double fnoise3(double x, double y, double z);
+
+}  // namespace lightwalk
 
 namespace lightwalk::function {
 
@@ -16,7 +26,15 @@ struct NoiseMemory {
     std::array<double, 3> point{};
     double value = 0;
 };
-[[nodiscard]] double noise3(double x, double y, double z, NoiseMemory& memory);
+[[nodiscard]] inline double noise3(double x, double y, double z, NoiseMemory& memory) {
+    const std::array<double, 3> p{x, y, z};
+    // Equal bits: -0 is another point than 0.
+    using Bits = std::array<std::uint64_t, 3>;
+    if (std::bit_cast<Bits>(p) != std::bit_cast<Bits>(memory.point)) {
+        memory = {p, lightwalk::noise3(x, y, z)};
+    }
+    return memory.value;
+}
 /// (noise3(p) - noise3(p - step along axis)) / step.
 [[nodiscard]] double noise3_difference(int axis, double x, double y, double z, NoiseMemory& memory);
 
