@@ -11,7 +11,7 @@
 namespace lightwalk {
 namespace {
 
-std::size_t pixel_count(int width, int height) {
+[[maybe_unused]] std::size_t pixel_count(int width, int height) {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
