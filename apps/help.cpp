@@ -52,6 +52,9 @@ Sampling
   -ps N              trace every Nth pixel, and those between where neighbours differ; 1: every pixel
   -pt T              how much they may differ, as a share
   -pj J              jitter of a ray within its pixel, 0 to 1
+  --samples N        N rays in every pixel, drawn from a Gaussian of .6 pixels as of pfilt -r .6, and averaged: edges
+                     without steps, less noise (default 1; -ps is then 1 and -pj does not count; -z tells the
+                     distance along the ray nearest to the pixel's centre)
   -pd D  -pm M       lens diameter, for depth of field; share of the frame time the shutter is open (with -S)
   --seed N           other random numbers; the same seed gives the same bytes (with -ab: see --deterministic)
   -n N               threads; default: all. --executor serial|threads|tbb: what runs them

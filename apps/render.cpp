@@ -117,6 +117,11 @@ class RenderRun {
             spacing = kLargestSpacing;
         }
         if (spacing < 1) spacing = 1;
+        if (command_.pixels.samples > 1 && spacing > 1) {
+            if (command_.spacing_given)
+                warnings_.warn("-ps ignored: with --samples every pixel is traced");
+            spacing = 1;
+        }
     }
 
     /// False: interrupted.

@@ -7,43 +7,25 @@
 namespace lightwalk {
 namespace {
 
-const std::vector<std::string> kOwnNames{"-x",
-                                         "-y",
-                                         "-pa",
-                                         "-ps",
-                                         "-pt",
-                                         "-pj",
-                                         "-pd",
-                                         "-pm",
-                                         "-pc",
-                                         "-pRGB",
-                                         "-o",
-                                         "-z",
-                                         "-S",
-                                         "-t",
-                                         "-vp",
-                                         "-vd",
-                                         "-vu",
-                                         "-vh",
-                                         "-vv",
-                                         "-vo",
-                                         "-va",
-                                         "-vs",
-                                         "-vl",
-                                         "-vf",
-                                         "-vtv",
-                                         "-vtl",
-                                         "-vtc",
-                                         "-vth",
-                                         "-vta",
-                                         "-vts",
-                                         "-help",
-                                         "-version",
-                                         "-features",
-                                         "--exposure",
-                                         "--tone",
-                                         "--overture",
-                                         "--deterministic"};
+const std::vector<std::string> kOwnNames{"-x",         "-y",
+                                         "-pa",        "-ps",
+                                         "-pt",        "-pj",
+                                         "-pd",        "-pm",
+                                         "-pc",        "-pRGB",
+                                         "-o",         "-z",
+                                         "-S",         "-t",
+                                         "-vp",        "-vd",
+                                         "-vu",        "-vh",
+                                         "-vv",        "-vo",
+                                         "-va",        "-vs",
+                                         "-vl",        "-vf",
+                                         "-vtv",       "-vtl",
+                                         "-vtc",       "-vth",
+                                         "-vta",       "-vts",
+                                         "-help",      "-version",
+                                         "-features",  "--samples",
+                                         "--exposure", "--tone",
+                                         "--overture", "--deterministic"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -81,8 +63,11 @@ bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
         command.y = words.integer();
     else if (word == "-pa")
         command.pixel_aspect = words.real();
-    else if (word == "-ps")
+    else if (word == "-ps") {
         command.pixels.spacing = words.integer();
+        command.spacing_given = true;
+    } else if (word == "--samples")
+        command.pixels.samples = words.integer();
     else if (word == "-pt")
         command.pixels.threshold = words.real();
     else if (word == "-pj")
@@ -164,6 +149,9 @@ void check(const RenderCommand& command) {
     const PixelOptions& p = command.pixels;
     if (!(p.jitter >= 0) || p.jitter > 1)
         throw UsageError("option -pj: expected a number from 0 to 1");
+    constexpr int kMostSamples = 65536;
+    if (p.samples < 1 || p.samples > kMostSamples)
+        throw UsageError("option --samples: expected a number from 1 to 65536");
     if (p.threshold < 0 || p.aperture < 0 || p.motion < 0 || command.pixel_aspect < 0 ||
         command.report_interval < 0) {
         throw UsageError("options -pt, -pd, -pm, -pa and -t take no negative numbers");
@@ -209,6 +197,7 @@ std::string describe(const RenderCommand& c) {
                         "pixel depth of field (lens diameter) [m]");
     text += option_line(option_text("-ps", c.pixels.spacing), "pixel sample spacing");
     text += option_line(option_text("-pt", c.pixels.threshold), "pixel threshold");
+    text += option_line("--samples " + std::to_string(c.pixels.samples), "rays a pixel");
     text += option_line(option_text("-t", c.report_interval), "time between reports [s]");
     text += describe_render_settings(c.settings);
     text += option_line(option_text("-n", c.common.workers), "threads");

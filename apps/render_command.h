@@ -17,7 +17,8 @@ struct RenderCommand {
     View view;
     int x = 512, y = 512;                            ///< -x -y: largest size [pixels]
     double pixel_aspect = 1;                         ///< -pa: height / width; 0: exactly -x by -y
-    PixelOptions pixels;                             ///< -ps -pt -pj -pd -pm
+    PixelOptions pixels;                             ///< -ps -pt -pj -pd -pm --samples
+    bool spacing_given = false;                      ///< -ps was named
     std::optional<std::array<double, 8>> primaries;  ///< -pc: what the header says of the channels
     std::string output;                              ///< -o; "" is standard output
     std::string depth;                               ///< -z; "" is none

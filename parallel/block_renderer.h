@@ -61,7 +61,8 @@ class BlockRenderer {
     PixelRays rays_;
     WorkerContexts& contexts_;
     const StopFlag& stop_;
-    std::optional<SmallSources> small_sources_;  ///< nothing when the picture is blurred
+    std::optional<SmallSources>
+        small_sources_;  ///< nothing when the picture is blurred or has several samples a pixel
 };
 
 }  // namespace lightwalk

@@ -20,7 +20,7 @@ struct Frame {
     int width = 0, height = 0;
     std::vector<Rgb> radiance;  ///< [W/(m² sr)]
     std::vector<float>
-        distance;  ///< along the pixel's ray, 1e10 for nothing, 0 where there is no ray [m]
+        distance;  ///< along the pixel's (first) ray, 1e10 for nothing, 0 where there is no ray [m]
     std::vector<PixelHit> hits;  ///< empty unless asked for
     RayCounters rays;
     AmbientCounters ambient;
@@ -37,8 +37,9 @@ void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor&
                    const StopFlag& stop, TakeBlock take);
 
 /// Render; light sources too small for the pixel grid are drawn in with their coverage (unless a
-/// lens or motion blurs the picture). The same options give the same bytes with any executor and
-/// any number of workers, and windows put together those of the whole picture.
+/// lens or motion blurs the picture, or pixels have several samples: these find them). The same
+/// options give the same bytes with any executor and any number of workers, and windows put
+/// together those of the whole picture.
 /// @param contexts  one for each worker of the executor, made for `tracer`; their counters start
 ///                  from zero
 /// @param stop      ends the work within about the time of one pixel

@@ -29,6 +29,7 @@ FrameOptions coarse_options(const FrameOptions& options, Overture overture, int 
     FrameOptions coarse = options;
     coarse.step = step;
     coarse.pixels.spacing = 1;
+    coarse.pixels.samples = 1;
     coarse.previous = nullptr;
     coarse.hits = false;
     coarse.window.reset();

@@ -33,19 +33,26 @@ bool PixelRays::pinhole() const {
     return options_.aperture <= kEpsilon && (previous_ == nullptr || options_.motion <= kEpsilon);
 }
 
-PixelRay PixelRays::operator()(int x, int y) const {
+PixelOffset PixelRays::offset(int x, int y, int sample, RandomStream& random) const {
+    if (options_.samples > 1)
+        return pixel_sample(seed_, x, y, sample, options_.samples, random.next());
+    PixelOffset offset;
+    if (options_.jitter > 0) {
+        offset.x = options_.jitter * (0.5 - random.next());
+        offset.y = options_.jitter * (0.5 - random.next());
+    }
+    return offset;
+}
+
+PixelRay PixelRays::operator()(int x, int y, int sample) const {
     x = std::min(x * step_ + step_ / 2, width_ - 1);
     y = std::min(y * step_ + step_ / 2, height_ - 1);
     PixelRay pixel{std::nullopt, RandomStream::of_pixel(seed_, static_cast<std::uint32_t>(x),
-                                                        static_cast<std::uint32_t>(y), 0)};
-    double j1 = 0.5;
-    double j2 = 0.5;
-    if (options_.jitter > 0) {
-        j1 += options_.jitter * (0.5 - pixel.random.next());
-        j2 += options_.jitter * (0.5 - pixel.random.next());
-    }
-    const double h = (x + j1) / width_;
-    const double v = (y + j2) / height_;
+                                                        static_cast<std::uint32_t>(y),
+                                                        static_cast<std::uint32_t>(sample))};
+    const PixelOffset off = offset(x, y, sample, pixel.random);
+    const double h = (x + (0.5 + off.x)) / width_;
+    const double v = (y + (0.5 + off.y)) / height_;
     pixel.ray = camera_.ray(h, v);
     if (!pixel.ray) return pixel;
     if (previous_ != nullptr && options_.motion > kEpsilon)

@@ -4,12 +4,14 @@
 #include <optional>
 
 #include "core/math/random.h"
+#include "core/view/pixel_samples.h"
 #include "core/view/view.h"
 
 namespace lightwalk {
 
 /// How a picture is sampled; names and defaults of rpict.
 struct PixelOptions {
+    int samples = 1;  ///< --samples: rays a pixel; more than 1 are drawn from the pixel's filter
     int spacing = 4;  ///< -ps: distance of the pixels that are traced in any case, 1 ... 16
     double threshold =
         0.05;              ///< -pt: relative difference beyond which pixels in between are traced
@@ -35,13 +37,19 @@ class PixelRays {
 
     /// Pixel (x, y), y from the bottom, goes through ((x + j1) / width, (y + j2) / height), j
     /// uniform in ½ ± jitter / 2. Source: Radiance manual page rpict(1), -pj, -pd and -pm.
-    [[nodiscard]] PixelRay operator()(int x, int y) const;
+    /// With several samples a pixel their places come from pixel_sample() (core/view) instead, some
+    /// of them beyond the pixel's edge; the jitter does not count. Lens and motion as with one.
+    /// @param sample  0 ... samples - 1; sample 0 is nearest to the pixel's centre
+    [[nodiscard]] PixelRay operator()(int x, int y, int sample = 0) const;
+
+    [[nodiscard]] int samples() const { return options_.samples; }  ///< rays a pixel
 
     /// Whether rays start in one point or plane and go through their pixel's place exactly when not
     /// jittered: neither lens nor motion moves them.
     [[nodiscard]] bool pinhole() const;
 
   private:
+    [[nodiscard]] PixelOffset offset(int x, int y, int sample, RandomStream& random) const;
     [[nodiscard]] Camera::ViewRay blur_motion(const Camera::ViewRay& now, double h, double v,
                                               RandomStream& random) const;
     [[nodiscard]] Camera::ViewRay through_lens(const Camera::ViewRay& ray,

@@ -4,13 +4,26 @@ namespace lightwalk {
 
 void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                              std::span<PixelHit> hits) {
+    trace_sample(0, places, values, hits);
+    if (pixel_rays_.samples() == 1) return;
+    more_.resize(places.size());
+    for (int sample = 1; sample < pixel_rays_.samples() && !stop_.requested(); ++sample) {
+        trace_sample(sample, places, more_, {});
+        for (std::size_t i = 0; i < places.size(); ++i) values[i].radiance += more_[i].radiance;
+    }
+    for (PixelValue& value : values)
+        value.radiance *= 1 / static_cast<float>(pixel_rays_.samples());
+}
+
+void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
+                               std::span<PixelValue> values, std::span<PixelHit> hits) {
     rays_.clear();
     segments_.clear();
     targets_.clear();
     for (std::size_t i = 0; i < places.size(); ++i) {
         values[i] = {};
         if (!hits.empty()) hits[i] = {true, kNoSurface, kVoid, Vec3{}, kHuge};
-        const PixelRay pixel = pixel_rays_(places[i].x, places[i].y);
+        const PixelRay pixel = pixel_rays_(places[i].x, places[i].y, sample);
         if (!pixel.ray) continue;
         const double limit = pixel.ray->limit;
         rays_.push_back(

@@ -22,11 +22,15 @@ class PixelTracer {
 
     /// Set values[i], and hits[i] unless `hits` is empty, for places[i]. Pixels outside the view's
     /// domain are black at distance 0 and hit nothing; likewise those that a requested stop leaves
-    /// undone.
+    /// undone. With several samples a pixel: their mean radiance, to which those outside the domain
+    /// add black; distance and hit are the first sample's, which is nearest to the pixel's centre.
     void operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                     std::span<PixelHit> hits = {});
 
   private:
+    void trace_sample(int sample, std::span<const PixelPlace> places, std::span<PixelValue> values,
+                      std::span<PixelHit> hits);
+
     const Tracer& tracer_;
     const PixelRays& pixel_rays_;
     TraceContext& context_;
@@ -35,6 +39,7 @@ class PixelTracer {
     std::vector<RaySegment> segments_;
     std::vector<Hit> hits_;
     std::vector<std::size_t> targets_;  ///< into places
+    std::vector<PixelValue> more_;      ///< of one further sample
 };
 
 }  // namespace lightwalk

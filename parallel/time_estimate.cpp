@@ -35,7 +35,7 @@ std::vector<WorkPhase> plan_picture(const FrameOptions& options, Overture overtu
                           overture == Overture::deterministic ? 1.0 : workers});
     }
     phases.push_back({WorkPhase::Kind::picture, static_cast<double>(options.area().pixels()),
-                      options.pixels.spacing > 1 ? kTracedShare : 1.0,
+                      (options.pixels.spacing > 1 ? kTracedShare : 1.0) * options.pixels.samples,
                       static_cast<double>(workers)});
     return phases;
 }

@@ -18,7 +18,7 @@ struct WorkPhase {
     };
     Kind kind = Kind::picture;
     double pixels = 0;   ///< that will be reported done
-    double rays = 1;     ///< primary ones a pixel, about: less than 1 where pixels are interpolated
+    double rays = 1;     ///< primary ones a pixel, about: samples, or a share of the pixels
     double workers = 1;  ///< that share the work
 };
 

@@ -77,6 +77,25 @@ TEST_CASE("a pixel's ray is the same each time, and another with another seed") 
     CHECK_FALSE(a(2, 3).ray->direction == b(2, 3).ray->direction);
 }
 
+TEST_CASE("with several samples each goes through its place of the filter, whatever the jitter") {
+    const Camera camera(view('l'));
+    for (const double jitter : {0.0, 0.67}) {
+        PixelOptions several = options(jitter);
+        several.samples = 5;
+        const PixelRays rays(camera, nullptr, 10, 8, several, 1);
+        for (int s = 0; s < 5; ++s) {
+            RandomStream random = RandomStream::of_pixel(1, 3, 6, static_cast<std::uint32_t>(s));
+            const PixelOffset off = pixel_sample(1, 3, 6, s, 5, random.next());
+            const PixelRay pixel = rays(3, 6, s);
+            REQUIRE(pixel.ray);
+            const auto expected = camera.ray((3.5 + off.x) / 10, (6.5 + off.y) / 8);
+            CHECK(length(pixel.ray->origin - expected->origin) < 1e-12);
+            RandomStream left = pixel.random;
+            CHECK(left.next() == random.next());  // goes on where the place was drawn
+        }
+    }
+}
+
 TEST_CASE("with a lens all rays of a pixel meet in the focal plane and start on the lens") {
     for (const char type : {'v', 'l'}) {
         CAPTURE(type);

@@ -385,4 +385,8 @@ TEST_CASE("a plan has an overture where there is one, by one worker where it is 
     CHECK(quick[1].pixels == 3600);
     CHECK(quick[1].rays < 1);  // a spacing of 4
     CHECK(plan_picture(options, Overture::deterministic, 4)[0].workers == 1);
+    options.pixels.spacing = 1;
+    options.pixels.samples = 8;
+    CHECK(plan_picture(options, Overture::quick, 4)[0].rays == 1);
+    CHECK(plan_picture(options, Overture::quick, 4)[1].rays == 8);
 }

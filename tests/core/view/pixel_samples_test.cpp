@@ -1,0 +1,102 @@
+#include "core/view/pixel_samples.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/math/random.h"
+#include "core/math/vec3.h"
+
+using namespace lightwalk;
+
+namespace {
+
+std::vector<PixelOffset> samples_of(int x, int y, int count) {
+    std::vector<PixelOffset> samples;
+    for (int s = 0; s < count; ++s) {
+        RandomStream random =
+            RandomStream::of_pixel(1, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                   static_cast<std::uint32_t>(s));
+        samples.push_back(pixel_sample(1, x, y, s, count, random.next()));
+    }
+    return samples;
+}
+
+double radius(const PixelOffset& at) {
+    return std::hypot(at.x, at.y);
+}
+
+/// Weight of the filter to the left of x: the integral of its Gaussian.
+double weight_left_of(double x) {
+    return 0.5 * (1 + std::erf(x / kPixelFilterRadius));
+}
+
+}  // namespace
+
+TEST_CASE("samples are distributed as the Gaussian of .6 pixels, in every direction") {
+    constexpr int kPixels = 100;
+    constexpr int kCount = 16;
+    constexpr double kSamples = kPixels * kPixels * kCount;
+    for (const double direction : {0.0, 0.7, 1.6}) {
+        for (const double edge : {-0.5, 0.0, 0.2, 0.9}) {
+            CAPTURE(direction);
+            CAPTURE(edge);
+            double left = 0;
+            for (int i = 0; i < kPixels * kPixels; ++i) {
+                for (const PixelOffset& at : samples_of(i % kPixels, i / kPixels, kCount))
+                    left += at.x * std::cos(direction) + at.y * std::sin(direction) < edge ? 1 : 0;
+            }
+            const double p = weight_left_of(edge);
+            // Independent samples would have this standard error; stratified ones have less.
+            CHECK(std::abs(left / kSamples - p) < 4 * std::sqrt(p * (1 - p) / kSamples));
+        }
+    }
+}
+
+TEST_CASE("each ring of equal weight has one sample, the first being the nearest") {
+    for (const int count : {2, 7, 16}) {
+        for (int x = 0; x < 50; ++x) {
+            const std::vector<PixelOffset> samples = samples_of(x, 3, count);
+            for (int s = 0; s < count; ++s) {
+                const double r = radius(samples[static_cast<std::size_t>(s)]) / kPixelFilterRadius;
+                const double inside = 1 - std::exp(-r * r);
+                CHECK(inside * count >= s - 1e-9);  // rounding of logarithm and exponential
+                CHECK(inside * count <= s + 1 + 1e-9);
+                if (s > 0)
+                    CHECK(radius(samples[0]) <= radius(samples[static_cast<std::size_t>(s)]));
+            }
+        }
+    }
+}
+
+TEST_CASE("a pixel's mean over an edge varies less than that of independent samples") {
+    constexpr int kPixels = 4000;
+    for (const int count : {4, 9, 16, 64}) {
+        for (const double edge : {0.0, 0.3}) {
+            CAPTURE(count);
+            CAPTURE(edge);
+            const double p = weight_left_of(edge);
+            double squares = 0;
+            for (int x = 0; x < kPixels; ++x) {
+                double left = 0;
+                for (const PixelOffset& at : samples_of(x, 7, count)) left += at.x < edge ? 1 : 0;
+                squares += (left / count - p) * (left / count - p);
+            }
+            const double independent = p * (1 - p) / count;
+            CHECK(squares / kPixels < 0.5 * independent);
+        }
+    }
+}
+
+TEST_CASE("the samples of a pixel are the same each time; pixels and seeds have their own") {
+    const PixelOffset a = pixel_sample(1, 5, 6, 3, 8, 0.25);
+    const PixelOffset b = pixel_sample(1, 5, 6, 3, 8, 0.25);
+    CHECK(a.x == b.x);
+    CHECK(a.y == b.y);
+    CHECK(a.x != pixel_sample(1, 6, 5, 3, 8, 0.25).x);
+    CHECK(a.x != pixel_sample(2, 5, 6, 3, 8, 0.25).x);
+    CHECK(radius(a) == doctest::Approx(radius(pixel_sample(2, 5, 6, 3, 8, 0.25))));
+    CHECK(std::isfinite(pixel_sample(1, 0, 0, 7, 8, 1 - 0x1p-53).x));
+}

@@ -1,0 +1,205 @@
+// Several samples a pixel (--samples): laws of the filtered picture.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include "parallel/frame.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using lightwalk::test::Silence;
+using lightwalk::test::TestScene;
+
+namespace {
+
+/// A glowing square of 1 m² on nothing, for a parallel view.
+const std::string kSquare =
+    "void glow bright 0 0 4 1 1 1 0\n"
+    "bright polygon square 0 0 12  -.5 5 -.5  .5 5 -.5  .5 5 .5  -.5 5 .5\n";
+
+/// A floor and a rough, shiny ball under a lamp: noise of several kinds.
+const std::string kRoom = R"(
+void plastic floor 0 0 5 .5 .4 .3 0 0
+void metal ball 0 0 5 .9 .8 .7 .8 .1
+void light lamp 0 0 3 20 20 20
+floor polygon ground 0 0 12  -9 -9 0  9 -9 0  9 9 0  -9 9 0
+ball sphere shiny 0 0 4 0 0 1 1
+lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
+)";
+
+RenderOptions noisy() {
+    RenderOptions options;
+    options.source_jitter = 0.9;
+    options.relay_pretest = 0;
+    return options;
+}
+
+View room_view() {
+    View view;
+    view.position = {1, -6, 2};
+    view.direction = {-0.1, 1, -0.2};
+    view.horizontal = 60;
+    view.vertical = 45;
+    return view;
+}
+
+View parallel_view(double size) {
+    View view;
+    view.type = 'l';
+    view.horizontal = view.vertical = size;
+    return view;
+}
+
+FrameOptions options_of(int width, int height, int samples, std::uint64_t seed = 0) {
+    FrameOptions options;
+    options.width = width;
+    options.height = height;
+    options.pixels.spacing = 1;
+    options.pixels.samples = samples;
+    options.seed = seed;
+    return options;
+}
+
+Frame render(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+             Executor& executor) {
+    Silence warnings;
+    WorkerContexts contexts(tracer, warnings, executor.concurrency());
+    return render_frame(tracer, camera, options, executor, contexts, StopFlag(),
+                        [](const FrameProgress&) {});
+}
+
+Frame render(const Tracer& tracer, const View& view, const FrameOptions& options) {
+    return render(tracer, Camera(view), options, *make_executor(ExecutorKind::serial, 1));
+}
+
+double green(const Frame& frame, std::size_t i) {
+    return static_cast<double>(frame.radiance[i].g);
+}
+
+double total(const Frame& frame) {
+    double sum = 0;
+    for (std::size_t i = 0; i < frame.radiance.size(); ++i) sum += green(frame, i);
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("with several samples the picture does not depend on executor, threads or blocks") {
+    const TestScene scene(kRoom, noisy());
+    const Camera camera(room_view());
+    for (const int spacing : {1, 4}) {
+        FrameOptions options = options_of(61, 47, 5);
+        options.pixels.spacing = spacing;
+        const Frame expected =
+            render(scene.tracer, camera, options, *make_executor(ExecutorKind::serial, 1));
+        for (const int workers : {1, 2, 7}) {
+            const Frame frame =
+                render(scene.tracer, camera, options, *make_executor(kDefaultExecutor, workers));
+            CHECK(std::memcmp(frame.radiance.data(), expected.radiance.data(),
+                              expected.radiance.size() * sizeof(Rgb)) == 0);
+            CHECK(frame.distance == expected.distance);
+            CHECK(frame.rays.total() == expected.rays.total());
+        }
+    }
+}
+
+TEST_CASE("samples keep the light: a square's pixels add up to its area") {
+    const TestScene scene(kSquare);
+    constexpr int kSize = 24;
+    const double pixel = 1.6 / kSize;
+    const double area = 1 / (pixel * pixel);
+    for (const int samples : {1, 8}) {
+        CAPTURE(samples);
+        double sum = 0;
+        constexpr int kSeeds = 20;
+        for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+            FrameOptions options = options_of(kSize, kSize, samples, seed);
+            options.pixels.jitter = 1;  // with one sample: anywhere in its pixel
+            sum += total(render(scene.tracer, parallel_view(1.6), options));
+        }
+        // Some two pixels on either side of the outline are uncertain, each by 1/2 at most.
+        const double uncertain = 4 * 4 / pixel;
+        const double error = 0.5 * std::sqrt(uncertain / samples / kSeeds);
+        CHECK(std::abs(sum / kSeeds - area) < 4 * error);
+        CHECK(4 * error < 0.02 * area);  // or the test could not tell
+    }
+}
+
+TEST_CASE("a straight edge gets what the Gaussian of .6 pixels sees of it") {
+    const TestScene scene(kSquare);
+    constexpr int kSize = 16;
+    constexpr int kSamples = 64;
+    const double width = 0.8;  // [m]; the edge at .5 m lies in the right half, rows all alike
+    View view = parallel_view(width);
+    view.position = {0.5 - 0.3 * width / kSize, 0, 0};  // 0.3 pixels left of it
+    view.vertical = 0.4;                                // nowhere near the upper and lower edges
+    const Frame frame = render(scene.tracer, view, options_of(kSize, kSize, kSamples));
+    for (int x = 0; x < kSize; ++x) {
+        CAPTURE(x);
+        double sum = 0;
+        for (int y = 0; y < kSize; ++y)
+            sum += green(frame, static_cast<std::size_t>(y * kSize + x));
+        const double to_edge = kSize / 2 + 0.3 - (x + 0.5);  // [pixels]
+        const double coverage = 0.5 * (1 + std::erf(to_edge / 0.6));
+        const double error = std::sqrt(coverage * (1 - coverage) / (kSamples * kSize));
+        CHECK(std::abs(sum / kSize - coverage) < 4 * error + 1e-4);  // tails that no sample meets
+    }
+}
+
+TEST_CASE("16 samples have less than an eighth of the variance of one") {
+    const TestScene scene(kRoom, noisy());
+    const auto variance = [&](int samples) {
+        constexpr int kSeeds = 24;
+        std::vector<double> sum(20 * 15), squares(20 * 15);
+        for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+            const Frame frame =
+                render(scene.tracer, room_view(), options_of(20, 15, samples, seed + 1));
+            for (std::size_t i = 0; i < sum.size(); ++i) {
+                sum[i] += green(frame, i);
+                squares[i] += green(frame, i) * green(frame, i);
+            }
+        }
+        double result = 0;
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            result += squares[i] / kSeeds - sum[i] / kSeeds * (sum[i] / kSeeds);
+        return result;
+    };
+    CHECK(variance(16) < variance(1) / 8);
+}
+
+TEST_CASE("small sources are found by the samples, and count once") {
+    // 0.2 x 0.2 pixels of a lamp.
+    const TestScene scene(
+        "void light lamp 0 0 3 100 100 100\n"
+        "lamp polygon speck 0 0 12  .0041 5 .0041  .0061 5 .0041  .0061 5 .0061  .0041 5 .0061\n");
+    const double pixel = 0.16 / 16;
+    const double expected = 100 * 0.002 * 0.002 / (pixel * pixel);
+    constexpr int kSeeds = 60;
+    constexpr int kSamples = 64;
+    double sum = 0;
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed)
+        sum += total(render(scene.tracer, parallel_view(0.16), options_of(16, 16, kSamples, seed)));
+    const double hits = kSeeds * kSamples * expected / 100;
+    CHECK(std::abs(sum / kSeeds - expected) < 4 * expected / std::sqrt(hits));
+}
+
+TEST_CASE("distance is that of the first sample's ray, the nearest to the pixel's centre") {
+    const TestScene scene(kRoom);
+    const Camera camera(room_view());
+    const FrameOptions options = options_of(20, 15, 4);
+    const Frame frame = render(scene.tracer, room_view(), options);
+    const PixelRays rays(camera, nullptr, 20, 15, options.pixels, 0);
+    TestScene again(kRoom);
+    for (int row = 0; row < 15; ++row) {
+        for (int x = 0; x < 20; ++x) {
+            const PixelRay pixel = rays(x, 14 - row, 0);
+            REQUIRE(pixel.ray);
+            const Ray ray = again.trace(pixel.ray->origin, pixel.ray->direction);
+            CHECK(frame.distance[static_cast<std::size_t>(row * 20 + x)] ==
+                  doctest::Approx(ray.effective_distance()).epsilon(1e-6));
+        }
+    }
+}
