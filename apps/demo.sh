@@ -1,5 +1,5 @@
 #!/bin/sh
-# Install what is needed, build, and render the demo scene's views by day and by night.
+# Install what is needed, build, and render the demo scene's views by day and in the evening.
 # Usage: demo.sh [WIDTH] [FOLDER]   (default: 960 pixels wide, pictures in out/demo)
 set -eu
 cd "$(dirname "$0")/.."
@@ -11,17 +11,21 @@ cmake --preset release
 cmake --build --preset release --target lightwalk
 mkdir -p "$out"
 cd apps/scenes/lodge
-render() { # NAME VIEW LIGHT OPTIONS...
-    name="$1" view="$2" light="$3"
-    shift 3
-    echo "$name"
-    "$root/build/release/lightwalk" render -vf "views/$view.vf" -x "$width" -y "$((width * 3 / 4))" -ps 1 "$@" \
-        -o "$out/$name.png" lodge.rad "$light.rad"
+rm -f "$out/day.amb" "$out/night.amb"
+# All views of one light share its ambient file. -dj with several samples a pixel: soft shadows without steps.
+render() { # LIGHT VIEW OPTIONS...
+    light="$1" view="$2"
+    shift 2
+    echo "$light-$view"
+    "$root/build/release/lightwalk" render -vf "views/$view.vf" -x "$width" -y "$((width * 3 / 4))" --samples 8 \
+        -ab 2 -aa .15 -ad 512 -as 128 -ar 64 -dj .7 -af "$out/$light.amb" "$@" \
+        -o "$out/$light-$view.png" lodge.rad "$light.rad"
 }
-for view in living fireplace window dining mirror terrace rafters; do
-    render "day-$view" "$view" day -av .35 .33 .30 -ds .3 --exposure auto
+for view in living window dining terrace; do
+    render day "$view" -av .2 .2 .19 -ds .3
 done
-for view in living fireplace dining; do
-    render "night-$view" "$view" night -av .05 .035 .02 --exposure auto
+for view in living fireplace terrace; do
+    render night "$view" -av .004 .003 .002
 done
+rm -f "$out/day.amb" "$out/night.amb"
 echo "The pictures are in $out"
