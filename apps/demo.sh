@@ -1,10 +1,10 @@
 #!/bin/sh
 # Install what is needed, build, and render the demo scene's views by day and in the evening.
-# Usage: demo.sh [WIDTH] [FOLDER]   (default: 960 pixels wide, pictures in out/demo)
+# Usage: demo.sh [WIDTH] [FOLDER]   (default: 800 pixels wide, pictures in out/demo)
 set -eu
 cd "$(dirname "$0")/.."
 root=$(pwd)
-width="${1:-960}"
+width="${1:-800}"
 out="${2:-$root/out/demo}"
 sh apps/install_packages.sh
 cmake --preset release
@@ -17,7 +17,7 @@ render() { # LIGHT VIEW OPTIONS...
     light="$1" view="$2"
     shift 2
     echo "$light-$view"
-    "$root/build/release/lightwalk" render -vf "views/$view.vf" -x "$width" -y "$((width * 3 / 4))" --samples 8 \
+    "$root/build/release/lightwalk" render -vf "views/$view.vf" -x "$width" -y "$((width * 3 / 4))" --samples 6 \
         -ab 2 -aa .15 -ad 512 -as 128 -ar 64 -dj .7 -af "$out/$light.amb" "$@" \
         -o "$out/$light-$view.png" lodge.rad "$light.rad"
 }
