@@ -77,6 +77,36 @@ TEST_CASE(
     CHECK(brightest->g > 0.1f);
 }
 
+TEST_CASE("render: --samples traces every pixel, and says so when -ps asked for less") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const ProgramResult samples = run_program(line({"--samples", "3", "-n", "1", scene}));
+    CHECK(samples.status == 0);
+    CHECK(samples.err.empty());
+    const ProgramResult spaced =
+        run_program(line({"--samples", "3", "-ps", "4", "-pj", "0", "-n", "3", scene}));
+    CHECK(spaced.status == 0);
+    CHECK(spaced.err.find("-ps ignored: with --samples every pixel is traced") !=
+          std::string::npos);
+    CHECK(pixel_bytes(spaced.out) == pixel_bytes(samples.out));
+    CHECK(run_program(line({"--samples", "3", "-ps", "1", scene})).err.empty());
+    const std::string single = run_program(line({"-ps", "4", scene})).out;
+    CHECK(pixel_bytes(run_program(line({"--samples", "1", "-ps", "4", scene})).out) ==
+          pixel_bytes(single));
+    CHECK(pixel_bytes(samples.out) != pixel_bytes(single));
+}
+
+TEST_CASE("render: --tone changes .png alone") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const auto bytes = [&](const std::string& name, const std::string& tone) {
+        CHECK(run_program(line({"--tone", tone, "-o", folder.path(name), scene})).status == 0);
+        return read_whole(folder.path(name));
+    };
+    CHECK(bytes("a.png", "curve") != bytes("a.png", "linear"));
+    CHECK(pixel_bytes(bytes("a.hdr", "curve")) == pixel_bytes(bytes("a.hdr", "linear")));
+}
+
 TEST_CASE(
     "render: the header holds history without the scene, software, view, dates and primaries, in "
     "this order") {
@@ -107,6 +137,9 @@ TEST_CASE("render: a wrong command line says what is wrong, exits with 2 and wri
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
         {{"-aq", "1"}, "unknown option -aq, did you mean -ae?"},
         {{"--exposre", "1"}, "did you mean --exposure?"},
+        {{"--samples", "0"}, "option --samples: expected a number from 1 to 65536"},
+        {{"--exposure", "bright"}, "option --exposure: expected auto or a number of stops"},
+        {{"--tone", "flat"}, "option --tone: expected curve or linear, found \"flat\""},
         {{"-x", "3.5"}, "option -x: expected an integer, found \"3.5\""},
         {{"-vp", "1", "2"}, "-vp"},
         {{"-n", "0"}, "option -n: expected 1 to 4096 threads, found 0"},
