@@ -12,8 +12,11 @@
 #include <string>
 
 #include "tests/shared_data.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
+using namespace test;
+
 namespace {
 
 struct Sampled {
@@ -82,12 +85,15 @@ Sampled read_sampled(const std::string& path) {
     return s;
 }
 
+/// The samples' frame was recovered from them, to a few 1e-4 rad, and gradients grow such errors.
+constexpr double kRecorded = 2e-3;
+
 void check_near(const std::array<double, 2>& found, const std::vector<double>& expected,
                 double sign) {
     REQUIRE(expected.size() == 2);
     const double scale = std::max({std::abs(expected[0]), std::abs(expected[1]), 1e-6});
     for (std::size_t k = 0; k < 2; ++k)
-        CHECK(std::abs(sign * found[k] - expected[k]) <= 2e-3 * scale);
+        CHECK(std::abs(sign * found[k] - expected[k]) <= kRecorded * scale);
 }
 
 }  // namespace
@@ -103,14 +109,15 @@ TEST_CASE("records of sampled hemispheres have Radiance's radii, axes, gradients
         const std::vector<double>& u = s.expected.at("u");
         const Vec3 axis{u.at(0), u.at(1), u.at(2)};
         const double sign = dot(axis, d.u) < 0 ? -1 : 1;  // both axes may be negated
-        CHECK(length(d.u * sign - axis) < 2e-3);
+        CHECK(length(d.u * sign - axis) < kRecorded);
         check_near(d.translation, s.expected.at("gpos"), sign);
         check_near(d.rotation, s.expected.at("gdir"), sign);
         const std::uint32_t turned = sign > 0 ? d.corral : (d.corral >> 16 | d.corral << 16);
         CHECK(std::popcount(turned ^ s.corral) <= 1);
         for (std::size_t k = 0; k < 3; ++k) {
             const double value = 2 * static_cast<double>(s.hemisphere.sum[k]);
-            CHECK(value == doctest::Approx(s.expected.at("value")[k]).epsilon(0.005));
+            // The record's colour is RGBE: half a step of eight bits is up to 0.4 %.
+            CHECK(value == within(0.004, s.expected.at("value")[k]));
         }
     }
 }
@@ -129,8 +136,9 @@ TEST_CASE("a closed room of one brightness has no gradients, however the walls s
     const Hemisphere h =
         sample_hemisphere({0, 0, 1}, {32, 0, 0.5 / 1024, 100}, RandomStream(5), trace);
     REQUIRE(h.complete());
-    CHECK(static_cast<double>(h.sum.g) == doctest::Approx(0.5));
+    CHECK(static_cast<double>(h.sum.g) == rounded(0.5));
     const AmbientDerivatives d = derive(h, {0.1, 0.01, 1, 1});
+    // What the jitter of 1024 samples leaves of terms near 1 that cancel: about 1/32, halved.
     CHECK(std::abs(d.translation[0]) < 0.02);
     CHECK(std::abs(d.translation[1]) < 0.02);
     CHECK(std::abs(d.rotation[0]) < 0.1);

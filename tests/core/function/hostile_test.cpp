@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/core/function/evaluate.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk::test {
 namespace {
@@ -142,8 +143,8 @@ TEST_CASE("bytes that are no text are errors with their place") {
     CHECK(contains(complaint("$99999999999999999999"), "illegal channel"));
     CHECK(value_of("1e99999999999999999999", "") > 1e308);
     CHECK(value_of("1e-99999999999999999999", "") == 0);
-    CHECK(value_of(repeat("9", 400) + "e-400", "") == doctest::Approx(1));
-    CHECK(value_of("." + repeat("0", 400) + "1e401", "") == doctest::Approx(1));
+    CHECK(value_of(repeat("9", 400) + "e-400", "") == rounded(1));
+    CHECK(value_of("." + repeat("0", 400) + "1e401", "") == rounded(1));
 }
 
 }  // namespace lightwalk::test

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/core/geometry/geometry_scenes.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
@@ -107,11 +108,11 @@ TEST_CASE("the nearest hit is the one that trying every surface gives") {
                 REQUIRE(hit.surface == expected.surface);
                 REQUIRE(hit.modifier == expected.modifier);
                 REQUIRE(hit.frame == expected.frame);
-                CHECK(length(hit.normal - expected.normal) < 1e-12);
-                CHECK(std::abs(length(hit.normal) - 1) < 1e-12);
+                CHECK(length(hit.normal - expected.normal) < kRounding);
+                CHECK(std::abs(length(hit.normal) - 1) < kRounding);
                 CHECK(length(hit.position - (ray.origin + ray.direction * hit.t)) <
-                      1e-15 * (hit.t + 10));
-                CHECK(hit.cos_out == doctest::Approx(-dot(ray.direction, hit.normal)));
+                      kFewRoundings * (hit.t + 10));
+                CHECK(hit.cos_out == rounded(-dot(ray.direction, hit.normal)));
             }
             CHECK(hits > 40);
         }
@@ -256,9 +257,9 @@ TEST_CASE("a mirrored placement shows the mirror image of the normal") {
     const Geometry geometry = scene.build();
     const Hit hit = geometry.intersect({{0, 1, 1}, {1, 0, 0}});
     REQUIRE(hit.exists());
-    CHECK(hit.t == doctest::Approx(3));
-    CHECK(length(hit.normal - Vec3{-1, 0, 0}) < 1e-15);
-    CHECK(hit.cos_out == doctest::Approx(1));
+    CHECK(hit.t == rounded(3));
+    CHECK(length(hit.normal - Vec3{-1, 0, 0}) < kFewRoundings);
+    CHECK(hit.cos_out == rounded(1));
     CHECK(geometry.frame(hit.frame).scale == -2);
 }
 
@@ -274,7 +275,7 @@ TEST_CASE(
     const Geometry geometry = scene.build();
     REQUIRE(geometry.frame_count() == 3);
     const Hit hit = geometry.intersect({{0.3, 0.4, 200}, {0, 0, -1}});
-    CHECK(hit.t == doctest::Approx(89));
+    CHECK(hit.t == rounded(89));
     CHECK(hit.surface == SurfaceId{2});
     CHECK(hit.modifier == ModifierId{12});
     CHECK(hit.frame == FrameId{0});  // model 1's, where the overriding placement stands
@@ -340,9 +341,8 @@ TEST_CASE("bounds hold surfaces as they are and placed models by their cubes") {
     scene.add(surface(PrimitiveType::polygon, square(0), 0, kOpaque), 1);
     scene.place(1, 0, similarity(2, false, {0, 0, 1}, 0, {0, 0, 0}));
     const Bounds bounds = scene.build().bounds();
-    CHECK(bounds.lower.x == doctest::Approx(-2e-5).epsilon(1e-9));
-    CHECK(bounds.lower.z ==
-          doctest::Approx(-1 - 2e-5).epsilon(1e-9));  // a cube: as high as it is wide
+    CHECK(bounds.lower.x == rounded(-2e-5, 2));
+    CHECK(bounds.lower.z == rounded(-1 - 2e-5));  // a cube: as high as it is wide
     CHECK(bounds.upper == Vec3{2 + 2e-5, 2.5, 3.5});
     scene.models[1].cube = Bounds{{0, 0, 0}, {4, 4, 4}};
     CHECK(scene.build().bounds().upper == Vec3{8, 8, 8});

@@ -3,6 +3,7 @@
 
 #include "core/geometry/geometry.h"
 #include "tests/core/geometry/geometry_scenes.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
@@ -56,13 +57,13 @@ TEST_CASE(
     CHECK(low.modifier == ModifierId{20});
     CHECK(low.frame == FrameId{0});
     CHECK(low.normal == Vec3{0, 0, 1});
-    CHECK(low.u == doctest::Approx(0.75));
-    CHECK(low.v == doctest::Approx(0.25));
-    CHECK(length(low.perturbation - (normalize(Vec3{0.5, 0, 1}) - Vec3{0, 0, 1})) < 1e-12);
+    CHECK(low.u == rounded(0.75));
+    CHECK(low.v == rounded(0.25));
+    CHECK(length(low.perturbation - (normalize(Vec3{0.5, 0, 1}) - Vec3{0, 0, 1})) < kRounding);
     const Hit high = geometry.intersect({{0.25, 0.75, -1}, {0, 0, 1}});
     CHECK(high.modifier == ModifierId{21});
     CHECK(high.cos_out == -1);
-    CHECK(high.u == doctest::Approx(0.25));
+    CHECK(high.u == rounded(0.25));
     CHECK(geometry.visibility({{0.75, 0.25, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
     CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::special);
     CHECK_FALSE(geometry.intersect({{1.1, 0.5, 1}, {0, 0, -1}}).exists());
@@ -77,12 +78,12 @@ TEST_CASE("normals and perturbations turn, mirror and keep their length with the
     const Vec3 normal = to_world.forward.vector({0, 0, 1}) / 3;
     const Hit hit = geometry.intersect({target + normal * 5, -normal});
     REQUIRE(hit.exists());
-    CHECK(hit.t == doctest::Approx(5));
-    CHECK(hit.cos_out == doctest::Approx(1));
-    CHECK(length(hit.normal - normal) < 1e-12);
+    CHECK(hit.t == rounded(5));
+    CHECK(hit.cos_out == rounded(1));
+    CHECK(length(hit.normal - normal) < kRounding);
     const Vec3 smooth = to_world.forward.vector(normalize(Vec3{0.5, 0, 1})) / 3;
-    CHECK(length(hit.normal + hit.perturbation - smooth) < 1e-12);
-    CHECK(hit.u == doctest::Approx(0.75));
+    CHECK(length(hit.normal + hit.perturbation - smooth) < kRounding);
+    CHECK(hit.u == rounded(0.75));
 }
 
 TEST_CASE("a placement with a modifier shades the whole mesh in the scene's space") {
@@ -121,7 +122,7 @@ TEST_CASE("no ray slips between the triangles of a closed mesh") {
         const Vec3 center = turned.forward.point({}), at = turned.forward.point(p);
         const Hit outward = geometry.intersect({center, normalize(at - center)});
         REQUIRE(outward.exists());
-        CHECK(length(outward.position - at) < 1e-9);
+        CHECK(length(outward.position - at) < kRounding);
         CHECK(outward.modifier == kVoid);  // no material: shading lets the ray pass
     }
 }

@@ -8,9 +8,10 @@
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -55,23 +56,24 @@ std::string many_lamps(int count) {
 
 TEST_CASE("direct light of a sphere: radiance · solid angle · cosine · reflectance / π") {
     TestScene scene(kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n");
-    CHECK(floor_at(scene, 0, 0).r == doctest::Approx(0.5 * 100 * 0.0625 / 16));
+    CHECK(floor_at(scene, 0, 0).r == rounded(0.5 * 100 * 0.0625 / 16));
     const Rgb aside = floor_at(scene, 3, 0);
-    CHECK(aside.r == doctest::Approx(0.5 * 100 * 0.0625 / 25 * 0.8));
-    CHECK(aside.g == doctest::Approx(0.5 * static_cast<double>(aside.r)));
-    CHECK(aside.b == doctest::Approx(0.25 * static_cast<double>(aside.r)));
+    CHECK(aside.r == rounded(0.5 * 100 * 0.0625 / 25 * 0.8));
+    CHECK(aside.g == rounded(0.5 * static_cast<double>(aside.r)));
+    CHECK(aside.b == rounded(0.25 * static_cast<double>(aside.r)));
 }
 
 TEST_CASE(
     "direct light of a panel: one sample without -ds, the form factor of the rectangle with it") {
     TestScene coarse(kFloor + kPanel);
-    CHECK(floor_at(coarse, 0, 0).r == doctest::Approx(0.5 * 100 / kPi));
+    CHECK(floor_at(coarse, 0, 0).r == rounded(0.5 * 100 / kPi));
     RenderOptions options = TestScene::exact();
     options.source_subdivision = 0.1;
     TestScene fine(kFloor + kPanel, options);
     const double root = std::sqrt(1.25),
                  factor = 4 * (0.5 / root * std::atan(0.5 / root));  // times L: irradiance
-    CHECK(floor_at(fine, 0, 0).r == doctest::Approx(0.5 * 100 / kPi * factor).epsilon(0.004));
+    // The midpoint rule of 8 x 8 parts gives 0.30 % more than the integral.
+    CHECK(floor_at(fine, 0, 0).r == within(0.0001, 1.00298 * 0.5 * 100 / kPi * factor));
     CHECK(floor_at(fine, 0, 0).r < 0.9f * floor_at(coarse, 0, 0).r);
 }
 
@@ -81,7 +83,7 @@ TEST_CASE("a panel lights its front only, a wide sun with the cosine of its cent
     CHECK(floor_at(above, 0, 0) == Rgb{});
     TestScene sun(kFloor + kLamp + "lamp source sun\n0\n0\n4 0 3 4 10\n");
     const double omega = 2 * kPi * (1 - std::cos(5 * kPi / 180));
-    CHECK(floor_at(sun, 3, 3).r == doctest::Approx(0.5 * 100 / kPi * omega * 0.8));
+    CHECK(floor_at(sun, 3, 3).r == rounded(0.5 * 100 / kPi * omega * 0.8));
 }
 
 TEST_CASE(
@@ -94,9 +96,9 @@ TEST_CASE(
         CHECK(floor_at(scene, 3, 0).r > 0);
     }
     TestScene behind(base + wall + "4.5 0 0 1 0 .1\n");
-    CHECK(floor_at(behind, 0, 0).r == doctest::Approx(0.5 * 100 * 0.0625 / 16));
+    CHECK(floor_at(behind, 0, 0).r == rounded(0.5 * 100 * 0.0625 / 16));
     TestScene void_wall(base + "void ring w\n0\n0\n8 0 0 2 0 0 1 0 .1\n");
-    CHECK(floor_at(void_wall, 0, 0).r == doctest::Approx(0.5 * 100 * 0.0625 / 16));
+    CHECK(floor_at(void_wall, 0, 0).r == rounded(0.5 * 100 * 0.0625 / 16));
     TestScene other_light(base + "lamp ring w\n0\n0\n8 0 0 2 0 0 1 0 .01\n");
     CHECK(floor_at(other_light, 0, 0) == Rgb{});
 }
@@ -106,11 +108,11 @@ TEST_CASE("glass in the way: the pane's transmittance, squared for two, nothing 
                              "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
     const std::string pane = "pane ring g\n0\n0\n8 0 0 2 0 0 1 0 1\n",
                       second = "pane ring h\n0\n0\n8 0 0 3 0 0 1 0 1\n";
-    const double clear = 0.5 * 100 * 0.0625 / 16, transmittance = 0.881460;  // at normal incidence
+    const double clear = 0.5 * 100 * 0.0625 / 16,
+                 transmittance = 0.881460;  // at normal incidence, to 6 digits
     TestScene one(base + pane), two(base + pane + second);
-    CHECK(floor_at(one, 0, 0).r == doctest::Approx(clear * transmittance).epsilon(1e-5));
-    CHECK(floor_at(two, 0, 0).r ==
-          doctest::Approx(clear * transmittance * transmittance).epsilon(1e-5));
+    CHECK(floor_at(one, 0, 0).r == within(1e-6, clear * transmittance));
+    CHECK(floor_at(two, 0, 0).r == within(2e-6, clear * transmittance * transmittance));
     TestScene blocked(base + pane + "grey ring w\n0\n0\n8 0 0 3 0 0 1 0 1\n");
     CHECK(floor_at(blocked, 0, 0) == Rgb{});
 }
@@ -120,7 +122,7 @@ TEST_CASE("a medium absorbs on the way from the light") {
     options.extinction = {0.1f, 0.1f, 0.1f};
     TestScene scene(kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n", options);
     CHECK(floor_at(scene, 0, 0).r ==
-          doctest::Approx(0.5 * 100 * 0.0625 / 16 * std::exp(-0.1 * 3.75) * std::exp(-0.1 * 0.5)));
+          rounded(0.5 * 100 * 0.0625 / 16 * std::exp(-0.1 * 3.75) * std::exp(-0.1 * 0.5)));
 }
 
 TEST_CASE("many lamps at once give what single lamps give") {
@@ -140,7 +142,9 @@ TEST_CASE("many lamps at once give what single lamps give") {
             TestScene single(one);
             sum += static_cast<double>(floor_at(single, x, 0.1).r);
         }
-        CHECK(static_cast<double>(floor_at(all, x, 0.1).r) == doctest::Approx(sum).epsilon(1e-5));
+        CHECK(static_cast<double>(floor_at(all, x, 0.1).r) ==
+              within(40 * 0x1p-24, sum)  // forty sums in floats
+        );
     }
 }
 
@@ -152,7 +156,9 @@ TEST_CASE(
     TestScene exact(many_lamps(40)), quick(many_lamps(40), options), again(many_lamps(40), options);
     const double exact_sum = floor_sum(exact, 60, 0.1), quick_sum = floor_sum(quick, 60, 0.1);
     CHECK(quick.context.counters.shadow < exact.context.counters.shadow);
-    CHECK(quick_sum / exact_sum == doctest::Approx(1).epsilon(0.005));
+    // Half a percent is what -dt may cost in the mean, by our own promise: untested lamps count by
+    // their measured hit rates.
+    CHECK(quick_sum / exact_sum == within(0.005, 1));
     CHECK(floor_at(quick, 0.3, 0.2) == floor_at(again, 0.3, 0.2));
 }
 
@@ -172,7 +178,8 @@ TEST_CASE("-dt: lamps with patterns bring half of what they bring without, few o
         const std::uint64_t tested = quick.context.counters.shadow,
                             all = exact.context.counters.shadow;
         CHECK((count < 20 ? tested == all : tested < all));
-        CHECK(quick_sum / exact_sum == doctest::Approx(0.5).epsilon(count < 20 ? 1e-5 : 0.005));
+        // Where all are tested but for rounding, else as above.
+        CHECK(quick_sum / exact_sum == within(count < 20 ? kFloatRounding : 0.005, 0.5));
     }
 }
 
@@ -196,8 +203,8 @@ TEST_CASE("a source brings its pattern's value in the direction of the ray, howe
         CHECK(expected.r > 0);
         for (TestScene* patterned : {&below, &between}) {
             const Rgb found = floor_at(*patterned, 0, 0);
-            CHECK(found.r == doctest::Approx(expected.r));
-            CHECK(found.b == doctest::Approx(expected.b));
+            CHECK(found.r == rounded(expected.r));
+            CHECK(found.b == rounded(expected.b));
         }
     };
     for (const std::string& material : {light, illum, glow, spot}) {
@@ -236,7 +243,7 @@ TEST_CASE("many sources with patterns give what single ones give: alike or not, 
         RenderOptions options = TestScene::exact();
         options.shadow_threshold = threshold;
         TestScene all(together, options);
-        CHECK(floor_at(all, 0.1, 0.2).g == doctest::Approx(sum));
+        CHECK(floor_at(all, 0.1, 0.2).g == rounded(sum));
     }
 }
 

@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "tests/tolerance.h"
+
 using namespace lightwalk;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -78,10 +81,9 @@ TEST_CASE("parts of a panel: sizes add up to the whole, and each is small for it
             const Vec3 center = source.center + source.u * part.center.x + source.v * part.center.y;
             const double side = 2 * std::max(part.size.x, part.size.y);
             const bool small = side <= ds * length(center - Vec3{0.3, 0.1, 0});
-            CHECK((small || parts.count == 1 ||
-                   part.size.x * part.size.y == doctest::Approx(1.0 / 64)));
+            CHECK((small || parts.count == 1 || part.size.x * part.size.y == rounded(1.0 / 64)));
         }
-        CHECK(area == doctest::Approx(1));
+        CHECK(area == rounded(1));
     }
 }
 
@@ -113,9 +115,9 @@ TEST_CASE("parts of a tube: along the axis, one when near its surface, none insi
 
 TEST_CASE("a partitioned panel gives the form factor of the rectangle") {
     const double exact = exact_irradiance(0.5, 0.5, 1);
-    CHECK(irradiance(panel(0.5), {0, 0, 0}, 0) ==
-          doctest::Approx(1.0));  // A cos²/d², far from exact
-    CHECK(irradiance(panel(0.5), {0, 0, 0}, 0.1) == doctest::Approx(exact).epsilon(0.004));
+    CHECK(irradiance(panel(0.5), {0, 0, 0}, 0) == rounded(1.0));  // A cos²/d², far from exact
+    // The midpoint rule of 8 x 8 parts gives 0.30 % more than the integral.
+    CHECK(irradiance(panel(0.5), {0, 0, 0}, 0.1) == within(0.0001, 1.00298 * exact));
     CHECK(std::abs(irradiance(panel(0.5), {0, 0, 0}, 0.1) - exact) <
           std::abs(irradiance(panel(0.5), {0, 0, 0}, 0.6) - exact));
 }
@@ -128,9 +130,9 @@ TEST_CASE("inverse square: a lamp's solid angle falls with the square of its dis
     for (const double d : {1.0, 2.0, 10.0}) {
         const auto sample = sample_whole(lamp, {0, d, 0}, 0, random);
         REQUIRE(sample);
-        CHECK(sample->solid_angle == doctest::Approx(kPi * 0.01 / (d * d)));
-        CHECK(sample->distance == doctest::Approx(d));
-        CHECK(length(sample->direction - Vec3{0, -1, 0}) < 1e-12);
+        CHECK(sample->solid_angle == float_rounded(kPi * 0.01 / (d * d)));
+        CHECK(sample->distance == rounded(d));
+        CHECK(length(sample->direction - Vec3{0, -1, 0}) < kRounding);
     }
     CHECK_FALSE(sample_whole(lamp, {0, 0, 0}, 0, random));  // in its centre there is no direction
 }
@@ -141,7 +143,7 @@ TEST_CASE("a tube's projected area falls with the sine of the angle to its axis"
     const Vec3 point = source.center + Vec3{3, 4, 0};
     const auto sample = sample_whole(source, point, 0, random);
     REQUIRE(sample);
-    CHECK(sample->solid_angle == doctest::Approx(0.8 * 0.004 / 25));
+    CHECK(sample->solid_angle == float_rounded(0.8 * 0.004 / 25));
     CHECK_FALSE(sample_whole(source, source.center + Vec3{5, 0, 0}, 0, random));  // end on
 }
 
@@ -164,7 +166,7 @@ TEST_CASE("a spotlight: nothing outside the cone, the focal length adds to the d
     RandomStream random(1);
     const auto below = sample_whole(lamp, {0, 0, 0}, 0, random);
     REQUIRE(below);
-    CHECK(below->solid_angle == doctest::Approx(0.04 / 4));  // distance 1 + focal length 1
+    CHECK(below->solid_angle == float_rounded(0.04 / 4));  // distance 1 + focal length 1
     CHECK(sample_whole(lamp, {std::tan(29.9 * kPi / 180), 0, 0}, 0, random));
     CHECK_FALSE(sample_whole(lamp, {std::tan(30.1 * kPi / 180), 0, 0}, 0, random));
 }
@@ -191,9 +193,11 @@ TEST_CASE("jitter: samples fill a panel's part, a disk and a sphere, and nothing
         REQUIRE(b);
         farthest_ball = std::max(farthest_ball, length(beside + b->direction * b->distance));
     }
-    CHECK(farthest_disk <= 1 + 1e-6);
+    // Up to the edge but for the floats of size and radius; the farthest 6 % of a disk's area, 3 %
+    // of a cube's, are missed by 4000 samples with a chance of e^-120.
+    CHECK(farthest_disk <= 1 + kFloatRounding);
     CHECK(farthest_disk > 0.97);
-    CHECK(farthest_ball <= 1 + 1e-6);
+    CHECK(farthest_ball <= 1 + kFloatRounding);
     CHECK(farthest_ball > 0.97);
     CHECK(std::abs(mean_x) < 5 * 0.5 / std::sqrt(kSamples));
 }

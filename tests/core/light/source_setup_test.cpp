@@ -7,9 +7,10 @@
 
 #include "core/light/light_sources.h"
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -43,7 +44,7 @@ void check_near(const Vec3& a, const Vec3& b) {
     CAPTURE(a.x);
     CAPTURE(a.y);
     CAPTURE(a.z);
-    CHECK(length(a - b) < 1e-6);
+    CHECK(length(a - b) < kRounding);
 }
 
 }  // namespace
@@ -57,8 +58,8 @@ TEST_CASE(
     check_near(s.u, {2, 0, 0});
     check_near(s.v, {0, 1, 0});
     check_near(s.normal, {0, 0, 1});
-    CHECK(s.size == doctest::Approx(8));
-    CHECK(s.radius == doctest::Approx(std::sqrt(5.0)));
+    CHECK(s.size == rounded(8));
+    CHECK(s.radius == rounded(std::sqrt(5.0)));
     CHECK(s.uniform);
     CHECK(s.radiance == Rgb{10, 20, 30});
 }
@@ -69,10 +70,10 @@ TEST_CASE("light source of a triangle: the square that touches its nearest edge"
     // Distances of the centre: 4/3 to y = 0, 2 to x = 0, less to the hypotenuse: (24 - 4·2 - 6·4/3)
     // / √52.
     const double nearest = 8 / std::sqrt(52.0);
-    CHECK(length(s.u) == doctest::Approx(nearest));
-    CHECK(length(s.v) == doctest::Approx(nearest));
-    CHECK(std::abs(dot(normalize(s.u), normalize(Vec3{-6, 4, 0}))) == doctest::Approx(1));
-    CHECK(s.size == doctest::Approx(12));
+    CHECK(length(s.u) == rounded(nearest));
+    CHECK(length(s.v) == rounded(nearest));
+    CHECK(std::abs(dot(normalize(s.u), normalize(Vec3{-6, 4, 0}))) == rounded(1));
+    CHECK(s.size == rounded(12));
     CHECK(warns(kLamp + "lamp polygon p\n0\n0\n9 0 0 0  60 0 0  0 1 0\n",
                 "test.rad:5: polygon \"p\": source aspect"));
 }
@@ -80,13 +81,13 @@ TEST_CASE("light source of a triangle: the square that touches its nearest edge"
 TEST_CASE("light source of another polygon or a ring: a square of its area about the normal") {
     const LightSource p =
         only_source("lamp polygon p\n0\n0\n15 1 0 0  2 1 0  1 2 0  0 2 0  -1 1 0\n");
-    CHECK(4 * length(p.u) * length(p.v) == doctest::Approx(static_cast<double>(p.size)));
-    CHECK(dot(p.u, p.v) == doctest::Approx(0));
+    CHECK(4 * length(p.u) * length(p.v) == rounded(static_cast<double>(p.size)));
+    CHECK(dot(p.u, p.v) == rounded(0));
     const LightSource r = only_source("lamp ring r\n0\n0\n8 1 2 3  0 0 -1  0 .5\n");
     CHECK(r.round);
     check_near(r.normal, {0, 0, -1});
-    CHECK(r.size == doctest::Approx(kPi * 0.25));
-    CHECK(4 * length(r.u) * length(r.v) == doctest::Approx(kPi * 0.25));
+    CHECK(r.size == rounded(kPi * 0.25));
+    CHECK(4 * length(r.u) * length(r.v) == rounded(kPi * 0.25));
     check_near(cross(r.normal, r.u), r.v);
     check_near(normalize(r.u), perpendicular(r.normal));
     CHECK(r.radius == 0.5f);
@@ -96,23 +97,23 @@ TEST_CASE("light source of a sphere, a cylinder and a cone of directions") {
     const LightSource s = only_source("lamp sphere s\n0\n0\n4 1 2 3 .5\n");
     check_near(s.u, {kSphereBox * 0.5, 0, 0});
     check_near(s.w, {0, 0, kSphereBox * 0.5});
-    CHECK(s.size == doctest::Approx(kPi * 0.25));
+    CHECK(s.size == rounded(kPi * 0.25));
     const LightSource c = only_source("lamp cylinder c\n0\n0\n7 0 0 1  4 0 1  .1\n");
     CHECK(c.cylinder);
     CHECK_FALSE(c.round);
     check_near(c.center, {2, 0, 1});
     check_near(c.u, {2, 0, 0});
-    CHECK(length(c.v) == doctest::Approx(0.08559));
-    CHECK(length(c.w) == doctest::Approx(0.08559));
-    CHECK(c.size == doctest::Approx(2 * 0.1 * 4));
-    CHECK(c.radius == doctest::Approx(2));
+    CHECK(length(c.v) == printed(4, 0.08559));
+    CHECK(length(c.w) == printed(4, 0.08559));
+    CHECK(c.size == rounded(2 * 0.1 * 4));
+    CHECK(c.radius == rounded(2));
     const LightSource d = only_source("lamp source sun\n0\n0\n4 0 0 5 30\n");
     CHECK(d.distant);
     check_near(d.center, {0, 0, 1});
     const double omega = 2 * kPi * (1 - std::cos(15 * kPi / 180));
-    CHECK(d.size == doctest::Approx(omega));
-    CHECK(4 * length(d.u) * length(d.v) == doctest::Approx(omega));
-    CHECK(d.radius == doctest::Approx(std::sqrt(omega / kPi)));
+    CHECK(d.size == rounded(omega));
+    CHECK(4 * length(d.u) * length(d.v) == float_rounded(omega));
+    CHECK(d.radius == rounded(std::sqrt(omega / kPi)));
     CHECK(warns(kLamp + "lamp cylinder c\n0\n0\n7 0 0 1  1 0 1  .3\n", "source aspect too small"));
 }
 
@@ -153,7 +154,7 @@ TEST_CASE("spotlights: cone, focal length, and a warning for those that shine ba
     REQUIRE(down.spot);
     check_near(down.spot->aim, {0, 0, -1});
     CHECK(down.spot->focal_length == 2);
-    CHECK(down.spot->size == doctest::Approx(2 * kPi * (1 - std::cos(kPi / 6))));
+    CHECK(down.spot->size == rounded(2 * kPi * (1 - std::cos(kPi / 6))));
     const std::string sideways =
         "void spotlight s\n0\n0\n7 1 1 1 10 1 0 .1\ns ring r\n0\n0\n8 0 0 3 0 0 -1 0 .1\n";
     CHECK(warns(sideways, "invalid spotlight direction"));

@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "tests/tolerance.h"
+
 using namespace lightwalk;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -55,9 +58,8 @@ TEST_CASE("disks: contained, crossing and apart") {
     CHECK(inner->radius_squared == 0.04);
     const auto lens = intersect_disks(a, b, b.center);
     REQUIRE(lens);
-    CHECK(lens->radius_squared ==
-          doctest::Approx(0.75));  // half chord of two unit circles one apart
-    CHECK(lens->center.x == doctest::Approx(0.5));
+    CHECK(lens->radius_squared == rounded(0.75));  // half chord of two unit circles one apart
+    CHECK(lens->center.x == rounded(0.5));
     CHECK_FALSE(intersect_disks(a, b, {2.1, 0, 0}));
 }
 
@@ -65,14 +67,14 @@ TEST_CASE("overlapping cones: the narrower inside, a smaller one across, none ap
     const SpotShape narrow = cone({0, 0, 1}, 10), wide = cone({0, 0.05, 1}, 40, 2);
     const auto inside = intersect_cones(narrow, wide);
     REQUIRE(inside);
-    CHECK(half_angle(*inside) == doctest::Approx(10).epsilon(1e-3));
+    CHECK(half_angle(*inside) == float_rounded(10));
     CHECK(inside->focal_length == 2);
     const auto crossing =
         intersect_cones(cone({0, 0, 1}, 10), cone({std::tan(15 * kPi / 180), 0, 1}, 10));
     REQUIRE(crossing);
     CHECK(half_angle(*crossing) < 10);
     CHECK(half_angle(*crossing) > 5);
-    CHECK(crossing->aim.x == doctest::Approx(std::sin(7.5 * kPi / 180)).epsilon(1e-3));
+    CHECK(crossing->aim.x == float_rounded(std::sin(7.5 * kPi / 180)));
     CHECK_FALSE(intersect_cones(cone({0, 0, 1}, 10), cone({1, 0, 0}, 10)));
     // A hemisphere only has to overlap.
     const auto whole = intersect_cones(narrow, cone({0, 0, 1}, 120, 3));
@@ -87,8 +89,8 @@ TEST_CASE("overlapping beams: as seen along their direction") {
         b{{1, 0, 7}, static_cast<float>(kPi), 0, true};
     const auto common = intersect_beams(a, b, {0, 0, 1});
     REQUIRE(common);
-    CHECK(common->size == doctest::Approx(0.75 * kPi));
-    CHECK(common->aim.x == doctest::Approx(0.5));
+    CHECK(common->size == rounded(0.75 * kPi));
+    CHECK(common->aim.x == rounded(0.5));
     CHECK(common->beam);
     CHECK_FALSE(intersect_beams(a, b, {1, 0, 0}));
 }

@@ -3,12 +3,10 @@
 #include <doctest/doctest.h>
 
 #include "tests/core/material/surroundings.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::kFurnace;
-using test::relative_error;
-using test::sheet;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -32,8 +30,8 @@ TEST_CASE("furnace: white surfaces of all kinds show radiance 1") {
                 continue;
             const Ray ray = trace_sheet(material, test::deep(), direction);
             CAPTURE(std::string(material));
-            CHECK(relative_error(ray.value.r, 1) < 2e-6);
-            CHECK(relative_error(ray.value.b, 1) < 2e-6);
+            CHECK(relative_error(ray.value.r, 1) < kFloatRounding);
+            CHECK(relative_error(ray.value.b, 1) < kFloatRounding);
         }
     }
 }
@@ -50,7 +48,7 @@ TEST_CASE("furnace: rough lobes show radiance 1, sampled or left to the ambient 
                 CAPTURE(std::string(material));
                 CAPTURE(threshold);
                 CAPTURE(samples);
-                CHECK(relative_error(trace_sheet(material, options).value.g, 1) < 2e-6);
+                CHECK(relative_error(trace_sheet(material, options).value.g, 1) < kFloatRounding);
             }
         }
     }
@@ -62,6 +60,7 @@ TEST_CASE(
     options.specular_threshold = 0;
     options.specular_samples = 4000;
     const double value = trace_sheet("void metal m 0 0 5 1 1 1 1 .1\n", options).value.g;
+    // 4000 samples of weight near 1, of which up to 4 % fall below the surface.
     CHECK(value < 1.02);
     CHECK(value > 0.96);
 }
@@ -72,14 +71,15 @@ TEST_CASE("furnace: lossless solids show radiance 1") {
           "void interface m 0 0 8 1 1 1 1.5 1 1 1 1.3\n"}) {
         TestScene scene(kFurnace + material + "m sphere ball 0 0 4 0 0 0 1\n", test::deep());
         CAPTURE(std::string(material));
-        CHECK(relative_error(scene.trace({0.5, 0, 3}, {0, 0, -1}).value.g, 1) < 1e-5);
+        CHECK(relative_error(scene.trace({0.5, 0, 3}, {0, 0, -1}).value.g, 1) < kFloatRounding);
     }
 }
 
 TEST_CASE("radiance inside a dielectric is higher by the square of its index") {
     TestScene scene(kFurnace + "void dielectric m 0 0 5 1 1 1 1.5 0\nm sphere ball 0 0 4 0 0 0 1\n",
                     test::deep());
-    CHECK(relative_error(scene.trace({0, 0, 0}, {0.3, 1, 0.2}).value.g, 1.5 * 1.5) < 1e-5);
+    CHECK(relative_error(scene.trace({0, 0, 0}, {0.3, 1, 0.2}).value.g, 1.5 * 1.5) <
+          kFloatRounding);
 }
 
 TEST_CASE("an absorbing slab follows Beer's law") {
@@ -89,10 +89,11 @@ TEST_CASE("an absorbing slab follows Beer's law") {
                         "m polygon bottom 0 0 12 -9 9 -1 9 9 -1 9 -9 -1 -9 -9 -1\n",
                     test::deep());
     const Ray ray = scene.trace({0, 0, 3}, {0, 0, -1});
-    CHECK(relative_error(ray.value.r, 0.25) < 1e-5);
-    CHECK(relative_error(ray.value.g, 0.0625) < 1e-5);
-    CHECK(relative_error(ray.value.b, 1) < 1e-5);
-    CHECK(relative_error(scene.trace({0, 0, 0}, {0, 0, -1}).value.r, 0.5) < 1e-5);  // from inside
+    CHECK(relative_error(ray.value.r, 0.25) < kFloatRounding);
+    CHECK(relative_error(ray.value.g, 0.0625) < kFloatRounding);
+    CHECK(relative_error(ray.value.b, 1) < kFloatRounding);
+    CHECK(relative_error(scene.trace({0, 0, 0}, {0, 0, -1}).value.r, 0.5) <
+          kFloatRounding);  // from inside
 }
 
 TEST_CASE("a pane by hand: tn 0.96 over a dark floor, with a sky of 1") {
@@ -113,5 +114,6 @@ TEST_CASE("patterns colour transmission of glass, not its reflection") {
         kFurnace + "void brightfunc half 2 .5 . 0 0\nhalf glass m 0 0 3 1 1 1\n" + sheet("pane"),
         test::deep());
     const double r = 0.0425799, t = (1 - r) * (1 - r) / (1 - r * r);
-    CHECK(relative_error(scene.trace({0, 0, 3}, {0, 0, -1}).value.r, 0.5 * t + (1 - t)) < 1e-5);
+    CHECK(relative_error(scene.trace({0, 0, 3}, {0, 0, -1}).value.r, 0.5 * t + (1 - t)) <
+          kFloatRounding);
 }

@@ -2,9 +2,10 @@
 #include <doctest/doctest.h>
 
 #include "tests/core/material/surroundings.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -81,11 +82,11 @@ TEST_CASE("rough samples see only what the direct calculation leaves out") {
     };
     const double direct_only = sampled("void light m 0 0 3 2 2 2\n");
     CHECK(direct_only > 0);
-    CHECK(sampled("void glow m 0 0 4 2 2 2 10\n") == doctest::Approx(direct_only).epsilon(1e-6));
+    CHECK(sampled("void glow m 0 0 4 2 2 2 10\n") == float_rounded(direct_only));
     CHECK(sampled("void glow m 0 0 4 2 2 2 1\n") == 2);  // 3 away: seen, not sampled
     CHECK(sampled("void glow m 0 0 4 2 2 2 0\n") == 2);
     CHECK(sampled("void glow m 0 0 4 2 2 2 -1\n") == 0);
-    CHECK(sampled("void illum m 0 0 3 2 2 2\n") == doctest::Approx(direct_only).epsilon(1e-6));
+    CHECK(sampled("void illum m 0 0 3 2 2 2\n") == float_rounded(direct_only));
 }
 
 TEST_CASE("patterns colour what is emitted") {

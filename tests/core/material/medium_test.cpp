@@ -2,21 +2,20 @@
 #include <doctest/doctest.h>
 
 #include "tests/core/material/surroundings.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::kFurnace;
-using test::relative_error;
-using test::TestScene;
+using namespace lightwalk::test;
 
 TEST_CASE("mist absorbs over the way through it, in its own colours") {
     TestScene scene(
         kFurnace + "void mist m 0 0 3 .3 .2 0\nm sphere cloud 0 0 4 0 0 0 1\n" +
         "void glow g 0 0 4 1 1 1 0\ng polygon floor 0 0 12 -9 -9 -5 9 -9 -5 9 9 -5 -9 9 -5\n");
     const Ray through = scene.trace({0, 0, 3}, {0, 0, -1});
-    CHECK(relative_error(through.value.r, std::exp(-0.6)) < 1e-5);
-    CHECK(relative_error(through.value.g, std::exp(-0.4)) < 1e-5);
+    CHECK(relative_error(through.value.r, std::exp(-0.6)) < kFloatRounding);
+    CHECK(relative_error(through.value.g, std::exp(-0.4)) < kFloatRounding);
     CHECK(through.value.b == 1);
-    CHECK(through.effective_distance() == doctest::Approx(8));
+    CHECK(through.effective_distance() == rounded(8));
     // From inside, without listed sources, the first segment is clear: so is Radiance's.
     CHECK(scene.trace({0, 0, 0}, {0, 0, -1}).value.r == 1);
 }
@@ -26,8 +25,10 @@ TEST_CASE("a ray that begins inside a mist with sources learns so when it leaves
         "void light l 0 0 3 1 1 1\nl sphere lamp 0 0 4 0 0 6 .1\nvoid mist m 1 lamp 0 3 .3 .2 0\n"
         "m sphere cloud 0 0 4 0 0 0 1\nvoid glow g 0 0 4 1 1 1 0\n"
         "g polygon floor 0 0 12 -9 -9 -5 9 -9 -5 9 9 -5 -9 9 -5\n");
-    CHECK(relative_error(scene.trace({0, 0, 0}, {0, 0, -1}).value.r, std::exp(-0.3)) < 1e-5);
-    CHECK(relative_error(scene.trace({0, 0, 3}, {0, 0, -1}).value.r, std::exp(-0.6)) < 1e-5);
+    CHECK(relative_error(scene.trace({0, 0, 0}, {0, 0, -1}).value.r, std::exp(-0.3)) <
+          kFloatRounding);
+    CHECK(relative_error(scene.trace({0, 0, 3}, {0, 0, -1}).value.r, std::exp(-0.6)) <
+          kFloatRounding);
 }
 
 TEST_CASE("mist warns of sources that it does not find or that it names twice") {
@@ -58,7 +59,7 @@ TEST_CASE("antimatter cuts a volume out and shows the cut in its first material"
     TestScene scene(bitten("void antimatter m 2 face ball 0 0\n"));
     const Ray ray = scene.trace({0, -3, 0}, {0, 1, 0});
     CHECK(ray.value.r == 2);
-    CHECK(ray.effective_distance() == doctest::Approx(2.6));
+    CHECK(ray.effective_distance() == rounded(2.6));
     CHECK(scene.trace({0.8, -3, 0}, {0, 1, 0}).value.r == 1);  // beside the bite
 }
 

@@ -3,10 +3,10 @@
 #include <doctest/doctest.h>
 
 #include "tests/core/material/surroundings.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::relative_error;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -20,10 +20,10 @@ const std::string kWalls =
 TEST_CASE("a mirror shows what is before it, dimmed, at its unfolded distance") {
     TestScene scene("void mirror m 0 0 3 .9 .5 .1\n" + kWalls);
     const Ray ray = scene.trace({0, 0, 2}, {1, 0, 0});
-    CHECK(relative_error(ray.value.r, 1.8) < 1e-6);
-    CHECK(relative_error(ray.value.b, 0.2) < 1e-6);
-    CHECK(ray.effective_distance() == doctest::Approx(12));
-    CHECK(ray.unmirrored_distance == doctest::Approx(4));
+    CHECK(relative_error(ray.value.r, 1.8) < kFloatRounding);
+    CHECK(relative_error(ray.value.b, 0.2) < kFloatRounding);
+    CHECK(ray.effective_distance() == rounded(12));
+    CHECK(ray.unmirrored_distance == rounded(4));
     CHECK(scene.trace({9, 0, 2}, {-1, 0, 0}).value == Rgb{});  // its back
 }
 
@@ -35,26 +35,26 @@ TEST_CASE("a mirror's alternate is what the eye sees, void is nothing") {
                      "lit ring far 0 0 8 8 0 2 -1 0 0 0 1\n");
     const Ray ray = absent.trace({0, 0, 2}, {1, 0, 0});
     CHECK(ray.value.r == 2);
-    CHECK(ray.effective_distance() == doctest::Approx(8));
+    CHECK(ray.effective_distance() == rounded(8));
 }
 
 TEST_CASE("a prism shows the direction that its expressions give, with their coefficient") {
     // Straight back: the lit wall, though the ray flies on towards +x.
     TestScene turned("void prism1 m 5 .7 -1 0 0 . 0 0\n" + kWalls);
-    CHECK(relative_error(turned.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.4) < 1e-6);
+    CHECK(relative_error(turned.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.4) < kFloatRounding);
     TestScene onward("void prism1 m 5 .7 Dx Dy Dz . 0 0\n" + kWalls);
     CHECK(onward.trace({0, 0, 2}, {1, 0, 0}).value.r == 0);
 }
 
 TEST_CASE("both directions of a prism2 add, and a failed expression drops its own only") {
     TestScene both("void prism2 m 9 .7 -1 0 0 .2 -1 0 .1 . 0 0\n" + kWalls);
-    CHECK(relative_error(both.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.8) < 1e-6);
+    CHECK(relative_error(both.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.8) < kFloatRounding);
     TestScene one("void prism2 m 9 .7 -1 0 0 sqrt(-Dx) -1 0 .1 . 0 0\n" + kWalls);
-    CHECK(relative_error(one.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.4) < 1e-6);
+    CHECK(relative_error(one.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.4) < kFloatRounding);
     CHECK(!one.warnings.messages.empty());
 }
 
 TEST_CASE("a prism's directions turn with its transform") {
     TestScene scene("void prism1 m 7 .7 0 1 0 . -rz 90 0 0\n" + kWalls);
-    CHECK(relative_error(scene.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.4) < 1e-6);
+    CHECK(relative_error(scene.trace({0, 0, 2}, {1, 0, 0}).value.r, 1.4) < kFloatRounding);
 }

@@ -3,10 +3,10 @@
 
 #include "core/material/fresnel.h"
 #include "tests/core/material/surroundings.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::relative_error;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -46,17 +46,18 @@ TEST_CASE("opaque and rough materials block shadow rays, also seen from behind a
 }
 
 TEST_CASE("smooth transmission passes shadow rays straight on") {
-    CHECK(relative_error(share_through("void trans m 0 0 7 1 1 1 0 0 1 1\n"), 1) < 1e-6);
+    CHECK(relative_error(share_through("void trans m 0 0 7 1 1 1 0 0 1 1\n"), 1) < kFloatRounding);
     CHECK(relative_error(share_through("void trans m 0 0 7 .8 .8 .8 0 0 .5 .6\n"), 0.8 * 0.3) <
           1e-6);
     CHECK(relative_error(share_through("void trans m 0 0 7 .8 .8 .8 0 .001 .5 .6\n"), 0.8 * 0.3) <
           1e-6);
     const double r = 0.0425799;
-    CHECK(relative_error(share_through("void glass m 0 0 3 1 1 1\n"), (1 - r) / (1 + r)) < 1e-5);
+    CHECK(relative_error(share_through("void glass m 0 0 3 1 1 1\n"), (1 - r) / (1 + r)) <
+          kFloatRounding);
     CHECK(share_through("void glass m 0 0 3 0 0 0\n") == 0);
     CHECK(relative_error(
               share_through("void BRTDfunc m 10 0 0 0 .4 .4 .4 0 0 0 . 0 9 0 0 0 0 0 0 0 0 0\n"),
-              0.4) < 1e-6);
+              0.4) < kFloatRounding);
 }
 
 TEST_CASE("with -bv- the back of trans and glass is not there") {
@@ -67,15 +68,16 @@ TEST_CASE("with -bv- the back of trans and glass is not there") {
           1e-6);
     CHECK(relative_error(share_through("void trans m 0 0 7 .8 .8 .8 0 .1 .5 .6\n", options), 1) <
           1e-6);
-    CHECK(relative_error(share_through("void glass m 0 0 3 .5 .5 .5\n", options), 1) < 1e-6);
-    CHECK(relative_error(share_through("void glass m 0 0 3 0 0 0\n", options), 1) < 1e-6);
+    CHECK(relative_error(share_through("void glass m 0 0 3 .5 .5 .5\n", options), 1) <
+          kFloatRounding);
+    CHECK(relative_error(share_through("void glass m 0 0 3 0 0 0\n", options), 1) < kFloatRounding);
 }
 
 TEST_CASE("a slab between parallel faces passes shadow rays, losing two reflections") {
     const double r = refract(1, 1 / 1.5).reflectance;
     const std::string bottom = "m polygon b 0 0 12 -9 9 3 9 9 3 9 -9 3 -9 -9 3\n";
     CHECK(relative_error(share_through("void dielectric m 0 0 5 1 1 1 1.5 0\n" + bottom),
-                         (1 - r) * (1 - r)) < 1e-5);
+                         (1 - r) * (1 - r)) < kFloatRounding);
 }
 
 TEST_CASE("mist absorbs light on its way") {
@@ -84,5 +86,5 @@ TEST_CASE("mist absorbs light on its way") {
           1e-5);
     // What is scattered counts as light that arrives.
     CHECK(relative_error(share_through("void mist m 0 0 6 .7 .7 .7 .4 .4 .4\n" + bottom),
-                         std::exp(-0.7 * 0.6)) < 1e-5);
+                         std::exp(-0.7 * 0.6)) < kFloatRounding);
 }

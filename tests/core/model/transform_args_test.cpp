@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/tolerance.h"
+
 namespace lightwalk {
+using namespace test;
+
 namespace {
 
 ParsedTransform parse(const std::string& text) {
@@ -18,9 +22,9 @@ ParsedTransform parse(const std::string& text) {
 }
 
 void check_near(const Vec3& a, const Vec3& b) {
-    CHECK(a.x == doctest::Approx(b.x).epsilon(1e-12));
-    CHECK(a.y == doctest::Approx(b.y).epsilon(1e-12));
-    CHECK(a.z == doctest::Approx(b.z).epsilon(1e-12));
+    CHECK(a.x == rounded(b.x));
+    CHECK(a.y == rounded(b.y));
+    CHECK(a.z == rounded(b.z));
 }
 
 TEST_CASE(

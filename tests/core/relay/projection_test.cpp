@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "tests/tolerance.h"
+
 using namespace lightwalk;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -35,7 +38,7 @@ void check_near(const Vec3& a, const Vec3& b) {
     CAPTURE(a.x);
     CAPTURE(a.y);
     CAPTURE(a.z);
-    CHECK(length(a - b) < 1e-9);
+    CHECK(length(a - b) < kRounding);
 }
 
 }  // namespace
@@ -77,7 +80,7 @@ TEST_CASE("prism: light bent at the plane seems to come from the projected sourc
     // Thrown back: the source appears on the other side, like in a mirror.
     const auto back = Projection::bend(sheet, at_sheet - source, Vec3{-0.3, 0, 1});
     REQUIRE(back);
-    CHECK(back->point(source).z == doctest::Approx(0));
+    CHECK(back->point(source).z == rounded(0));
     CHECK_FALSE(Projection::bend(sheet, {0, 0, -1}, {0, 0, -2}));    // nothing changes
     CHECK_FALSE(Projection::bend(sheet, {0, 0, -1}, {1, 0, 1e-9}));  // along the sheet
 }
@@ -90,7 +93,7 @@ TEST_CASE("relay disks: a polygon's vertices, a ring's outline, nothing else") {
     const auto disk = relay_disk(Shape{square});
     REQUIRE(disk);
     check_near(disk->center, {1, 1, 2});
-    CHECK(disk->radius == doctest::Approx(std::sqrt(2.0)));
+    CHECK(disk->radius == rounded(std::sqrt(2.0)));
     const auto ring = relay_disk(Shape{RingShape{{1, 2, 3}, {0, 0, 1}, 0.5, 2}});
     REQUIRE(ring);
     CHECK(ring->radius == 2);
@@ -106,7 +109,7 @@ TEST_CASE("a relayed lamp shines through the relay only: a cone around its disk"
     REQUIRE(relayed.spot);
     check_near(relayed.spot->aim, {-1, 0, 0});
     const double sine = 1.1 / 4;
-    CHECK(relayed.spot->size == doctest::Approx(2 * kPi * (1 - std::sqrt(1 - sine * sine))));
+    CHECK(relayed.spot->size == rounded(2 * kPi * (1 - std::sqrt(1 - sine * sine))));
     // So near that there is no bound.
     const LightSource close = lamp({3.5, 0, 0}, 0.1);
     const RelayedSpot unbounded = relay_spot(close, project(close, mirror), mirror, {{4, 0, 0}, 1});
@@ -127,7 +130,7 @@ TEST_CASE("a relayed spotlight: its cone is reflected and meets the relay's") {
     REQUIRE(relayed.possible);
     REQUIRE(relayed.spot);
     check_near(relayed.spot->aim, {-1, 0, 0});
-    CHECK(relayed.spot->size == doctest::Approx(0.01f).epsilon(1e-3));
+    CHECK(relayed.spot->size == rounded(0.01f));
     CHECK(relayed.spot->focal_length == 0.5f);
     CHECK(relayed.disk.radius < 0.5);
     parent.spot->aim = {0, 1, 0};  // shines past the mirror
@@ -140,7 +143,7 @@ TEST_CASE("relayed sunlight is a beam, a second relay cuts it") {
     const RelayedSpot first = relay_spot(parent, made, mirror, {{4, 0, 0}, 1});
     REQUIRE(first.spot);
     CHECK(first.spot->beam);
-    CHECK(first.spot->size == doctest::Approx(kPi));
+    CHECK(first.spot->size == rounded(kPi));
     LightSource relayed = made;
     relayed.is_virtual = true;
     relayed.spot = first.spot;

@@ -6,9 +6,10 @@
 #include <string>
 
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -39,18 +40,18 @@ TEST_CASE(
     TestScene scene(kFloor + kMirror + kLamp, with_relays(1));
     REQUIRE(scene.tracer.lights().virtual_count() == 1);
     const LightSource& made = scene.tracer.lights()[1];
-    CHECK(length(made.center - Vec3{8, 0, 3}) < 1e-9);
+    CHECK(length(made.center - Vec3{8, 0, 3}) < kRounding);
     CHECK(made.parent == 0);
     CHECK(made.follow);
     const double direct = 0.5 * 100 * 0.04 / 10 * 3 / std::sqrt(10.0);
     const double relayed = 0.9 * 0.5 * 100 * 0.04 / 58 * 3 / std::sqrt(58.0);
-    CHECK(floor_at(scene, 1, 0) == doctest::Approx(direct + relayed).epsilon(1e-5));
+    CHECK(floor_at(scene, 1, 0) == float_rounded(direct + relayed));
     TestScene without(kFloor + kMirror + kLamp, with_relays(0));
     CHECK(without.tracer.lights().virtual_count() == 0);
-    CHECK(floor_at(without, 1, 0) == doctest::Approx(direct).epsilon(1e-5));
+    CHECK(floor_at(without, 1, 0) == float_rounded(direct));
     // Where the mirror's outline cuts the path nothing arrives: the light would have to pass at y
     // = 2.5.
-    CHECK(floor_at(scene, 1, 5.9) == doctest::Approx(floor_at(without, 1, 5.9)));
+    CHECK(floor_at(scene, 1, 5.9) == rounded(floor_at(without, 1, 5.9)));
 }
 
 TEST_CASE("shadows fall on both legs of a relayed path") {
@@ -60,7 +61,7 @@ TEST_CASE("shadows fall on both legs of a relayed path") {
     for (const char* ball : {"2 0 2.143 .1", "3.5 0 1.071 .1"}) {
         TestScene blocked(scene + "grey sphere ball\n0\n0\n4 " + ball + "\n", with_relays(1));
         CHECK(floor_at(clear, 1, 0) > floor_at(none, 1, 0));
-        CHECK(floor_at(blocked, 1, 0) == doctest::Approx(floor_at(none, 1, 0)));
+        CHECK(floor_at(blocked, 1, 0) == rounded(floor_at(none, 1, 0)));
     }
 }
 
@@ -93,9 +94,9 @@ TEST_CASE(
         none(kFloor + kMirror + sun, with_relays(0));
     REQUIRE(scene.tracer.lights().virtual_count() == 1);
     const double direct = floor_at(none, 2, 0);
-    CHECK(floor_at(scene, 2, 0) == doctest::Approx(1.9 * direct).epsilon(1e-5));
-    CHECK(floor_at(scene, -2, 0) == doctest::Approx(direct));
-    CHECK(floor_at(scene, 2, 2.5) == doctest::Approx(direct));
+    CHECK(floor_at(scene, 2, 0) == float_rounded(1.9 * direct));
+    CHECK(floor_at(scene, -2, 0) == rounded(direct));
+    CHECK(floor_at(scene, 2, 2.5) == rounded(direct));
 }
 
 TEST_CASE(
@@ -104,7 +105,7 @@ TEST_CASE(
     TestScene clear(scene, with_relays(1, 512)), untested(scene, with_relays(1));
     REQUIRE(clear.tracer.lights().virtual_count() == 1);
     CHECK_FALSE(clear.tracer.lights()[1].follow);
-    CHECK(floor_at(clear, 1, 0) == doctest::Approx(floor_at(untested, 1, 0)));
+    CHECK(floor_at(clear, 1, 0) == rounded(floor_at(untested, 1, 0)));
     TestScene hidden(scene + "grey polygon w\n0\n0\n12 3 -9 0  3 -9 9  3 9 9  3 9 0\n",
                      with_relays(1, 512));
     CHECK(hidden.tracer.lights().virtual_count() == 0);
@@ -136,10 +137,10 @@ TEST_CASE("a prism sheet relays by its expressions, an undeviated one makes no v
         kFloor + lamp + "void prism1 bend\n5 .7 Dx-.3*abs(Dz) Dy Dz .\n0\n0\nbend" + sheet,
         with_relays(1));
     REQUIRE(bend.tracer.lights().virtual_count() == 1);
-    CHECK(length(bend.tracer.lights()[1].center - Vec3{0.9, 0, 6}) < 1e-6);
+    CHECK(length(bend.tracer.lights()[1].center - Vec3{0.9, 0, 6}) < kRounding);
     const double squared = 1.9 * 1.9 + 36;
     CHECK(floor_at(bend, -1, 0) ==
-          doctest::Approx(0.7 * 0.5 * 100 * 0.09 / squared * 6 / std::sqrt(squared)).epsilon(1e-5));
+          float_rounded(0.7 * 0.5 * 100 * 0.09 / squared * 6 / std::sqrt(squared)));
     TestScene straight(kFloor + lamp + "void prism1 none\n5 1 Dx Dy Dz .\n0\n0\nnone" + sheet,
                        with_relays(1));
     CHECK(straight.tracer.lights().virtual_count() == 0);

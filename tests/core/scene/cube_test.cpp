@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk::test {
 namespace {
@@ -21,9 +22,9 @@ std::shared_ptr<const Model> model_in_cube(const ModelCube& cube) {
 TEST_CASE("a scene's cube is the smallest around its surfaces, and a little more") {
     const TestScene scene(kBall + "p sphere t 0 0 4 4 0 0 1\n");
     const SceneCube cube = scene.scene.cube();
-    CHECK(cube.size == doctest::Approx(6 + 2e-5));
-    CHECK(cube.origin.x == doctest::Approx(-1 - 1e-5));
-    CHECK(cube.origin.y == doctest::Approx(-3 - 1e-5));
+    CHECK(cube.size == rounded(6 + 2e-5));
+    CHECK(cube.origin.x == rounded(-1 - 1e-5));
+    CHECK(cube.origin.y == rounded(-3 - 1e-5));
 }
 
 TEST_CASE("an octree's cube is the one that it states, also where it is an instance") {
@@ -35,8 +36,8 @@ TEST_CASE("an octree's cube is the one that it states, also where it is an insta
     files.octrees["ball.oct"] = model_in_cube({-2, -3, -4, 10});
     const TestScene placed("void instance i 5 ball.oct -t 100 0 0 0 0\n", TestScene::exact(),
                            files);
-    CHECK(placed.scene.cube().origin.x == doctest::Approx(98 - 1e-5));
-    CHECK(placed.scene.cube().size == doctest::Approx(10 + 2e-5));
+    CHECK(placed.scene.cube().origin.x == rounded(98 - 1e-5));
+    CHECK(placed.scene.cube().size == rounded(10 + 2e-5));
 }
 
 }  // namespace lightwalk::test

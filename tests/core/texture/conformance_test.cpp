@@ -10,6 +10,7 @@
 #include "io/picture/picture_data.h"
 #include "tests/shared_data.h"
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk::test {
 namespace {
@@ -106,7 +107,7 @@ TEST_CASE("function files see positions, directions and frames as Radiance's do"
             CHECK(static_cast<double>(value.r) == expected);
         } else {
             CHECK(std::abs(sum_of_pieces(value) - expected) <=
-                  1e-12 * std::max(1.0, std::abs(expected)));
+                  kRounding * std::max(1.0, std::abs(expected)));
         }
     }
 }
@@ -133,7 +134,7 @@ TEST_CASE("texfunc perturbs normals as Radiance's does") {
             ray.perturbed() ? perturb_normal(ray).normal : ray.hit.normal + ray.hit.perturbation;
         const std::vector<double> expected = numbers(row.value);
         REQUIRE(expected.size() == 3);
-        CHECK(length(normal - Vec3{expected[0], expected[1], expected[2]}) <= 1e-9);
+        CHECK(length(normal - Vec3{expected[0], expected[1], expected[2]}) <= kRounding);
     }
 }
 
@@ -172,7 +173,7 @@ TEST_CASE("mixfunc mixes materials, patterns and void as Radiance's does") {
         const std::vector<double> expected = numbers(row.value);
         REQUIRE(expected.size() == 3);
         for (std::size_t k = 0; k < 3; ++k)
-            CHECK(std::abs(static_cast<double>(value[k]) - expected[k]) <= 1e-6);
+            CHECK(std::abs(static_cast<double>(value[k]) - expected[k]) <= kFloatRounding);
     }
 }
 
@@ -205,7 +206,7 @@ TEST_CASE("colorpict passes its pixels through the colour functions") {
         REQUIRE(expected.size() == 3);
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(std::abs(static_cast<double>(value[k]) - expected[k]) <=
-                  1e-6 * std::max(1.0, expected[k]));
+                  kFloatRounding * std::max(1.0, expected[k]));
         ++tested;
     }
     CHECK(tested == 2);
