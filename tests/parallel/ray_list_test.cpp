@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk;
-using lightwalk::test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -93,7 +94,7 @@ TEST_CASE("a direction's length can limit its ray: beyond it is nothing, at the 
     CHECK_FALSE(answers[0].hit);
     CHECK(answers[0].point == Vec3{2, 0, 1});
     CHECK(answers[1].hit);
-    CHECK(answers[1].distance == doctest::Approx(3));
+    CHECK(answers[1].distance == rounded(3));
 }
 
 TEST_CASE("without shading the nearest hit alone is found") {
@@ -103,7 +104,7 @@ TEST_CASE("without shading the nearest hit alone is found") {
     const std::vector<Answer> answers =
         trace(scene, {{{2, 0, 3}, {0, 0, -1}}, {{2, 0, 3}, {0, 0, 1}}}, cast);
     CHECK(answers[0].hit);
-    CHECK(answers[0].distance == doctest::Approx(3));
+    CHECK(answers[0].distance == rounded(3));
     CHECK(answers[0].value == Rgb(0, 0, 0));
     CHECK_FALSE(answers[1].hit);
 }
@@ -117,6 +118,6 @@ TEST_CASE(
     const std::vector<Answer> answers =
         trace(scene, {{{0, 0, 0}, {0, 0, 3}}, {{0, 0, 0}, {0, 0, -1}}}, sensor);
     const double omega = 2 * kPi * (1 - std::cos(kPi / 180));  // the sun's two degrees
-    CHECK(static_cast<double>(answers[0].value.g) == doctest::Approx(7 * omega).epsilon(1e-4));
+    CHECK(static_cast<double>(answers[0].value.g) == float_rounded(7 * omega));
     CHECK(answers[1].value.g == 0);
 }

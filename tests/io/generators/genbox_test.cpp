@@ -6,6 +6,7 @@
 
 #include "tests/io/generators/closed_surface.h"
 #include "tests/io/generators/library_file.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
 namespace {
@@ -17,7 +18,9 @@ using test::is_closed;
 using test::names;
 using test::near;
 using test::polygons;
+using test::rounded;
 using test::vertex;
+using test::within;
 
 constexpr Vec3 kSize{3, 4, 5};
 
@@ -47,7 +50,7 @@ TEST_CASE("genbox: a plain box is closed, with outward normals, and named by its
     CHECK(vertex(front, 2) == Vec3{0, 0, 5});
     CHECK(vertex(front, 3) == Vec3{0, 0, 0});
     CHECK(is_closed(polygons(box)));
-    CHECK(enclosed_volume(polygons(box)) == doctest::Approx(60));
+    CHECK(enclosed_volume(polygons(box)) == rounded(60));
 }
 
 TEST_CASE("genbox -i: the same box seen from inside") {
@@ -55,8 +58,7 @@ TEST_CASE("genbox -i: the same box seen from inside") {
         const auto box = generate(std::string("genbox wood room 3 4 5 -i") + options);
         const auto outside = generate(std::string("genbox wood room 3 4 5") + options);
         CHECK(is_closed(polygons(box)));
-        CHECK(enclosed_volume(polygons(box)) ==
-              doctest::Approx(-enclosed_volume(polygons(outside))));
+        CHECK(enclosed_volume(polygons(box)) == rounded(-enclosed_volume(polygons(outside))));
         CHECK(names(box) == names(outside));
     }
 }
@@ -70,7 +72,7 @@ TEST_CASE("genbox -b: edges and corners are cut off") {
     CHECK(is_closed(polygons(box)));
     const double edges = 4 * (kSize.x + kSize.y + kSize.z - 6 * b) * b * b / 2;
     const double corners = 8 * (b * b * b - b * b * b / 6);
-    CHECK(enclosed_volume(polygons(box)) == doctest::Approx(60 - edges - corners));
+    CHECK(enclosed_volume(polygons(box)) == rounded(60 - edges - corners));
 }
 
 TEST_CASE("genbox -r: faces, cylinders along the edges, spheres in the corners") {
@@ -88,7 +90,7 @@ TEST_CASE("genbox -r: faces, cylinders along the edges, spheres in the corners")
         CHECK(edge.reals.at(6) == 0.5);
         length_sum += length(vertex(edge, 1) - vertex(edge, 0));
     }
-    CHECK(length_sum == doctest::Approx(4 * (2 + 3 + 4)));
+    CHECK(length_sum == rounded(4 * (2 + 3 + 4)));
     CHECK(vertex(box.primitives[25], 0) == Vec3{2.5, 3.5, 4.5});
     // The last of -b and -r gives the amount; any -r rounds.
     CHECK(generate("genbox wood crate 3 4 5 -r .5 -b .25").primitives[6].reals.at(6) == 0.25);
@@ -105,7 +107,7 @@ TEST_CASE("genbox -r -n: flat pieces close up, and approach the rounded volume q
         CHECK(is_closed(polygons(box)));
         const double error = rounded_volume(kSize, 0.5) - enclosed_volume(polygons(box));
         CHECK(error > 0);
-        if (last_error > 0) CHECK(last_error / error == doctest::Approx(4).epsilon(0.05));
+        if (last_error > 0) CHECK(last_error / error == within(0.05, 4));
         last_error = error;
     }
 }
@@ -118,8 +120,7 @@ TEST_CASE("genbox -n: rounded up to a power of two, when boxes are segmented at 
     const auto inward = generate("genbox m b 3 4 5 -r .5 -i");
     CHECK(inward.primitives.size() == 6 + 12 * 32 + 8 * 32 * 32);
     CHECK(is_closed(polygons(inward)));
-    CHECK(enclosed_volume(polygons(inward)) ==
-          doctest::Approx(-rounded_volume(kSize, 0.5)).epsilon(1e-3));
+    CHECK(enclosed_volume(polygons(inward)) == within(1e-3, -rounded_volume(kSize, 0.5)));
 }
 
 TEST_CASE("genbox -s: tmesh.cal turns the flat normals into those of the rounded box") {

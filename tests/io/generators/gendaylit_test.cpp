@@ -10,14 +10,19 @@
 #include "io/generators/solar.h"
 #include "tests/io/generators/generated.h"
 #include "tests/io/generators/library_file.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
 namespace {
 
+using test::float_rounded;
 using test::generate;
 using test::Generated;
 using test::generator_error;
 using test::near;
+using test::printed;
+using test::rounded;
+using test::within;
 
 /// The last primitive: the sky's pattern.
 const PrimitiveText& sky_of(const Generated& generated) {
@@ -74,8 +79,8 @@ TEST_CASE("gendaylit: the sky sheds the diffuse irradiance, the sun the direct o
         CHECK(sky_of(day).type_word == "brightfunc");
         CHECK(sky_of(day).strings == std::vector<std::string>{"skybright", "perezlum.cal"});
         CHECK(sky_of(day).reals.size() == 10);
-        CHECK(horizontal(sky_of(day)) == doctest::Approx(diffuse).epsilon(1e-3));
-        CHECK(day.primitives[0].reals[0] * kSunSolidAngle == doctest::Approx(direct).epsilon(1e-3));
+        CHECK(horizontal(sky_of(day)) == within(1e-3, diffuse));
+        CHECK(day.primitives[0].reals[0] * kSunSolidAngle == within(1e-3, direct));
         const Vec3 sun = sun_of(sky_of(day));
         CHECK(near(sun, {test::vertex(day.primitives[1], 0)}));
         CHECK(near(sun, solar_direction({40 * kPi / 180, -20 * kPi / 180}), 1e-6));
@@ -97,7 +102,7 @@ TEST_CASE("gendaylit: the model's 145 directions integrate the sky as a fine gri
         }
     }
     const double cell = kPi / 2 / kSteps * 2 * kPi / kSteps;
-    CHECK(sum * cell == doctest::Approx(150).epsilon(0.03));
+    CHECK(sum * cell == within(0.03, 150));
 }
 
 TEST_CASE("gendaylit: units of the output differ by the efficacies") {
@@ -105,12 +110,11 @@ TEST_CASE("gendaylit: units of the output differ by the efficacies") {
     const auto visible = generate(command + "0");
     const auto luminance = generate(command + "2");
     const auto solar = generate(command + "1");
-    CHECK(sky_of(luminance).reals[0] / sky_of(visible).reals[0] ==
-          doctest::Approx(179).epsilon(2e-3));
+    CHECK(sky_of(luminance).reals[0] / sky_of(visible).reals[0] == within(2e-3, 179));
     const double efficacy = sky_of(luminance).reals[0] / sky_of(solar).reals[0];
     CHECK(efficacy > 100);
     CHECK(efficacy < 160);
-    CHECK(horizontal(sky_of(luminance)) == doctest::Approx(120 * efficacy).epsilon(2e-3));
+    CHECK(horizontal(sky_of(luminance)) == within(2e-3, 120 * efficacy));
 }
 
 TEST_CASE("gendaylit: the five kinds of weather describe the same sky") {
@@ -118,8 +122,8 @@ TEST_CASE("gendaylit: the five kinds of weather describe the same sky") {
     const DaylightPair weather{450, 180};
     const SkyCondition condition = sky_condition(weather, sun);
     const DaylightPair back = irradiances(condition, sun);
-    CHECK(back.direct == doctest::Approx(450));
-    CHECK(back.diffuse == doctest::Approx(180));
+    CHECK(back.direct == rounded(450));
+    CHECK(back.diffuse == rounded(180));
     const auto sky = [](const std::string& input) {
         return sky_of(generate("gendaylit -ang 40 10 -O 1 " + input)).reals;
     };
@@ -127,7 +131,7 @@ TEST_CASE("gendaylit: the five kinds of weather describe the same sky") {
     const auto check = [&](const std::vector<double>& reals) {
         REQUIRE(reals.size() == expected.size());
         for (std::size_t i = 0; i < reals.size(); ++i) {
-            CHECK(reals[i] == doctest::Approx(expected[i]).epsilon(2e-3));
+            CHECK(reals[i] == within(2e-3, expected[i]));
         }
     };
     check(sky("-G " + std::to_string(450 * std::sin(40 * kPi / 180)) + " 180"));
@@ -140,8 +144,7 @@ TEST_CASE("gendaylit: the five kinds of weather describe the same sky") {
 
     const auto global = generate("gendaylit -ang 40 10 -O 1 -E 500");
     const double direct = global.primitives[0].reals[0] * kSunSolidAngle;
-    CHECK(direct * std::sin(40 * kPi / 180) + horizontal(sky_of(global)) ==
-          doctest::Approx(500).epsilon(2e-3));
+    CHECK(direct * std::sin(40 * kPi / 180) + horizontal(sky_of(global)) == within(2e-3, 500));
     CHECK(global.text.find("# Direct normal irradiance: ") != std::string::npos);
 }
 
@@ -161,15 +164,13 @@ TEST_CASE("gendaylit: classes of the sky's clearness, and the model's limits") {
     // class 8: A = -1.05 + 0.0289 z + brightness (0.426 + 0.359 z)
     const auto clear = perez_distribution({7, 0.1}, 0.5);
     REQUIRE(clear);
-    CHECK(clear->a == doctest::Approx(-1.05 + 0.0289 * 0.5 + 0.1 * (0.426 + 0.359 * 0.5)));
-    CHECK(clear->d == doctest::Approx(-7.2312 + 0.405 * 0.5 + 0.1 * (13.35 + 0.6234 * 0.5)));
+    CHECK(clear->a == rounded(-1.05 + 0.0289 * 0.5 + 0.1 * (0.426 + 0.359 * 0.5)));
+    CHECK(clear->d == rounded(-7.2312 + 0.405 * 0.5 + 0.1 * (13.35 + 0.6234 * 0.5)));
     // class 1: C = exp((brightness (2.8 + 0.6004 z))^1.2375) - 1
     const auto overcast = perez_distribution({1, 0.1}, 0.5);
     REQUIRE(overcast);
-    CHECK(overcast->c ==
-          doctest::Approx(std::exp(std::pow(0.1 * (2.8 + 0.6004 * 0.5), 1.2375)) - 1));
-    CHECK(overcast->d ==
-          doctest::Approx(-std::exp(0.1 * (1.8734 + 0.6297 * 0.5)) + 0.9738 + 0.1 * 0.2809));
+    CHECK(overcast->c == rounded(std::exp(std::pow(0.1 * (2.8 + 0.6004 * 0.5), 1.2375)) - 1));
+    CHECK(overcast->d == rounded(-std::exp(0.1 * (1.8734 + 0.6297 * 0.5)) + 0.9738 + 0.1 * 0.2809));
     // hazy skies are at least 0.2 bright
     CHECK(perez_distribution({1.5, 0.1}, 0.5)->a == perez_distribution({1.5, 0.2}, 0.5)->a);
     CHECK(perez_distribution({2.9, 0.1}, 0.5)->a != perez_distribution({2.9, 0.2}, 0.5)->a);
@@ -195,7 +196,7 @@ TEST_CASE("gendaylit: black skies say why") {
         const auto black = generate(command);
         REQUIRE(black.primitives.size() == 1);
         for (std::size_t i = 0; i < 7; ++i) CHECK(sky_of(black).reals[i] == 0);
-        CHECK(length(sun_of(sky_of(black))) == doctest::Approx(1).epsilon(1e-5));
+        CHECK(length(sun_of(sky_of(black))) == float_rounded(1));
         REQUIRE(!black.warnings.empty());
         CHECK(black.warnings.back().find(why) != std::string::npos);
         CHECK(generate(command + " -w").warnings.empty());
@@ -223,9 +224,9 @@ TEST_CASE("gendaylit: a measurement interval moves the hour into daylight") {
 
 TEST_CASE("gendaylit: the sun stays 3 degrees from the zenith, unless -c") {
     CHECK(sun_of(sky_of(generate("gendaylit -ang 89 0 -W 500 100"))).z ==
-          doctest::Approx(std::sin(87 * kPi / 180)).epsilon(1e-5));
+          float_rounded(std::sin(87 * kPi / 180)));
     CHECK(sun_of(sky_of(generate("gendaylit -ang 89 0 -W 500 100 -c"))).z ==
-          doctest::Approx(std::sin(89 * kPi / 180)).epsilon(1e-5));
+          float_rounded(std::sin(89 * kPi / 180)));
 }
 
 TEST_CASE("perezlum.cal: the printed sky, blended with the ground at the horizon") {
@@ -236,8 +237,7 @@ TEST_CASE("perezlum.cal: the printed sky, blended with the ground at the horizon
         for (const Vec3& direction : kDirections) {
             test::RayValues ray;
             ray.direction = direction;
-            CHECK(file.value("skybright", sky.reals, ray) ==
-                  doctest::Approx(blended(sky, direction)));
+            CHECK(file.value("skybright", sky.reals, ray) == rounded(blended(sky, direction)));
         }
     }
 }
@@ -263,14 +263,14 @@ TEST_CASE("gendaylit -C and perezlum_c.cal: colors of overcast and clear skies")
             const Vec3 z{-0.3984, 0.0438, 1.1772};
             const Vec3 other = cross(z, x);
             const double luminance = dot(other, {rgb[0], rgb[1], rgb[2]}) / dot(other, y);
-            CHECK(luminance == doctest::Approx(blended(sky, direction)));
+            CHECK(luminance == rounded(blended(sky, direction)));
         }
     }
     const auto overcast = generate("gendaylit -ang 50 30 -W 0 150 -C");
     test::RayValues zenith;
     zenith.direction = {0, 0, 1};
     const auto rgb = file.values(channels, sky_of(overcast).reals, zenith);
-    CHECK(rgb[0] == doctest::Approx(rgb[2]).epsilon(0.2));  // 6191 K is nearly white
+    CHECK(rgb[0] == within(0.2, rgb[2]));  // 6191 K is nearly white
     const auto blue = generate("gendaylit -ang 50 30 -W 850 80 -C");
     const auto clear = file.values(channels, sky_of(blue).reals, zenith);
     CHECK(clear[2] > 1.2 * clear[0]);

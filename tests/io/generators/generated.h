@@ -94,7 +94,11 @@ inline Vec3 polygon_normal(const PrimitiveText& polygon) {
     return normalize(sum);
 }
 
-inline bool near(const Vec3& a, const Vec3& b, double tolerance = 1e-9) {
+/// Coordinates have twelve digits: half a unit of the last one for those below 10, of three of
+/// them.
+inline constexpr double kPrinted = 1.5e-11;
+
+inline bool near(const Vec3& a, const Vec3& b, double tolerance = kPrinted) {
     return length(a - b) <= tolerance;
 }
 

@@ -8,6 +8,7 @@
 
 #include "tests/io/generators/generated.h"
 #include "tests/temporary_folder.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
 namespace {
@@ -15,9 +16,11 @@ namespace {
 using test::generate;
 using test::Generated;
 using test::generator_error;
+using test::kPrinted;
 using test::names;
 using test::near;
 using test::polygon_normal;
+using test::rounded;
 using test::vertex;
 
 const std::string kClockwise = "genprism m p 4 0 0 0 2 3 2 3 0";
@@ -91,9 +94,9 @@ TEST_CASE("genprism: a rounded box is a box with its edges replaced by cylinders
         // every rounding's axis keeps the radius to the faces
         for (std::size_t end = 0; end < (part.reals.size() > 4 ? 2 : 1); ++end) {
             const Vec3 p = vertex(part, end);
-            CHECK(std::min(p.x, 3 - p.x) == doctest::Approx(0.5));
-            CHECK(std::min(p.y, 2 - p.y) == doctest::Approx(0.5));
-            CHECK(std::min(p.z, 5 - p.z) == doctest::Approx(0.5));
+            CHECK(std::min(p.x, 3 - p.x) == rounded(0.5));
+            CHECK(std::min(p.y, 2 - p.y) == rounded(0.5));
+            CHECK(std::min(p.z, 5 - p.z) == rounded(0.5));
         }
         CHECK(part.reals.back() == 0.5);
     }
@@ -119,8 +122,8 @@ TEST_CASE("genprism: the corners of rounded sides lie one radius off the roundin
                 vertex(named(prism, "p.te" + next), 1), vertex(named(prism, "p.be" + next), 1)};
             for (std::size_t k = 0; k < 4; ++k) {
                 const Vec3 offset = vertex(side, k) - centers[k];
-                CHECK(length(offset) == doctest::Approx(0.2));
-                CHECK(std::abs(dot(offset, centers[3] - centers[0])) < 1e-9);
+                CHECK(std::abs(length(offset) - 0.2) < kPrinted);
+                CHECK(std::abs(dot(offset, centers[3] - centers[0])) < 10 * kPrinted);
             }
         }
     }
@@ -135,7 +138,7 @@ TEST_CASE("genprism: faces of upright and downward prisms touch their roundings"
             const PrimitiveText& edge = named(prism, "p.e" + std::to_string(i));
             for (std::size_t end = 0; end < 2; ++end) {
                 const Vec3 offset = vertex(side, 0) - vertex(edge, end);
-                CHECK(dot(offset, polygon_normal(side)) == doctest::Approx(0.2));
+                CHECK(dot(offset, polygon_normal(side)) == rounded(0.2));
             }
         }
     }

@@ -7,11 +7,15 @@
 #include "core/math/vec3.h"
 #include "io/scene/binary_models.h"
 #include "tests/io/scene/binary_writer.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
 namespace {
 
 using test::BinaryWriter;
+using test::kFewRoundings;
+using test::rounded;
+using test::within;
 
 constexpr double kStep = 4.5 / 4294967296.0;
 
@@ -94,14 +98,14 @@ TEST_CASE(
     "positions lie in the middle of their cells, (u, v) in their range, normals are decoded") {
     const MeshModel mesh = decode_mesh(mesh_bytes(), "x.rtm");
     REQUIRE(mesh.positions.size() == 8);
-    CHECK(mesh.positions[0].x == doctest::Approx(-1 + 0.5 * kStep).epsilon(1e-15));
-    CHECK(mesh.positions[1].z == doctest::Approx(-3 + 5000.5 * kStep).epsilon(1e-15));
-    CHECK(mesh.positions[4].x == doctest::Approx(-1 + 2.25).epsilon(1e-9));
+    CHECK(mesh.positions[0].x == within(kFewRoundings, -1 + 0.5 * kStep));
+    CHECK(mesh.positions[1].z == within(kFewRoundings, -3 + 5000.5 * kStep));
+    CHECK(mesh.positions[4].x == within(kStep, -1 + 2.25));
     CHECK(mesh.normals.size() == 8);
     CHECK(mesh.normals[0].z == 1);
     CHECK(mesh.normals[5].y == -1);
-    CHECK(mesh.us[5] == doctest::Approx(1.25));
-    CHECK(mesh.vs[5] == doctest::Approx(0).epsilon(1e-9));
+    CHECK(mesh.us[5] == within(0x1p-31, 1.25));
+    CHECK(mesh.vs[5] == within(0x1p-31, 0));
 }
 
 TEST_CASE("normals and (u, v) count only where all three corners have them") {

@@ -8,11 +8,13 @@
 #include "tests/io/scene/binary_writer.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
 namespace {
 
 using test::BinaryWriter;
+using test::within;
 
 BinaryWriter octree() {
     return test::begin_file("Radiance_octree", 287);
@@ -73,7 +75,7 @@ TEST_CASE("a frozen octree holds its objects, types go by name, aliases rename o
     REQUIRE(objects.size() == 7);
     CHECK(objects[1].type == PrimitiveType::plastic);
     CHECK(objects[1].modifier == 0);
-    CHECK(objects[1].reals[0] == doctest::Approx(0.7).epsilon(5e-10));
+    CHECK(objects[1].reals[0] == within(0x1p-31, 0.7) /* a unit of the mantissa */);
     CHECK(objects[2].name == "ball");
     CHECK(objects[2].reals[3] == 1);
     CHECK(objects[3].type == PrimitiveType::alias);  // "blue" renames "red", its pattern included

@@ -18,9 +18,12 @@
 #include "io/scene/scene_reader.h"
 #include "tests/shared_data.h"
 #include "tests/test_scene.h"
+#include "tests/tolerance.h"
 
 namespace lightwalk {
 namespace {
+
+using test::printed;
 
 const std::string kCabin = "pattmats cabin bathroom furniture winpanes.rad mirrors.rad ";
 const std::string kSummer = kCabin + "summerday landscape lights.off daywindows";
@@ -187,7 +190,7 @@ TEST_CASE("the cabin's trees: one octree inside another, three deep") {
     }
     CHECK(nested == std::set<std::string>{"n.150.oct"});
     CHECK(tree->header.size() == 2);
-    CHECK(tree->cube->size == doctest::Approx(56.0034329464));
+    CHECK(tree->cube->size == printed(12, 56.0034329464));
     CHECK(names_resolve(*tree));
 }
 
