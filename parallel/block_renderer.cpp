@@ -45,7 +45,7 @@ bool BlockRenderer::render(const Block& block, int worker, BlockPixels& pixels) 
 }
 
 void BlockRenderer::trace_all(PixelTracer& trace, BlockPixels& pixels) const {
-    constexpr std::size_t kPacket = kPacketSide * kPacketSide;
+    constexpr std::size_t kPacket = std::size_t{kPacketSide} * kPacketSide;
     std::array<PixelPlace, kPacket> places;
     std::array<PixelValue, kPacket> values;
     std::array<PixelHit, kPacket> hits;

@@ -234,7 +234,7 @@ std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnin
         LightSource source = make_source(emitter, *material, warnings);
         source.object = id;
         source.side_by_side = source.plain && have_lanes(scene, source.patterns);
-        sources.push_back(std::move(source));
+        sources.push_back(source);
     }
     return sources;
 }

@@ -14,13 +14,12 @@ constexpr std::int64_t kMagic = 561;
 constexpr int kMagicSize = 2;  ///< bytes
 constexpr const char* kFormat = "Radiance_ambval";
 
-/// Channels of the header; three where it says nothing.
-int channels(const InfoHeader& header) {
+/// Whether the header says three channels, or nothing about them.
+bool has_three_channels(const InfoHeader& header) {
     for (const std::string& line : header.lines) {
-        if (const auto value = header_variable(line, "NCOMP"))
-            return std::atoi(std::string(*value).c_str());
+        if (const auto value = header_variable(line, "NCOMP")) return *value == "3";
     }
-    return 3;
+    return true;
 }
 
 }  // namespace
@@ -29,7 +28,7 @@ AmbientFile decode_ambient_file(std::string_view bytes, const std::string& name)
     const InfoHeader header = decode_header(bytes, name);
     if (header.format != kFormat)
         throw InputError({name, 0}, "not an ambient file, expected FORMAT=Radiance_ambval");
-    if (channels(header) != 3)
+    if (!has_three_channels(header))
         throw InputError({name, 0},
                          "an ambient file of other than three channels is not supported");
     AmbientFile file;

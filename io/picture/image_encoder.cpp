@@ -23,6 +23,7 @@ EncodeImage load_encoder(std::string& error) {
          }) {
         void* module = dlopen((folder / kModule).c_str(), RTLD_NOW | RTLD_LOCAL);
         if (!module) {
+            // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
             const char* text = dlerror();
             error = text ? text : "unknown error";
             continue;
