@@ -43,8 +43,8 @@ struct Font {
 };
 
 /// Finds and decodes files by the names that stand in a scene. Every method throws MissingFile,
-/// naming the search path, when there is no such file, and InputError when it is damaged. Each name is decoded once and
-/// shared.
+/// naming the search path, when there is no such file, and InputError when it is damaged. Each name
+/// is decoded once and shared.
 class Resources {
   public:
     virtual ~Resources() = default;

@@ -57,8 +57,8 @@ struct ModifierBuild {
     std::function<bool(ModifierId)> is_transparent;
 };
 
-/// Throws InputError for bad arguments; MissingFile makes the scene warn, and fail when the modifier
-/// is first shaded.
+/// Throws InputError for bad arguments; MissingFile makes the scene warn, and fail when the
+/// modifier is first shaded.
 using ModifierFactory = std::unique_ptr<const Modifier> (*)(const ModifierBuild&);
 
 /// The factory for a type; null for types that are no modifiers, or recognised and refused.

@@ -111,7 +111,8 @@ TEST_CASE("with white at the display's own the curve changes nothing") {
 TEST_CASE("windows are drawn: a stop more is seen at every brightness below white") {
     for (double x = 1; x <= 32; x *= 1.1) {
         CAPTURE(x);
-        CHECK(grey_byte(2 * x, with_white(64)) >= grey_byte(x, with_white(64)) + 8);  // of 255 for six stops
+        CHECK(grey_byte(2 * x, with_white(64)) >=
+              grey_byte(x, with_white(64)) + 8);  // of 255 for six stops
         CHECK(grey_byte(x, kLinear) == 255);
     }
 }
