@@ -114,7 +114,7 @@ TEST_CASE("samples keep the light: a square's pixels add up to its area") {
     for (const int samples : {1, 8}) {
         CAPTURE(samples);
         double sum = 0;
-        constexpr int kSeeds = 20;
+        constexpr int kSeeds = 60;
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
             FrameOptions options = options_of(kSize, kSize, samples, seed);
             options.pixels.jitter = 1;  // with one sample: anywhere in its pixel

@@ -90,7 +90,7 @@ TEST_CASE("a pixel's mean over an edge varies less than that of independent samp
     }
 }
 
-TEST_CASE("the samples of a pixel are the same each time; pixels and seeds have their own") {
+TEST_CASE("the samples of a pixel are the same each time, pixels and seeds have their own") {
     const PixelOffset a = pixel_sample(1, 5, 6, 3, 8, 0.25);
     const PixelOffset b = pixel_sample(1, 5, 6, 3, 8, 0.25);
     CHECK(a.x == b.x);
