@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <ctime>
@@ -84,6 +85,27 @@ void refuse_option(const OptionWords& words, std::vector<std::string> names) {
 std::vector<std::string> common_option_names() {
     return {"-n",     "-e",        "--executor", "--seed", "--stats", "--quiet", "--allow-commands",
             "--help", "--version", "-defaults"};
+}
+
+void settle_scene_files(CommonOptions& options, const std::string& taken_by) {
+    std::vector<std::string>& files = options.scene_files;
+    if (!taken_by.empty()) {
+        if (files.empty()) {
+            throw UsageError("no scene: name an octree or scene files; standard input holds " +
+                             taken_by);
+        }
+        if (std::find(files.begin(), files.end(), "-") != files.end())
+            throw UsageError("standard input holds " + taken_by + ", so the scene cannot be -");
+    }
+    if (!files.empty()) return;
+    if (isatty(STDIN_FILENO) != 0) {
+        throw UsageError(
+            "no scene: name an octree or scene files, or send one of them to standard input");
+    }
+    const int first = std::getc(stdin);
+    if (first == EOF) throw UsageError("no scene: none is named, and standard input holds nothing");
+    (void)std::ungetc(first, stdin);
+    files.emplace_back("-");
 }
 
 void redirect_messages(const CommonOptions& options, const std::string& history) {

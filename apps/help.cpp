@@ -11,8 +11,8 @@ constexpr const char* kProgramHelp =
   lightwalk info SCENE...             what a scene holds
   lightwalk help COMMAND              how to use one of them
 
-SCENE is one octree (.oct), or Radiance scene files in order; "-" is standard input. Library files are looked for
-along RAYPATH, then in the library that comes with Lightwalk.
+SCENE is one octree (.oct), or Radiance scene files in order; "-" is standard input, which render and info also read
+when no scene is named. Library files are looked for along RAYPATH, then in the library that comes with Lightwalk.
 
 A first picture, of a room with a window:
   lightwalk render -vp 2 1.6 0.5 -vd 0 0 1 -vu 0 1 0 -vh 60 -vv 45 -o room.png room.rad
@@ -31,6 +31,7 @@ option with its value.
 Output
   -o FILE            .hdr .pic: Radiance picture; .exr: float; .png .jpg: for the screen. Without -o a Radiance
                      picture goes to standard output. A file of that name is replaced when the new one is whole.
+  -pXYZ              a Radiance picture holds CIE XYZ, Y in cd/m2; -pRGB: radiance (the default)
   -z FILE            distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing there
   --exposure auto|EV for .png and .jpg: average brightness, or a fixed number of stops
   --tone curve|linear  for .png and .jpg: compress what is brighter than middle grey, so that windows and lamps
@@ -93,6 +94,9 @@ switches work as in `lightwalk render`.
   -i                 irradiance at the first surface seen
   -ld                a direction's length limits its ray
   -x N  -y N         picture size: flush after N rays, stop after N * N; a resolution line goes first
+                       t T the fields after it, for every ray that is traced: children first, a tab for each
+                           generation, -n 1. T also tells shadow rays that reach their light source unhindered
+  -te -ti MODIFIER   with t or T: leave out, or take only, rays that meet this modifier; -tE -tI FILE: those in the file
   -pRGB -pXYZ -pY -pA   colours as RGB, XYZ, luminance, mean
   -n N               threads; default: all. Without -ab the output does not depend on it
   --seed N           other random numbers; equal rays of one run draw different ones
@@ -109,7 +113,8 @@ constexpr const char* kInfoHelp =
     R"(lightwalk info SCENE...
 
 Say what a scene holds: primitives by type, bounds, light sources with the virtual ones that mirrors and prisms make,
-instances, memory, and what Lightwalk does not support.
+instances, memory, and what Lightwalk does not support, with the first place of each. Exit status 1 when the scene
+cannot be rendered; what could be found out is printed all the same.
 
   -dr N              relays of virtual sources, default 1
   --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators

@@ -27,18 +27,27 @@ void print_counts(const Model& model) {
         std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
 }
 
-/// Types that are read and then refused when a surface uses them.
+/// Types that are read and then refused when a surface uses them, each with its first primitive.
 void print_unsupported(const Model& model) {
-    std::map<PrimitiveType, std::size_t> counts;
+    struct Refused {
+        const Primitive* first = nullptr;
+        std::size_t count = 0;
+    };
+    std::map<PrimitiveType, Refused> types;
     for (const Primitive& primitive : model.primitives) {
         const PrimitiveType type = primitive.type;
         const bool known =
             is_surface(type) || type == PrimitiveType::alias || modifier_factory(type) != nullptr;
-        if (!known) ++counts[type];
+        if (known) continue;
+        Refused& refused = types[type];
+        if (refused.count++ == 0) refused.first = &primitive;
     }
-    std::printf("unsupported    %s\n", counts.empty() ? "nothing" : "");
-    for (const auto& [type, count] : counts)
-        std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
+    std::printf("unsupported    %s\n", types.empty() ? "nothing" : "");
+    for (const auto& [type, refused] : types) {
+        const std::string first = to_prefix(refused.first->where) + '"' + refused.first->name + '"';
+        std::printf("  %-12s %zu, first %s\n", std::string(to_string(type)).c_str(), refused.count,
+                    printable(first).c_str());
+    }
 }
 
 void print_geometry(const Scene& scene) {
@@ -70,7 +79,7 @@ void print_lights(const Scene& scene, const LightSources& lights) {
         }
         const Surface& surface = scene.surface(light.object);
         std::printf("  %-12s %s (%s)%s\n", std::string(to_string(light.material_type)).c_str(),
-                    surface.name.c_str(), std::string(to_string(surface.type)).c_str(),
+                    printable(surface.name).c_str(), std::string(to_string(surface.type)).c_str(),
                     light.unusable ? ", not sampled" : "");
     }
 }
@@ -89,7 +98,7 @@ void print_ambient_file(const std::string& path) {
         least = std::min(least, static_cast<double>(record.radius[0]));
         most = std::max(most, static_cast<double>(record.radius[1]));
     }
-    for (const std::string& line : file.header) std::printf("%s\n", line.c_str());
+    for (const std::string& line : file.header) std::printf("%s\n", printable(line).c_str());
     std::printf("values         %zu\n", file.records.size());
     for (const auto& [level, count] : levels) std::printf("  level %-6d %zu\n", level, count);
     if (!file.records.empty()) {
@@ -98,7 +107,7 @@ void print_ambient_file(const std::string& path) {
         print_vector("lower", bounds.lower);
         print_vector("upper", bounds.upper);
     }
-    if (!file.damage.empty()) std::printf("damage         %s\n", file.damage.c_str());
+    if (!file.damage.empty()) std::printf("damage         %s\n", printable(file.damage).c_str());
 }
 
 }  // namespace
@@ -120,6 +129,7 @@ int run_info(const std::vector<std::string>& line) {
         print_ambient_file(options.scene_files[0]);
         return kSuccessStatus;
     }
+    settle_scene_files(options, "");
     SceneSession session(options, warnings);
     print_counts(*session.model);
     print_unsupported(*session.model);

@@ -68,15 +68,15 @@ int run(const std::vector<std::string>& words) {
     try {
         return dispatch(words);
     } catch (const UsageError& error) {
-        std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", program.c_str(), error.what(),
-                     program.c_str());
+        std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", program.c_str(),
+                     printable(error.what()).c_str(), program.c_str());
         return kUsageStatus;
     } catch (const InputError& error) {
         std::fprintf(stderr, "%s\n", error.what());
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s: out of memory\n", program.c_str());
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
+        std::fprintf(stderr, "%s: %s\n", program.c_str(), printable(error.what()).c_str());
     }
     return kFailureStatus;
 }

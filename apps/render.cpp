@@ -1,7 +1,6 @@
 // lightwalk render: pictures of a scene, as rpict makes them.
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
+#include "io/files/library_path.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
 #include "parallel/frame.h"
@@ -47,22 +47,14 @@ PictureHeader picture_header(const RenderCommand& command, const Model& model, c
         header.lines.push_back("PIXASPECT=" + formatted("%f", pixel_aspect));
     }
     for (const std::string& line : date_lines()) header.lines.push_back(line);
-    header.lines.push_back(primaries_line(command));
+    if (!command.xyz) header.lines.push_back(primaries_line(command));
+    header.xyz = command.xyz;
     return header;
 }
 
 void write_to_stdout(const std::string& bytes) {
     const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
     if (!whole || std::fflush(stdout) != 0) throw InputError("cannot write standard output");
-}
-
-std::string read_stdin() {
-    std::string text;
-    std::array<char, 65536> buffer{};
-    for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), stdin)) > 0;) {
-        text.append(buffer.data(), count);
-    }
-    return text;
 }
 
 class RenderRun {
@@ -74,11 +66,8 @@ class RenderRun {
         settle_spacing();
         if (command_.first_frame == 0)
             (void)Camera(command_.view);  // a bad view is told before the scene is read
-        const std::vector<std::string>& files = command_.common.scene_files;
-        if (command_.first_frame > 0 && std::find(files.begin(), files.end(), "-") != files.end()) {
-            throw UsageError(
-                "standard input holds the views of the sequence (-S), so the scene cannot be -");
-        }
+        settle_scene_files(command_.common,
+                           command_.first_frame > 0 ? "the views of the sequence (-S)" : "");
         if (command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
         }
@@ -88,6 +77,7 @@ class RenderRun {
         handle_interrupts();
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
         session_->build(command_.settings);
+        session_->warn_of_darkness();
         executor_ = make_executor(command_.common.executor, command_.common.workers);
         contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
                                                      executor_->concurrency());
@@ -126,7 +116,7 @@ class RenderRun {
 
     /// False: interrupted.
     bool render_sequence() {
-        const std::vector<View> views = read_view_sequence(read_stdin(), command_.view);
+        const std::vector<View> views = read_view_sequence(read_standard_input(), command_.view);
         int frame = command_.first_frame;
         int made = 0;
         View before = command_.view;

@@ -7,25 +7,13 @@
 namespace lightwalk {
 namespace {
 
-const std::vector<std::string> kOwnNames{"-x",         "-y",
-                                         "-pa",        "-ps",
-                                         "-pt",        "-pj",
-                                         "-pd",        "-pm",
-                                         "-pc",        "-pRGB",
-                                         "-o",         "-z",
-                                         "-S",         "-t",
-                                         "-vp",        "-vd",
-                                         "-vu",        "-vh",
-                                         "-vv",        "-vo",
-                                         "-va",        "-vs",
-                                         "-vl",        "-vf",
-                                         "-vtv",       "-vtl",
-                                         "-vtc",       "-vth",
-                                         "-vta",       "-vts",
-                                         "-help",      "-version",
-                                         "-features",  "--samples",
-                                         "--exposure", "--tone",
-                                         "--overture", "--deterministic"};
+const std::vector<std::string> kOwnNames{
+    "-x",   "-y",         "-pa",    "-ps",       "-pt",        "-pj",
+    "-pd",  "-pm",        "-pc",    "-pRGB",     "-pXYZ",      "-o",
+    "-z",   "-S",         "-t",     "-vp",       "-vd",        "-vu",
+    "-vh",  "-vv",        "-vo",    "-va",       "-vs",        "-vl",
+    "-vf",  "-vtv",       "-vtl",   "-vtc",      "-vth",       "-vta",
+    "-vts", "--exposure", "--tone", "--samples", "--overture", "--deterministic"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -76,9 +64,12 @@ bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
         command.pixels.aperture = words.real();
     else if (word == "-pm")
         command.pixels.motion = words.real();
-    else if (word == "-pRGB")
+    else if (word == "-pRGB" || word == "-pXYZ") {
+        command.primaries.reset();
+        command.xyz = word == "-pXYZ";
         words.skip(1);
-    else if (word == "-pc") {
+    } else if (word == "-pc") {
+        command.xyz = false;
         command.primaries.emplace();
         for (double& value : *command.primaries) value = words.real();
     } else {
@@ -124,7 +115,6 @@ void refuse_foreign(const std::string& word) {
     }
     if (word == "-P" || word == "-PP")
         throw UsageError("option " + word + ": persistent processes are not supported");
-    if (word == "-pXYZ") throw UsageError("option -pXYZ: pictures are written in RGB only");
 }
 
 void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand& command) {
@@ -156,6 +146,8 @@ void check(const RenderCommand& command) {
         command.report_interval < 0) {
         throw UsageError("options -pt, -pd, -pm, -pa and -t take no negative numbers");
     }
+    if (command.xyz && !command.output.empty() && !is_radiance_picture(command.output))
+        throw UsageError("option -pXYZ: only Radiance pictures (.hdr, .pic) hold CIE XYZ");
     (void)frame_name(command.output, 0);
     (void)frame_name(command.depth, 0);
 }

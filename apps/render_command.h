@@ -20,6 +20,7 @@ struct RenderCommand {
     PixelOptions pixels;                             ///< -ps -pt -pj -pd -pm --samples
     bool spacing_given = false;                      ///< -ps was named
     std::optional<std::array<double, 8>> primaries;  ///< -pc: what the header says of the channels
+    bool xyz = false;                                ///< -pXYZ: the picture holds CIE XYZ, not RGB
     std::string output;                              ///< -o; "" is standard output
     std::string depth;                               ///< -z; "" is none
     double report_interval = 0;                      ///< -t [s]

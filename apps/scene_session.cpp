@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
+#include "core/light/light_sources.h"
 #include "core/material/modifier_factories.h"
 #include "io/files/atomic_file.h"
 #include "io/scene/scene_reader.h"
@@ -29,14 +30,24 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink)
     : warnings(sink),
       library(LibraryPath::from_environment()),
       resources(library, options.allow_commands, sink) {
-    if (options.scene_files.empty()) throw UsageError("no scene: name an octree or scene files");
     const Stopwatch watch;
-    model = read_scene(options.scene_files, {library, options.allow_commands}, warnings);
+    model = read_scene(options.scene_files, {library, options.allow_commands}, warnings, &problems);
     read_seconds = watch.seconds();
+}
+
+void SceneSession::raise_problems() {
+    if (problems.empty()) return;
+    try {
+        Scene::unsupported(model, modifier_factory, resources, warnings).raise();
+    } catch (const InputError& error) {
+        problems.add(error);
+    }
+    problems.raise();
 }
 
 void SceneSession::build(const RenderSettings& settings) {
     const Stopwatch watch;
+    raise_problems();
     built = std::make_unique<const Scene>(model, modifier_factory, resources, warnings);
     auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
     const RenderOptions& options = settings.light;
@@ -58,6 +69,10 @@ void SceneSession::build(const RenderSettings& settings) {
     }
     made = std::move(fresh);
     build_seconds = watch.seconds();
+}
+
+void SceneSession::warn_of_darkness() const {
+    if (!made->lights().shine()) warnings.warn("no light sources found");
 }
 
 void write_statistics(const std::string& path, const RunStatistics& s) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/common_options.h"
+#include "core/problem_list.h"
 #include "core/scene/scene.h"
 #include "core/transport/tracer.h"
 #include "io/ambient/ambient_store.h"
@@ -25,10 +26,15 @@ class Stopwatch {
 };
 
 struct SceneSession {
-    /// Reads the description. Throws InputError; UsageError when no scene is named.
+    /// Reads the description. Throws InputError for what cannot be read at all. `options`: after
+    /// settle_scene_files.
     SceneSession(const CommonOptions& options, WarningSink& warnings);
-    /// Compiles the scene, then the tracer. Throws InputError.
+    /// Compiles the scene, then the tracer. Throws InputError, with all problems of the
+    /// description.
     void build(const RenderSettings& settings);
+
+    /// Warn when nothing lights the scene; after build().
+    void warn_of_darkness() const;
 
     [[nodiscard]] const Scene& scene() const { return *built; }
     [[nodiscard]] const Tracer& tracer() const { return *made; }
@@ -36,6 +42,7 @@ struct SceneSession {
     WarningSink& warnings;
     LibraryPath library;
     FileResources resources;
+    ProblemList problems;  ///< of the description, which `model` leaves out
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;
     // With -ab and -aa; they outlive the tracer.
@@ -44,6 +51,9 @@ struct SceneSession {
     std::unique_ptr<FreezableCache> freezable;
     std::unique_ptr<const Tracer> made;
     double read_seconds = 0, build_seconds = 0;
+
+  private:
+    void raise_problems();
 };
 
 /// What `--stats` writes.

@@ -1,7 +1,6 @@
 // lightwalk trace: single rays, as rtrace answers them.
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "apps/warnings.h"
 #include "io/rays/ray_reader.h"
 #include "io/rays/ray_records.h"
+#include "io/rays/ray_tree.h"
 #include "parallel/ray_list.h"
 
 namespace lightwalk {
@@ -25,6 +25,7 @@ struct TraceCommand {
     bool header = true;         ///< -h
     RayFormats formats;         ///< -f
     std::string letters = "v";  ///< -o
+    TreeSelection tree;         ///< -te -ti -tE -tI
     ColorOutput color = ColorOutput::rgb;
     bool sensor = false;           ///< -I
     bool limit_by_length = false;  ///< -ld
@@ -33,8 +34,9 @@ struct TraceCommand {
     std::string history;
 };
 
-const std::vector<std::string> kOwnNames{"-h",  "-I",   "-ld", "-x",    "-y",    "-fa", "-ff",
-                                         "-fd", "-fac", "-ov", "-pRGB", "-pXYZ", "-pY", "-pA"};
+const std::vector<std::string> kOwnNames{"-h",  "-I",  "-ld",  "-x",  "-y",    "-fa",
+                                         "-ff", "-fd", "-fac", "-ov", "-pRGB", "-pXYZ",
+                                         "-pY", "-pA", "-te",  "-ti", "-tE",   "-tI"};
 
 bool parse_switch(OptionWords& words, TraceCommand& command) {
     for (const auto& [name, place] :
@@ -53,11 +55,23 @@ std::optional<ColorOutput> color_output(const std::string& word) {
     if (word == "-pXYZ") return ColorOutput::xyz;
     if (word == "-pY") return ColorOutput::luminance;
     if (word == "-pA") return ColorOutput::mean;
-    if (word == "-pc" || word == "-pS" || word == "-pM") {
-        throw UsageError("option " + word +
-                         ": not supported; the choices are -pRGB, -pXYZ, -pY and -pA");
+    if (word == "-pc") {
+        throw UsageError(
+            "option -pc converts to other primaries, which is not supported; the choices are "
+            "-pRGB, -pXYZ, -pY and -pA");
     }
     return std::nullopt;
+}
+
+bool parse_tree_option(OptionWords& words, const LibraryPath& library, TreeSelection& tree) {
+    const std::string word = words.option();
+    if (word != "-te" && word != "-ti" && word != "-tE" && word != "-tI") return false;
+    using Kind = TreeSelection::Kind;
+    const Kind kind = word[2] == 'e' || word[2] == 'E' ? Kind::exclude : Kind::include;
+    const std::string name = words.text();
+    const bool is_file = word[2] == 'E' || word[2] == 'I';
+    tree.add(kind, is_file ? names_in_file(name, library) : std::vector<std::string>{name});
+    return true;
 }
 
 bool parse_own_option(OptionWords& words, TraceCommand& command) {
@@ -95,7 +109,7 @@ TraceCommand parse_trace_command(const std::vector<std::string>& line) {
             throw UsageError("option " + words.option() +
                              ": persistent processes are not supported");
         }
-        if (parse_own_option(words, command) ||
+        if (parse_own_option(words, command) || parse_tree_option(words, library, command.tree) ||
             parse_render_option(words, library, command.settings) ||
             parse_common_option(words, command.common, command.settings)) {
             continue;
@@ -127,13 +141,13 @@ class TraceRun {
     explicit TraceRun(TraceCommand command)
         : command_(std::move(command)),
           warnings_(kProgram),
-          records_(command_.letters, command_.formats.output, command_.color),
           reader_(STDIN_FILENO, command_.formats.input) {
+        prepare_output();
         redirect_messages(command_.common, command_.history);
         warnings_.enable(command_.settings.warnings && !command_.common.quiet);
         check_render_settings(command_.settings);
         check();
-        options_ = {records_.shades() || command_.sensor, command_.sensor, command_.limit_by_length,
+        options_ = {shades() || command_.sensor, command_.sensor, command_.limit_by_length,
                     command_.settings.light.seed};
         if (!options_.shade) {  // nothing is lit: do not prepare light sources
             command_.settings.light.relays = 0;
@@ -144,9 +158,14 @@ class TraceRun {
     int run() {
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
         session_->build(command_.settings);
+        if (options_.shade) session_->warn_of_darkness();
         executor_ = make_executor(command_.common.executor, command_.common.workers);
         contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
                                                      executor_->concurrency());
+        if (tree_) {
+            tree_->watch(session_->tracer());
+            (*contexts_)[0].observer = &*tree_;
+        }
         const Stopwatch watch;
         put_header();
         while (read_batch()) answer_batch();
@@ -157,22 +176,43 @@ class TraceRun {
     }
 
   private:
+    void prepare_output() {
+        const OutputFields fields = parse_output_fields(command_.letters);
+        const NumberFormat format = command_.formats.output;
+        if (!fields.record.empty() || !fields.has_tree())
+            records_.emplace(fields.record, format, command_.color);
+        if (!fields.has_tree()) return;
+        tree_.emplace(fields, format, command_.color, command_.tree, command_.sensor);
+        command_.common.workers = 1;  // trees are told one after the other
+        command_.common.executor = ExecutorKind::serial;
+    }
+
+    [[nodiscard]] bool shades() const { return tree_ || records_->shades(); }
+
     void check() {
-        const std::vector<std::string>& files = command_.common.scene_files;
-        if (std::find(files.begin(), files.end(), "-") != files.end()) {
-            throw UsageError("standard input holds the rays, so the scene cannot be -");
-        }
+        settle_scene_files(command_.common, "the rays");
         const bool irradiance = command_.sensor || command_.settings.light.irradiance;
-        if (irradiance && !records_.shades())
+        if (irradiance && !shades())
             throw UsageError("-I+ and -i+ options require some value output");
-        if (irradiance && records_.splits())
+        if (irradiance && records_ && records_->splits())
             warnings_.warn("-or -oR -ox -oX say nothing with -i or -I");
-        if (records_.asks_for_coefficients()) warnings_.warn("-oVW options require trace mode");
+        if (records_ && records_->asks_for_coefficients())
+            warnings_.warn("-oVW options require trace mode");
+        if (tree_) check_coefficients();
         if (command_.y > 0) {
             expected_ =
                 static_cast<std::uint64_t>(command_.y) *
                 (command_.x > 1 && command_.y > 1 ? static_cast<std::uint64_t>(command_.x) : 1);
         }
+    }
+
+    /// Values from the cache or by differences are not the sum of what the rays brought.
+    void check_coefficients() {
+        const RenderOptions& light = command_.settings.light;
+        const bool exact = light.ambient_bounces <= 0 ||
+                           (light.ambient_accuracy <= kEpsilon && light.ambient_super_samples <= 0);
+        if (!exact && tree_->asks_for_coefficients())
+            warnings_.warn("-otV and -otW are only accurate with -aa 0 -as 0");
     }
 
     void put_header() {
@@ -182,7 +222,8 @@ class TraceRun {
                  history_header(session_->model->header, command_.history))
                 text += line + '\n';
             for (const std::string& line : date_lines()) text += line + '\n';
-            output_ += text + records_.header_end(text.size());
+            output_ += text;
+            output_ += tree_ ? tree_->header_end(text.size()) : records_->header_end(text.size());
         }
         if (command_.x > 0 && command_.y > 0) {
             char line[64];
@@ -196,7 +237,8 @@ class TraceRun {
     bool read_batch() {
         queries_.clear();
         flush_due_ = false;
-        while (queries_.size() < kBatch && !flush_due_ && (expected_ == 0 || read_ < expected_)) {
+        const std::size_t most = tree_ ? 1 : kBatch;  // trees may be large
+        while (queries_.size() < most && !flush_due_ && (expected_ == 0 || read_ < expected_)) {
             const std::optional<InputRay> ray = reader_.next();
             if (!ray) break;
             queries_.push_back({ray->origin, ray->direction});
@@ -217,7 +259,9 @@ class TraceRun {
                        *executor_, [&](std::size_t i, const Ray& ray, const Hit& first) {
                            const bool sensor =
                                options_.sensor && length_squared(queries_[i].direction) > 0;
-                           records_.append({ray, first, sensor}, scene, texts_[i / kRaysPerTask]);
+                           std::string& text = texts_[i / kRaysPerTask];
+                           if (tree_) text += tree_->take();
+                           if (records_) records_->append({ray, first, sensor}, scene, text);
                        });
         for (const std::string& text : texts_) output_ += text;
         constexpr std::size_t kEnough = 1 << 16;
@@ -248,7 +292,8 @@ class TraceRun {
 
     TraceCommand command_;
     StderrWarnings warnings_;
-    RayRecords records_;
+    std::optional<RayRecords> records_;  ///< not with trees alone
+    std::optional<RayTree> tree_;        ///< -ot -oT
     RayReader reader_;
     RayListOptions options_;
     std::unique_ptr<SceneSession> session_;

@@ -20,7 +20,8 @@ StderrWarnings::~StderrWarnings() {
         std::fprintf(stderr, "%s: warning - %ld more warnings\n", program_.c_str(), suppressed_);
 }
 
-void StderrWarnings::warn(const std::string& message) {
+void StderrWarnings::warn(const std::string& text) {
+    const std::string message = printable(text);
     const std::lock_guard lock(mutex_);
     if (!enabled_) return;
     const auto known = counts_.find(message);

@@ -17,7 +17,7 @@ class StderrWarnings final : public WarningSink {
     StderrWarnings(const StderrWarnings&) = delete;
     StderrWarnings& operator=(const StderrWarnings&) = delete;
 
-    void warn(const std::string& message) override;
+    void warn(const std::string& text) override;
     /// Off: stay silent (-w-).
     void enable(bool on) { enabled_ = on; }
     /// Before each message: end the progress bar's line.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace lightwalk {
@@ -21,13 +22,18 @@ struct SourceLocation {
     return where.file + ":" + std::to_string(where.line) + ": ";
 }
 
+/// `text` as a terminal may show it: bytes that are neither white space, printable ASCII nor a
+/// printable UTF-8 character become \xNN, and words of more than 1000 bytes are cut. For messages
+/// that quote input, which may be anything.
+[[nodiscard]] std::string printable(std::string_view text);
+
 /// Bad input: `what()` is "file:line: what is wrong, what was expected". Programs print it and exit
-/// with 1.
+/// with 1. It is printable(), whatever it quotes.
 class InputError : public std::runtime_error {
   public:
-    explicit InputError(const std::string& message) : std::runtime_error(message) {}
+    explicit InputError(const std::string& message) : std::runtime_error(printable(message)) {}
     InputError(const SourceLocation& where, const std::string& message)
-        : std::runtime_error(to_prefix(where) + message) {}
+        : std::runtime_error(printable(to_prefix(where) + message)) {}
 };
 
 /// A file that a scene names is not there. Whoever does not need it yet may go on without.

@@ -183,8 +183,10 @@ void DirectCalculation::test(std::size_t first, std::size_t last) {
     context_.counters.shadow += last - first;
     for (std::size_t i = first_candidate_ + first; i < first_candidate_ + last; ++i) {
         LightCandidate& candidate = scratch_.candidates[i];
-        switch (needs_tracing(lights_[candidate.source]) ? Visibility::special
-                                                         : visibility(candidate)) {
+        Visibility found =
+            needs_tracing(lights_[candidate.source]) ? Visibility::special : visibility(candidate);
+        if (context_.observer && found == Visibility::clear) found = Visibility::special;
+        switch (found) {
             case Visibility::clear:
                 set_seen(candidate);
                 break;
@@ -220,6 +222,7 @@ void DirectCalculation::trace_shadow(std::size_t i) {
     (void)tracer_.spawn(shadow, goes_through(direction) ? kShadowThrough : kShadowSame, ray_,
                         nullptr);
     shadow.direction = direction;
+    shadow.coef = scratch_.candidates[i].coefficient;
     shadow.target = scratch_.candidates[i].source;
     tracer_.trace(shadow, context_);
     LightCandidate& candidate = scratch_.candidates[i];
@@ -240,6 +243,7 @@ void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceCont
     direct.gather(coefficient, front);
     if (options_.shadow_threshold <= 0 || direct.count() <= kFirstBlock ||
         (direct.has_unknown() && direct.count() <= kFewPatterned)) {
+        if (context.observer) direct.sort();  // it is told of the brightest first
         direct.test(0, direct.count());
         for (const LightCandidate& candidate : direct.candidates())
             ray.value += candidate.contribution;

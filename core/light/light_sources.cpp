@@ -38,6 +38,13 @@ std::size_t LightSources::virtual_count() const {
         sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
+bool LightSources::shine() const {
+    const bool sampled = std::any_of(sources_.begin(), sources_.end(), [](const LightSource& s) {
+        return s.material_type != PrimitiveType::glow || !s.distant;
+    });
+    return sampled || (options_.ambient_bounces > 0 && has_glow(scene_));
+}
+
 bool LightSources::inside_spot(const LightSource& source, const Vec3& origin,
                                const Vec3& direction) const {
     return !source.spot || !outside_spot(*source.spot, origin, direction);

@@ -25,6 +25,9 @@ class LightSources {
         return sources_[static_cast<std::size_t>(i)];
     }
     [[nodiscard]] std::size_t virtual_count() const;
+    /// Whether anything in the scene shines on surfaces: a source that is sampled, or, when there
+    /// are ambient bounces, a glow. Surfaces inside instances do not count, as in Radiance.
+    [[nodiscard]] bool shine() const;
     /// Indices of the sources that the direct calculation samples, ascending.
     [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
 

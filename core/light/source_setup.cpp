@@ -1,5 +1,6 @@
 #include "core/light/source_setup.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -153,9 +154,8 @@ void set_spot(LightSource& source, const Emitter& emitter, WarningSink& warnings
     }
 }
 
-/// Light, illum, glow or spotlight at the end of the chain, when its colour is not black and it may
-/// light others.
-std::optional<ModifierId> light_material(const Scene& scene, const Surface& surface) {
+/// Light, illum, glow or spotlight at the end of the chain, when its colour is not black.
+std::optional<ModifierId> emitting_material(const Scene& scene, const Surface& surface) {
     if (surface.modifier == kVoid) return std::nullopt;
     if (surface.type == PrimitiveType::instance || surface.type == PrimitiveType::mesh)
         return std::nullopt;
@@ -165,11 +165,18 @@ std::optional<ModifierId> light_material(const Scene& scene, const Surface& surf
     if (!is_light(material.type) || !material.primitive) return std::nullopt;
     const std::vector<double>& reals = material.primitive->reals;
     if (reals[0] <= kEpsilon && reals[1] <= kEpsilon && reals[2] <= kEpsilon) return std::nullopt;
-    if (material.type == PrimitiveType::glow && reals[3] <= kEpsilon &&
-        surface.type != PrimitiveType::source) {
-        return std::nullopt;
-    }
     return id;
+}
+
+/// The same when it may light others: glows do so within their radius, or from infinity.
+std::optional<ModifierId> light_material(const Scene& scene, const Surface& surface) {
+    const auto id = emitting_material(scene, surface);
+    if (!id) return std::nullopt;
+    const ModifierRecord& material = scene.modifier(*id);
+    const bool near_only = material.type == PrimitiveType::glow &&
+                           material.primitive->reals[3] <= kEpsilon &&
+                           surface.type != PrimitiveType::source;
+    return near_only ? std::nullopt : id;
 }
 
 bool may_emit(PrimitiveType type) {
@@ -218,6 +225,14 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
 }
 
 }  // namespace
+
+bool has_glow(const Scene& scene) {
+    const auto surfaces = scene.surfaces().first(scene.own_surfaces());
+    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
+        const auto id = emitting_material(scene, surface);
+        return id && scene.modifier(*id).type == PrimitiveType::glow;
+    });
+}
 
 std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnings) {
     std::vector<LightSource> sources;

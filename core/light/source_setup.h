@@ -16,4 +16,7 @@ namespace lightwalk {
 /// Description Language" (ray.pdf).
 [[nodiscard]] std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnings);
 
+/// Whether a surface of the scene (not of its instances) has a glow that is not black.
+[[nodiscard]] bool has_glow(const Scene& scene);
+
 }  // namespace lightwalk

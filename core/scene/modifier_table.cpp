@@ -1,3 +1,7 @@
+#include <cassert>
+#include <set>
+#include <string>
+
 #include "core/scene/scene_tables.h"
 
 namespace lightwalk {
@@ -75,9 +79,27 @@ void ModifierTable::use(ModifierId id) {
     }
 }
 
+ProblemList ModifierTable::unsupported(FindModifierFactory modifier_factory) const {
+    constexpr std::size_t kToldOfOneType = 10;
+    ProblemList problems;
+    std::set<const Primitive*> known;  // aliases share one
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        const ModifierRecord& record = records_[i];
+        if (!used_[i] || modifier_factory(record.type) || !known.insert(record.primitive).second)
+            continue;
+        const std::string type(to_string(record.type));
+        problems.add(record.primitive->where,
+                     type + " \"" + record.primitive->name +
+                         "\": this type is recognised but not supported yet",
+                     type, kToldOfOneType);
+    }
+    return problems;
+}
+
 void ModifierTable::compile(const std::vector<LoadedModel>& models,
                             FindModifierFactory modifier_factory, Resources& resources,
                             WarningSink& warnings) {
+    unsupported(modifier_factory).raise();
     for (const LoadedModel& loaded : models) {
         const auto count = static_cast<std::int32_t>(loaded.contents().primitives.size());
         for (std::int32_t i = loaded.modifier_base; i < loaded.modifier_base + count; ++i) {
@@ -85,11 +107,7 @@ void ModifierTable::compile(const std::vector<LoadedModel>& models,
             if (!used_[static_cast<std::size_t>(i)]) continue;
             const Primitive& primitive = *record.primitive;
             const ModifierFactory factory = modifier_factory(record.type);
-            if (!factory) {
-                throw InputError(primitive.where,
-                                 std::string(to_string(record.type)) + " \"" + primitive.name +
-                                     "\": this type is recognised but not supported yet");
-            }
+            assert(factory);  // unsupported() is empty
             const ModifierBuild build{primitive,
                                       ModifierId{i},
                                       record.next,

@@ -179,6 +179,15 @@ Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_fa
     impl_->build_geometry();
 }
 
+ProblemList Scene::unsupported(std::shared_ptr<const Model> model,
+                               FindModifierFactory modifier_factory, Resources& resources,
+                               WarningSink& warnings) {
+    Impl scene(std::move(model), resources);
+    scene.collect_surfaces(warnings);
+    scene.use_modifiers();
+    return scene.modifiers.unsupported(modifier_factory);
+}
+
 Scene::~Scene() = default;
 
 const Geometry& Scene::geometry() const {

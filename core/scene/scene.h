@@ -8,6 +8,7 @@
 
 #include "core/geometry/geometry.h"
 #include "core/model/resources.h"
+#include "core/problem_list.h"
 #include "core/scene/modifier.h"
 
 namespace lightwalk {
@@ -28,6 +29,11 @@ class Scene {
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
           Resources& resources, WarningSink& warnings);
     ~Scene();
+    /// Of a scene that cannot be rendered anyway: every used modifier whose type is recognised but
+    /// not supported, which would be refused as well. Throws InputError as the constructor does.
+    [[nodiscard]] static ProblemList unsupported(std::shared_ptr<const Model> model,
+                                                 FindModifierFactory modifier_factory,
+                                                 Resources& resources, WarningSink& warnings);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 

@@ -8,6 +8,7 @@
 #include "core/function/environment.h"
 #include "core/geometry/geometry.h"
 #include "core/model/resources.h"
+#include "core/problem_list.h"
 #include "core/scene/modifier.h"
 
 namespace lightwalk {
@@ -44,7 +45,10 @@ class ModifierTable {
     explicit ModifierTable(const std::vector<LoadedModel>& models);
     /// Compile the modifier, its chain and everything it names, earlier definitions first.
     void use(ModifierId id);
-    /// Compile what `use` marked; throws InputError for a bad modifier.
+    /// Every used primitive of a type that has no factory, by its place.
+    [[nodiscard]] ProblemList unsupported(FindModifierFactory modifier_factory) const;
+    /// Compile what `use` marked; throws InputError for a bad modifier, or for all unsupported
+    /// ones.
     void compile(const std::vector<LoadedModel>& models, FindModifierFactory modifier_factory,
                  Resources& resources, WarningSink& warnings);
 

@@ -117,6 +117,7 @@ void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
         context.warnings.warn("a ray's value is not finite; it counts as black");
         ray.value = ray.mirrored = Rgb{};
     }
+    if (context.observer) context.observer->finished(ray, hit);
 }
 
 Ray Tracer::irradiance(const Vec3& point, const Vec3& normal, RandomStream random,

@@ -53,6 +53,16 @@ struct ScatterList {
 
 struct LightScratch;  ///< the direct calculation's buffers (core/light)
 
+/// Watches rays as they are finished, children before their parents. It is not told of rays that
+/// only ask a light source for its radiance, nor of shadow rays that an opaque surface stops.
+class RayObserver {
+  public:
+    virtual ~RayObserver() = default;
+    /// `first`: the nearest hit before shading turned anything over. `ray.parent` leads to the
+    /// primary ray; they live during the call only.
+    virtual void finished(const Ray& ray, const Hit& first) = 0;
+};
+
 /// One thread's working state. Not shared; reusable for any number of rays.
 struct TraceContext {
     TraceContext(const Tracer& tracer, WarningSink& warnings);
@@ -74,6 +84,7 @@ struct TraceContext {
     int depth = 0;          ///< nesting of rays, bounded by Tracer::kMaxDepth
     int ambient_level = 0;  ///< ambient evaluations that are open
     AmbientCounters ambient;
+    RayObserver* observer = nullptr;  ///< told of every ray; null: nobody watches
     // Sets made on the way (antimatter, mist); forgotten when a path starts.
     std::deque<ClipSet> clip_sets;
     std::deque<ScatterList> scatter_lists;

@@ -68,6 +68,26 @@ struct CloseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
+std::string reason(int code) {
+    return std::system_category().message(code);
+}
+
+/// What is left of a file that messages call `name`; about `expected` bytes, at most `limit`.
+std::string read_all(std::FILE* file, const std::string& name, std::size_t expected,
+                     std::size_t limit) {
+    std::string bytes;
+    if (expected <= limit) bytes.reserve(expected);
+    std::vector<char> chunk(std::size_t{64} << 10);
+    std::size_t got = 0;
+    while ((got = std::fread(chunk.data(), 1, chunk.size(), file)) > 0) {
+        if (got > limit - bytes.size())
+            throw InputError({name, 0}, "larger than " + std::to_string(limit) + " bytes");
+        bytes.append(chunk.data(), got);
+    }
+    if (std::ferror(file) != 0) throw InputError({name, 0}, "cannot read: " + reason(errno));
+    return bytes;
+}
+
 }  // namespace
 
 std::vector<std::string> split_search_path(const std::string& value) {
@@ -149,28 +169,17 @@ std::string LibraryPath::describe() const {
 }
 
 std::string read_file(const std::string& path, std::size_t limit) {
-    const auto fail = [&path](const std::string& why) -> std::string {
-        throw InputError({path, 0}, why);
-    };
-    const auto reason = [](int code) { return std::system_category().message(code); };
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return fail("cannot open: is a directory");
+    if (std::filesystem::is_directory(path, error))
+        throw InputError({path, 0}, "cannot open: is a directory");
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-    if (!file) return fail("cannot open: " + reason(errno));
-    std::string bytes;
-    if (const auto size = std::filesystem::file_size(path, error); !error && size <= limit) {
-        bytes.reserve(size);
-    }
-    std::vector<char> chunk(std::size_t{64} << 10);
-    std::size_t got = 0;
-    while ((got = std::fread(chunk.data(), 1, chunk.size(), file.get())) > 0) {
-        if (got > limit - bytes.size()) {
-            return fail("larger than " + std::to_string(limit) + " bytes");
-        }
-        bytes.append(chunk.data(), got);
-    }
-    if (std::ferror(file.get()) != 0) return fail("cannot read: " + reason(errno));
-    return bytes;
+    if (!file) throw InputError({path, 0}, "cannot open: " + reason(errno));
+    const auto size = std::filesystem::file_size(path, error);
+    return read_all(file.get(), path, error ? 0 : size, limit);
+}
+
+std::string read_standard_input(std::size_t limit) {
+    return read_all(stdin, "standard input", 0, limit);
 }
 
 }  // namespace lightwalk

@@ -50,5 +50,7 @@ class LibraryPath {
 /// Whole file as bytes; throws InputError when it cannot be read or is larger than `limit` bytes.
 [[nodiscard]] std::string read_file(const std::string& path,
                                     std::size_t limit = std::size_t{1} << 30);
+/// All that is left of standard input as bytes; throws InputError as read_file does.
+[[nodiscard]] std::string read_standard_input(std::size_t limit = std::size_t{1} << 30);
 
 }  // namespace lightwalk

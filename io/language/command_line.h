@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -14,6 +15,20 @@ namespace lightwalk {
 class CommandError : public InputError {
   public:
     using InputError::InputError;
+};
+
+/// The same for a command that may not be run, since it is not built in; scenes can be read on
+/// without it.
+class UnknownCommandError : public CommandError {
+  public:
+    /// `program`: the first one of the command that is not built in, or all of it.
+    UnknownCommandError(const SourceLocation& where, const std::string& message,
+                        std::string program)
+        : CommandError(where, message), program_(std::move(program)) {}
+    [[nodiscard]] const std::string& program() const { return program_; }
+
+  private:
+    std::string program_;
 };
 
 struct CommandWord {

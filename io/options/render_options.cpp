@@ -1,5 +1,6 @@
 #include "io/options/render_options.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
@@ -105,13 +106,6 @@ void select(AmbientSelection& selection, AmbientSelection::Kind kind,
     }
 }
 
-std::vector<std::string> names_in_file(const std::string& name, const LibraryPath& library) {
-    std::istringstream text(read_file(library.locate(name, "modifier list")));
-    std::vector<std::string> names;
-    for (std::string word; text >> word;) names.push_back(word);
-    return names;
-}
-
 bool parse_ambient_selection(OptionWords& words, const LibraryPath& library,
                              AmbientSelection& selection) {
     const std::string option = words.option();
@@ -128,25 +122,48 @@ bool parse_ambient_selection(OptionWords& words, const LibraryPath& library,
 }
 
 /// Options of Radiance that Lightwalk knows and does not offer.
+struct Foreign {
+    const char* name;
+    const char* what;  ///< it is, and why it is not there
+};
+constexpr const char* kPhotonMap = "names a photon map, which Lightwalk does not support";
+constexpr const char* kSpectral =
+    "is about spectral rendering; Lightwalk renders three channels (red, green, blue)";
+constexpr const char* kWeighted =
+    "weights colours by another eye than the photopic one, which Lightwalk does not support; the "
+    "choices are -pRGB, -pXYZ, -pY (photopic) and -pA (mean)";
+constexpr std::array kForeign{
+    Foreign{"-ap", kPhotonMap},
+    Foreign{"-am", "limits the search in photon maps, which Lightwalk does not support"},
+    Foreign{"-ac", "is about photon maps, which Lightwalk does not support"},
+    Foreign{"-aC", "is about photon maps, which Lightwalk does not support"},
+    Foreign{"-cs", kSpectral},
+    Foreign{"-cw", kSpectral},
+    Foreign{"-co", kSpectral},
+    Foreign{"-co+", kSpectral},
+    Foreign{"-co-", kSpectral},
+    Foreign{"-pS", kWeighted},
+    Foreign{"-pM", kWeighted},
+    Foreign{"-f",
+            "reads definitions for all of a scene's functions, which Lightwalk does not "
+            "support; name the file in the scene"},
+    Foreign{"-sj", "is gone since Radiance 4, use -ss"},
+};
+
 void refuse_foreign(const OptionWords& words) {
-    const std::string& option = words.option();
-    for (const char* photon : {"-ap", "-am", "-ac", "-aC"}) {
-        if (option == photon)
-            throw UsageError("option " + option + ": photon maps are not supported");
-    }
-    if (option == "-cs" || option == "-cw" || option == "-co" || option == "-co+" ||
-        option == "-co-") {
-        throw UsageError("option " + option +
-                         ": only three channels (red, green, blue) are supported");
-    }
-    if (option == "-f") {
-        throw UsageError(
-            "option -f: global function files are not supported; name the file in the scene");
-    }
-    if (option == "-sj") throw UsageError("option -sj: gone since Radiance 4, use -ss");
+    const auto found = std::find_if(kForeign.begin(), kForeign.end(),
+                                    [&](const Foreign& f) { return words.option() == f.name; });
+    if (found != kForeign.end()) throw UsageError("option " + words.option() + " " + found->what);
 }
 
 }  // namespace
+
+std::vector<std::string> names_in_file(const std::string& name, const LibraryPath& library) {
+    std::istringstream text(read_file(library.locate(name, "modifier list")));
+    std::vector<std::string> names;
+    for (std::string word; text >> word;) names.push_back(word);
+    return names;
+}
 
 RenderSettings default_render_settings(OptionDefaults program) {
     RenderSettings settings;

@@ -24,13 +24,18 @@ enum class OptionDefaults { rpict, rtrace };
 
 /// Take the option that stands in option position, with its arguments, if it is a rendering option;
 /// false leaves `words` as it is. Throws UsageError for wrong arguments and for options that
-/// Lightwalk does not offer (photon maps, spectra, global function definitions), InputError when a
-/// modifier list (-aE, -aI) cannot be read.
+/// Lightwalk does not offer (photon maps, spectra, other eyes' weights, global function
+/// definitions), InputError when a modifier list (-aE, -aI) cannot be read.
 [[nodiscard]] bool parse_render_option(OptionWords& words, const LibraryPath& library,
                                        RenderSettings& settings);
 
 /// What can only be told when all options are known: throws UsageError for -lr <= 0 with -lw <= 0.
 void check_render_settings(const RenderSettings& settings);
+
+/// The white-space separated words of a file along the library path, as -aE and its like name
+/// modifiers. Throws InputError when it cannot be read.
+[[nodiscard]] std::vector<std::string> names_in_file(const std::string& name,
+                                                     const LibraryPath& library);
 
 /// One line an option, as `-defaults` prints them: option and value, tabs, "# " and a description.
 [[nodiscard]] std::string describe_render_settings(const RenderSettings& settings);

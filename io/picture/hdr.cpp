@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/math/xyz.h"
 #include "core/model/transform_args.h"
 #include "io/formats/words.h"
 #include "io/picture/picture.h"
@@ -11,25 +12,6 @@
 
 namespace lightwalk {
 namespace {
-
-constexpr double kLumensPerWatt = 179;  // Radiance's luminous efficacy of equal-energy white
-
-/// CIE XYZ to Radiance's primaries (R .640 .330, G .290 .600, B .150 .060, white 1/3 1/3).
-constexpr std::array<std::array<double, 3>, 3> kFromXyz{{{2.565312843, -1.166849616, -0.398463227},
-                                                         {-1.022108172, 1.978286617, 0.043821555},
-                                                         {0.074724377, -0.251939567, 1.177215190}}};
-
-/// Photometric XYZ [cd/m² for Y] to radiance.
-Rgb from_xyz(const Rgb& xyz) {
-    const auto X = static_cast<double>(xyz.r), Y = static_cast<double>(xyz.g),
-               Z = static_cast<double>(xyz.b);
-    Rgb color;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::array<double, 3>& row = kFromXyz[i];
-        color[i] = static_cast<float>((row[0] * X + row[1] * Y + row[2] * Z) / kLumensPerWatt);
-    }
-    return color;
-}
 
 /// One of the three factors of the COLORCORR lines.
 double color_correction(const InfoHeader& header, std::size_t channel, const std::string& name) {
@@ -81,12 +63,14 @@ std::string encode_hdr(const Picture& picture, const PictureHeader& header) {
     std::array<char, 64> resolution{};
     (void)std::snprintf(resolution.data(), resolution.size(), "-Y %8d +X %8d\n", picture.height,
                         picture.width);
-    bytes += "FORMAT=32-bit_rle_rgbe\n\n";
+    bytes += header.xyz ? "FORMAT=32-bit_rle_xyze\n\n" : "FORMAT=32-bit_rle_rgbe\n\n";
     bytes += resolution.data();
     std::vector<Rgbe> scanline(width);
     for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x)
-            scanline[x] = encode_rgbe(picture.pixels[y * width + x]);
+        for (std::size_t x = 0; x < width; ++x) {
+            const Rgb& pixel = picture.pixels[y * width + x];
+            scanline[x] = encode_rgbe(header.xyz ? to_xyz(pixel) : pixel);
+        }
         encode_scanline(scanline, bytes);
     }
     return bytes;

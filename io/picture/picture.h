@@ -21,10 +21,11 @@ struct Picture {
 struct PictureHeader {
     /// History and variables, without #?RADIANCE, FORMAT and resolution.
     std::vector<std::string> lines;
+    bool xyz = false;  ///< pixels are stored as CIE XYZ, Y in cd/m² (FORMAT=32-bit_rle_xyze)
 };
 
 /// The bytes of a Radiance picture (.hdr): header, new run-length scanlines, identical to what
-/// Radiance writes.
+/// Radiance writes. The picture is radiance also where `header` asks for XYZ.
 [[nodiscard]] std::string encode_hdr(const Picture& picture, const PictureHeader& header);
 /// Read any RGBE/XYZE picture; EXPOSURE and COLORCORR are undone and left out of `header`. Throws
 /// InputError.
@@ -36,6 +37,8 @@ struct PictureHeader {
 /// extensions and failed writes, naming the path.
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone);
+/// Whether write_picture makes a Radiance picture of this name.
+[[nodiscard]] bool is_radiance_picture(const std::string& path);
 /// Depth: `path` ending in .exr: one float channel Z; otherwise raw native floats, row by row from
 /// the top.
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth);

@@ -40,6 +40,11 @@ std::string encode_by_extension(const std::string& extension, const Picture& pic
 
 }  // namespace
 
+bool is_radiance_picture(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".hdr" || extension == ".pic";
+}
+
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone) {
     const std::string extension = extension_of(path);

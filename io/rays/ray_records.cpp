@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/math/rgbe.h"
+#include "core/math/xyz.h"
 #include "io/options/option_words.h"
 
 namespace lightwalk {
@@ -14,13 +15,9 @@ constexpr std::string_view kLetters = "odvVwWlLcpnNsmMrxRX~";
 constexpr std::string_view kNotShaded = "odpcLNswmM~";
 constexpr std::string_view kColors = "vVrx";
 constexpr std::string_view kVectors = "odpnNW";
-constexpr float kEfficacy = 179;  ///< lm/W of equal-energy white
-
-/// To CIE XYZ from Radiance's standard primaries.
-Rgb xyz_of(const Rgb& c) {
-    return {0.514144621f * c.r + 0.323884480f * c.g + 0.161970899f * c.b, brightness(c),
-            0.024100529f * c.r + 0.122852734f * c.g + 0.853046737f * c.b};
-}
+/// What Radiance's rtrace says of X, Y and Z as if they were lamps.
+constexpr std::string_view kXyzPrimaries =
+    "PRIMARIES= 1.0000 0.0000 0.0000 1.0000 0.0000 0.0000 0.3333 0.3333\n";
 
 bool is_single(ColorOutput color) {
     return color == ColorOutput::luminance || color == ColorOutput::mean;
@@ -50,18 +47,26 @@ Vec3 shading_normal(const Ray& ray) {
     return normalize(ray.hit.normal + ray.hit.perturbation);
 }
 
+Vec3 as_vector(const Rgb& c) {
+    return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)};
+}
+
+/// What the ray's value counts in its primary ray's, channel by channel.
+Rgb coefficient(const Ray& ray) {
+    Rgb product{1, 1, 1};
+    for (const Ray* at = &ray; at->parent != nullptr; at = at->parent) product *= at->coef;
+    return product;
+}
+
 }  // namespace
 
 RayRecords::RayRecords(std::string_view letters, NumberFormat format, ColorOutput color)
     : letters_(letters), format_(format), color_(color) {
     if (letters.empty()) throw UsageError("option -o: empty output specification");
-    if (letters.find_first_of("tT") != std::string_view::npos) {
-        throw UsageError("option -o: ray trees (t, T) are not supported");
-    }
     const std::size_t unknown = letters.find_first_not_of(kLetters);
     if (unknown != std::string_view::npos) {
         throw UsageError(std::string("option -o: unrecognized output option '") + letters[unknown] +
-                         "', expected " + std::string(kLetters));
+                         "', expected " + std::string(kLetters) + "tT");
     }
     const bool one_color =
         letters.size() == 1 && std::string_view("vrx").find(letters) != std::string_view::npos;
@@ -105,12 +110,13 @@ void RayRecords::append_field(char letter, const RayRecord& traced, const Scene&
         case 'd':
             return append_vector(ray.direction, output);
         case 'v':
+            return append_color(ray.value, output);
         case 'V':
-            return append_color(ray.value, output);  // the coefficient of a primary ray is 1
+            return append_color(ray.value * coefficient(ray), output);
         case 'w':
             return append_number(ray.weight, output);
         case 'W':
-            return append_vector({1, 1, 1}, output);
+            return append_vector(as_vector(coefficient(ray)), output);
         case 'l':
             return append_number(traced.sensor ? ray.hit.t : ray.effective_distance(), output);
         case 'L':
@@ -179,20 +185,20 @@ void RayRecords::append_color(const Rgb& color, std::string& output) const {
         return append_number(static_cast<double>(kEfficacy * brightness(color)), output);
     }
     if (color_ == ColorOutput::mean) return append_number(static_cast<double>(mean(color)), output);
-    const Rgb shown = color_ == ColorOutput::xyz ? kEfficacy * xyz_of(color) : color;
+    const Rgb shown = color_ == ColorOutput::xyz ? to_xyz(color) : color;
     if (format_ == NumberFormat::rgbe) {
         const Rgbe pixel = encode_rgbe(shown);
         for (const unsigned char byte : {pixel.r, pixel.g, pixel.b, pixel.e})
             output += static_cast<char>(byte);
         return;
     }
-    append_vector(
-        {static_cast<double>(shown.r), static_cast<double>(shown.g), static_cast<double>(shown.b)},
-        output);
+    append_vector(as_vector(shown), output);
 }
 
-std::string RayRecords::header_end(std::size_t bytes_before) const {
-    std::string text = "NCOMP=" + std::to_string(components()) + '\n';
+std::string RayRecords::header_end(std::size_t bytes_before, bool one_kind) const {
+    std::string text;
+    if (one_kind) text = "NCOMP=" + std::to_string(components()) + '\n';
+    if (color_ == ColorOutput::xyz) text += kXyzPrimaries;
     if (format_ == NumberFormat::real32 || format_ == NumberFormat::real64) {
         text += std::endian::native == std::endian::big ? "BigEndian=1\n" : "BigEndian=0\n";
     }

@@ -27,8 +27,8 @@ struct RayRecord {
 class RayRecords {
   public:
     /// @param letters  of -o; see the manual page rtrace(1): o d v V w W l L c p n N s m M r x R X
-    /// ~ Throws UsageError for an empty list, unknown letters, ray trees (t, T), and for formats
-    /// that cannot hold the fields.
+    /// ~ Throws UsageError for an empty list, unknown letters, ray trees (t, T: see ray_tree.h),
+    /// and for formats that cannot hold the fields.
     RayRecords(std::string_view letters, NumberFormat format, ColorOutput color);
 
     /// Whether some field needs radiance; if not, a single ray cast answers everything.
@@ -46,9 +46,10 @@ class RayRecords {
 
     void append(const RayRecord& traced, const Scene& scene, std::string& output) const;
 
-    /// The lines NCOMP=, BigEndian= and FORMAT= with the empty line that ends the header. Binary
-    /// data start at a multiple of their size when `bytes_before` precede these lines.
-    [[nodiscard]] std::string header_end(std::size_t bytes_before) const;
+    /// The lines NCOMP= (unless records are of several kinds), PRIMARIES= (XYZ only), BigEndian=
+    /// and FORMAT= with the empty line that ends the header. Binary data start at a multiple of
+    /// their size when `bytes_before` precede these lines.
+    [[nodiscard]] std::string header_end(std::size_t bytes_before, bool one_kind = true) const;
 
   private:
     void append_field(char letter, const RayRecord& traced, const Scene& scene,

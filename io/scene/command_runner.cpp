@@ -80,12 +80,16 @@ std::string CommandRunner::run(const std::string& command, const std::string& di
     } else if (allow_commands_) {
         output = run_shell(std::string(without_command_mark(command)), directory, where);
     } else if (pipelines) {
-        throw CommandError(where,
-                           "command \"" + *unknown_program(*pipelines) +
-                               "\" is not built in; --allow-commands runs it through the shell");
+        const std::string program = *unknown_program(*pipelines);
+        throw UnknownCommandError(
+            where,
+            "command \"" + program +
+                "\" is not built in; --allow-commands runs it through the shell",
+            program);
     } else {
-        throw CommandError(where, "\"" + abbreviate_command(command) +
-                                      "\" needs a shell; --allow-commands runs it through one");
+        const std::string shown = abbreviate_command(command);
+        throw UnknownCommandError(
+            where, "\"" + shown + "\" needs a shell; --allow-commands runs it through one", shown);
     }
     charge(output.size(), where);
     return output;

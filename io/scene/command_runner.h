@@ -21,8 +21,8 @@ class CommandRunner {
 
     /// Output of `command`, which may begin with '!', run in `directory` ("" is the process's) with
     /// an empty standard input. A command that fails gives the warning "bad status from ..."; what
-    /// it wrote is kept. Throws CommandError for programs that are not built in (unless commands
-    /// are allowed), and for commands that nest without end or write too much.
+    /// it wrote is kept. Throws UnknownCommandError for programs that are not built in (unless
+    /// commands are allowed), CommandError for commands that nest without end or write too much.
     [[nodiscard]] std::string run(const std::string& command, const std::string& directory,
                                   const SourceLocation& where);
 

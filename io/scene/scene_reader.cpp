@@ -1,6 +1,8 @@
 #include "io/scene/scene_reader.h"
 
 #include <cstddef>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,14 +24,15 @@ struct SceneText {
 
 class SceneReader {
   public:
-    SceneReader(const SceneReadOptions& options, WarningSink& warnings)
-        : directory_(options.directory),
+    SceneReader(const SceneReadOptions& options, WarningSink& warnings, ProblemList& problems)
+        : problems_(problems),
+          directory_(options.directory),
           runner_(options.library, options.allow_commands, warnings),
           warnings_(warnings) {}
 
     /// Open a scene argument: a file, "-", or "!command".
     SceneText open(const std::string& argument) {
-        if (argument == "-") return {read_file("/dev/stdin"), "standard input"};
+        if (argument == "-") return {read_standard_input(), "standard input"};
         if (!argument.empty() && argument[0] == '!') {
             return {runner_.run(argument, directory_, {abbreviate_command(argument), 0}),
                     abbreviate_command(argument)};
@@ -38,7 +41,11 @@ class SceneReader {
         return {read_file(path), path};
     }
 
-    void read(std::string_view text, const std::string& name) { read_text(text, name, nullptr, 0); }
+    void read(std::string_view text, const std::string& name) {
+        if (text.find('\0') != std::string_view::npos)
+            throw InputError({name, 0}, "neither an octree nor scene text: it holds zero bytes");
+        read_text(text, name, nullptr, 0);
+    }
 
     [[nodiscard]] std::size_t size() const { return builder_.primitives().size(); }
     [[nodiscard]] std::shared_ptr<Model> take() { return builder_.take(); }
@@ -61,7 +68,8 @@ class SceneReader {
                     read_item(tokens, outer);
             }
         }
-        if (builder_.primitives().size() == before) warnings_.warn(name + ": empty file");
+        if (builder_.primitives().size() == before && problems_.empty())
+            warnings_.warn(name + ": empty file");
     }
 
     void run_command(SceneTokenizer& tokens, const SourceLocation* outer, int depth) {
@@ -71,16 +79,29 @@ class SceneReader {
             throw InputError(where, "commands write commands more than " +
                                         std::to_string(kMaxDepth) + " levels deep");
         }
-        const std::string output = runner_.run(command, directory_, where);
+        std::string output;
+        try {
+            output = runner_.run(command, directory_, where);
+        } catch (const UnknownCommandError& error) {
+            problems_.add(where, message_of(error, where), "command " + error.program());
+            skipped_command_ = true;
+            return;
+        }
         read_text(output, to_prefix(where) + abbreviate_command(command), &where, depth + 1);
     }
 
     void read_item(SceneTokenizer& tokens, const SourceLocation* outer) {
         PrimitiveText text = read_primitive_head(tokens);
         const bool inherits = text.modifier == "inherit";
-        std::int32_t modifier = kVoidIndex;
-        if (!inherits) modifier = builder_.modifier(text.modifier, text.where);
-        resolve_type(text);
+        bool misfit = false;
+        const std::int32_t modifier = inherits ? kVoidIndex : find_modifier(text, misfit);
+        try {
+            resolve_type(text);
+        } catch (const InputError& error) {
+            if (misfit) problems_.raise();  // neither is a word of the language: no primitive
+            skip_unknown(tokens, text, error);
+            return;
+        }
         const bool is_alias = text.type == PrimitiveType::alias;
         if (inherits && !is_alias) {
             throw InputError(text.where,
@@ -88,23 +109,78 @@ class SceneReader {
         }
         read_primitive_arguments(tokens, text);
         const SourceLocation where = outer != nullptr ? *outer : text.where;
-        if (!is_alias) {
-            builder_.add({text.type,
-                          modifier,
-                          std::move(text.name),
-                          std::move(text.strings),
-                          std::move(text.reals),
-                          {},
-                          where});
+        if (is_alias) {
+            add_alias(text, inherits, modifier, where);
             return;
         }
-        const std::int32_t target = builder_.alias_target(text.strings[0], text.where);
+        builder_.add({text.type,
+                      modifier,
+                      std::move(text.name),
+                      std::move(text.strings),
+                      std::move(text.reals),
+                      {},
+                      where});
+    }
+
+    /// The index of a primitive's modifier; void for a name that nothing has defined. `misfit`: set
+    /// when that is a problem.
+    std::int32_t find_modifier(const PrimitiveText& text, bool& misfit) {
+        try {
+            return builder_.modifier(text.modifier, text.where);
+        } catch (const InputError& error) {
+            misfit = complain_of_name(text.modifier, text.where, error);
+            return kVoidIndex;
+        }
+    }
+
+    void add_alias(const PrimitiveText& text, bool inherits, std::int32_t modifier,
+                   const SourceLocation& where) {
+        std::int32_t target = kVoidIndex;
+        try {
+            target = builder_.alias_target(text.strings[0], text.where);
+        } catch (const InputError& error) {
+            (void)complain_of_name(text.strings[0], text.where, error);
+            skipped_names_.insert(text.name);
+            return;
+        }
         if (inherits)
             builder_.rename(text.name, target, where);
         else
             builder_.add_alias(modifier, text.name, target, where);
     }
 
+    /// A name that is not defined is a problem, unless that follows from what has been skipped:
+    /// false then.
+    bool complain_of_name(const std::string& name, const SourceLocation& where,
+                          const InputError& error) {
+        if (skipped_command_ || skipped_names_.contains(name)) return false;
+        problems_.add(where, message_of(error, where), "name " + name);
+        return true;
+    }
+
+    /// Read over a primitive of unknown type. Where it has no arguments either, this is no scene,
+    /// or not one that can be read on.
+    void skip_unknown(SceneTokenizer& tokens, PrimitiveText& text, const InputError& error) {
+        problems_.add(text.where, message_of(error, text.where), "type " + text.type_word);
+        text.type = PrimitiveType::polygon;  // like most: strings, integers and numbers
+        try {
+            read_primitive_arguments(tokens, text);
+        } catch (const InputError&) {
+            problems_.raise();
+        }
+        skipped_names_.insert(text.name);
+    }
+
+    /// What an error says behind its place.
+    static std::string message_of(const InputError& error, const SourceLocation& where) {
+        const std::string message = error.what();
+        const std::string prefix = printable(to_prefix(where));
+        return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+    }
+
+    ProblemList& problems_;
+    bool skipped_command_ = false;         ///< it may have defined anything
+    std::set<std::string> skipped_names_;  ///< of primitives that were read over
     std::string directory_;
     ModelBuilder builder_;
     CommandRunner runner_;
@@ -113,16 +189,15 @@ class SceneReader {
 
 }  // namespace
 
-std::shared_ptr<const Model> read_octree(std::string_view bytes, const std::string& name,
-                                         const SceneReadOptions& options, WarningSink& warnings) {
-    OctreeContents contents = decode_octree(bytes, name);
-    if (contents.model) return contents.model;
-    SceneReader reader(options, warnings);
+namespace {
+
+std::shared_ptr<const Model> read_scene_files(OctreeContents& contents, const std::string& name,
+                                              SceneReader& reader, const ProblemList& problems) {
     for (const std::string& file : contents.scene_files) {
         const SceneText text = reader.open(file);
         reader.read(text.bytes, text.name);
     }
-    if (reader.size() != contents.objects) {
+    if (problems.empty() && reader.size() != contents.objects) {
         throw InputError({name, 0}, "bad object count; octree stale? Its scene files hold " +
                                         std::to_string(reader.size()) + " primitives, expected " +
                                         std::to_string(contents.objects));
@@ -133,29 +208,65 @@ std::shared_ptr<const Model> read_octree(std::string_view bytes, const std::stri
     return model;
 }
 
-std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
-                                        const SceneReadOptions& options, WarningSink& warnings) {
-    if (files.empty()) throw InputError("no scene: expected one octree, or scene files");
-    SceneReader reader(options, warnings);
-    for (const std::string& file : files) {
-        const SceneText text = reader.open(file);
-        if (!is_octree(text.bytes)) {
-            reader.read(text.bytes, text.name);
-            continue;
-        }
-        if (files.size() > 1) {
-            throw InputError({text.name, 0}, "an octree is a whole scene, expected no other files");
-        }
-        return read_octree(text.bytes, text.name, options, warnings);
+/// Calls read(problems): what it gathers is left to the caller, or thrown where he wants none. An
+/// error that ends the reading comes after what was gathered before it.
+template <class Read>
+auto gather_problems(ProblemList* wanted, Read&& read) {
+    ProblemList own;
+    ProblemList& problems = wanted != nullptr ? *wanted : own;
+    try {
+        auto result = read(problems);
+        if (wanted == nullptr) problems.raise();
+        return result;
+    } catch (const InputError& error) {
+        if (problems.empty() || printable(problems.text()) == error.what()) throw;
+        problems.add(error);
+        throw InputError(problems.text());
     }
-    return reader.take();
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> read_octree(std::string_view bytes, const std::string& name,
+                                         const SceneReadOptions& options, WarningSink& warnings,
+                                         ProblemList* problems) {
+    OctreeContents contents = decode_octree(bytes, name);
+    if (contents.model) return contents.model;
+    return gather_problems(problems, [&](ProblemList& list) {
+        SceneReader reader(options, warnings, list);
+        return read_scene_files(contents, name, reader, list);
+    });
+}
+
+std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
+                                        const SceneReadOptions& options, WarningSink& warnings,
+                                        ProblemList* problems) {
+    if (files.empty()) throw InputError("no scene: expected one octree, or scene files");
+    return gather_problems(problems, [&](ProblemList& list) -> std::shared_ptr<const Model> {
+        SceneReader reader(options, warnings, list);
+        for (const std::string& file : files) {
+            const SceneText text = reader.open(file);
+            if (!is_octree(text.bytes)) {
+                reader.read(text.bytes, text.name);
+                continue;
+            }
+            if (files.size() > 1) {
+                throw InputError({text.name, 0},
+                                 "an octree is a whole scene, expected no other files");
+            }
+            return read_octree(text.bytes, text.name, options, warnings, &list);
+        }
+        return reader.take();
+    });
 }
 
 std::shared_ptr<const Model> parse_scene(std::string_view text, const std::string& name,
                                          const SceneReadOptions& options, WarningSink& warnings) {
-    SceneReader reader(options, warnings);
-    reader.read(text, name);
-    return reader.take();
+    return gather_problems(nullptr, [&](ProblemList& list) {
+        SceneReader reader(options, warnings, list);
+        reader.read(text, name);
+        return reader.take();
+    });
 }
 
 }  // namespace lightwalk

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/model/primitive.h"
+#include "core/problem_list.h"
 #include "io/files/library_path.h"
 
 namespace lightwalk {
@@ -21,9 +22,14 @@ struct SceneReadOptions {
 /// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-"
 /// is standard input, "!words" a command. Throws InputError "file:line: what is wrong". Warnings
 /// follow Radiance's rules.
+/// Commands that may not be run, unknown types and undefined modifiers do not end the reading: they
+/// are gathered in `problems`, and the model is what is left; without `problems` they are thrown
+/// together at the end. Names that a command may have defined, or a primitive of an unknown type,
+/// are not complained of.
 [[nodiscard]] std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
                                                       const SceneReadOptions& options,
-                                                      WarningSink& warnings);
+                                                      WarningSink& warnings,
+                                                      ProblemList* problems = nullptr);
 
 /// Parse scene text that is in memory, for tests and tools.
 [[nodiscard]] std::shared_ptr<const Model> parse_scene(std::string_view text,
@@ -36,6 +42,7 @@ struct SceneReadOptions {
 [[nodiscard]] std::shared_ptr<const Model> read_octree(std::string_view bytes,
                                                        const std::string& name,
                                                        const SceneReadOptions& options,
-                                                       WarningSink& warnings);
+                                                       WarningSink& warnings,
+                                                       ProblemList* problems = nullptr);
 
 }  // namespace lightwalk

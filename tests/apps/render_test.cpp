@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -130,6 +131,28 @@ TEST_CASE(
     CHECK(out.find("\n\n-Y ") != std::string::npos);
 }
 
+TEST_CASE("render: -pXYZ writes the same picture as XYZE, without primaries") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const Picture rgb = read_hdr(run_program(line({scene})).out, "rgb");
+    const std::string out = run_program(line({"-pXYZ", scene})).out;
+    CHECK(header_lines(out).back() == "FORMAT=32-bit_rle_xyze");
+    CHECK(out.find("PRIMARIES") == std::string::npos);
+    const Picture xyz = read_hdr(out, "xyz");
+    REQUIRE(xyz.pixels.size() == rgb.pixels.size());
+    for (std::size_t i = 0; i < rgb.pixels.size(); ++i) {
+        // Half a step of 1/128 of the largest channel, before and after a change of colours whose
+        // largest row adds up to 4.2.
+        const float limit = .5f * (1 + 4.2f) / 128 * max_component(rgb.pixels[i]);
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(std::abs(xyz.pixels[i][k] - rgb.pixels[i][k]) <= limit);
+    }
+    CHECK(header_lines(run_program(line({"-pXYZ", "-pRGB", scene})).out).back() ==
+          "FORMAT=32-bit_rle_rgbe");
+    CHECK(run_program(line({"-pXYZ", "-o", folder.path("a.png"), scene}))
+              .err.find("option -pXYZ: only Radiance pictures") != std::string::npos);
+}
+
 TEST_CASE("render: a wrong command line says what is wrong, exits with 2 and writes nothing") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
@@ -144,6 +167,9 @@ TEST_CASE("render: a wrong command line says what is wrong, exits with 2 and wri
         {{"-vp", "1", "2"}, "-vp"},
         {{"-n", "0"}, "option -n: expected 1 to 4096 threads, found 0"},
         {{"-r", "old.hdr"}, "option -r"},
+        {{"-ap", "map"}, "option -ap names a photon map"},
+        {{"-pS"}, "option -pS weights colours by another eye"},
+        {{"-cs", "9"}, "option -cs is about spectral rendering"},
         {{"-lr", "0", "-lw", "0"}, "option -lw"},
         {{"-o", "a%s.hdr"}, "a%s.hdr"},
         {{"@/no/such/file"}, "cannot expand '@/no/such/file'"},

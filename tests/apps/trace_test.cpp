@@ -19,6 +19,18 @@ silver polygon glass 0 0 12  5 -5 0  5 -5 5  5 5 5  5 5 0
 lamp sphere bulb 0 0 4 0 0 5 .2
 )";
 
+/// A lamp, its image in a mirror, and a window that mirrors itself in it.
+const std::string kTrees = R"(
+void plastic white 0 0 5 .5 .5 .5 0 0
+void mirror silver 0 0 3 .9 .9 .9
+void glass clear 0 0 3 .8 .8 .8
+void light lamp 0 0 3 10 20 30
+white polygon floor 0 0 12  -9 -9 0  9 -9 0  9 9 0  -9 9 0
+silver polygon looking_glass 0 0 12  5 -5 0  5 -5 5  5 5 5  5 5 0
+clear polygon window 0 0 12  -3 -1 1  -3 1 1  -3 1 3  -3 -1 3
+lamp sphere bulb 0 0 4 0 0 5 .2
+)";
+
 }  // namespace
 
 TEST_CASE("trace: one record a ray, in order, without header on -h") {
@@ -99,6 +111,57 @@ TEST_CASE("trace: -I gives the irradiance at a point, -ld limits rays, -i takes 
           "1.000000e+10\t*\t\n");
 }
 
+TEST_CASE("trace: -ot and -oT print trees of rays as rtrace does") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("trees.rad", kTrees);
+    const auto traced = [&](const std::vector<std::string>& options, const std::string& rays) {
+        std::vector<std::string> words{"trace", "-h-", "-dt", "0", "-dr", "1", "-ds", "0"};
+        words.insert(words.end(), options.begin(), options.end());
+        words.push_back(scene);
+        const ProgramResult result = run_program(words, rays);
+        CHECK(result.status == 0);
+        CHECK(result.err.empty());
+        return result.out;
+    };
+    // All of these are what Radiance's rtrace 6.1 prints.
+    const std::string down = "1 1 3 0 0 -1", to_window = "-1 0 2 -1 0 0", sensor = "2 0 0 0 0 1";
+    CHECK(traced({"-oTsLVW"}, down) ==
+          "\tbulb\t4.996152e+00\t7.127781e-03\t1.425556e-02\t2.138334e-02"
+          "\t7.127781e-04\t7.127781e-04\t7.127781e-04\t\n"
+          "\t\tbulb\t5.546711e+00\t8.131429e-04\t1.626286e-03\t2.439429e-03"
+          "\t8.131429e-05\t8.131429e-05\t8.131429e-05\t\n"
+          "\tlooking_glass\t4.597369e+00\t8.131429e-04\t1.626286e-03\t2.439429e-03"
+          "\t9.034921e-05\t9.034921e-05\t9.034921e-05\t\n"
+          "floor\t3.000000e+00\t7.940925e-03\t1.588185e-02\t2.382277e-02"
+          "\t1.000000e+00\t1.000000e+00\t1.000000e+00\t\n");
+    CHECK(traced({"-otsL"}, down) == "floor\t3.000000e+00\t\n");
+    CHECK(traced({"-os~tLm"}, to_window) ==
+          "\t1.000000e+10\t*\t\n\t\t\t1.000000e+10\t*\t\n\t\t\t\t\t1.000000e+10\t*\t\n"
+          "\t\t\t\t\t\t\t1.000000e+10\t*\t\n\t\t\t\t\t\t8.000000e+00\tclear\t\n"
+          "\t\t\t\t\t8.000000e+00\tsilver\t\n\t\t\t\t8.000000e+00\tclear\t\n"
+          "\t\t\t8.000000e+00\tsilver\t\n\t\t8.000000e+00\tclear\t\n\t8.000000e+00\tsilver\t\n"
+          "2.000000e+00\tclear\t\nwindow\t~\t\n");
+    CHECK(traced({"-oTm", "-te", "clear", "-te", "lamp"}, to_window) ==
+          "\t*\t\n\t\t\t*\t\n\t\t\t\t\t*\t\n\t\t\t\t\t\t\t*\t\n\t\t\t\t\tsilver\t\n\t\t\tsilver\t\n"
+          "\tsilver\t\n");
+    const std::string list = folder.write("list", "silver\nnonsense");
+    CHECK(traced({"-otm", "-te", "clear", "-tI", list}, to_window) ==
+          "\t\t\t\t\tsilver\t\n\t\t\tsilver\t\n\tsilver\t\n");
+    CHECK(traced({"-ovTs", "-I"}, sensor) ==
+          "\tbulb\t\n\t\tbulb\t\n\tlooking_glass\t\n4.696930e-02\t9.393860e-02\t1.409079e-01\t\n");
+    CHECK(traced({"-otL"}, "0 0 0 0 0 0").empty());
+    CHECK(run_program({"trace", "-otv", scene}, down).out.find("NCOMP") == std::string::npos);
+}
+
+TEST_CASE("trace: -pXYZ says so in the header") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("floor.rad", kFloor);
+    const std::string out = run_program({"trace", "-pXYZ", scene}, "0 0 3 0 0 1").out;
+    CHECK(out.find("NCOMP=3\nPRIMARIES= 1.0000 0.0000 0.0000 1.0000 0.0000 0.0000 0.3333 "
+                   "0.3333\nFORMAT=ascii\n\n") != std::string::npos);
+    CHECK(run_program({"trace", "-pY", scene}).out.find("PRIMARIES") == std::string::npos);
+}
+
 TEST_CASE("trace: misuse exits with 2, bad scenes with 1") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("floor.rad", kFloor);
@@ -109,6 +172,11 @@ TEST_CASE("trace: misuse exits with 2, bad scenes with 1") {
         {{"-I", "-oL", scene}, "require some value output"},
         {{"-"}, "standard input holds the rays"},
         {{"-tt", scene}, "unknown option -tt"},
+        {{"-ap", "map", scene}, "option -ap names a photon map"},
+        {{"-am", "2", scene}, "option -am limits the search in photon maps"},
+        {{"-pS", scene}, "option -pS weights colours by another eye"},
+        {{"-pM", scene}, "option -pM weights colours by another eye"},
+        {{"-cs", "9", scene}, "option -cs is about spectral rendering"},
         {{}, "no scene"},
     };
     for (const auto& [options, message] : cases) {
@@ -148,5 +216,101 @@ TEST_CASE("info: counts, bounds, lights with virtual ones, and what is not suppo
         CAPTURE(text);
         CHECK(result.out.find(text) != std::string::npos);
     }
+    CHECK(result.out.find("BSDF         1, first " + scene + ":8: \"paper\"") != std::string::npos);
     CHECK(run_program({"info"}).status == 2);
+}
+
+TEST_CASE("info: what cannot be rendered exits with 1, after all that is known of it") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("bad.rad", kFloor + R"(!make_tree oak
+void BSDF paper 6 0 paper.xml 0 0 1 . 0 0
+paper sphere ball 0 0 4 0 0 1 1
+void spectrum red 0 0 5 400 700 1 2 3
+red plastic painted 0 0 5 1 1 1 0 0
+painted sphere other 0 0 4 0 0 1 1
+void specfile unused 1 a.spc 0 0
+)");
+    const std::string problems =
+        scene + ":8: command \"make_tree\" is not built in; --allow-commands runs it through the " +
+        "shell\n" + scene + ":9: BSDF \"paper\": this type is recognised but not supported yet\n" +
+        scene + ":11: spectrum \"red\": this type is recognised but not supported yet\n";
+    const ProgramResult info = run_program({"info", scene});
+    CHECK(info.status == 1);
+    CHECK(info.err == problems);
+    CHECK(info.out.find("primitives     12") != std::string::npos);
+    CHECK(info.out.find("specfile     1, first " + scene + ":14: \"unused\"") != std::string::npos);
+    for (const std::string command : {"trace", "render"}) {
+        const ProgramResult result = run_program({command, scene});
+        CHECK(result.status == 1);
+        CHECK(result.err == problems);
+        CHECK(result.out.empty());
+    }
+}
+
+TEST_CASE("info and render: a scene on standard input needs no name") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("floor.rad", kFloor);
+    const ProgramResult named = run_program({"info", scene});
+    const ProgramResult piped = run_program({"info"}, kFloor);
+    CHECK(piped.status == 0);
+    const auto what = [](const std::string& text) { return text.substr(0, text.find("memory")); };
+    CHECK(what(piped.out) == what(named.out));
+    const std::vector<std::string> view{"render", "-vp", "0",  "0", "3",  "-vd", "0",
+                                        "1",      "-.5", "-x", "8", "-y", "8"};
+    std::vector<std::string> with_name = view;
+    with_name.push_back(scene);
+    const auto pixels = [](const std::string& text) { return text.substr(text.find("\n\n")); };
+    const ProgramResult picture = run_program(view, kFloor);
+    CHECK(picture.status == 0);
+    CHECK(pixels(picture.out) == pixels(run_program(with_name).out));
+    for (const std::string command : {"render", "info"}) {
+        const ProgramResult empty = run_program({command});
+        CHECK(empty.status == 2);
+        CHECK(empty.err.find("no scene: none is named, and standard input holds nothing") !=
+              std::string::npos);
+    }
+    CHECK(run_program({"trace"}, kFloor).err.find("standard input holds the rays") !=
+          std::string::npos);
+    CHECK(run_program({"render", "-S", "1", "-o", folder.path("a%d.hdr")}, kFloor)
+              .err.find("standard input holds the views") != std::string::npos);
+}
+
+TEST_CASE("messages: junk for a scene does not reach the terminal") {
+    const TemporaryFolder folder;
+    const std::string header = "#?RADIANCE\noconv a.rad\nFORMAT=Radiance_octree\n\n";
+    std::string junk;
+    for (int i = 1; i < 300; ++i) junk += static_cast<char>(i % 255 + 1);
+    const std::string zeros = std::string("\x1b[2J\0\x01 x y", 9);
+    for (const std::string& bytes :
+         {junk, zeros, header + junk, header + zeros, std::string("void \x1b[31m\x07 x 0 0 0")}) {
+        const ProgramResult result = run_program({"info"}, bytes);
+        CHECK(result.status == 1);
+        CHECK(result.err.starts_with("standard input"));
+        CHECK(result.err.size() < 2000);
+        for (const char c : result.err) CHECK((c == '\n' || (c >= ' ' && c <= '~')));
+    }
+}
+
+TEST_CASE("trace: a scene without light is a warning, where light matters") {
+    const TemporaryFolder folder;
+    const std::string floor = "void plastic p 0 0 5 1 1 1 0 0 p sphere s 0 0 4 0 0 0 1\n";
+    const std::string dark = folder.write("dark.rad", floor);
+    const std::string sky =
+        folder.write("sky.rad", floor + "void glow g 0 0 4 1 1 1 0 g source sky 0 0 4 0 0 1 180\n");
+    const std::string near =
+        folder.write("near.rad", floor + "void glow g 0 0 4 1 1 1 2 g sphere b 0 0 4 0 0 4 1\n");
+    const auto warns = [](const std::vector<std::string>& options) {
+        std::vector<std::string> words{"trace", "-h"};
+        words.insert(words.end(), options.begin(), options.end());
+        const ProgramResult result = run_program(words, "0 0 3 0 0 -1");
+        CHECK(result.status == 0);
+        return result.err == "lightwalk trace: warning - no light sources found\n";
+    };
+    CHECK(warns({dark}));
+    CHECK(warns({"-av", "1", "1", "1", dark}));
+    CHECK_FALSE(warns({"-oL", dark}));
+    CHECK_FALSE(warns({"-w-", dark}));
+    CHECK(warns({sky}));
+    CHECK_FALSE(warns({"-ab", "1", sky}));
+    CHECK_FALSE(warns({near}));
 }

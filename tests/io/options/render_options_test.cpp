@@ -133,9 +133,10 @@ TEST_CASE(
     CHECK(message({"-ab", "1.5"}) == "option -ab: expected an integer, found \"1.5\"");
     CHECK(message({"-av", "1", "2"}) == "option -av: expected a number, found nothing");
     CHECK(message({"-dp", "1e3"}) == "option -dp: expected an integer, found \"1e3\"");
-    CHECK(message({"-ap", "map"}) == "option -ap: photon maps are not supported");
-    CHECK(message({"-cs", "20"}).starts_with("option -cs: "));
-    CHECK(message({"-f", "x.cal"}).starts_with("option -f: "));
+    CHECK(message({"-ap", "map"}) ==
+          "option -ap names a photon map, which Lightwalk does not support");
+    CHECK(message({"-cs", "20"}).starts_with("option -cs is about "));
+    CHECK(message({"-f", "x.cal"}).starts_with("option -f reads "));
 }
 
 TEST_CASE("Russian roulette needs a positive weight limit") {

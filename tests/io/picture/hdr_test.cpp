@@ -87,6 +87,18 @@ TEST_CASE("XYZE pictures become radiance: equal-energy white of 179 cd/m² is 1"
     CHECK_THROWS_AS((void)read_hdr(pixel_file("FORMAT=ascii\n"), "t.hdr"), InputError);
 }
 
+TEST_CASE("what was written as XYZE reads back as radiance") {
+    const Rgb color{.25f, .5f, .125f};
+    PictureHeader header;
+    header.xyz = true;
+    const std::string bytes = encode_hdr({1, 1, {color}}, header);
+    CHECK(bytes.find("FORMAT=32-bit_rle_xyze\n\n") != std::string::npos);
+    const Picture back = read_hdr(bytes, "xyz");
+    // Half a step of 1/128 of the largest of X, Y and Z, times the largest row of the way back.
+    for (std::size_t i = 0; i < 3; ++i)
+        CHECK(std::abs(back.pixels[0][i] - color[i]) < .5f * 4.2f / 128);
+}
+
 TEST_CASE("pictures by Radiance encode to the same bytes again") {
     LIGHTWALK_NEEDS_SHARED(folder, "reference/pictures");
     int pictures = 0;

@@ -117,7 +117,6 @@ TEST_CASE("what needs light, and how many numbers a record has") {
 TEST_CASE("wrong output specifications are usage errors") {
     CHECK(usage_error("") == "option -o: empty output specification");
     CHECK(usage_error("vq").starts_with("option -o: unrecognized output option 'q'"));
-    CHECK(usage_error("tv").starts_with("option -o: ray trees"));
     CHECK(usage_error("vn", NumberFormat::rgbe).starts_with("option -f: "));
     CHECK(usage_error("v", NumberFormat::rgbe, ColorOutput::mean).starts_with("option -f: "));
     CHECK(usage_error("r", NumberFormat::rgbe).empty());
@@ -126,6 +125,11 @@ TEST_CASE("wrong output specifications are usage errors") {
 TEST_CASE("the header ends with NCOMP and FORMAT, binary data start at a multiple of their size") {
     CHECK(RayRecords("v", NumberFormat::text, ColorOutput::rgb).header_end(5) ==
           "NCOMP=3\nFORMAT=ascii\n\n");
+    CHECK(RayRecords("v", NumberFormat::text, ColorOutput::xyz).header_end(5) ==
+          "NCOMP=3\nPRIMARIES= 1.0000 0.0000 0.0000 1.0000 0.0000 0.0000 0.3333 0.3333\n"
+          "FORMAT=ascii\n\n");
+    CHECK(RayRecords("v", NumberFormat::text, ColorOutput::rgb).header_end(5, false) ==
+          "FORMAT=ascii\n\n");
     const RayRecords doubles("vL", NumberFormat::real64, ColorOutput::rgb);
     for (std::size_t before = 100; before < 110; ++before)
         CHECK((before + doubles.header_end(before).size()) % 8 == 0);

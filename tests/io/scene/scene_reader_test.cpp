@@ -127,6 +127,46 @@ TEST_CASE("errors name file and line, what was found and what was expected") {
     }
 }
 
+TEST_CASE("all problems that leave the rest readable are told at once, each with its first place") {
+    const std::string text = kPlastic +
+                             "!make_tree oak\n"
+                             "rd sphere s 0 0 4 0 0 0 1\n"
+                             "void plastik p 1 a 0 2 1 2\n"
+                             "p sphere t 0 0 4 0 0 0 1\n"
+                             "!make_tree elm\n" +
+                             kBall;
+    CHECK(parse(text).error ==
+          "room.rad:2: command \"make_tree\" is not built in; --allow-commands runs it through the "
+          "shell (and 1 more)\n"
+          "room.rad:4: unknown type \"plastik\", did you mean \"plastic\"?");
+    // Without commands that may have defined them, names that are missing are problems.
+    const std::string names =
+        "rd sphere s 0 0 4 0 0 0 1\nrd sphere t 0 0 4 0 0 0 1\nvoid alias a b\n"
+        "a sphere u 0 0 4 0 0 0 1\nb sphere u 0 0 4 0 0 0 1\nred polygon p 0 0 2 1\n";
+    CHECK(parse(names).error ==
+          "room.rad:1: undefined modifier \"rd\" (and 1 more)\n"
+          "room.rad:3: bad reference \"b\": no modifier has this name (and 1 more)\n"
+          "room.rad:6: undefined modifier \"red\"\n"
+          "room.rad:6: bad arguments for polygon \"p\": expected 1 more numbers, found the end of "
+          "the text");
+}
+
+TEST_CASE("a caller that wants the problems gets the rest of the scene") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("room.rad", kPlastic + "!make_tree oak\n" + kBall);
+    Silence silence;
+    ProblemList problems;
+    const auto model =
+        read_scene(std::vector<std::string>{file}, inside(folder.path("")), silence, &problems);
+    CHECK(model->primitives.size() == 2);
+    CHECK(problems.text().starts_with(file + ":2: command \"make_tree\""));
+}
+
+TEST_CASE("what is neither octree nor text is refused before it is read") {
+    CHECK(parse(std::string("void plastic\0", 13)).error ==
+          "room.rad: neither an octree nor scene text: it holds zero bytes");
+}
+
 TEST_CASE("earlier users keep the old record of a redefined name, later ones get the new") {
     const Parsed scene = parse(kPlastic +
                                "red sphere a 0 0 4 0 0 0 1\n"
