@@ -21,8 +21,9 @@ int block_side(int width, int height, int workers, int alignment) {
 std::vector<Block> make_blocks(const PixelRectangle& area, int side) {
     if (area.empty()) return {};
     const int left = area.x0 / side, bottom = area.y0 / side;
-    const auto columns = static_cast<std::size_t>((area.x1 - 1) / side - left + 1);
-    const auto rows = static_cast<std::size_t>((area.y1 - 1) / side - bottom + 1);
+    const int right = (area.x1 - 1) / side, top = (area.y1 - 1) / side;
+    const std::size_t columns = static_cast<std::size_t>(right - left) + 1;
+    const std::size_t rows = static_cast<std::size_t>(top - bottom) + 1;
     const std::size_t count = columns * rows;
     // Multiples of the golden ratio spread evenly (Knuth, TAOCP vol. 3, section 6.4).
     std::size_t stride = std::max<std::size_t>(

@@ -296,11 +296,11 @@ class TileRefiner {
     /// The pair that is most alike, if it is enough so where values differ by `range`; else null.
     [[nodiscard]] const Pair* pair_alike(const Pairs& around, double range) const {
         if (around.count < 2) return nullptr;
-        const Pair* best = nullptr;
-        double least = 0;
+        const Pair* best = &around.pair[0];
+        double least = contrast(std::array{best->a, best->b});
         for (const Pair& pair : around.pair) {
             const double difference = contrast(std::array{pair.a, pair.b});
-            if (best == nullptr || difference < least) {
+            if (difference < least) {
                 best = &pair;
                 least = difference;
             }
