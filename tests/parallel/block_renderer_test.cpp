@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "parallel/frame.h"
+#include "tests/parallel/room_view.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
+using lightwalk::test::room_view;
 using lightwalk::test::Silence;
 using lightwalk::test::TestScene;
 
@@ -34,15 +36,6 @@ silver polygon glass 0 0 12  2 2 0  4 2 0  4 2 2  2 2 2
 lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
 speck sphere spark 0 0 4 -2 0 1.5 .004
 )";
-
-View room_view() {
-    View view;
-    view.position = {1, -6, 2};
-    view.direction = {-0.1, 1, -0.2};
-    view.horizontal = 60;
-    view.vertical = 45;
-    return view;
-}
 
 RenderOptions noisy() {
     RenderOptions options;

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "core/light/small_sources.h"
+#include "tests/parallel/room_view.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
+using lightwalk::test::room_view;
 using lightwalk::test::Silence;
 using lightwalk::test::TestScene;
 
@@ -38,15 +40,6 @@ RenderOptions noisy() {
     options.source_jitter = 0.9;
     options.relay_pretest = 0;
     return options;
-}
-
-View room_view() {
-    View view;
-    view.position = {1, -6, 2};
-    view.direction = {-0.1, 1, -0.2};
-    view.horizontal = 60;
-    view.vertical = 45;
-    return view;
 }
 
 FrameOptions options_of(int width, int height, int spacing, double jitter = 0) {
