@@ -9,8 +9,8 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kLeastFactor = 0.05, kMostFactor = 20;  ///< of extrapolation
-constexpr double kNearAngle = 10 * kPi / 180;            ///< between normals, before -aa is added
+constexpr double kLeastExtrapolation = 0.05, kMostExtrapolation = 20;  ///< of extrapolation
+constexpr double kNearAngle = 10 * kPi / 180;  ///< between normals, before -aa is added
 
 std::array<float, 3> floats(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -70,7 +70,7 @@ double extrapolated(const DecodedRecord& record, const Vec3& offset, const Vec3&
                           static_cast<double>(record.translation[1]) * dot(offset, v) +
                           static_cast<double>(record.rotation[0]) * dot(turn, u) +
                           static_cast<double>(record.rotation[1]) * dot(turn, v);
-    return std::clamp(factor, kLeastFactor, kMostFactor);
+    return std::clamp(factor, kLeastExtrapolation, kMostExtrapolation);
 }
 
 void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits,
@@ -94,7 +94,7 @@ void add_record(const DecodedRecord& record, const AmbientQuery& query, const Am
     if (distance2 >= aa * aa) return;
     if (record.corral != 0 && is_hidden(record, query, a, b, leaks)) return;
     const double factor = extrapolated(record, offset, query.shading_normal);
-    if (factor <= kLeastFactor) return;
+    if (factor <= kLeastExtrapolation) return;
     const double weight = (1 - std::sqrt(angle2) / most_angle) * (1 - std::sqrt(distance2) / aa);
     sum.weight += weight;
     for (std::size_t k = 0; k < 3; ++k)

@@ -5,7 +5,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kLongestWord = std::size_t{64} << 10;
+constexpr std::size_t kLongestToken = std::size_t{64} << 10;
 
 constexpr bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
@@ -68,7 +68,7 @@ std::optional<std::string> SceneTokenizer::word() {
         } else if (quote == 0 && (c == '"' || c == '\'')) {
             quote = c;
         } else {
-            if (result.size() >= kLongestWord) throw InputError(where_, "word longer than 64 KiB");
+            if (result.size() >= kLongestToken) throw InputError(where_, "word longer than 64 KiB");
             result.push_back(c);
         }
     }

@@ -68,7 +68,7 @@ def build(name, work, shared):
     folder = work / name
     # As the release preset, but -O2 and nothing across files: it builds sooner, and compilers err as well.
     call(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
-          f"-DLIGHTWALK_ISA={level}", f"-DCMAKE_CXX_FLAGS={flags}", "-DLIGHTWALK_PERF=OFF", f"-DLIGHTWALK_SHARED={shared}"])
+          f"-DLIGHTWALK_ISA={level}", f"-DCMAKE_CXX_FLAGS={flags}", "-DLIGHTWALK_PERF=OFF", "-DLIGHTWALK_UNITY=ON", f"-DLIGHTWALK_SHARED={shared}"])
     call(["ninja", "-C", folder, "lightwalk", "lightwalk_level_tests", "lightwalk_level_values"])
     return folder
 
