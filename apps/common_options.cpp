@@ -68,7 +68,7 @@ bool parse_common_option(OptionWords& words, CommonOptions& options, RenderSetti
         options.allow_commands = true;
         words.skip(1);
     } else {
-        return false;
+        return parse_rank_option(words, options.ranks);
     }
     return true;
 }
@@ -83,8 +83,11 @@ void refuse_option(const OptionWords& words, std::vector<std::string> names) {
 }
 
 std::vector<std::string> common_option_names() {
-    return {"-n",     "-e",        "--executor", "--seed", "--stats", "--quiet", "--allow-commands",
-            "--help", "--version", "-defaults"};
+    std::vector<std::string> names{"-n",        "-e",       "--executor",       "--seed",
+                                   "--stats",   "--quiet",  "--allow-commands", "--help",
+                                   "--version", "-defaults"};
+    for (std::string& name : rank_option_names()) names.push_back(std::move(name));
+    return names;
 }
 
 void settle_scene_files(CommonOptions& options, const std::string& taken_by) {

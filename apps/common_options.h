@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/rank_options.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
 #include "io/options/render_options.h"
@@ -13,7 +14,8 @@
 namespace lightwalk {
 
 struct CommonOptions {
-    int workers = hardware_threads();          ///< -n
+    int workers = hardware_threads();  ///< -n
+    RankOptions ranks;
     ExecutorKind executor = kDefaultExecutor;  ///< --executor
     bool allow_commands = false;               ///< --allow-commands
     bool quiet = false;                        ///< --quiet

@@ -112,7 +112,7 @@ void print_ambient_file(const std::string& path) {
 
 }  // namespace
 
-int run_info(const std::vector<std::string>& line) {
+int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
     RenderSettings settings = default_render_settings(OptionDefaults::rpict);
     CommonOptions options;
     OptionWords words(line);

@@ -1,11 +1,13 @@
 // lightwalk: one program, one command a task.
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/rank_options.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
 
@@ -14,7 +16,7 @@ namespace {
 
 struct Command {
     const char* name;
-    int (*run)(const std::vector<std::string>&);
+    int (*run)(const std::vector<std::string>&, Transport* ranks);
 };
 constexpr Command kCommands[] = {{"render", run_render}, {"trace", run_trace}, {"info", run_info}};
 
@@ -33,7 +35,7 @@ bool answer_questions(const std::string& command, const std::vector<std::string>
     return false;
 }
 
-int dispatch(const std::vector<std::string>& words) {
+int dispatch(const std::vector<std::string>& words, Transport* ranks) {
     if (words.empty()) {
         std::fputs(help_text(""), stderr);
         return kUsageStatus;
@@ -42,7 +44,7 @@ int dispatch(const std::vector<std::string>& words) {
     for (const Command& command : kCommands) {
         if (name != command.name) continue;
         const std::vector<std::string> rest(words.begin() + 1, words.end());
-        return answer_questions(name, rest) ? kSuccessStatus : command.run(rest);
+        return answer_questions(name, rest) ? kSuccessStatus : command.run(rest, ranks);
     }
     if (name == "help") {
         std::fputs(help_text(words.size() > 1 ? words[1] : ""), stdout);
@@ -63,20 +65,29 @@ std::string program_name(const std::vector<std::string>& words) {
     return "lightwalk";
 }
 
+/// Runs the command; what is wrong is said on standard error, by rank 0 alone where all ranks see
+/// it.
 int run(const std::vector<std::string>& words) {
     const std::string program = program_name(words);
+    std::unique_ptr<Transport> ranks;
+    const auto say = [&](const std::string& text) {
+        if (!ranks || ranks->rank() == 0) std::fprintf(stderr, "%s\n", text.c_str());
+    };
     try {
-        return dispatch(words);
+        if (started_by_mpi()) ranks = open_mpi();
+        // Only pictures and rays are shared out: rank 0 answers everything else.
+        const bool shared = !words.empty() && (words[0] == "render" || words[0] == "trace");
+        if (ranks && ranks->rank() != 0 && !shared) return kSuccessStatus;
+        return dispatch(words, ranks.get());
     } catch (const UsageError& error) {
-        std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", program.c_str(),
-                     printable(error.what()).c_str(), program.c_str());
+        say(program + ": " + printable(error.what()) + "\nTry '" + program + " --help'.");
         return kUsageStatus;
     } catch (const InputError& error) {
-        std::fprintf(stderr, "%s\n", error.what());
+        say(error.what());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s: out of memory\n", program.c_str());
+        say(program + ": out of memory");
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s: %s\n", program.c_str(), printable(error.what()).c_str());
+        say(program + ": " + printable(error.what()));
     }
     return kFailureStatus;
 }

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
 #include "apps/progress.h"
+#include "apps/rank_pictures.h"
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
@@ -17,6 +19,7 @@
 #include "io/options/view_text.h"
 #include "parallel/frame.h"
 #include "parallel/overture.h"
+#include "parallel/ranks/piece_codec.h"
 #include "parallel/time_estimate.h"
 
 namespace lightwalk {
@@ -28,6 +31,12 @@ constexpr std::array<double, 8> kStandardPrimaries{.64, .33, .29, .6, .15, .06, 
 std::string formatted(const char* format, double value) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+std::string hexadecimal(std::uint64_t value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
     return text.data();
 }
 
@@ -59,9 +68,11 @@ void write_to_stdout(const std::string& bytes) {
 
 class RenderRun {
   public:
-    explicit RenderRun(RenderCommand command) : command_(std::move(command)), warnings_(kProgram) {
+    RenderRun(RenderCommand command, Transport* transport)
+        : command_(std::move(command)), transport_(transport), warnings_(kProgram) {
         redirect_messages(command_.common, command_.history);
-        warnings_.enable(command_.settings.warnings && !command_.common.quiet);
+        const bool speaks = transport_ == nullptr || transport_->rank() == 0;
+        warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
         check_render_settings(command_.settings);
         settle_spacing();
         if (command_.first_frame == 0)
@@ -75,30 +86,173 @@ class RenderRun {
 
     int run() {
         handle_interrupts();
+        if (!share_out()) return draw();
+        const auto body = [this] { return link_->leads() ? lead() : follow(); };
+        return link_->run(body, interrupt_flag());
+    }
+
+  private:
+    /// This process by itself.
+    int draw() {
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
         session_->build(command_.settings);
         session_->warn_of_darkness();
+        make_threads();
+        if (!render_all()) return kInterruptedStatus;
+        save_statistics();
+        return kSuccessStatus;
+    }
+
+    bool render_all() {
+        return command_.first_frame > 0 ? render_sequence()
+                                        : render_picture(command_.view, nullptr, 0);
+    }
+
+    void make_threads() {
         executor_ = make_executor(command_.common.executor, command_.common.workers);
         contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
                                                      executor_->concurrency());
+        statistics_.threads = executor_->concurrency();
+    }
+
+    void save_statistics() {
         statistics_.command = "render";
         statistics_.read_seconds = session_->read_seconds;
         statistics_.build_seconds = session_->build_seconds;
-        statistics_.threads = executor_->concurrency();
-        if (!(command_.first_frame > 0 ? render_sequence()
-                                       : render_picture(command_.view, nullptr, 0))) {
-            return kInterruptedStatus;
-        }
         if (session_->ambient) {
             statistics_.ambient_values = session_->ambient->size();
             statistics_.ambient_bytes = session_->ambient->memory_bytes();
         }
         if (!command_.common.stats_file.empty())
             write_statistics(command_.common.stats_file, statistics_);
+    }
+
+    // One of several ranks.
+
+    /// Whether there are others to share the work with.
+    bool share_out() {
+        if (transport_ == nullptr) return false;
+        const RenderOptions& light = command_.settings.light;
+        const RankOptions& wanted = command_.common.ranks;
+        // A deterministic run exchanges nothing: each rank computes the same values.
+        const bool ambient = light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon &&
+                             !command_.deterministic && wanted.ambient_batch > 0;
+        const Variant variant =
+            settle_variant(wanted, transport_->size(), command_.common.workers, ambient);
+        if (variant == Variant::threads) return false;
+        if (variant == Variant::ranks) command_.common.workers = 1;
+        RankSettings settings;
+        settings.slots = command_.common.workers;
+        settings.ahead = std::max(1, settings.slots / 2);
+        settings.block = wanted.block;
+        settings.stride = wanted.stride;
+        settings.ambient_batch = static_cast<std::size_t>(wanted.ambient_batch);
+        settings.encode = encode_piece;
+        link_ = std::make_unique<RankLink>(
+            *transport_, make_topology(variant, transport_->size(), ambient, wanted.masters),
+            settings, kProgram);
+        statistics_.ranks = transport_->size();
+        return true;
+    }
+
+    /// Every rank reads and builds the scene; all go on, or none.
+    void prepare() {
+        std::string problem;
+        int status = kSuccessStatus;
+        try {
+            session_ = std::make_unique<SceneSession>(command_.common, warnings_);
+            session_->build(command_.settings, &*link_);
+        } catch (const UsageError& error) {
+            problem = error.what();
+            status = kUsageStatus;
+        } catch (const std::exception& error) {
+            problem = error.what();
+            status = kFailureStatus;
+        }
+        std::vector<std::string> facts;
+        if (problem.empty()) {
+            facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + command_.history,
+                     "scene " + hexadecimal(session_->digest())};
+        }
+        link_->agree(facts, problem, status);
+        make_threads();
+    }
+
+    [[nodiscard]] RankPictures rank_pictures() {
+        FrameOptions options;
+        options.pixels = command_.pixels;
+        options.seed = command_.settings.light.seed;
+        options.use_distances = !command_.depth.empty();
+        return {session_->tracer(), options,   session_->freezable.get(),
+                *contexts_,         warnings_, interrupt_flag()};
+    }
+
+    int follow() {
+        prepare();
+        if (!link_->traces()) {
+            link_->wait_for_end(interrupt_flag());
+            link_->report(rank_report({}, {}));
+            return kSuccessStatus;
+        }
+        RankPictures pictures = rank_pictures();
+        link_->trace(
+            *executor_, [&](const JobStart& job) { return pictures.make(job); }, interrupt_flag());
+        link_->report(rank_report(pictures.rays(), pictures.ambient()));
         return kSuccessStatus;
     }
 
-  private:
+    int lead() {
+        prepare();
+        session_->warn_of_darkness();
+        RankPictures pictures = rank_pictures();
+        std::thread tracing([&] {
+            if (!link_->traces()) return;
+            try {
+                link_->trace(
+                    *executor_, [&](const JobStart& job) { return pictures.make(job); },
+                    interrupt_flag());
+            } catch (const std::exception& error) {
+                link_->fail(error.what());
+            }
+        });
+        const bool whole = render_all();
+        const std::map<int, std::string> reports = link_->finish(interrupt_flag());
+        tracing.join();
+        if (!whole) return kInterruptedStatus;
+        statistics_.rays += pictures.rays();
+        statistics_.ambient += pictures.ambient();
+        for (const auto& [rank, report] : reports) add_report(statistics_, report);
+        save_statistics();
+        return kSuccessStatus;
+    }
+
+    /// Nothing: interrupted.
+    std::optional<Frame> trace_on_ranks(const Camera& camera, const FrameOptions& options,
+                                        ProgressMeter& meter, std::size_t phase) {
+        PictureOrder order;
+        order.view = camera.view();
+        if (options.previous != nullptr) order.previous = options.previous->view();
+        order.width = options.width;
+        order.height = options.height;
+        if (overture() == Overture::quick) {
+            PictureOrder coarse = order;
+            coarse.step = kQuickStep;
+            link_->submit(
+                {next_job_++, quick_overture(options).whole(), 1, false, encode_order(coarse)});
+        }
+        order.deterministic = overture() == Overture::deterministic;
+        const JobId job = next_job_++;
+        const BlockRenderer renderer(session_->tracer(), camera, options, *contexts_,
+                                     interrupt_flag());
+        link_->submit({job, options.area(), renderer.alignment(), true, encode_order(order)});
+        const std::optional<FinishedPicture> picture =
+            link_->wait_for(job, interrupt_flag(), [&](double share) {
+                meter.update(phase, {share, 0, 0});
+            });
+        if (!picture) return std::nullopt;
+        return assemble(*picture, options.width, options.height);
+    }
+
     void settle_spacing() {
         constexpr int kLargestSpacing = 16;
         int& spacing = command_.pixels.spacing;
@@ -196,7 +350,9 @@ class RenderRun {
         const Stopwatch watch;
         const RayCounters before = statistics_.rays;
         Frame frame;
-        if (play_overture(camera, options, meter)) {
+        if (link_) {
+            frame = trace_on_ranks(camera, options, meter, picture).value_or(Frame{});
+        } else if (play_overture(camera, options, meter)) {
             frame = render_frame(
                 session_->tracer(), camera, options, *executor_, *contexts_, interrupt_flag(),
                 [&](const FrameProgress& progress) { meter.update(picture, progress); });
@@ -244,7 +400,10 @@ class RenderRun {
     }
 
     RenderCommand command_;
+    Transport* transport_;  ///< to the other ranks; null: there are none
     StderrWarnings warnings_;
+    std::unique_ptr<RankLink> link_;
+    JobId next_job_ = 0;
     std::unique_ptr<SceneSession> session_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<WorkerContexts> contexts_;
@@ -253,13 +412,13 @@ class RenderRun {
 
 }  // namespace
 
-int run_render(const std::vector<std::string>& words) {
+int run_render(const std::vector<std::string>& words, Transport* ranks) {
     RenderCommand command = parse_render_command(words);
     if (command.show_defaults) {
-        std::fputs(describe(command).c_str(), stdout);
+        if (ranks == nullptr || ranks->rank() == 0) std::fputs(describe(command).c_str(), stdout);
         return kSuccessStatus;
     }
-    return RenderRun(std::move(command)).run();
+    return RenderRun(std::move(command), ranks).run();
 }
 
 }  // namespace lightwalk

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
+#include "apps/rank_link.h"
 #include "core/light/light_sources.h"
 #include "core/material/modifier_factories.h"
 #include "io/files/atomic_file.h"
@@ -45,24 +46,14 @@ void SceneSession::raise_problems() {
     problems.raise();
 }
 
-void SceneSession::build(const RenderSettings& settings) {
+void SceneSession::build(const RenderSettings& settings, RankLink* link) {
     const Stopwatch watch;
     raise_problems();
     built = std::make_unique<const Scene>(model, modifier_factory, resources, warnings);
     auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
     const RenderOptions& options = settings.light;
-    const bool caches = options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon;
-    if (caches) {
-        const SceneCube cube = built->cube();
-        ambient = std::make_unique<ConcurrentCache>(ambient_limits(
-            cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
-        AmbientCache* cache = ambient.get();
-        if (!settings.ambient_file.empty()) {
-            ambient_store =
-                std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings);
-            cache = ambient_store.get();
-        }
-        freezable = std::make_unique<FreezableCache>(*cache);
+    if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {
+        make_cache(settings, link);
         fresh->use_ambient_cache(freezable.get());
     } else if (!settings.ambient_file.empty()) {
         warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
@@ -71,8 +62,60 @@ void SceneSession::build(const RenderSettings& settings) {
     build_seconds = watch.seconds();
 }
 
+void SceneSession::make_cache(const RenderSettings& settings, RankLink* link) {
+    const RenderOptions& options = settings.light;
+    const SceneCube cube = built->cube();
+    ambient = std::make_unique<ConcurrentCache>(ambient_limits(
+        cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
+    AmbientCache* cache = ambient.get();
+    std::vector<AmbientRecord> known;
+    if (!settings.ambient_file.empty() && (link == nullptr || link->leads())) {
+        recorder = std::make_unique<RecordingCache>(*ambient);
+        ambient_store =
+            std::make_unique<AmbientStore>(settings.ambient_file, options, *recorder, warnings);
+        known = recorder->stop();
+        cache = ambient_store.get();
+    }
+    if (link != nullptr) cache = &link->exchange(*cache, known);
+    freezable = std::make_unique<FreezableCache>(*cache);
+}
+
+std::uint64_t SceneSession::digest() const {
+    // FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923).
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto add = [&](const void* data, std::size_t size) {
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3;
+    };
+    for (const Primitive& primitive : model->primitives) {
+        add(&primitive.type, sizeof primitive.type);
+        add(&primitive.modifier, sizeof primitive.modifier);
+        add(primitive.name.c_str(), primitive.name.size() + 1);
+        for (const std::string& text : primitive.strings) add(text.c_str(), text.size() + 1);
+        for (const double& real : primitive.reals) add(&real, sizeof real);
+    }
+    return hash;
+}
+
 void SceneSession::warn_of_darkness() const {
     if (!made->lights().shine()) warnings.warn("no light sources found");
+}
+
+std::string rank_report(const RayCounters& rays, const AmbientCounters& ambient) {
+    const nlohmann::json json{
+        {"rays", {rays.primary, rays.shadow, rays.specular, rays.transmitted, rays.ambient}},
+        {"ambient",
+         {ambient.interpolated, ambient.computed, ambient.incomplete, ambient.waits,
+          ambient.duplicates}}};
+    return json.dump();
+}
+
+void add_report(RunStatistics& statistics, const std::string& report) {
+    const nlohmann::json json = nlohmann::json::parse(report);
+    const auto& rays = json["rays"];
+    statistics.rays += {rays[0], rays[1], rays[2], rays[3], rays[4]};
+    const auto& ambient = json["ambient"];
+    statistics.ambient += {ambient[0], ambient[1], ambient[2], ambient[3], ambient[4]};
 }
 
 void write_statistics(const std::string& path, const RunStatistics& s) {
@@ -80,6 +123,7 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
     json["version"] = LIGHTWALK_VERSION;
     json["command"] = s.command;
     json["threads"] = s.threads;
+    if (s.ranks > 1) json["ranks"] = s.ranks;
     if (s.width > 0)
         json["picture"] = {{"width", s.width}, {"height", s.height}, {"frames", s.frames}};
     json["seconds"] = {

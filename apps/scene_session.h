@@ -12,8 +12,11 @@
 #include "io/scene/file_resources.h"
 #include "parallel/concurrent_cache.h"
 #include "parallel/freezable_cache.h"
+#include "parallel/recording_cache.h"
 
 namespace lightwalk {
+
+class RankLink;
 
 /// Stopwatch [s].
 class Stopwatch {
@@ -31,7 +34,12 @@ struct SceneSession {
     SceneSession(const CommonOptions& options, WarningSink& warnings);
     /// Compiles the scene, then the tracer. Throws InputError, with all problems of the
     /// description.
-    void build(const RenderSettings& settings);
+    /// @param link  the other ranks, with which ambient values are exchanged; rank 0 alone has the
+    ///              ambient file
+    void build(const RenderSettings& settings, RankLink* link = nullptr);
+
+    /// Of the description: the same on every machine for the same primitives.
+    [[nodiscard]] std::uint64_t digest() const;
 
     /// Warn when nothing lights the scene; after build().
     void warn_of_darkness() const;
@@ -47,6 +55,7 @@ struct SceneSession {
     std::unique_ptr<const Scene> built;
     // With -ab and -aa; they outlive the tracer.
     std::unique_ptr<ConcurrentCache> ambient;
+    std::unique_ptr<RecordingCache> recorder;     ///< with -af
     std::unique_ptr<AmbientStore> ambient_store;  ///< with -af
     std::unique_ptr<FreezableCache> freezable;
     std::unique_ptr<const Tracer> made;
@@ -54,6 +63,7 @@ struct SceneSession {
 
   private:
     void raise_problems();
+    void make_cache(const RenderSettings& settings, RankLink* link);
 };
 
 /// What `--stats` writes.
@@ -66,7 +76,11 @@ struct RunStatistics {
     int threads = 1;
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;
+    int ranks = 1;
 };
+/// What another rank did is added to `statistics`: rays and ambient values. And how it says so.
+void add_report(RunStatistics& statistics, const std::string& report);
+[[nodiscard]] std::string rank_report(const RayCounters& rays, const AmbientCounters& ambient);
 /// Write as JSON, whole or not at all. Throws InputError.
 void write_statistics(const std::string& path, const RunStatistics& statistics);
 

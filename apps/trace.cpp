@@ -309,7 +309,7 @@ class TraceRun {
 
 }  // namespace
 
-int run_trace(const std::vector<std::string>& words) {
+int run_trace(const std::vector<std::string>& words, Transport* /*ranks*/) {
     TraceCommand command = parse_trace_command(words);
     if (command.show_defaults) {
         std::fputs(describe(command).c_str(), stdout);

@@ -12,7 +12,7 @@ std::vector<int> steps_of(Overture overture) {
         case Overture::none:
             break;
         case Overture::quick:
-            return {6};
+            return {kQuickStep};
         case Overture::deterministic:
             return {16, 8, 4, 2};
     }
@@ -39,6 +39,10 @@ FrameOptions coarse_options(const FrameOptions& options, Overture overture, int 
 }
 
 }  // namespace
+
+FrameOptions quick_overture(const FrameOptions& options, int step) {
+    return coarse_options(options, Overture::quick, step);
+}
 
 std::size_t overture_pixels(const FrameOptions& options, Overture overture) {
     std::size_t pixels = 0;

@@ -25,6 +25,10 @@ struct OvertureResult {
 /// Number of pixels that the overture of a picture traces.
 [[nodiscard]] std::size_t overture_pixels(const FrameOptions& options, Overture overture);
 
+/// The coarse picture that a quick overture traces, of every `step`-th pixel.
+inline constexpr int kQuickStep = 6;
+[[nodiscard]] FrameOptions quick_overture(const FrameOptions& options, int step = kQuickStep);
+
 /// Trace coarse pictures of the view that leave nothing but ambient values, so that the picture
 /// itself finds most of them. Their pixels are not kept: computed while the cache was nearly empty,
 /// they would stand out in a grid.

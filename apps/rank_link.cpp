@@ -1,0 +1,216 @@
+#include "apps/rank_link.h"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+#include "apps/commands.h"
+#include "apps/interrupt.h"
+
+namespace lightwalk {
+namespace {
+
+/// A signal's handler cannot notify: those who wait look for its request now and then.
+constexpr std::chrono::milliseconds kPatience{20};
+
+std::string joined(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + '\n';
+    return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+        lines.push_back(text.substr(begin, end - begin));
+    return lines;
+}
+
+}  // namespace
+
+RankLink::RankLink(Transport& transport, Topology topology, const RankSettings& settings,
+                   std::string program)
+    : transport_(transport),
+      topology_(std::move(topology)),
+      program_(std::move(program)),
+      host_(transport.host()),
+      batch_(topology_.ambient_master ? settings.ambient_batch : 0),
+      loop_(transport, topology_, settings, *this) {}
+
+std::string RankLink::named(int rank, const std::string& host) const {
+    return program_ + ": rank " + std::to_string(rank) + " (" + host + "): ";
+}
+
+int RankLink::run(FunctionRef<int()> body, const StopFlag& stop) {
+    int status = kFailureStatus;
+    std::thread thread([&] {
+        try {
+            status = body();
+            loop_.end();
+        } catch (const AgreedProblem& problem) {
+            status = problem.status;
+            loop_.end();
+        } catch (const Aborted&) {
+            status = kFailureStatus;
+        } catch (const std::exception& error) {
+            fail(error.what());
+        }
+    });
+    const bool whole = loop_.run(stop);
+    if (!whole) {  // the thread may be deep in one pixel; nothing has been written
+        std::fflush(nullptr);
+        thread.detach();
+        transport_.abort(kInterruptedStatus);
+    }
+    thread.join();
+    return status;
+}
+
+/// The run is over. Rank 0 ends it; the others tell it, and wait for that.
+void RankLink::fail(const std::string& text) {
+    loop_.post(Role::program, {0, Role::program}, Failure{host_, text});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::fprintf(stderr, "%s%s\n", named(rank(), host_).c_str(), printable(text).c_str());
+    std::_Exit(kFailureStatus);
+}
+
+void RankLink::agree(const std::vector<std::string>& facts, const std::string& problem,
+                     int status) {
+    // Line 0: exit status; 1: host; then the facts; a problem's text comes after a line of its own.
+    std::vector<std::string> own{std::to_string(status), host_};
+    own.insert(own.end(), facts.begin(), facts.end());
+    const std::string separator = "--\n";
+    const std::vector<std::string> all =
+        loop_.all_gather(joined(own) + separator + printable(problem));
+    std::vector<std::string> first;
+    std::map<std::string, int> problems;  // text -> rank that has it
+    int worst = kSuccessStatus, others = 0;
+    std::string told;
+    for (int rank = 0; rank < ranks(); ++rank) {
+        const std::string& part = all[static_cast<std::size_t>(rank)];
+        const std::size_t cut = part.find(separator);
+        const std::vector<std::string> lines = lines_of(part.substr(0, cut));
+        const std::string text = part.substr(cut + separator.size());
+        if (first.empty()) first = lines;
+        if (!text.empty()) {
+            worst = std::max(worst, std::stoi(lines[0]));
+            if (problems.emplace(text, rank).second) told += named(rank, lines[1]) + text + '\n';
+            continue;
+        }
+        for (std::size_t i = 2; i < std::min(lines.size(), first.size()); ++i) {
+            if (lines[i] == first[i]) continue;
+            ++others;
+            told += named(rank, lines[1]) + lines[i] + ", but rank 0 (" + first[1] + ") has " +
+                    first[i] + '\n';
+        }
+    }
+    if (problems.empty() && others == 0) return;
+    if (leads()) {
+        const bool same = problems.size() == 1 && others == 0 && problems.begin()->second == 0;
+        std::fprintf(stderr, "%s", same ? (problems.begin()->first + '\n').c_str() : told.c_str());
+    }
+    throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst};
+}
+
+AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientRecord>& known) {
+    if (batch_ == 0) return cache;
+    const auto send = [this](AmbientValues values) {
+        loop_.post(Role::cache, {rank(), Role::ambient_client}, std::move(values));
+    };
+    if (!known.empty()) send({known});
+    const std::lock_guard lock(mutex_);
+    cache_ = std::make_unique<ExchangingCache>(cache, batch_, send);
+    cache_->take(early_values_);
+    early_values_.clear();
+    return *cache_;
+}
+
+void RankLink::trace(Executor& executor, MakeRenderer make, const StopFlag& stop) {
+    const auto tracer = std::make_shared<RankTracer>(std::move(make), [this](Message message) {
+        loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));
+    });
+    {
+        const std::lock_guard lock(mutex_);
+        tracer_ = tracer;
+        for (Message& message : untaken_) tracer_->take(std::move(message));
+        untaken_.clear();
+    }
+    tracer->run(executor, stop);
+}
+
+void RankLink::wait_for_end(const StopFlag& stop) {
+    std::unique_lock lock(mutex_);
+    while (!finished_ && !stop.requested()) changed_.wait_for(lock, kPatience);
+}
+
+void RankLink::report(std::string text) {
+    loop_.post(Role::program, {0, Role::program}, Report{std::move(text)});
+}
+
+void RankLink::submit(JobStart job) {
+    loop_.post(Role::program, {0, Role::master}, std::move(job));
+}
+
+std::optional<FinishedPicture> RankLink::wait_for(JobId job, const StopFlag& stop,
+                                                  FunctionRef<void(double)> progress) {
+    std::unique_lock lock(mutex_);
+    double told = -1;
+    while (!stop.requested()) {
+        if (const auto found = pictures_.find(job); found != pictures_.end()) {
+            FinishedPicture picture = std::move(found->second);
+            pictures_.erase(found);
+            shares_.erase(job);
+            return picture;
+        }
+        if (const auto share = shares_.find(job); share != shares_.end() && share->second > told) {
+            told = share->second;
+            progress(told);
+        }
+        changed_.wait_for(lock, kPatience);
+    }
+    return std::nullopt;
+}
+
+std::map<int, std::string> RankLink::finish(const StopFlag& stop) {
+    for (int rank = 0; rank < ranks(); ++rank)
+        loop_.post(Role::program, {rank, Role::program}, Finish{});
+    std::unique_lock lock(mutex_);
+    while (static_cast<int>(reports_.size()) < ranks() - 1 && !stop.requested())
+        changed_.wait_for(lock, kPatience);
+    return std::move(reports_);
+}
+
+/// Called by the thread that serves the messages.
+void RankLink::take(Envelope envelope) {
+    Message& message = envelope.message;
+    if (const auto* failure = std::get_if<Failure>(&message)) {
+        std::fprintf(stderr, "%s%s\n", named(envelope.from.rank, failure->host).c_str(),
+                     printable(failure->text).c_str());
+        transport_.abort(kFailureStatus);
+    }
+    const std::lock_guard lock(mutex_);
+    if (auto* values = std::get_if<AmbientValues>(&message)) {
+        if (cache_)
+            cache_->take(values->records);
+        else
+            early_values_.insert(early_values_.end(), values->records.begin(),
+                                 values->records.end());
+    } else if (auto* picture = std::get_if<FinishedPicture>(&message)) {
+        pictures_[picture->job] = std::move(*picture);
+    } else if (const auto* progress = std::get_if<Progress>(&message)) {
+        shares_[progress->job] = progress->done;
+    } else if (auto* report = std::get_if<Report>(&message)) {
+        reports_[envelope.from.rank] = std::move(report->payload);
+    } else {
+        if (std::holds_alternative<Finish>(message)) finished_ = true;
+        if (tracer_)
+            tracer_->take(std::move(message));
+        else
+            untaken_.push_back(std::move(message));
+    }
+    changed_.notify_all();
+}
+
+}  // namespace lightwalk

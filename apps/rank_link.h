@@ -1,0 +1,98 @@
+#pragma once
+// This process as one of several ranks: its messages, and what the commands want of them.
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/math/function_ref.h"
+#include "parallel/ranks/exchanging_cache.h"
+#include "parallel/ranks/rank_loop.h"
+#include "parallel/ranks/rank_tracer.h"
+
+namespace lightwalk {
+
+/// All ranks have found that the run cannot be; rank 0 has said why.
+struct AgreedProblem {
+    int status = 1;
+};
+
+class RankLink final : private LocalEnd {
+  public:
+    /// @param program  how messages name the program
+    RankLink(Transport& transport, Topology topology, const RankSettings& settings,
+             std::string program);
+
+    [[nodiscard]] int rank() const { return transport_.rank(); }
+    [[nodiscard]] int ranks() const { return transport_.size(); }
+    [[nodiscard]] bool leads() const { return rank() == 0; }
+    [[nodiscard]] bool traces() const { return topology_.traces(rank()); }
+    [[nodiscard]] const Topology& topology() const { return topology_; }
+    [[nodiscard]] const std::string& host() const { return host_; }
+
+    /// Runs `body` on a thread of its own, while this thread, which must be the one that opened the
+    /// transport, serves the messages until every rank's body has returned. An exception that body
+    /// throws ends the whole run: rank 0 says which rank, its host and the message.
+    /// @return  what body returned; kInterruptedStatus when `stop` was requested
+    int run(FunctionRef<int()> body, const StopFlag& stop);
+
+    // What follows is called from within body.
+
+    /// Every rank tells what it is about to compute with ("version", digests, ...; one line each),
+    /// or why it cannot. Where one cannot, or two differ, rank 0 says so and all throw
+    /// AgreedProblem.
+    /// @param problem  "" is none
+    /// @param status   the exit status that goes with it
+    void agree(const std::vector<std::string>& facts, const std::string& problem, int status);
+
+    /// The cache whose new values go to the other ranks, and which gets theirs; `known` are values
+    /// of this rank that the others do not have. `cache` itself where none are exchanged.
+    [[nodiscard]] AmbientCache& exchange(AmbientCache& cache,
+                                         const std::vector<AmbientRecord>& known);
+
+    /// Trace what the master gives, until rank 0 says that no more comes.
+    void trace(Executor& executor, MakeRenderer make, const StopFlag& stop);
+    /// On ranks that do not trace.
+    void wait_for_end(const StopFlag& stop);
+    /// What this rank did, for rank 0.
+    void report(std::string text);
+
+    // On rank 0:
+    void submit(JobStart job);
+    /// The picture of a job, when it is whole; nothing: stopped. `progress` is called with the
+    /// share of the job's pixels that are done.
+    [[nodiscard]] std::optional<FinishedPicture> wait_for(JobId job, const StopFlag& stop,
+                                                          FunctionRef<void(double)> progress);
+    /// No more work comes: what the other ranks report, by rank.
+    [[nodiscard]] std::map<int, std::string> finish(const StopFlag& stop);
+
+    /// What this rank cannot go on for: ends the whole run.
+    void fail(const std::string& text);
+
+    [[nodiscard]] const MessageCounts& counts() const { return loop_.counts(); }
+
+  private:
+    void take(Envelope envelope) override;
+    [[nodiscard]] std::string named(int rank, const std::string& host) const;
+
+    Transport& transport_;
+    Topology topology_;
+    std::string program_, host_;
+    std::size_t batch_;  ///< 0: no ambient values are exchanged
+    RankLoop loop_;
+    std::unique_ptr<ExchangingCache> cache_;
+    std::mutex mutex_;  ///< guards what follows
+    std::condition_variable changed_;
+    std::shared_ptr<RankTracer> tracer_;
+    std::deque<Message> untaken_;  ///< for the tracer, before it was there
+    std::vector<AmbientRecord> early_values_;
+    std::map<JobId, FinishedPicture> pictures_;
+    std::map<JobId, double> shares_;
+    std::map<int, std::string> reports_;
+    bool finished_ = false;
+};
+
+}  // namespace lightwalk

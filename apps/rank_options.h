@@ -1,0 +1,37 @@
+#pragma once
+// How a run is spread over ranks: options, and how the process was started.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/options/option_words.h"
+#include "parallel/ranks/topology.h"
+#include "parallel/ranks/transport.h"
+
+namespace lightwalk {
+
+struct RankOptions {
+    std::optional<Variant> variant;  ///< --variant; nothing: follows from how we were started
+    int block = 0;                   ///< --block [pixels]; 0: auto
+    int stride = 0;                  ///< --stride; 0: auto
+    int masters = 0;                 ///< --masters; 0: auto
+    int ambient_batch = 16;          ///< --ambient-batch; 0: no values are exchanged
+};
+
+/// Take one of these options; false when the word is something else.
+[[nodiscard]] bool parse_rank_option(OptionWords& words, RankOptions& options);
+[[nodiscard]] std::vector<std::string> rank_option_names();
+
+/// Whether mpirun or srun started this process.
+[[nodiscard]] bool started_by_mpi();
+/// The wire to the other ranks. Throws InputError when MPI cannot be loaded or started.
+[[nodiscard]] std::unique_ptr<Transport> open_mpi();
+
+/// The variant that runs: the one asked for, or else `hybrid` where ranks have several threads or
+/// are too few to spare any, and `ranks` otherwise. Throws UsageError where it cannot be.
+/// @param threads  of each rank
+[[nodiscard]] Variant settle_variant(const RankOptions& options, int ranks, int threads,
+                                     bool ambient);
+
+}  // namespace lightwalk

@@ -1,0 +1,144 @@
+#include "apps/rank_pictures.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "parallel/overture.h"
+#include "parallel/ranks/piece_codec.h"
+
+namespace lightwalk {
+namespace {
+
+using Json = nlohmann::json;
+
+Json to_json(const View& v) {
+    return {v.type,        v.position.x, v.position.y, v.position.z, v.direction.x, v.direction.y,
+            v.direction.z, v.up.x,       v.up.y,       v.up.z,       v.horizontal,  v.vertical,
+            v.fore,        v.aft,        v.shift,      v.lift};
+}
+
+View view_from(const Json& j) {
+    View v;
+    v.type = static_cast<char>(j.at(0).get<int>());
+    v.position = {j.at(1), j.at(2), j.at(3)};
+    v.direction = {j.at(4), j.at(5), j.at(6)};
+    v.up = {j.at(7), j.at(8), j.at(9)};
+    v.horizontal = j.at(10);
+    v.vertical = j.at(11);
+    v.fore = j.at(12);
+    v.aft = j.at(13);
+    v.shift = j.at(14);
+    v.lift = j.at(15);
+    return v;
+}
+
+/// What a renderer refers to, kept with it.
+struct OrderedPicture {
+    OrderedPicture(const PictureOrder& order, FrameOptions wanted, const Tracer& tracer,
+                   WorkerContexts& contexts, const StopFlag& stop)
+        : camera(order.view),
+          previous(order.previous ? std::optional<Camera>(*order.previous) : std::nullopt),
+          options(std::move(wanted)) {
+        options.previous = previous ? &*previous : nullptr;
+        renderer.emplace(tracer, camera, options, contexts, stop);
+    }
+    Camera camera;
+    std::optional<Camera> previous;
+    FrameOptions options;
+    std::optional<BlockRenderer> renderer;
+};
+
+}  // namespace
+
+std::string encode_order(const PictureOrder& order) {
+    Json json{{"view", to_json(order.view)},
+              {"width", order.width},
+              {"height", order.height},
+              {"step", order.step},
+              {"deterministic", order.deterministic}};
+    if (order.previous) json["previous"] = to_json(*order.previous);
+    return json.dump();
+}
+
+PictureOrder decode_order(const std::string& text) {
+    try {
+        const Json json = Json::parse(text);
+        PictureOrder order;
+        order.view = view_from(json.at("view"));
+        if (json.contains("previous")) order.previous = view_from(json["previous"]);
+        order.width = json.at("width");
+        order.height = json.at("height");
+        order.step = json.at("step");
+        order.deterministic = json.at("deterministic");
+        return order;
+    } catch (const Json::exception& error) {
+        throw InputError(std::string("a picture's order cannot be read: ") + error.what());
+    }
+}
+
+std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
+    const PictureOrder order = decode_order(job.payload);
+    FrameOptions options = options_;
+    options.width = order.width;
+    options.height = order.height;
+    if (order.step > 1) options = quick_overture(options, order.step);
+    const auto picture =
+        std::make_shared<OrderedPicture>(order, options, tracer_, contexts_, stop_);
+    if (order.deterministic && cache_ != nullptr) fill(picture->camera, picture->options);
+    return {picture, &*picture->renderer};
+}
+
+/// Rank 0 orders no other picture meanwhile, so that no rays of another one are under way.
+void RankPictures::fill(const Camera& camera, const FrameOptions& options) {
+    WorkerContexts contexts(tracer_, warnings_, 1);
+    const auto one = make_executor(ExecutorKind::serial, 1);
+    const OvertureResult played =
+        fill_ambient_cache(tracer_, camera, options, Overture::deterministic, *cache_, *one,
+                           contexts, stop_, [](const FrameProgress&) {});
+    overture_rays_ += played.rays;
+    overture_ambient_ += played.ambient;
+}
+
+RayCounters RankPictures::rays() const {
+    RayCounters sum = overture_rays_;
+    sum += contexts_.rays();
+    return sum;
+}
+
+AmbientCounters RankPictures::ambient() const {
+    AmbientCounters sum = overture_ambient_;
+    sum += contexts_.ambient();
+    return sum;
+}
+
+Frame assemble(const FinishedPicture& picture, int width, int height) {
+    Frame frame;
+    frame.width = width;
+    frame.height = height;
+    const PixelRectangle whole{0, 0, width, height};
+    frame.radiance.resize(whole.pixels());
+    frame.distance.resize(whole.pixels());
+    std::size_t pixels = 0;
+    for (const Piece& piece : picture.pieces) {
+        const PixelRectangle& block = piece.work.block;
+        if (block.x0 < 0 || block.y0 < 0 || block.x1 > width || block.y1 > height)
+            throw InputError("a part of a picture lies outside it");
+        const std::vector<PixelValue> values = decode_piece(block, piece.bytes);
+        std::size_t from = 0;
+        for (int y = block.y0; y < block.y1; ++y) {
+            std::size_t to =
+                static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(block.x0);
+            for (int x = block.x0; x < block.x1; ++x, ++from, ++to) {
+                frame.radiance[to] = values[from].radiance;
+                frame.distance[to] = values[from].distance;
+            }
+        }
+        pixels += values.size();
+    }
+    if (pixels != whole.pixels()) throw InputError("parts of a picture are missing");
+    frame.complete = true;
+    return frame;
+}
+
+}  // namespace lightwalk

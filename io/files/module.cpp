@@ -1,0 +1,39 @@
+#include "io/files/module.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+namespace lightwalk {
+namespace {
+
+std::string last_error() {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): glibc keeps the text by thread.
+    const char* text = dlerror();
+    return text != nullptr ? text : "unknown error";
+}
+
+}  // namespace
+
+void* load_from_module(const char* file, const char* symbol, std::string& error) {
+    std::error_code failed;
+    const std::filesystem::path here =
+        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    for (const std::filesystem::path& folder : {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk",
+#ifdef LIGHTWALK_MODULE_DIR
+                                                std::filesystem::path(LIGHTWALK_MODULE_DIR)
+#endif
+         }) {
+        void* module = dlopen((folder / file).c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (module == nullptr) {
+            error = last_error();
+            continue;
+        }
+        void* found = dlsym(module, symbol);
+        if (found == nullptr) error = last_error();
+        return found;
+    }
+    return nullptr;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,133 @@
+// MPI as the wire between ranks: a module of its own, loaded by processes that mpirun started.
+#include <mpi.h>
+
+#include <array>
+#include <condition_variable>
+#include <cstdlib>
+#include <limits>
+#include <list>
+#include <mutex>
+#include <stdexcept>
+
+#include "parallel/ranks/mpi_module.h"
+#include "parallel/ranks/transport.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kTag = 1;
+
+/// Errors are returned (MPI_ERRORS_RETURN) and raised here, where they have a text.
+void check(int code, const char* what) {
+    if (code == MPI_SUCCESS) return;
+    std::array<char, MPI_MAX_ERROR_STRING> text{};
+    int length = 0;
+    MPI_Error_string(code, text.data(), &length);
+    throw std::runtime_error(std::string("message passing: ") + what + ": " + text.data());
+}
+
+class MpiTransport final : public Transport {
+  public:
+    MpiTransport(int* count, char*** words) {
+        int provided = 0;
+        check(MPI_Init_thread(count, words, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+        check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN),
+              "MPI_Comm_set_errhandler");
+        check(MPI_Comm_rank(MPI_COMM_WORLD, &rank_), "MPI_Comm_rank");
+        check(MPI_Comm_size(MPI_COMM_WORLD, &size_), "MPI_Comm_size");
+    }
+    ~MpiTransport() override { MPI_Finalize(); }
+
+    [[nodiscard]] int rank() const override { return rank_; }
+    [[nodiscard]] int size() const override { return size_; }
+    [[nodiscard]] std::string host() const override {
+        std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+        int length = 0;
+        check(MPI_Get_processor_name(name.data(), &length), "MPI_Get_processor_name");
+        return {name.data(), static_cast<std::size_t>(length)};
+    }
+
+    void send(int to, std::string bytes) override {
+        if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+            throw std::runtime_error("message passing: a message of more than 2 GB");
+        Sent& sent = sent_.emplace_back();
+        sent.bytes = std::move(bytes);
+        check(MPI_Isend(sent.bytes.data(), static_cast<int>(sent.bytes.size()), MPI_BYTE, to, kTag,
+                        MPI_COMM_WORLD, &sent.request),
+              "MPI_Isend");
+    }
+
+    [[nodiscard]] std::optional<Packet> receive() override {
+        let_go();
+        int here = 0;
+        MPI_Message message = MPI_MESSAGE_NULL;
+        MPI_Status status{};
+        check(MPI_Improbe(MPI_ANY_SOURCE, kTag, MPI_COMM_WORLD, &here, &message, &status),
+              "MPI_Improbe");
+        if (here == 0) return std::nullopt;
+        int size = 0;
+        check(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count");
+        Packet packet{status.MPI_SOURCE, std::string(static_cast<std::size_t>(size), '\0')};
+        check(MPI_Mrecv(packet.bytes.data(), size, MPI_BYTE, &message, MPI_STATUS_IGNORE),
+              "MPI_Mrecv");
+        return packet;
+    }
+
+    /// MPI itself waits by asking again and again on a whole core; so it is asked after a sleep.
+    void wait(std::chrono::microseconds most) override {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, most, [&] { return woken_; });
+        woken_ = false;
+    }
+
+    void wake() override {
+        {
+            const std::lock_guard lock(mutex_);
+            woken_ = true;
+        }
+        changed_.notify_one();
+    }
+
+    void flush() override {
+        for (Sent& sent : sent_) check(MPI_Wait(&sent.request, MPI_STATUS_IGNORE), "MPI_Wait");
+        sent_.clear();
+    }
+
+    [[noreturn]] void abort(int status) override {
+        MPI_Abort(MPI_COMM_WORLD, status);
+        std::_Exit(status);
+    }
+
+  private:
+    struct Sent {
+        std::string bytes;
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+
+    /// Forget what has left.
+    void let_go() {
+        for (auto sent = sent_.begin(); sent != sent_.end();) {
+            int done = 0;
+            check(MPI_Test(&sent->request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+            sent = done != 0 ? sent_.erase(sent) : std::next(sent);
+        }
+    }
+
+    int rank_ = 0, size_ = 1;
+    std::list<Sent> sent_;  ///< the bytes must stay where they are
+    std::mutex mutex_;      ///< guards woken_
+    std::condition_variable changed_;
+    bool woken_ = false;
+};
+
+}  // namespace
+}  // namespace lightwalk
+
+extern "C" lightwalk::Transport* lightwalk_open_mpi(int* count, char*** words, std::string& error) {
+    try {
+        return new lightwalk::MpiTransport(count, words);
+    } catch (const std::exception& problem) {
+        error = problem.what();
+        return nullptr;
+    }
+}

@@ -1,0 +1,229 @@
+#include "parallel/ranks/rank_loop.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lightwalk {
+namespace {
+
+using std::chrono::microseconds;
+// A rank that has just heard something will soon hear more; one that has not looks less often.
+constexpr microseconds kShortestWait{50}, kLongestWait{2000};
+constexpr std::uint32_t kGoodbye = 0xffffffff;  ///< the last round of all
+
+int blocks_threads(const Topology& topology, const RankSettings& settings) {
+    return settings.slots * static_cast<int>(topology.workers.size());
+}
+
+std::vector<int> worker_ranks(const Topology& topology) {
+    std::vector<int> ranks;
+    for (const Topology::Worker& worker : topology.workers) ranks.push_back(worker.rank);
+    return ranks;
+}
+
+/// Workers below a master.
+std::size_t workers_of(const std::vector<Address>& children) {
+    return static_cast<std::size_t>(std::count_if(
+        children.begin(), children.end(), [](const Address& c) { return c.role == Role::worker; }));
+}
+
+}  // namespace
+
+RankLoop::RankLoop(Transport& transport, const Topology& topology, RankSettings settings,
+                   LocalEnd& local)
+    : transport_(transport), topology_(topology), local_(local) {
+    const int rank = transport.rank();
+    if (rank == 0) {
+        master_.emplace(
+            Address{0, Role::master}, topology.children, topology.workers.size(),
+            BlockPolicy{settings.block, settings.stride, blocks_threads(topology, settings)});
+    }
+    for (const Topology::SubMaster& sub : topology.sub_masters) {
+        if (sub.rank != rank) continue;
+        sub_master_.emplace(Address{rank, Role::master}, Address{0, Role::master}, sub.children,
+                            workers_of(sub.children) * static_cast<std::size_t>(settings.slots));
+    }
+    if (const auto index = topology.worker_index(rank)) {
+        worker_.emplace(WorkerOptions{{rank, Role::worker},
+                                      {topology.workers[*index].master, Role::master},
+                                      *index,
+                                      worker_ranks(topology),
+                                      settings.slots,
+                                      settings.ahead,
+                                      std::move(settings.encode)});
+    }
+    if (topology.ambient_master && settings.ambient_batch > 0) {
+        if (*topology.ambient_master == rank)
+            ambient_master_.emplace(Address{rank, Role::ambient_master});
+        ambient_client_.emplace(Address{rank, Role::ambient_client},
+                                Address{*topology.ambient_master, Role::ambient_master},
+                                settings.ambient_batch);
+    }
+}
+
+void RankLoop::post(Role from, Address to, Message message) {
+    {
+        const std::lock_guard lock(mutex_);
+        posted_.push_back({{transport_.rank(), from}, to, std::move(message)});
+    }
+    transport_.wake();
+}
+
+std::vector<std::string> RankLoop::all_gather(std::string bytes) {
+    std::unique_lock lock(mutex_);
+    posted_.push_back({{transport_.rank(), Role::worker},
+                       {0, Role::master},
+                       Gather{round_++, {std::move(bytes)}}});
+    transport_.wake();
+    answered_.wait(lock, [&] { return gathered_.has_value() || over_; });
+    if (!gathered_) throw Aborted{1};
+    return *std::exchange(gathered_, std::nullopt);
+}
+
+void RankLoop::end() {
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
+    transport_.wake();
+}
+
+bool RankLoop::run(const StopFlag& stop) {
+    begin();
+    microseconds wait = kShortestWait;
+    while (!all_said_goodbye_ && !stop.requested()) {
+        const bool posted = serve_posted();
+        const bool busy = serve_arrived() || posted;
+        say_goodbye();
+        if (busy) {
+            wait = kShortestWait;
+            continue;
+        }
+        transport_.wait(wait);
+        wait = std::min(kLongestWait, 2 * wait);
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    answered_.notify_all();
+    if (all_said_goodbye_) transport_.flush();
+    return all_said_goodbye_;
+}
+
+/// Once this rank has ended and waits for no answer: whatever is sent to it later would be lost.
+void RankLoop::say_goodbye() {
+    if (said_goodbye_) return;
+    {
+        const std::lock_guard lock(mutex_);
+        if (!ended_ || !posted_.empty()) return;
+    }
+    if (ambient_client_) {
+        ambient_client_->close();
+        if (ambient_client_->waits_for_answer()) return;
+    }
+    said_goodbye_ = true;
+    dispatch({{transport_.rank(), Role::worker}, {0, Role::master}, Gather{kGoodbye, {}}});
+}
+
+void RankLoop::begin() {
+    Outbox out;
+    if (sub_master_) sub_master_->begin(out);
+    if (worker_) worker_->begin(out);
+    for (Envelope& envelope : out) dispatch(std::move(envelope));
+}
+
+bool RankLoop::serve_posted() {
+    std::deque<Envelope> posted;
+    {
+        const std::lock_guard lock(mutex_);
+        posted.swap(posted_);
+    }
+    for (Envelope& envelope : posted) dispatch(std::move(envelope));
+    return !posted.empty();
+}
+
+bool RankLoop::serve_arrived() {
+    bool any = false;
+    while (std::optional<Transport::Packet> packet = transport_.receive()) {
+        any = true;
+        dispatch(decode_message(packet->bytes, packet->from, transport_.rank()));
+    }
+    return any;
+}
+
+/// Local messages at once, and what follows from them, in order; others to the wire.
+void RankLoop::dispatch(Envelope first) {
+    std::deque<Envelope> due;
+    due.push_back(std::move(first));
+    while (!due.empty()) {
+        Envelope envelope = std::move(due.front());
+        due.pop_front();
+        if (envelope.to.rank != transport_.rank()) {
+            std::string bytes = encode_message(envelope);
+            counts_.add(envelope.message, bytes.size());
+            transport_.send(envelope.to.rank, std::move(bytes));
+            continue;
+        }
+        Outbox out;
+        deliver(std::move(envelope), out);
+        std::move(out.begin(), out.end(), std::back_inserter(due));
+    }
+}
+
+void RankLoop::deliver(Envelope envelope, Outbox& out) {
+    if (std::holds_alternative<Gather>(envelope.message)) {
+        gather(std::move(envelope), out);
+        return;
+    }
+    switch (envelope.to.role) {
+        case Role::master:
+            if (sub_master_)
+                sub_master_->handle(std::move(envelope), out);
+            else if (master_)
+                master_->handle(std::move(envelope), out);
+            return;
+        case Role::worker:
+            if (worker_) worker_->handle(std::move(envelope), out);
+            return;
+        case Role::ambient_master:
+            if (ambient_master_) ambient_master_->handle(std::move(envelope), out);
+            return;
+        case Role::ambient_client:
+            if (ambient_client_) ambient_client_->handle(std::move(envelope), out);
+            return;
+        default:
+            local_.take(std::move(envelope));
+    }
+}
+
+void RankLoop::gather(Envelope envelope, Outbox& out) {
+    auto& message = std::get<Gather>(envelope.message);
+    if (envelope.to.role != Role::master && message.round == kGoodbye) {
+        all_said_goodbye_ = true;
+        return;
+    }
+    if (envelope.to.role != Role::master) {  // all parts
+        {
+            const std::lock_guard lock(mutex_);
+            gathered_ = std::move(message.parts);
+        }
+        answered_.notify_all();
+        return;
+    }
+    const auto ranks = static_cast<std::size_t>(transport_.size());
+    Round& round = rounds_[message.round];
+    if (round.parts.empty()) {
+        round.parts.resize(ranks);
+        round.missing = transport_.size();
+    }
+    round.parts[static_cast<std::size_t>(envelope.from.rank)] =
+        message.parts.empty() ? std::string() : std::move(message.parts.front());
+    if (--round.missing > 0) return;
+    Gather all{message.round, std::move(round.parts)};
+    rounds_.erase(message.round);
+    for (int rank = 0; rank < transport_.size(); ++rank)
+        out.push_back({{0, Role::master}, {rank, Role::worker}, all});
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,89 @@
+#pragma once
+// One rank's messages, served: to its roles, and to what is within it.
+#include <condition_variable>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "parallel/ranks/local_end.h"
+#include "parallel/ranks/message_counts.h"
+#include "parallel/ranks/roles.h"
+#include "parallel/ranks/topology.h"
+#include "parallel/ranks/transport.h"
+#include "parallel/stop_flag.h"
+
+namespace lightwalk {
+
+struct RankSettings {
+    int slots = 1;                   ///< threads that trace on each worker
+    int ahead = 1;                   ///< blocks that wait on each worker
+    int block = 0, stride = 0;       ///< see BlockPolicy
+    std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
+    EncodePiece encode;
+};
+
+/// Serves the messages of one rank on the thread that calls run(). Where nothing is to be done it
+/// sleeps: it takes no core from those who trace.
+class RankLoop {
+  public:
+    /// `transport`, `topology` and `local` must outlive this.
+    RankLoop(Transport& transport, const Topology& topology, RankSettings settings,
+             LocalEnd& local);
+
+    /// A message to a role of this rank, or to any other's. From any thread.
+    void post(Role from, Address to, Message message);
+
+    /// Every rank gives bytes and gets everyone's, in the order of the ranks; waits for the
+    /// slowest. From any thread but the one that runs run(), by one thread at a time, and by all
+    /// ranks the same number of times. Throws Aborted when the loop ends before.
+    [[nodiscard]] std::vector<std::string> all_gather(std::string bytes);
+
+    /// Until end() is called, or `stop` is requested. Asks for the first blocks by itself.
+    /// False: stopped.
+    [[nodiscard]] bool run(const StopFlag& stop);
+    /// This rank has no more to say, from any thread. Its loop ends when all ranks' have been told
+    /// so, and nothing is on its way to anyone any more.
+    void end();
+
+    [[nodiscard]] const MessageCounts& counts() const { return counts_; }
+
+  private:
+    void begin();
+    void say_goodbye();
+    [[nodiscard]] bool serve_posted();
+    [[nodiscard]] bool serve_arrived();
+    void dispatch(Envelope envelope);
+    void deliver(Envelope envelope, Outbox& out);
+    void gather(Envelope envelope, Outbox& out);
+
+    Transport& transport_;
+    const Topology& topology_;
+    LocalEnd& local_;
+    std::optional<MasterRole> master_;
+    std::optional<SubMasterRole> sub_master_;
+    std::optional<WorkerRole> worker_;
+    std::optional<AmbientMasterRole> ambient_master_;
+    std::optional<AmbientClientRole> ambient_client_;
+    MessageCounts counts_;
+
+    std::mutex mutex_;  ///< guards what follows
+    std::condition_variable answered_;
+    std::deque<Envelope> posted_;
+    bool ended_ = false;  ///< by this rank
+    bool over_ = false;   ///< the loop
+    std::optional<std::vector<std::string>> gathered_;
+    std::uint32_t round_ = 0;
+
+    bool said_goodbye_ = false, all_said_goodbye_ = false;
+    struct Round {
+        std::vector<std::string> parts;
+        int missing = 0;
+    };
+    std::map<std::uint32_t, Round> rounds_;  ///< on rank 0: not yet complete
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,57 @@
+#pragma once
+// The threads of a rank that trace: blocks in, pixels out.
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "parallel/block_renderer.h"
+#include "parallel/executor.h"
+#include "parallel/ranks/message.h"
+
+namespace lightwalk {
+
+/// Makes what renders a job's blocks, and keeps alive what it needs. Called once a job, by one of
+/// the tracing threads.
+using MakeRenderer = std::function<std::shared_ptr<const BlockRenderer>(const JobStart&)>;
+/// Takes a message for the rank's worker; called by many threads.
+using TellWorker = std::function<void(Message)>;
+
+class RankTracer {
+  public:
+    RankTracer(MakeRenderer make, TellWorker tell)
+        : make_(std::move(make)), tell_(std::move(tell)) {}
+
+    /// JobStart, GiveBlocks, Finish: from any thread.
+    void take(Message message);
+
+    /// All workers of `executor` trace what is given, until the end is or `stop` is requested. The
+    /// first exception ends the others' work after their block and is thrown again here.
+    void run(Executor& executor, const StopFlag& stop);
+
+  private:
+    struct Job {
+        JobStart start;
+        std::once_flag made;
+        std::shared_ptr<const BlockRenderer> renderer;
+    };
+    struct Work {
+        JobBlock block;
+        std::shared_ptr<Job> job;
+    };
+    [[nodiscard]] std::optional<Work> next(const StopFlag& stop);
+    void serve(int worker, const StopFlag& stop);
+
+    MakeRenderer make_;
+    TellWorker tell_;
+    std::mutex mutex_;  ///< guards what follows
+    std::condition_variable changed_;
+    std::map<JobId, std::shared_ptr<Job>> jobs_;
+    std::deque<JobBlock> blocks_;
+    bool finished_ = false;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,55 @@
+#pragma once
+// The wire between ranks: whole messages of bytes, in order between any two of them.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lightwalk {
+
+/// One rank's end of the wire. All calls are made by one thread, but wake().
+class Transport {
+  public:
+    Transport() = default;
+    virtual ~Transport() = default;
+    Transport(const Transport&) = delete;
+    Transport& operator=(const Transport&) = delete;
+
+    [[nodiscard]] virtual int rank() const = 0;
+    [[nodiscard]] virtual int size() const = 0;  ///< number of ranks, at least 1
+    [[nodiscard]] virtual std::string host() const = 0;
+
+    /// Returns at once: the bytes are on their way. What one rank sends another arrives in order.
+    virtual void send(int to, std::string bytes) = 0;
+
+    struct Packet {
+        int from = 0;
+        std::string bytes;
+    };
+    /// The next message that has arrived; nothing: none has. Never waits.
+    [[nodiscard]] virtual std::optional<Packet> receive() = 0;
+
+    /// Wait until a message may have arrived, wake() was called since the last wait, or `most` has
+    /// passed. Leaves the core to others meanwhile.
+    virtual void wait(std::chrono::microseconds most) = 0;
+    /// From any thread.
+    virtual void wake() = 0;
+
+    /// All that was sent has left, so that the rank may end. Waits.
+    virtual void flush() = 0;
+
+    /// End every rank, now, with this exit status.
+    [[noreturn]] virtual void abort(int status) = 0;
+};
+
+/// What a rank of the in-memory twin throws when another one has aborted.
+struct Aborted {
+    int status = 0;
+};
+
+/// `ranks` ends of a wire between threads of this process: end i belongs to the thread that plays
+/// rank i. abort() makes every other end throw Aborted at its next call, and throws it itself.
+[[nodiscard]] std::vector<std::unique_ptr<Transport>> make_memory_transports(int ranks);
+
+}  // namespace lightwalk

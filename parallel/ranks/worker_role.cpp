@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cassert>
+
+#include "parallel/ranks/roles.h"
+
+namespace lightwalk {
+namespace {
+
+PixelRectangle common(const PixelRectangle& a, const PixelRectangle& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+/// Calls `row(from, to, width)` with indices into the row-by-row pixels of `a` and `b` for each row
+/// of `part`, which lies in both.
+template <class Row>
+void for_rows(const PixelRectangle& part, const PixelRectangle& a, const PixelRectangle& b,
+              Row row) {
+    const auto index = [](const PixelRectangle& r, int x, int y) {
+        return static_cast<std::ptrdiff_t>(y - r.y0) * r.width() + (x - r.x0);
+    };
+    for (int y = part.y0; y < part.y1; ++y)
+        row(index(a, part.x0, y), index(b, part.x0, y), part.width());
+}
+
+}  // namespace
+
+Pixels cut_pixels(const Pixels& pixels, const PixelRectangle& part) {
+    Pixels cut{{pixels.work.job, common(pixels.work.block, part)}, {}};
+    if (pixels.values.empty() || cut.work.block.empty()) return cut;
+    cut.values.resize(cut.work.block.pixels());
+    for_rows(cut.work.block, pixels.work.block, cut.work.block,
+             [&](std::ptrdiff_t from, std::ptrdiff_t to, int width) {
+                 std::copy_n(pixels.values.begin() + from, width, cut.values.begin() + to);
+             });
+    return cut;
+}
+
+void WorkerRole::begin(Outbox& out) {
+    out.push_back({options_.self, options_.master,
+                   AskBlocks{static_cast<std::uint32_t>(options_.slots + options_.ahead), {}}});
+}
+
+void WorkerRole::handle(Envelope envelope, Outbox& out) {
+    const Address tracer{options_.self.rank, Role::tracer};
+    if (auto* job = std::get_if<JobStart>(&envelope.message)) {
+        start(std::move(*job), out);
+    } else if (auto* done = std::get_if<BlockDone>(&envelope.message)) {
+        out.push_back(
+            {options_.self, options_.master, AskBlocks{1, {{done->pixels.work, done->seconds}}}});
+        share_out(std::move(done->pixels), out);
+    } else if (auto* pixels = std::get_if<Pixels>(&envelope.message)) {
+        store(std::move(*pixels), out);
+    } else {  // blocks
+        out.push_back({options_.self, tracer, std::move(envelope.message)});
+    }
+}
+
+void WorkerRole::start(JobStart message, Outbox& out) {
+    const JobId id = message.job;
+    std::erase_if(jobs_, [&](const auto& entry) { return entry.first + kJobsAtOnce <= id; });
+    Job& job = jobs_[id];
+    job.started = true;
+    job.keep = message.keep;
+    job.parts = sub_images(message.area, options_.workers.size());
+    job.missing = message.keep ? own_part(job).pixels() : 0;
+    out.push_back({options_.self, {options_.self.rank, Role::tracer}, std::move(message)});
+    for (Pixels& pixels : std::exchange(job.early, {})) store(std::move(pixels), out);
+}
+
+void WorkerRole::share_out(Pixels pixels, Outbox& out) {
+    const auto found = jobs_.find(pixels.work.job);
+    if (found == jobs_.end() || !found->second.keep) return;
+    // The own pixels last: with them the job may be over.
+    const std::vector<PixelRectangle> parts = found->second.parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (i == options_.index) continue;
+        Pixels cut = cut_pixels(pixels, parts[i]);
+        if (cut.work.block.empty()) continue;
+        out.push_back({options_.self, {options_.workers[i], Role::worker}, std::move(cut)});
+    }
+    Pixels own = cut_pixels(pixels, parts[options_.index]);
+    if (!own.work.block.empty()) store(std::move(own), out);
+}
+
+void WorkerRole::store(Pixels pixels, Outbox& out) {
+    Job& job = jobs_[pixels.work.job];
+    if (!job.started) {
+        job.early.push_back(std::move(pixels));
+        return;
+    }
+    const PixelRectangle& part = own_part(job);
+    const PixelRectangle& block = pixels.work.block;
+    if (!pixels.values.empty()) {
+        job.values.resize(part.pixels());
+        for_rows(block, block, part, [&](std::ptrdiff_t from, std::ptrdiff_t to, int width) {
+            std::copy_n(pixels.values.begin() + from, width, job.values.begin() + to);
+        });
+    }
+    assert(job.missing >= block.pixels());
+    job.missing -= block.pixels();
+    if (job.missing > 0) return;
+    const JobId id = pixels.work.job;
+    out.push_back({options_.self,
+                   {0, Role::master},
+                   Piece{{id, part}, options_.encode(part, std::exchange(job.values, {}))}});
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,105 @@
+#include "parallel/ranks/message.h"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "core/error.h"
+
+using namespace lightwalk;
+
+namespace {
+
+AmbientRecord some_record(float x) {
+    AmbientRecord record;
+    record.position = {x, 2 * x, -x};
+    record.normal = 12345;
+    record.axis = 0xfedcba98;
+    record.radius = {.1F, .2F};
+    record.translation = {1e-7F, -3};
+    record.rotation = {.5F, -.25F};
+    record.value = {.1F, 1.0F / 3, 7e20F};
+    record.weight = .7F;
+    record.corral = 0x80000001;
+    record.level = 3;
+    return record;
+}
+
+std::vector<Message> some_messages() {
+    const JobBlock work{7, {8, 16, 24, 20}};
+    std::vector<PixelValue> values(64);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = {{static_cast<float>(i), 1.0F / static_cast<float>(i + 1), -0.0F}, 1e10F};
+    return {JobStart{3, {0, 0, 640, 480}, 4, true, "a view"},
+            AskBlocks{2, {{work, .125}, {{7, {0, 0, 1, 1}}, 1e-9}}},
+            GiveBlocks{{work, {8, {-4, 0, 4, 1}}}},
+            Pixels{work, values},
+            BlockDone{{work, {}}, 2.5},
+            Piece{work, std::string("\0\xff bytes", 8)},
+            FinishedPicture{7, {Piece{work, "one"}, Piece{work, ""}}},
+            AmbientValues{{some_record(1), some_record(-1e-30F)}},
+            Failure{"node17", "room.rad:3: what is wrong"},
+            Finish{},
+            Report{"{}"},
+            Gather{9, {"a", "", "ccc"}},
+            Progress{7, .5}};
+}
+
+}  // namespace
+
+TEST_CASE("a message is the same after its way over the wire") {
+    const std::vector<Message> messages = some_messages();
+    REQUIRE(messages.size() == kMessageKinds);
+    for (std::size_t kind = 0; kind < messages.size(); ++kind) {
+        CAPTURE(kind);
+        REQUIRE(messages[kind].index() == kind);
+        const Envelope sent{{4, Role::worker}, {0, Role::master}, messages[kind]};
+        const std::string bytes = encode_message(sent);
+        CHECK(bytes.size() == message_bytes(sent.message));
+        const Envelope got = decode_message(bytes, 4, 0);
+        CHECK(got.from == sent.from);
+        CHECK(got.to == sent.to);
+        REQUIRE(got.message.index() == kind);
+        // What is equal to the bit has the same bytes.
+        CHECK(encode_message(got) == bytes);
+    }
+}
+
+TEST_CASE("an ambient record takes 72 bytes and arrives to the bit") {
+    const Envelope sent{
+        {1, Role::ambient_client}, {0, Role::ambient_master}, AmbientValues{{some_record(3)}}};
+    const std::string bytes = encode_message(sent);
+    CHECK(bytes.size() == 4 + 8 + 72);
+    const Envelope got = decode_message(bytes, 1, 0);
+    const AmbientRecord record = std::get<AmbientValues>(got.message).records.at(0);
+    const AmbientRecord expected = some_record(3);
+    CHECK(record.position == expected.position);
+    CHECK(record.normal == expected.normal);
+    CHECK(record.axis == expected.axis);
+    CHECK(record.radius == expected.radius);
+    CHECK(record.translation == expected.translation);
+    CHECK(record.rotation == expected.rotation);
+    CHECK(record.value == expected.value);
+    CHECK(record.weight == expected.weight);
+    CHECK(record.corral == expected.corral);
+    CHECK(record.level == expected.level);
+}
+
+TEST_CASE("bytes that are no message are refused, whatever they are") {
+    std::mt19937 random(1);
+    for (const Message& message : some_messages()) {
+        const std::string sound = encode_message({{1, Role::worker}, {0, Role::master}, message});
+        for (std::size_t size = 0; size < sound.size(); ++size)
+            CHECK_THROWS_AS((void)decode_message(sound.substr(0, size), 1, 0), InputError);
+        CHECK_THROWS_AS((void)decode_message(sound + '\0', 1, 0), InputError);
+        for (int mutant = 0; mutant < 300; ++mutant) {
+            std::string bytes = sound;
+            for (int k = 0; k < 3; ++k)
+                bytes[random() % bytes.size()] = static_cast<char>(random());
+            try {  // it may still be one, with other numbers in it
+                CHECK(encode_message(decode_message(bytes, 1, 0)).size() == bytes.size());
+            } catch (const InputError&) {
+            }
+        }
+    }
+}

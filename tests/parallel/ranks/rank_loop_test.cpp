@@ -1,0 +1,120 @@
+#include "parallel/ranks/rank_loop.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <thread>
+
+using namespace lightwalk;
+
+namespace {
+
+/// Traces at once, on the thread that serves messages; keeps what it is told.
+class Ends final : public LocalEnd {
+  public:
+    RankLoop* loop = nullptr;
+    int rank = 0;
+    std::atomic<bool> finished{false};
+    std::vector<FinishedPicture> pictures;
+    std::function<void()> on_finish;
+    std::atomic<int> pictures_there{0};
+
+    void take(Envelope envelope) override {
+        if (const auto* given = std::get_if<GiveBlocks>(&envelope.message)) {
+            for (const JobBlock& block : given->blocks) {
+                BlockDone done{{block, std::vector<PixelValue>(block.block.pixels())}, 1e-3};
+                loop->post(Role::tracer, {rank, Role::worker}, std::move(done));
+            }
+        } else if (auto* picture = std::get_if<FinishedPicture>(&envelope.message)) {
+            pictures.push_back(std::move(*picture));
+            ++pictures_there;
+        } else if (std::holds_alternative<Finish>(envelope.message)) {
+            finished = true;
+            loop->end();
+        }
+    }
+};
+
+std::string no_bytes(const PixelRectangle&, std::vector<PixelValue>) {
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("ranks that are threads render a picture over the wire, gather and say goodbye") {
+    for (const int ranks : {1, 3, 6}) {
+        CAPTURE(ranks);
+        const Topology topology = make_topology(Variant::hybrid, ranks, true, ranks > 5 ? 2 : 1);
+        const auto transports = make_memory_transports(ranks);
+        const StopFlag never;
+        std::vector<std::thread> threads;
+        std::atomic<int> good{0}, gathered{0};
+        for (int rank = 0; rank < ranks; ++rank) {
+            threads.emplace_back([&, rank] {
+                Ends ends;
+                RankSettings settings;
+                settings.encode = no_bytes;
+                RankLoop loop(*transports[static_cast<std::size_t>(rank)], topology, settings,
+                              ends);
+                ends.loop = &loop;
+                ends.rank = rank;
+                std::thread program([&] {
+                    const std::vector<std::string> all = loop.all_gather(std::to_string(rank));
+                    bool same = static_cast<int>(all.size()) == ranks;
+                    for (int i = 0; i < ranks; ++i)
+                        same = same && all[static_cast<std::size_t>(i)] == std::to_string(i);
+                    gathered += same ? 1 : 0;
+                    if (rank != 0) return;
+                    for (JobId job = 0; job < 3; ++job)
+                        loop.post(Role::program, {0, Role::master},
+                                  JobStart{job, {0, 0, 70, 50}, 1, true, ""});
+                    while (ends.pictures_there < 3) std::this_thread::yield();
+                    for (int to = 0; to < ranks; ++to)
+                        loop.post(Role::program, {to, Role::program}, Finish{});
+                });
+                good += loop.run(never) ? 1 : 0;
+                program.join();
+                if (rank == 0) {
+                    CHECK(ends.pictures.size() == 3);
+                }
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+        CHECK(good == ranks);
+        CHECK(gathered == ranks);
+    }
+}
+
+TEST_CASE("a loop that is stopped ends, and so does who waits for a round") {
+    const auto transports = make_memory_transports(2);
+    const Topology topology = make_topology(Variant::hybrid, 2, false, 1);
+    StopFlag stop;
+    Ends ends;
+    RankSettings settings;
+    settings.encode = no_bytes;
+    RankLoop loop(*transports[0], topology, settings, ends);
+    ends.loop = &loop;
+    std::atomic<bool> thrown{false};
+    std::thread waiting([&] {
+        try {
+            (void)loop.all_gather("alone");
+        } catch (const Aborted&) {
+            thrown = true;
+        }
+    });
+    std::thread stopping([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        stop.request();
+    });
+    CHECK_FALSE(loop.run(stop));
+    waiting.join();
+    stopping.join();
+    CHECK(thrown);
+}
+
+TEST_CASE("abort reaches every rank") {
+    const auto transports = make_memory_transports(3);
+    CHECK_THROWS_AS(transports[1]->abort(1), Aborted);
+    CHECK_THROWS_AS((void)transports[0]->receive(), Aborted);
+    CHECK_THROWS_AS((void)transports[2]->receive(), Aborted);
+}

@@ -1,0 +1,98 @@
+#include "parallel/ranks/topology.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "core/error.h"
+
+using namespace lightwalk;
+
+TEST_CASE("the parts of a picture cover it once, whatever their number") {
+    for (const PixelRectangle area :
+         {PixelRectangle{0, 0, 64, 48}, {3, 5, 10, 6}, {0, 0, 1, 1}, {2, 2, 2, 9}}) {
+        for (const std::size_t count : {1U, 2U, 3U, 7U, 16U, 61U}) {
+            CAPTURE(count);
+            const std::vector<PixelRectangle> parts = sub_images(area, count);
+            REQUIRE(parts.size() == count);
+            std::size_t pixels = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const PixelRectangle& part = parts[i];
+                pixels += part.pixels();
+                if (part.empty()) continue;
+                CHECK(part.x0 >= area.x0);
+                CHECK(part.y0 >= area.y0);
+                CHECK(part.x1 <= area.x1);
+                CHECK(part.y1 <= area.y1);
+                for (std::size_t j = 0; j < i; ++j) {
+                    const PixelRectangle& other = parts[j];
+                    const bool apart = part.x1 <= other.x0 || other.x1 <= part.x0 ||
+                                       part.y1 <= other.y0 || other.y1 <= part.y0;
+                    CHECK((apart || other.empty()));
+                }
+            }
+            CHECK(pixels == area.pixels());
+        }
+    }
+}
+
+TEST_CASE("parts of a picture are about equal") {
+    for (const std::size_t count : {2U, 3U, 4U, 7U, 32U, 63U}) {
+        const std::vector<PixelRectangle> parts = sub_images({0, 0, 640, 480}, count);
+        const double fair = 640.0 * 480 / static_cast<double>(count);
+        for (const PixelRectangle& part : parts) {
+            CHECK(static_cast<double>(part.pixels()) > .85 * fair);  // edges fall on whole pixels
+            CHECK(static_cast<double>(part.pixels()) < 1.15 * fair);
+        }
+    }
+}
+
+TEST_CASE("roles of each variant") {
+    const Topology ranks = make_topology(Variant::ranks, 5, true, 1);
+    CHECK_FALSE(ranks.traces(0));
+    CHECK_FALSE(ranks.traces(1));
+    CHECK(ranks.ambient_master == 1);
+    CHECK(ranks.workers.size() == 3);
+    CHECK(ranks.worker_index(4) == 2);
+    const Topology direct = make_topology(Variant::ranks, 3, false, 0);
+    CHECK(direct.workers.size() == 2);
+    CHECK_FALSE(direct.ambient_master.has_value());
+    const Topology hybrid = make_topology(Variant::hybrid, 4, true, 0);
+    CHECK(hybrid.traces(0));
+    CHECK(hybrid.workers.size() == 4);
+    CHECK(hybrid.ambient_master == 0);
+    CHECK(make_topology(Variant::hybrid, 1, true, 0).workers.size() == 1);
+    CHECK_THROWS_WITH_AS((void)make_topology(Variant::ranks, 2, true, 1),
+                         doctest::Contains("at least 3 ranks"), InputError);
+}
+
+TEST_CASE("every worker has one master, and every master is another's child") {
+    for (const Variant variant : {Variant::ranks, Variant::hybrid}) {
+        for (const int masters : {1, 2, 3, 5}) {
+            for (const int ranks : {12, 13, 40}) {
+                CAPTURE(ranks);
+                CAPTURE(masters);
+                const Topology topology = make_topology(variant, ranks, true, masters);
+                CHECK(topology.sub_masters.size() == static_cast<std::size_t>(masters - 1));
+                std::multiset<int> fed;
+                for (const Address& child : topology.children) {
+                    if (child.role == Role::worker) fed.insert(child.rank);
+                }
+                for (const Topology::SubMaster& sub : topology.sub_masters) {
+                    CHECK(std::count(topology.children.begin(), topology.children.end(),
+                                     Address{sub.rank, Role::master}) == 1);
+                    CHECK(sub.rank != 0);
+                    CHECK_FALSE(sub.children.empty());
+                    for (const Address& child : sub.children) {
+                        fed.insert(child.rank);
+                        CHECK(topology.workers[*topology.worker_index(child.rank)].master ==
+                              sub.rank);
+                    }
+                }
+                CHECK(fed.size() == topology.workers.size());
+                for (const Topology::Worker& worker : topology.workers)
+                    CHECK(fed.count(worker.rank) == 1);
+            }
+        }
+    }
+}
