@@ -65,8 +65,9 @@ void MasterRole::begin(JobStart start, Outbox& out) {
     job.blocks = in_strides(squares(start.area, rounded_to(side, start.alignment)), stride);
     job.pixels_waiting = static_cast<double>(start.area.pixels());
     if (start.keep) {
-        for (const PixelRectangle& part : sub_images(start.area, workers_))
-            job.pieces_missing += part.empty() ? 0 : 1;
+        const SubImages parts(start.area, workers_);
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            job.pieces_missing += parts[i].empty() ? 0 : 1;
     }
     job.picture.job = start.job;
     for (const Address& child : children_) out.push_back({self_, child, start});

@@ -15,10 +15,10 @@ int blocks_threads(const Topology& topology, const RankSettings& settings) {
     return settings.slots * static_cast<int>(topology.workers.size());
 }
 
-std::vector<int> worker_ranks(const Topology& topology) {
+std::shared_ptr<const std::vector<int>> worker_ranks(const Topology& topology) {
     std::vector<int> ranks;
     for (const Topology::Worker& worker : topology.workers) ranks.push_back(worker.rank);
-    return ranks;
+    return std::make_shared<const std::vector<int>>(std::move(ranks));
 }
 
 /// Workers below a master.

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -97,11 +98,11 @@ using EncodePiece =
 
 struct WorkerOptions {
     Address self;
-    Address master;            ///< who gives it blocks
-    std::size_t index = 0;     ///< among the workers
-    std::vector<int> workers;  ///< ranks of all
-    int slots = 1;             ///< threads that trace here
-    int ahead = 1;             ///< blocks that wait here so that no thread does
+    Address master;                                   ///< who gives it blocks
+    std::size_t index = 0;                            ///< among the workers
+    std::shared_ptr<const std::vector<int>> workers;  ///< ranks of all
+    int slots = 1;                                    ///< threads that trace here
+    int ahead = 1;  ///< blocks that wait here so that no thread does
     EncodePiece encode;
 };
 
@@ -123,15 +124,15 @@ class WorkerRole {
     struct Job {
         bool started = false;  ///< pixels may come before the word that they will
         bool keep = true;
-        std::vector<PixelRectangle> parts;  ///< who owns what
-        std::vector<PixelValue> values;     ///< of the own part, row by row from the bottom
+        SubImages parts;                 ///< who owns what
+        std::vector<PixelValue> values;  ///< of the own part, row by row from the bottom
         std::size_t missing = 0;
         std::vector<Pixels> early;
     };
     void start(JobStart job, Outbox& out);
     void share_out(Pixels pixels, Outbox& out);
     void store(Pixels pixels, Outbox& out);
-    [[nodiscard]] const PixelRectangle& own_part(const Job& job) const {
+    [[nodiscard]] PixelRectangle own_part(const Job& job) const {
         return job.parts[options_.index];
     }
 

@@ -61,7 +61,7 @@ void WorkerRole::start(JobStart message, Outbox& out) {
     Job& job = jobs_[id];
     job.started = true;
     job.keep = message.keep;
-    job.parts = sub_images(message.area, options_.workers.size());
+    job.parts = SubImages(message.area, options_.workers->size());
     job.missing = message.keep ? own_part(job).pixels() : 0;
     out.push_back({options_.self, {options_.self.rank, Role::tracer}, std::move(message)});
     for (Pixels& pixels : std::exchange(job.early, {})) store(std::move(pixels), out);
@@ -71,12 +71,11 @@ void WorkerRole::share_out(Pixels pixels, Outbox& out) {
     const auto found = jobs_.find(pixels.work.job);
     if (found == jobs_.end() || !found->second.keep) return;
     // The own pixels last: with them the job may be over.
-    const std::vector<PixelRectangle> parts = found->second.parts;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
+    const SubImages parts = found->second.parts;
+    for (const std::size_t i : parts.overlapping(pixels.work.block)) {
         if (i == options_.index) continue;
-        Pixels cut = cut_pixels(pixels, parts[i]);
-        if (cut.work.block.empty()) continue;
-        out.push_back({options_.self, {options_.workers[i], Role::worker}, std::move(cut)});
+        out.push_back(
+            {options_.self, {(*options_.workers)[i], Role::worker}, cut_pixels(pixels, parts[i])});
     }
     Pixels own = cut_pixels(pixels, parts[options_.index]);
     if (!own.work.block.empty()) store(std::move(own), out);
@@ -88,7 +87,7 @@ void WorkerRole::store(Pixels pixels, Outbox& out) {
         job.early.push_back(std::move(pixels));
         return;
     }
-    const PixelRectangle& part = own_part(job);
+    const PixelRectangle part = own_part(job);
     const PixelRectangle& block = pixels.work.block;
     if (!pixels.values.empty()) {
         job.values.resize(part.pixels());

@@ -54,12 +54,13 @@ class RoleNetwork {
         if (topology_.ambient_master)
             at(*topology_.ambient_master)
                 .ambient_master.emplace(Address{*topology_.ambient_master, Role::ambient_master});
+        const auto all = std::make_shared<const std::vector<int>>(workers);
         for (std::size_t i = 0; i < workers.size(); ++i) {
             Rank& rank = at(workers[i]);
             rank.worker.emplace(WorkerOptions{{workers[i], Role::worker},
                                               {topology_.workers[i].master, Role::master},
                                               i,
-                                              workers,
+                                              all,
                                               options.slots,
                                               options.ahead,
                                               pack});

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include "core/error.h"
 
@@ -13,11 +15,11 @@ TEST_CASE("the parts of a picture cover it once, whatever their number") {
          {PixelRectangle{0, 0, 64, 48}, {3, 5, 10, 6}, {0, 0, 1, 1}, {2, 2, 2, 9}}) {
         for (const std::size_t count : {1U, 2U, 3U, 7U, 16U, 61U}) {
             CAPTURE(count);
-            const std::vector<PixelRectangle> parts = sub_images(area, count);
+            const SubImages parts(area, count);
             REQUIRE(parts.size() == count);
             std::size_t pixels = 0;
             for (std::size_t i = 0; i < count; ++i) {
-                const PixelRectangle& part = parts[i];
+                const PixelRectangle part = parts[i];
                 pixels += part.pixels();
                 if (part.empty()) continue;
                 CHECK(part.x0 >= area.x0);
@@ -25,7 +27,7 @@ TEST_CASE("the parts of a picture cover it once, whatever their number") {
                 CHECK(part.x1 <= area.x1);
                 CHECK(part.y1 <= area.y1);
                 for (std::size_t j = 0; j < i; ++j) {
-                    const PixelRectangle& other = parts[j];
+                    const PixelRectangle other = parts[j];
                     const bool apart = part.x1 <= other.x0 || other.x1 <= part.x0 ||
                                        part.y1 <= other.y0 || other.y1 <= part.y0;
                     CHECK((apart || other.empty()));
@@ -38,11 +40,37 @@ TEST_CASE("the parts of a picture cover it once, whatever their number") {
 
 TEST_CASE("parts of a picture are about equal") {
     for (const std::size_t count : {2U, 3U, 4U, 7U, 32U, 63U}) {
-        const std::vector<PixelRectangle> parts = sub_images({0, 0, 640, 480}, count);
+        const SubImages parts({0, 0, 640, 480}, count);
         const double fair = 640.0 * 480 / static_cast<double>(count);
-        for (const PixelRectangle& part : parts) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const PixelRectangle part = parts[i];
             CHECK(static_cast<double>(part.pixels()) > .85 * fair);  // edges fall on whole pixels
             CHECK(static_cast<double>(part.pixels()) < 1.15 * fair);
+        }
+    }
+}
+
+TEST_CASE("the owners of a block are all whose parts it touches, and no others") {
+    for (const PixelRectangle area :
+         {PixelRectangle{0, 0, 64, 48}, {3, 5, 10, 6}, {0, 0, 1, 1}, {2, 2, 2, 9}}) {
+        for (const std::size_t count : {1U, 2U, 3U, 7U, 16U, 61U, 1000U}) {
+            const SubImages parts(area, count);
+            for (const int side : {1, 5, 16, 100}) {
+                for (int y = area.y0; y < area.y1; y += side) {
+                    for (int x = area.x0; x < area.x1; x += side) {
+                        const PixelRectangle block{x, y, std::min(x + side, area.x1),
+                                                   std::min(y + side, area.y1)};
+                        std::vector<std::size_t> expected;
+                        for (std::size_t i = 0; i < count; ++i) {
+                            const PixelRectangle part = parts[i];
+                            if (!part.empty() && part.x0 < block.x1 && block.x0 < part.x1 &&
+                                part.y0 < block.y1 && block.y0 < part.y1)
+                                expected.push_back(i);
+                        }
+                        REQUIRE(parts.overlapping(block) == expected);
+                    }
+                }
+            }
         }
     }
 }
