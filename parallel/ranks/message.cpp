@@ -73,7 +73,7 @@ void fields(Archive& archive, Piece& m) {
 /// left cannot be.
 template <class T>
 constexpr std::size_t least_bytes() {
-    return std::is_same_v<T, AmbientRecord> ? 72 : std::is_same_v<T, PixelValue> ? 16 : 8;
+    return std::is_same_v<T, AmbientRecord> ? 68 : std::is_same_v<T, PixelValue> ? 16 : 8;
 }
 template <class Archive, class T>
 void fields(Archive& archive, std::vector<T>& list) {

@@ -151,7 +151,7 @@ struct Envelope {
 /// All numbers little-endian. Byte 0: index of the kind in Message; 1: role of the sender, 2: of
 /// the receiver; 3: format version; then the fields in the order of their declaration: integers as
 /// they are, bool as one byte, double as its 64 bits, strings and lists after their length in 64
-/// bits. An ambient record is 72 bytes: position 3 x f32, normal u32, axis u32, radius,
+/// bits. An ambient record is 68 bytes: position 3 x f32, normal u32, axis u32, radius,
 /// translation, rotation 2 x f32 each, value 3 x f32, weight f32, corral u32, level u8, three bytes
 /// of zero: reals travel as they are, so that the copy is the same value.
 [[nodiscard]] std::string encode_message(const Envelope& envelope);

@@ -94,14 +94,16 @@ class RoleNetwork {
         }
     }
 
-    /// Every rank asks for what it does not know.
+    /// Every rank tells what it has not told, and then asks for what it does not know.
     void exchange_all() {
-        for (Rank& rank : ranks_) {
-            Outbox out;
-            if (rank.ambient_client) rank.ambient_client->ask(out);
-            send(out);
+        for (int round = 0; round < 2; ++round) {
+            for (Rank& rank : ranks_) {
+                Outbox out;
+                if (rank.ambient_client) rank.ambient_client->ask(out);
+                send(out);
+            }
+            run();
         }
-        run();
     }
 
     struct Rank {
