@@ -31,13 +31,14 @@ std::vector<std::string> lines_of(const std::string& text) {
 }  // namespace
 
 RankLink::RankLink(Transport& transport, Topology topology, const RankSettings& settings,
-                   std::string program)
+                   std::string program, bool timeline)
     : transport_(transport),
       topology_(std::move(topology)),
       program_(std::move(program)),
       host_(transport.host()),
+      timeline_(settings.slots + 1, timeline),
       batch_(topology_.ambient_master ? settings.ambient_batch : 0),
-      loop_(transport, topology_, settings, *this) {}
+      loop_(transport, topology_, settings, *this, &timeline_) {}
 
 std::string RankLink::named(int rank, const std::string& host) const {
     return program_ + ": rank " + std::to_string(rank) + " (" + host + "): ";
@@ -58,7 +59,14 @@ int RankLink::run(FunctionRef<int()> body, const StopFlag& stop) {
             fail(error.what());
         }
     });
-    const bool whole = loop_.run(stop);
+    bool whole = false;
+    try {
+        whole = loop_.run(stop);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s%s\n", named(rank(), host_).c_str(),
+                     printable(error.what()).c_str());
+        transport_.abort(kFailureStatus);
+    }
     if (!whole) {  // the thread may be deep in one pixel; nothing has been written
         std::fflush(nullptr);
         thread.detach();
@@ -106,6 +114,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
                     first[i] + '\n';
         }
     }
+    agreed_ = Timeline::Clock::now();  // all ranks have just heard the same
     if (problems.empty() && others == 0) return;
     if (leads()) {
         const bool same = problems.size() == 1 && others == 0 && problems.begin()->second == 0;
@@ -128,9 +137,10 @@ AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientR
 }
 
 void RankLink::trace(Executor& executor, MakeRenderer make, const StopFlag& stop) {
-    const auto tracer = std::make_shared<RankTracer>(std::move(make), [this](Message message) {
+    const auto tell = [this](Message message) {
         loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));
-    });
+    };
+    const auto tracer = std::make_shared<RankTracer>(std::move(make), tell, &timeline_);
     {
         const std::lock_guard lock(mutex_);
         tracer_ = tracer;
@@ -149,8 +159,26 @@ void RankLink::report(std::string text) {
     loop_.post(Role::program, {0, Role::program}, Report{std::move(text)});
 }
 
-void RankLink::submit(JobStart job) {
+void RankLink::submit(JobStart job, const std::shared_ptr<BlockKeeper>& keeper) {
+    std::vector<BlockPixels> known;
+    if (keeper) {
+        known = keeper->known();
+        job.log = true;
+        for (const BlockPixels& pixels : known) job.known.push_back(pixels.block);
+        const std::lock_guard lock(mutex_);
+        keepers_[job.job] = keeper;
+    }
+    const JobId id = job.job;
+    const std::vector<PixelRectangle> parts = sub_images(job.area, topology_.workers.size());
     loop_.post(Role::program, {0, Role::master}, std::move(job));
+    for (BlockPixels& block : known) {
+        const Pixels pixels{{id, block.block}, std::move(block.values)};
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            Pixels cut = cut_pixels(pixels, parts[i]);
+            if (cut.work.block.empty()) continue;
+            loop_.post(Role::program, {topology_.workers[i].rank, Role::worker}, std::move(cut));
+        }
+    }
 }
 
 std::optional<FinishedPicture> RankLink::wait_for(JobId job, const StopFlag& stop,
@@ -162,6 +190,7 @@ std::optional<FinishedPicture> RankLink::wait_for(JobId job, const StopFlag& sto
             FinishedPicture picture = std::move(found->second);
             pictures_.erase(found);
             shares_.erase(job);
+            keepers_.erase(job);
             return picture;
         }
         if (const auto share = shares_.find(job); share != shares_.end() && share->second > told) {
@@ -201,6 +230,9 @@ void RankLink::take(Envelope envelope) {
         pictures_[picture->job] = std::move(*picture);
     } else if (const auto* progress = std::get_if<Progress>(&message)) {
         shares_[progress->job] = progress->done;
+    } else if (auto* pixels = std::get_if<Pixels>(&message)) {
+        if (const auto keeper = keepers_.find(pixels->work.job); keeper != keepers_.end())
+            keeper->second->keep({pixels->work.block, std::move(pixels->values), {}});
     } else if (auto* report = std::get_if<Report>(&message)) {
         reports_[envelope.from.rank] = std::move(report->payload);
     } else {

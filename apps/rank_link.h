@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/math/function_ref.h"
+#include "parallel/block_keeper.h"
 #include "parallel/ranks/exchanging_cache.h"
 #include "parallel/ranks/rank_loop.h"
 #include "parallel/ranks/rank_tracer.h"
@@ -22,9 +23,10 @@ struct AgreedProblem {
 
 class RankLink final : private LocalEnd {
   public:
-    /// @param program  how messages name the program
+    /// @param program   how messages name the program
+    /// @param timeline  whether every span of the timeline is kept
     RankLink(Transport& transport, Topology topology, const RankSettings& settings,
-             std::string program);
+             std::string program, bool timeline = false);
 
     [[nodiscard]] int rank() const { return transport_.rank(); }
     [[nodiscard]] int ranks() const { return transport_.size(); }
@@ -61,7 +63,8 @@ class RankLink final : private LocalEnd {
     void report(std::string text);
 
     // On rank 0:
-    void submit(JobStart job);
+    /// @param keeper  what it knows is not traced again; it gets what is. Null: none
+    void submit(JobStart job, const std::shared_ptr<BlockKeeper>& keeper = nullptr);
     /// The picture of a job, when it is whole; nothing: stopped. `progress` is called with the
     /// share of the job's pixels that are done.
     [[nodiscard]] std::optional<FinishedPicture> wait_for(JobId job, const StopFlag& stop,
@@ -72,7 +75,10 @@ class RankLink final : private LocalEnd {
     /// What this rank cannot go on for: ends the whole run.
     void fail(const std::string& text);
 
-    [[nodiscard]] const MessageCounts& counts() const { return loop_.counts(); }
+    [[nodiscard]] MessageCounts counts() const { return loop_.counts(); }
+    [[nodiscard]] const Timeline& timeline() const { return timeline_; }
+    /// When agree() returned, which is about the same moment on all ranks.
+    [[nodiscard]] Timeline::Clock::time_point agreed() const { return agreed_; }
 
   private:
     void take(Envelope envelope) override;
@@ -81,6 +87,8 @@ class RankLink final : private LocalEnd {
     Transport& transport_;
     Topology topology_;
     std::string program_, host_;
+    Timeline::Clock::time_point agreed_;
+    Timeline timeline_;  ///< a row for each tracing thread, the last one for messages
     std::size_t batch_;  ///< 0: no ambient values are exchanged
     RankLoop loop_;
     std::unique_ptr<ExchangingCache> cache_;
@@ -91,6 +99,7 @@ class RankLink final : private LocalEnd {
     std::vector<AmbientRecord> early_values_;
     std::map<JobId, FinishedPicture> pictures_;
     std::map<JobId, double> shares_;
+    std::map<JobId, std::shared_ptr<BlockKeeper>> keepers_;
     std::map<int, std::string> reports_;
     bool finished_ = false;
 };

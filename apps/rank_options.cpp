@@ -48,6 +48,8 @@ bool parse_rank_option(OptionWords& words, RankOptions& options) {
         options.stride = count_or_auto(words, kLargestStride);
     } else if (word == "--masters") {
         options.masters = count_or_auto(words, kMostMasters);
+    } else if (word == "--timeline") {
+        options.timeline = words.text();
     } else if (word == "--ambient-batch") {
         options.ambient_batch = words.integer();
         if (options.ambient_batch < 0 || options.ambient_batch > kLargestBatch)
@@ -59,7 +61,7 @@ bool parse_rank_option(OptionWords& words, RankOptions& options) {
 }
 
 std::vector<std::string> rank_option_names() {
-    return {"--variant", "--block", "--stride", "--masters", "--ambient-batch"};
+    return {"--variant", "--block", "--stride", "--masters", "--ambient-batch", "--timeline"};
 }
 
 bool started_by_mpi() {

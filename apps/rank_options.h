@@ -17,6 +17,7 @@ struct RankOptions {
     int stride = 0;                  ///< --stride; 0: auto
     int masters = 0;                 ///< --masters; 0: auto
     int ambient_batch = 16;          ///< --ambient-batch; 0: no values are exchanged
+    std::string timeline;            ///< --timeline: file for the spans of all threads; "" is none
 };
 
 /// Take one of these options; false when the word is something else.

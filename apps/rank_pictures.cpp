@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "parallel/overture.h"
+#include "apps/interrupt.h"
 #include "parallel/ranks/piece_codec.h"
 
 namespace lightwalk {
@@ -32,20 +32,14 @@ View view_from(const Json& j) {
     return v;
 }
 
-/// What a renderer refers to, kept with it.
+/// A renderer and what it refers to.
 struct OrderedPicture {
-    OrderedPicture(const PictureOrder& order, FrameOptions wanted, const Tracer& tracer,
+    OrderedPicture(const PictureOrder& order, const FrameOptions& wanted, const Tracer& tracer,
                    WorkerContexts& contexts, const StopFlag& stop)
-        : camera(order.view),
-          previous(order.previous ? std::optional<Camera>(*order.previous) : std::nullopt),
-          options(std::move(wanted)) {
-        options.previous = previous ? &*previous : nullptr;
-        renderer.emplace(tracer, camera, options, contexts, stop);
-    }
-    Camera camera;
-    std::optional<Camera> previous;
-    FrameOptions options;
-    std::optional<BlockRenderer> renderer;
+        : request(order.view, order.previous ? &*order.previous : nullptr, wanted),
+          renderer(tracer, request.camera, request.options, contexts, stop) {}
+    PictureRequest request;
+    BlockRenderer renderer;
 };
 
 }  // namespace
@@ -76,6 +70,43 @@ PictureOrder decode_order(const std::string& text) {
     }
 }
 
+void LeadPictures::order(std::shared_ptr<const PictureRequest> request) {
+    const FrameOptions& options = request->options;
+    PictureOrder order;
+    order.view = request->camera.view();
+    if (request->previous) order.previous = request->previous->view();
+    order.width = options.width;
+    order.height = options.height;
+    if (overture_ == Overture::quick) {
+        PictureOrder coarse = order;
+        coarse.step = kQuickStep;
+        link_.submit(
+            {next_++, quick_overture(options).whole(), 1, false, encode_order(coarse), {}, false});
+    }
+    order.deterministic = overture_ == Overture::deterministic;
+    const BlockRenderer renderer(tracer_, request->camera, options, contexts_, interrupt_flag());
+    const JobId job = next_++;
+    link_.submit({job, options.area(), renderer.alignment(), true, encode_order(order), {}, false},
+                 request->keeper);
+    ordered_.push_back({job, std::move(request)});
+}
+
+std::optional<Frame> LeadPictures::take() {
+    const Ordered ordered = std::move(ordered_.front());
+    ordered_.pop_front();
+    const FrameOptions& options = ordered.request->options;
+    WorkPhase phase;
+    phase.pixels = static_cast<double>(options.area().pixels());
+    ProgressMeter meter(progress_, {phase});
+    const std::optional<FinishedPicture> picture =
+        link_.wait_for(ordered.job, interrupt_flag(), [&](double share) {
+            meter.update(0, {share, 0, 0});
+        });
+    meter.finish(picture.has_value(), 0);
+    if (!picture) return std::nullopt;
+    return assemble(*picture, options.width, options.height);
+}
+
 std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
     const PictureOrder order = decode_order(job.payload);
     FrameOptions options = options_;
@@ -84,8 +115,9 @@ std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
     if (order.step > 1) options = quick_overture(options, order.step);
     const auto picture =
         std::make_shared<OrderedPicture>(order, options, tracer_, contexts_, stop_);
-    if (order.deterministic && cache_ != nullptr) fill(picture->camera, picture->options);
-    return {picture, &*picture->renderer};
+    if (order.deterministic && cache_ != nullptr)
+        fill(picture->request.camera, picture->request.options);
+    return {picture, &picture->renderer};
 }
 
 /// Rank 0 orders no other picture meanwhile, so that no rays of another one are under way.

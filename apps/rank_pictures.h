@@ -1,14 +1,18 @@
 #pragma once
 // Pictures whose blocks many ranks render: what rank 0 tells the others of one, and what they make
 // of it.
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "apps/picture_maker.h"
+#include "apps/progress.h"
 #include "apps/rank_link.h"
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"
 #include "parallel/freezable_cache.h"
+#include "parallel/overture.h"
 
 namespace lightwalk {
 
@@ -24,6 +28,40 @@ struct PictureOrder {
 [[nodiscard]] std::string encode_order(const PictureOrder& order);
 /// Throws InputError for text that encode_order did not make.
 [[nodiscard]] PictureOrder decode_order(const std::string& text);
+
+/// Rank 0's pictures, which all ranks make.
+class LeadPictures final : public PictureMaker {
+  public:
+    /// Everything must outlive this.
+    LeadPictures(RankLink& link, const Tracer& tracer, Overture overture, WorkerContexts& contexts,
+                 const ProgressOptions& progress)
+        : link_(link),
+          tracer_(tracer),
+          overture_(overture),
+          contexts_(contexts),
+          progress_(progress) {}
+
+    void order(std::shared_ptr<const PictureRequest> request) override;
+    [[nodiscard]] std::optional<Frame> take() override;
+    /// The next picture's blocks are there when the last ones of this one are still out. But before
+    /// a deterministic one all rays of the one before must have ended.
+    [[nodiscard]] std::size_t ahead() const override {
+        return overture_ == Overture::deterministic ? 1 : 2;
+    }
+
+  private:
+    struct Ordered {
+        JobId job = 0;
+        std::shared_ptr<const PictureRequest> request;
+    };
+    RankLink& link_;
+    const Tracer& tracer_;
+    Overture overture_;
+    WorkerContexts& contexts_;
+    ProgressOptions progress_;
+    std::deque<Ordered> ordered_;
+    JobId next_ = 0;
+};
 
 /// Renders the blocks of orders, on every rank that traces.
 class RankPictures {

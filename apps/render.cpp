@@ -1,26 +1,30 @@
 // lightwalk render: pictures of a scene, as rpict makes them.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <thread>
 
+#include "apps/checkpoint.h"
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "apps/local_pictures.h"
 #include "apps/progress.h"
 #include "apps/rank_pictures.h"
+#include "apps/rank_report.h"
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
+#include "io/files/atomic_file.h"
 #include "io/files/library_path.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
-#include "parallel/frame.h"
 #include "parallel/overture.h"
 #include "parallel/ranks/piece_codec.h"
-#include "parallel/time_estimate.h"
 
 namespace lightwalk {
 namespace {
@@ -98,14 +102,12 @@ class RenderRun {
         session_->build(command_.settings);
         session_->warn_of_darkness();
         make_threads();
-        if (!render_all()) return kInterruptedStatus;
+        LocalPictures pictures(*session_, overture(), *executor_, *contexts_, progress_options(),
+                               warnings_, statistics_);
+        open_checkpoint();
+        if (!render_all(pictures)) return kInterruptedStatus;
         save_statistics();
         return kSuccessStatus;
-    }
-
-    bool render_all() {
-        return command_.first_frame > 0 ? render_sequence()
-                                        : render_picture(command_.view, nullptr, 0);
     }
 
     void make_threads() {
@@ -113,6 +115,31 @@ class RenderRun {
         contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
                                                      executor_->concurrency());
         statistics_.threads = executor_->concurrency();
+    }
+
+    /// With --checkpoint. What an earlier run has left must have been made of the same scene by the
+    /// same options.
+    void open_checkpoint() {
+        if (command_.checkpoint.empty()) return;
+        RenderCommand same = command_;  // the number of threads changes nothing
+        same.common.workers = 1;
+        same.report_interval = 0;
+        std::string header = "SOFTWARE= Lightwalk " LIGHTWALK_VERSION "\n" + describe(same);
+        header += "scene " + hexadecimal(session_->digest()) + '\n';
+        checkpoint_ =
+            std::make_unique<Checkpoint>(command_.checkpoint, command_.resume, header, warnings_);
+    }
+
+    [[nodiscard]] ProgressOptions progress_options() const {
+        const bool bar = !command_.common.quiet && command_.common.error_file.empty() &&
+                         isatty(STDERR_FILENO) != 0;
+        return {bar, command_.report_interval, kProgram};
+    }
+
+    [[nodiscard]] Overture overture() const {
+        if (!session_->freezable) return Overture::none;
+        if (command_.deterministic) return Overture::deterministic;
+        return command_.overture ? Overture::quick : Overture::none;
     }
 
     void save_statistics() {
@@ -150,7 +177,7 @@ class RenderRun {
         settings.encode = encode_piece;
         link_ = std::make_unique<RankLink>(
             *transport_, make_topology(variant, transport_->size(), ambient, wanted.masters),
-            settings, kProgram);
+            settings, kProgram, !wanted.timeline.empty());
         statistics_.ranks = transport_->size();
         return true;
     }
@@ -178,80 +205,73 @@ class RenderRun {
         make_threads();
     }
 
-    [[nodiscard]] RankPictures rank_pictures() {
+    [[nodiscard]] FrameOptions frame_options(const PictureSize& size) const {
         FrameOptions options;
+        options.width = size.width;
+        options.height = size.height;
         options.pixels = command_.pixels;
         options.seed = command_.settings.light.seed;
         options.use_distances = !command_.depth.empty();
-        return {session_->tracer(), options,   session_->freezable.get(),
-                *contexts_,         warnings_, interrupt_flag()};
+        return options;
+    }
+
+    /// What rank 0 orders, until it says that no more comes.
+    void trace_orders(RankPictures& pictures) {
+        link_->trace(
+            *executor_, [&](const JobStart& job) { return pictures.make(job); }, interrupt_flag());
     }
 
     int follow() {
         prepare();
-        if (!link_->traces()) {
+        RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
+                              *contexts_, warnings_, interrupt_flag());
+        if (link_->traces())
+            trace_orders(pictures);
+        else
             link_->wait_for_end(interrupt_flag());
-            link_->report(rank_report({}, {}));
-            return kSuccessStatus;
-        }
-        RankPictures pictures = rank_pictures();
-        link_->trace(
-            *executor_, [&](const JobStart& job) { return pictures.make(job); }, interrupt_flag());
-        link_->report(rank_report(pictures.rays(), pictures.ambient()));
+        link_->report(report(pictures));
         return kSuccessStatus;
     }
 
     int lead() {
         prepare();
         session_->warn_of_darkness();
-        RankPictures pictures = rank_pictures();
+        RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
+                              *contexts_, warnings_, interrupt_flag());
         std::thread tracing([&] {
-            if (!link_->traces()) return;
             try {
-                link_->trace(
-                    *executor_, [&](const JobStart& job) { return pictures.make(job); },
-                    interrupt_flag());
+                if (link_->traces()) trace_orders(pictures);
             } catch (const std::exception& error) {
                 link_->fail(error.what());
             }
         });
-        const bool whole = render_all();
-        const std::map<int, std::string> reports = link_->finish(interrupt_flag());
+        bool whole = false;
+        try {
+            LeadPictures all(*link_, session_->tracer(), overture(), *contexts_,
+                             progress_options());
+            open_checkpoint();
+            whole = render_all(all);
+        } catch (const std::exception& error) {
+            link_->fail(error.what());
+        }
+        statistics_.reports = link_->finish(interrupt_flag());
         tracing.join();
         if (!whole) return kInterruptedStatus;
-        statistics_.rays += pictures.rays();
-        statistics_.ambient += pictures.ambient();
-        for (const auto& [rank, report] : reports) add_report(statistics_, report);
+        statistics_.reports[0] = report(pictures);
+        for (const auto& [rank, text] : statistics_.reports)
+            add_report(text, statistics_.rays, statistics_.ambient);
         save_statistics();
+        if (!command_.common.ranks.timeline.empty())
+            write_file_atomically(command_.common.ranks.timeline,
+                                  timeline_json(statistics_.reports));
         return kSuccessStatus;
     }
 
-    /// Nothing: interrupted.
-    std::optional<Frame> trace_on_ranks(const Camera& camera, const FrameOptions& options,
-                                        ProgressMeter& meter, std::size_t phase) {
-        PictureOrder order;
-        order.view = camera.view();
-        if (options.previous != nullptr) order.previous = options.previous->view();
-        order.width = options.width;
-        order.height = options.height;
-        if (overture() == Overture::quick) {
-            PictureOrder coarse = order;
-            coarse.step = kQuickStep;
-            link_->submit(
-                {next_job_++, quick_overture(options).whole(), 1, false, encode_order(coarse)});
-        }
-        order.deterministic = overture() == Overture::deterministic;
-        const JobId job = next_job_++;
-        const BlockRenderer renderer(session_->tracer(), camera, options, *contexts_,
-                                     interrupt_flag());
-        link_->submit({job, options.area(), renderer.alignment(), true, encode_order(order)});
-        const std::optional<FinishedPicture> picture =
-            link_->wait_for(job, interrupt_flag(), [&](double share) {
-                meter.update(phase, {share, 0, 0});
-            });
-        if (!picture) return std::nullopt;
-        return assemble(*picture, options.width, options.height);
+    [[nodiscard]] std::string report(const RankPictures& pictures) const {
+        return rank_report(*link_, executor_->concurrency(), pictures.rays(), pictures.ambient());
     }
+
+    // Pictures.
 
     void settle_spacing() {
         constexpr int kLargestSpacing = 16;
@@ -268,123 +288,93 @@ class RenderRun {
         }
     }
 
-    /// False: interrupted.
-    bool render_sequence() {
-        const std::vector<View> views = read_view_sequence(read_standard_input(), command_.view);
+    struct Wanted {
+        View view;
+        std::optional<View> before;
+        int frame = 0;  ///< number in a sequence; 0: the only picture
+    };
+
+    /// What is to be rendered; pictures of a sequence that are there already are left out.
+    [[nodiscard]] std::vector<Wanted> wanted_pictures() {
+        if (command_.first_frame == 0) return {{command_.view, std::nullopt, 0}};
+        std::vector<Wanted> wanted;
         int frame = command_.first_frame;
-        int made = 0;
         View before = command_.view;
-        for (const View& view : views) {
+        for (const View& view : read_view_sequence(read_standard_input(), command_.view)) {
             const bool skip = varies_by_frame(command_.output) &&
                               std::filesystem::exists(frame_name(command_.output, frame));
-            if (!skip) {
-                if (!render_picture(view, frame > 1 ? &before : nullptr, frame)) return false;
-                ++made;
-            }
+            if (!skip)
+                wanted.push_back({view, frame > 1 ? std::optional(before) : std::nullopt, frame});
             before = view;
             ++frame;
         }
-        if (made == 0) warnings_.warn("no output produced");
-        return true;
+        if (wanted.empty()) warnings_.warn("no output produced");
+        return wanted;
     }
 
     /// False: interrupted.
-    bool render_picture(const View& view, const View* before, int frame_number) {
-        const Camera camera(view);
-        const std::optional<Camera> previous = usable_camera(before);
+    bool render_all(PictureMaker& maker) {
+        const std::vector<Wanted> wanted = wanted_pictures();
+        std::deque<PictureSize> sizes;
+        std::size_t ordered = 0;
+        for (std::size_t taken = 0; taken < wanted.size(); ++taken) {
+            for (; ordered < std::min(wanted.size(), taken + maker.ahead()); ++ordered)
+                sizes.push_back(order(wanted[ordered], maker));
+            const PictureSize size = sizes.front();
+            sizes.pop_front();
+            if (!finish(wanted[taken], size, maker)) return false;
+        }
+        if (checkpoint_) checkpoint_->remove();
+        return true;
+    }
+
+    PictureSize order(const Wanted& wanted, PictureMaker& maker) {
+        const Camera camera(wanted.view);
         const PictureSize size =
             fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
         check_size(size);
-        if (frame_number > 0 && command_.report_interval > 0) {
-            std::fprintf(stderr, "FRAME %d:%s\n", frame_number, view_text(view).c_str());
+        if (wanted.frame > 0 && command_.report_interval > 0) {
+            std::fprintf(stderr, "FRAME %d:%s\n", wanted.frame, view_text(wanted.view).c_str());
         }
-        FrameOptions options;
-        options.width = size.width;
-        options.height = size.height;
-        options.pixels = command_.pixels;
-        options.seed = command_.settings.light.seed;
-        options.use_distances = !command_.depth.empty();
-        options.previous = previous ? &*previous : nullptr;
+        if (is_empty(size)) return size;
+        const auto request = std::make_shared<PictureRequest>(
+            wanted.view, wanted.before ? &*wanted.before : nullptr, frame_options(size));
+        if (checkpoint_)
+            request->keeper = checkpoint_->picture(wanted.frame, request->options.area());
+        maker.order(request);
+        return size;
+    }
+
+    /// False: interrupted.
+    bool finish(const Wanted& wanted, const PictureSize& size, PictureMaker& maker) {
         set_interrupt_phase(InterruptPhase::request);
-        const std::optional<Frame> frame = trace(camera, options);
+        const Stopwatch watch;
+        const std::optional<Frame> frame = is_empty(size) ? Frame{} : maker.take();
+        statistics_.render_seconds += watch.seconds();
+        statistics_.width = size.width;
+        statistics_.height = size.height;
+        ++statistics_.frames;
         if (!frame) return false;
         set_interrupt_phase(InterruptPhase::finish);
         write(*frame,
-              picture_header(command_, *session_->model, view, size.pixel_aspect, frame_number),
-              frame_number);
+              picture_header(command_, *session_->model, wanted.view, size.pixel_aspect,
+                             wanted.frame),
+              wanted.frame);
+        if (checkpoint_) checkpoint_->forget(wanted.frame);
         if (interrupt_flag().requested()) return false;
         set_interrupt_phase(InterruptPhase::leave);
         return true;
     }
 
-    static std::optional<Camera> usable_camera(const View* view) {
-        if (view == nullptr || Camera::problem(*view)) return std::nullopt;
-        return Camera(*view);
-    }
+    static bool is_empty(const PictureSize& size) { return size.width <= 0 || size.height <= 0; }
 
     void check_size(const PictureSize& size) {
         constexpr double kMostPixels = 1 << 28;
-        if (size.width <= 0 || size.height <= 0) warnings_.warn("empty output picture");
+        if (is_empty(size)) warnings_.warn("empty output picture");
         if (static_cast<double>(size.width) * size.height > kMostPixels) {
             throw UsageError("options -x and -y: more than " + formatted("%.0f", kMostPixels) +
                              " pixels");
         }
-    }
-
-    static Frame empty_frame() {
-        Frame frame;
-        frame.complete = true;
-        return frame;
-    }
-
-    /// Nothing: interrupted.
-    std::optional<Frame> trace(const Camera& camera, const FrameOptions& options) {
-        if (options.width <= 0 || options.height <= 0) return empty_frame();
-        const bool bar = !command_.common.quiet && command_.common.error_file.empty() &&
-                         isatty(STDERR_FILENO) != 0;
-        const std::vector<WorkPhase> phases =
-            plan_picture(options, overture(), executor_->concurrency());
-        const std::size_t picture = phases.size() - 1;
-        ProgressMeter meter({bar, command_.report_interval, kProgram}, phases);
-        warnings_.use_terminal_line(bar);
-        const Stopwatch watch;
-        const RayCounters before = statistics_.rays;
-        Frame frame;
-        if (link_) {
-            frame = trace_on_ranks(camera, options, meter, picture).value_or(Frame{});
-        } else if (play_overture(camera, options, meter)) {
-            frame = render_frame(
-                session_->tracer(), camera, options, *executor_, *contexts_, interrupt_flag(),
-                [&](const FrameProgress& progress) { meter.update(picture, progress); });
-        }
-        statistics_.rays += frame.rays;
-        statistics_.render_seconds += watch.seconds();
-        meter.finish(frame.complete, statistics_.rays.total() - before.total());
-        warnings_.use_terminal_line(false);
-        statistics_.ambient += frame.ambient;
-        statistics_.width = options.width;
-        statistics_.height = options.height;
-        ++statistics_.frames;
-        if (!frame.complete) return std::nullopt;
-        return frame;
-    }
-
-    [[nodiscard]] Overture overture() const {
-        if (!session_->freezable) return Overture::none;
-        if (command_.deterministic) return Overture::deterministic;
-        return command_.overture ? Overture::quick : Overture::none;
-    }
-
-    /// False: interrupted.
-    bool play_overture(const Camera& camera, const FrameOptions& options, ProgressMeter& meter) {
-        if (!session_->freezable) return true;
-        const OvertureResult played =
-            fill_ambient_cache(session_->tracer(), camera, options, overture(),
-                               *session_->freezable, *executor_, *contexts_, interrupt_flag(),
-                               [&](const FrameProgress& progress) { meter.update(0, progress); });
-        statistics_.rays += played.rays;
-        statistics_.ambient += played.ambient;
-        return played.complete;
     }
 
     void write(const Frame& frame, const PictureHeader& header, int number) {
@@ -403,7 +393,7 @@ class RenderRun {
     Transport* transport_;  ///< to the other ranks; null: there are none
     StderrWarnings warnings_;
     std::unique_ptr<RankLink> link_;
-    JobId next_job_ = 0;
+    std::unique_ptr<Checkpoint> checkpoint_;
     std::unique_ptr<SceneSession> session_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<WorkerContexts> contexts_;

@@ -8,12 +8,13 @@ namespace lightwalk {
 namespace {
 
 const std::vector<std::string> kOwnNames{
-    "-x",   "-y",         "-pa",    "-ps",       "-pt",        "-pj",
-    "-pd",  "-pm",        "-pc",    "-pRGB",     "-pXYZ",      "-o",
-    "-z",   "-S",         "-t",     "-vp",       "-vd",        "-vu",
-    "-vh",  "-vv",        "-vo",    "-va",       "-vs",        "-vl",
-    "-vf",  "-vtv",       "-vtl",   "-vtc",      "-vth",       "-vta",
-    "-vts", "--exposure", "--tone", "--samples", "--overture", "--deterministic"};
+    "-x",           "-y",         "-pa",    "-ps",       "-pt",        "-pj",
+    "-pd",          "-pm",        "-pc",    "-pRGB",     "-pXYZ",      "-o",
+    "-z",           "-S",         "-t",     "-vp",       "-vd",        "-vu",
+    "-vh",          "-vv",        "-vo",    "-va",       "-vs",        "-vl",
+    "-vf",          "-vtv",       "-vtl",   "-vtc",      "-vth",       "-vta",
+    "-vts",         "--exposure", "--tone", "--samples", "--overture", "--deterministic",
+    "--checkpoint", "--resume"};
 
 bool parse_view(OptionWords& words, View& view) {
     const std::vector<std::string> rest = words.rest();
@@ -90,7 +91,12 @@ bool parse_output_option(OptionWords& words, RenderCommand& command) {
         set_exposure(words.text(), command.tone);
     else if (word == "--tone")
         command.tone.curve = tone_curve(words.text());
-    else if (word == "--deterministic") {
+    else if (word == "--checkpoint")
+        command.checkpoint = words.text();
+    else if (word == "--resume") {
+        command.resume = true;
+        words.skip(1);
+    } else if (word == "--deterministic") {
         command.deterministic = true;
         words.skip(1);
     } else if (word == "--overture") {
@@ -148,6 +154,8 @@ void check(const RenderCommand& command) {
     }
     if (command.xyz && !command.output.empty() && !is_radiance_picture(command.output))
         throw UsageError("option -pXYZ: only Radiance pictures (.hdr, .pic) hold CIE XYZ");
+    if (command.resume && command.checkpoint.empty())
+        throw UsageError("option --resume: name the file with --checkpoint");
     (void)frame_name(command.output, 0);
     (void)frame_name(command.depth, 0);
 }

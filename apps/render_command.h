@@ -23,6 +23,8 @@ struct RenderCommand {
     bool xyz = false;                                ///< -pXYZ: the picture holds CIE XYZ, not RGB
     std::string output;                              ///< -o; "" is standard output
     std::string depth;                               ///< -z; "" is none
+    std::string checkpoint;                          ///< --checkpoint; "" is none
+    bool resume = false;                             ///< --resume
     double report_interval = 0;                      ///< -t [s]
     ToneMapping tone;                                ///< --exposure --tone
     bool overture = true;                            ///< --overture auto|off

@@ -101,23 +101,6 @@ void SceneSession::warn_of_darkness() const {
     if (!made->lights().shine()) warnings.warn("no light sources found");
 }
 
-std::string rank_report(const RayCounters& rays, const AmbientCounters& ambient) {
-    const nlohmann::json json{
-        {"rays", {rays.primary, rays.shadow, rays.specular, rays.transmitted, rays.ambient}},
-        {"ambient",
-         {ambient.interpolated, ambient.computed, ambient.incomplete, ambient.waits,
-          ambient.duplicates}}};
-    return json.dump();
-}
-
-void add_report(RunStatistics& statistics, const std::string& report) {
-    const nlohmann::json json = nlohmann::json::parse(report);
-    const auto& rays = json["rays"];
-    statistics.rays += {rays[0], rays[1], rays[2], rays[3], rays[4]};
-    const auto& ambient = json["ambient"];
-    statistics.ambient += {ambient[0], ambient[1], ambient[2], ambient[3], ambient[4]};
-}
-
 void write_statistics(const std::string& path, const RunStatistics& s) {
     nlohmann::ordered_json json;
     json["version"] = LIGHTWALK_VERSION;
@@ -141,6 +124,11 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
     json["rays_per_second"] =
         static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);
     json["peak_memory_bytes"] = peak_memory_bytes();
+    for (const auto& [rank, report] : s.reports) {
+        auto one = nlohmann::ordered_json::parse(report);
+        one.erase("spans");
+        json["per_rank"].push_back(std::move(one));
+    }
     write_file_atomically(path, json.dump(2) + "\n");
 }
 

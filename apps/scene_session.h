@@ -1,5 +1,6 @@
 #pragma once
 // A scene from files to a tracer, with the time each step took.
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,10 +78,8 @@ struct RunStatistics {
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;
     int ranks = 1;
+    std::map<int, std::string> reports;  ///< of each rank (see rank_report); empty for one process
 };
-/// What another rank did is added to `statistics`: rays and ambient values. And how it says so.
-void add_report(RunStatistics& statistics, const std::string& report);
-[[nodiscard]] std::string rank_report(const RayCounters& rays, const AmbientCounters& ambient);
 /// Write as JSON, whole or not at all. Throws InputError.
 void write_statistics(const std::string& path, const RunStatistics& statistics);
 

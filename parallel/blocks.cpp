@@ -42,4 +42,45 @@ std::vector<Block> make_blocks(const PixelRectangle& area, int side) {
     return blocks;
 }
 
+std::vector<Block> quarters(const Block& block, int alignment) {
+    const int side = std::max(block.width(), block.height());
+    const int half = ((side + 1) / 2 + alignment - 1) / alignment * alignment;
+    std::vector<Block> parts;
+    for (int y = block.y0 / alignment * alignment; y < block.y1; y += half) {
+        for (int x = block.x0 / alignment * alignment; x < block.x1; x += half) {
+            const Block part{std::max(x, block.x0), std::max(y, block.y0),
+                             std::min(x + half, block.x1), std::min(y + half, block.y1)};
+            if (!part.empty()) parts.push_back(part);
+        }
+    }
+    return parts;
+}
+
+BlocksLeft blocks_left(const std::vector<Block>& blocks, const std::vector<PixelRectangle>& known,
+                       int alignment) {
+    const auto known_pixels = [&](const Block& block) {
+        std::size_t pixels = 0;
+        for (const PixelRectangle& r : known) {
+            pixels += PixelRectangle{std::max(r.x0, block.x0), std::max(r.y0, block.y0),
+                                     std::min(r.x1, block.x1), std::min(r.y1, block.y1)}
+                          .pixels();
+        }
+        return pixels;
+    };
+    BlocksLeft result;
+    const auto sort = [&](const auto& self, const Block& block) -> void {
+        const std::size_t pixels = known_pixels(block);
+        const std::vector<Block> parts = quarters(block, alignment);
+        if (pixels == block.pixels()) {
+            result.known.push_back(block);
+        } else if (pixels == 0 || parts.size() < 2) {
+            result.left.push_back(block);
+        } else {
+            for (const Block& part : parts) self(self, part);
+        }
+    };
+    for (const Block& block : blocks) sort(sort, block);
+    return result;
+}
+
 }  // namespace lightwalk

@@ -22,6 +22,22 @@ using Block = PixelRectangle;  ///< a rectangle in its role as a unit of work
 /// out and what is done early covers the area evenly.
 [[nodiscard]] std::vector<Block> make_blocks(const PixelRectangle& area, int side);
 
+/// What is left of blocks when some pixels are known.
+struct BlocksLeft {
+    std::vector<Block> left;   ///< none of whose pixels need be known: in the order of the blocks
+    std::vector<Block> known;  ///< all of whose pixels are
+};
+
+/// Blocks are quartered, with corners at multiples of `alignment`, until none is known in part; one
+/// that cannot be quartered counts as left.
+/// @param known  rectangles of known pixels, which do not overlap
+[[nodiscard]] BlocksLeft blocks_left(const std::vector<Block>& blocks,
+                                     const std::vector<PixelRectangle>& known, int alignment);
+
+/// The quarters of a block, with corners at multiples of `alignment` or at its edges: at most four,
+/// the block itself where it is too small.
+[[nodiscard]] std::vector<Block> quarters(const Block& block, int alignment);
+
 /// Where those who render get their blocks from: each pulls its next one when it is free.
 class BlockSource {
   public:

@@ -69,6 +69,17 @@ void store(const BlockPixels& pixels, const PixelRectangle& area, Frame& frame) 
     }
 }
 
+/// Puts what is known into the frame; returns what is left of the blocks.
+std::vector<Block> take_known(BlockKeeper& keeper, const std::vector<Block>& wanted, int alignment,
+                              const PixelRectangle& area, Frame& frame) {
+    std::vector<PixelRectangle> known;
+    for (const BlockPixels& pixels : keeper.known()) {
+        store(pixels, area, frame);
+        known.push_back(pixels.block);
+    }
+    return blocks_left(wanted, known, alignment).left;
+}
+
 }  // namespace
 
 void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor& executor,
@@ -92,7 +103,7 @@ void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor&
 
 Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
                    Executor& executor, WorkerContexts& contexts, const StopFlag& stop,
-                   TakeProgress progress) {
+                   TakeProgress progress, BlockKeeper* keeper) {
     assert(contexts.size() >= executor.concurrency());
     const PixelRectangle area = options.area();
     assert(area.x0 >= 0 && area.x1 <= options.whole().x1);
@@ -102,10 +113,15 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     const BlockRenderer renderer(tracer, camera, options, contexts, stop);
     const int side =
         block_side(area.width(), area.height(), executor.concurrency(), renderer.alignment());
-    BlockQueue blocks(make_blocks(area, side));
-    ProgressSum sum(contexts, area.pixels(), progress);
+    std::vector<Block> wanted = make_blocks(area, side);
+    if (keeper != nullptr) wanted = take_known(*keeper, wanted, renderer.alignment(), area, frame);
+    std::size_t pixels_wanted = 0;
+    for (const Block& block : wanted) pixels_wanted += block.pixels();
+    BlockQueue blocks(std::move(wanted));
+    ProgressSum sum(contexts, pixels_wanted, progress);
     render_blocks(renderer, blocks, executor, stop, [&](const BlockPixels& pixels, int worker) {
         store(pixels, area, frame);
+        if (keeper != nullptr) keeper->keep(pixels);
         sum.add(pixels.block.pixels(), worker, contexts[worker]);
     });
     frame.rays = contexts.rays();

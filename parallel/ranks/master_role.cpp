@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parallel/blocks.h"
 #include "parallel/ranks/roles.h"
 
 namespace lightwalk {
@@ -63,7 +64,14 @@ void MasterRole::begin(JobStart start, Outbox& out) {
     const std::size_t stride = policy_.stride > 0 ? static_cast<std::size_t>(policy_.stride)
                                                   : std::max<std::size_t>(1, workers_);
     job.blocks = in_strides(squares(start.area, rounded_to(side, start.alignment)), stride);
-    job.pixels_waiting = static_cast<double>(start.area.pixels());
+    if (!start.known.empty()) {
+        const std::vector<Block> all(job.blocks.begin(), job.blocks.end());
+        const std::vector<Block> left = blocks_left(all, start.known, start.alignment).left;
+        job.blocks.assign(left.begin(), left.end());
+    }
+    for (const PixelRectangle& block : job.blocks)
+        job.pixels_waiting += static_cast<double>(block.pixels());
+    job.pixels_done = static_cast<double>(start.area.pixels()) - job.pixels_waiting;
     if (start.keep) {
         const SubImages parts(start.area, workers_);
         for (std::size_t i = 0; i < parts.size(); ++i)
@@ -86,6 +94,7 @@ void MasterRole::note(const FinishedBlock& finished, Outbox& out) {
     if (found == jobs_.end()) return;
     Job& job = found->second;
     job.pixels_done += static_cast<double>(finished.work.block.pixels());
+    job.pixels_timed += static_cast<double>(finished.work.block.pixels());
     job.seconds_done += finished.seconds;
     const double share = job.pixels_done / static_cast<double>(job.start.area.pixels());
     out.push_back({self_, {self_.rank, Role::program}, Progress{job.start.job, share}});
@@ -99,24 +108,11 @@ JobBlock MasterRole::take_block(Job& job) {
         // gets some.
         const int alignment = job.start.alignment;
         double pixels = kShareAtOnce * job.pixels_waiting / std::max(1, policy_.slots);
-        if (job.pixels_done > 0 && job.seconds_done > 0)
-            pixels = std::max(pixels, kLeastSeconds * job.pixels_done / job.seconds_done);
+        if (job.seconds_done > 0)
+            pixels = std::max(pixels, kLeastSeconds * job.pixels_timed / job.seconds_done);
         while (static_cast<double>(block.pixels()) > 1.5 * pixels &&
                std::max(block.width(), block.height()) > alignment) {
-            // Quarters whose corners lie at multiples of the alignment.
-            const int side = std::max(block.width(), block.height());
-            const int half = rounded_to((side + 1) / 2, alignment);
-            std::vector<PixelRectangle> parts;
-            const int left = block.x0 / alignment * alignment,
-                      low = block.y0 / alignment * alignment;
-            for (int y = low; y < block.y1; y += half) {
-                for (int x = left; x < block.x1; x += half) {
-                    const PixelRectangle part{std::max(x, block.x0), std::max(y, block.y0),
-                                              std::min(x + half, block.x1),
-                                              std::min(y + half, block.y1)};
-                    if (!part.empty()) parts.push_back(part);
-                }
-            }
+            const std::vector<Block> parts = quarters(block, alignment);
             if (parts.size() < 2) break;
             block = parts.front();
             job.blocks.insert(job.blocks.begin(), parts.begin() + 1, parts.end());

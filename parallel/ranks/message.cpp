@@ -83,7 +83,7 @@ void fields(Archive& archive, std::vector<T>& list) {
 
 template <class Archive>
 void fields(Archive& archive, JobStart& m) {
-    archive(m.job, m.area, m.alignment, m.keep, m.payload);
+    archive(m.job, m.area, m.alignment, m.keep, m.payload, m.known, m.log);
 }
 template <class Archive>
 void fields(Archive& archive, AskBlocks& m) {
@@ -194,12 +194,12 @@ Message default_message(std::size_t kind) {
 
 }  // namespace
 
-const char* kind_name(const Message& message) {
+const char* kind_name(std::size_t kind) {
     static constexpr std::array<const char*, kMessageKinds> kNames{
         "JobStart", "AskBlocks",       "GiveBlocks",    "Pixels",  "BlockDone",
         "Piece",    "FinishedPicture", "AmbientValues", "Failure", "Finish",
         "Report",   "Gather",          "Progress"};
-    return kNames[message.index()];
+    return kNames[kind];
 }
 
 std::string encode_message(const Envelope& envelope) {

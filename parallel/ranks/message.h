@@ -45,6 +45,9 @@ struct JobStart {
     std::int32_t alignment = 1;  ///< blocks whose corners lie at multiples of it cost least
     bool keep = true;     ///< false: pixels are not wanted, only what tracing them leaves behind
     std::string payload;  ///< what the tracer makes of it: view and options
+    /// Pixels that an earlier run has left; the program sends them to their owners.
+    std::vector<PixelRectangle> known;
+    bool log = false;  ///< the program of rank 0 wants every block's Pixels as well
     friend bool operator==(const JobStart&, const JobStart&) = default;
 };
 
@@ -67,8 +70,8 @@ struct GiveBlocks {
     friend bool operator==(const GiveBlocks&, const GiveBlocks&) = default;
 };
 
-/// Worker to the worker that owns these pixels; and from a rank's tracer to its worker, which
-/// passes on what others own.
+/// Worker to the worker that owns these pixels, and to the program that logs them; from the program
+/// to owners: what an earlier run has left.
 struct Pixels {
     JobBlock work;
     std::vector<PixelValue> values;  ///< row by row from the bottom; none in simulations
@@ -138,9 +141,9 @@ using Message =
     std::variant<JobStart, AskBlocks, GiveBlocks, Pixels, BlockDone, Piece, FinishedPicture,
                  AmbientValues, Failure, Finish, Report, Gather, Progress>;
 
-/// Of a message's kind, for statistics: "JobStart", ...
-[[nodiscard]] const char* kind_name(const Message& message);
 inline constexpr std::size_t kMessageKinds = std::variant_size_v<Message>;
+/// Of Message::index(), for statistics: "JobStart", ...
+[[nodiscard]] const char* kind_name(std::size_t kind);
 
 /// A message on its way.
 struct Envelope {

@@ -30,8 +30,8 @@ std::size_t workers_of(const std::vector<Address>& children) {
 }  // namespace
 
 RankLoop::RankLoop(Transport& transport, const Topology& topology, RankSettings settings,
-                   LocalEnd& local)
-    : transport_(transport), topology_(topology), local_(local) {
+                   LocalEnd& local, Timeline* timeline)
+    : transport_(transport), topology_(topology), local_(local), timeline_(timeline) {
     const int rank = transport.rank();
     if (rank == 0) {
         master_.emplace(
@@ -50,7 +50,7 @@ RankLoop::RankLoop(Transport& transport, const Topology& topology, RankSettings 
                                       worker_ranks(topology),
                                       settings.slots,
                                       settings.ahead,
-                                      std::move(settings.encode)});
+                                      timed_encoding(std::move(settings.encode))});
     }
     if (topology.ambient_master && settings.ambient_batch > 0) {
         if (*topology.ambient_master == rank)
@@ -59,6 +59,15 @@ RankLoop::RankLoop(Transport& transport, const Topology& topology, RankSettings 
                                 Address{*topology.ambient_master, Role::ambient_master},
                                 settings.ambient_batch);
     }
+}
+
+EncodePiece RankLoop::timed_encoding(EncodePiece encode) const {
+    return [encode = std::move(encode), timeline = timeline_](const PixelRectangle& block,
+                                                              std::vector<PixelValue> values) {
+        const TimedActivity timed(timeline, timeline != nullptr ? timeline->message_row() : 0,
+                                  Activity::compress);
+        return encode(block, std::move(values));
+    };
 }
 
 void RankLoop::post(Role from, Address to, Message message) {
@@ -94,6 +103,7 @@ bool RankLoop::run(const StopFlag& stop) {
     while (!all_said_goodbye_ && !stop.requested()) {
         const bool posted = serve_posted();
         const bool busy = serve_arrived() || posted;
+        ask_for_values();
         say_goodbye();
         if (busy) {
             wait = kShortestWait;
@@ -109,6 +119,18 @@ bool RankLoop::run(const StopFlag& stop) {
     answered_.notify_all();
     if (all_said_goodbye_) transport_.flush();
     return all_said_goodbye_;
+}
+
+/// A rank that makes no values is told of others' all the same, for the files that it keeps.
+void RankLoop::ask_for_values() {
+    constexpr std::chrono::seconds kOften{1};
+    if (!ambient_client_ || worker_ || said_goodbye_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - asked_ < kOften) return;
+    asked_ = now;
+    Outbox out;
+    ambient_client_->ask(out);
+    for (Envelope& envelope : out) dispatch(std::move(envelope));
 }
 
 /// Once this rank has ended and waits for no answer: whatever is sent to it later would be lost.
@@ -161,7 +183,10 @@ void RankLoop::dispatch(Envelope first) {
         due.pop_front();
         if (envelope.to.rank != transport_.rank()) {
             std::string bytes = encode_message(envelope);
-            counts_.add(envelope.message, bytes.size());
+            {
+                const std::lock_guard lock(counts_mutex_);
+                counts_.add(envelope.message, bytes.size());
+            }
             transport_.send(envelope.to.rank, std::move(bytes));
             continue;
         }
@@ -171,7 +196,15 @@ void RankLoop::dispatch(Envelope first) {
     }
 }
 
+Activity RankLoop::activity_of(const Message& message) {
+    if (std::holds_alternative<Pixels>(message) || std::holds_alternative<BlockDone>(message))
+        return Activity::send;
+    return std::holds_alternative<AmbientValues>(message) ? Activity::exchange : Activity::serve;
+}
+
 void RankLoop::deliver(Envelope envelope, Outbox& out) {
+    const TimedActivity timed(timeline_, timeline_ != nullptr ? timeline_->message_row() : 0,
+                              activity_of(envelope.message));
     if (std::holds_alternative<Gather>(envelope.message)) {
         gather(std::move(envelope), out);
         return;

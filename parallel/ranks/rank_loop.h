@@ -1,5 +1,6 @@
 #pragma once
 // One rank's messages, served: to its roles, and to what is within it.
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <map>
@@ -12,6 +13,7 @@
 #include "parallel/ranks/local_end.h"
 #include "parallel/ranks/message_counts.h"
 #include "parallel/ranks/roles.h"
+#include "parallel/ranks/timeline.h"
 #include "parallel/ranks/topology.h"
 #include "parallel/ranks/transport.h"
 #include "parallel/stop_flag.h"
@@ -31,8 +33,9 @@ struct RankSettings {
 class RankLoop {
   public:
     /// `transport`, `topology` and `local` must outlive this.
-    RankLoop(Transport& transport, const Topology& topology, RankSettings settings,
-             LocalEnd& local);
+    /// @param timeline  whose last row is this loop's; null: none
+    RankLoop(Transport& transport, const Topology& topology, RankSettings settings, LocalEnd& local,
+             Timeline* timeline = nullptr);
 
     /// A message to a role of this rank, or to any other's. From any thread.
     void post(Role from, Address to, Message message);
@@ -49,26 +52,36 @@ class RankLoop {
     /// so, and nothing is on its way to anyone any more.
     void end();
 
-    [[nodiscard]] const MessageCounts& counts() const { return counts_; }
+    /// What this rank has sent so far; from any thread.
+    [[nodiscard]] MessageCounts counts() const {
+        const std::lock_guard lock(counts_mutex_);
+        return counts_;
+    }
 
   private:
     void begin();
     void say_goodbye();
+    void ask_for_values();
     [[nodiscard]] bool serve_posted();
     [[nodiscard]] bool serve_arrived();
     void dispatch(Envelope envelope);
     void deliver(Envelope envelope, Outbox& out);
     void gather(Envelope envelope, Outbox& out);
+    [[nodiscard]] static Activity activity_of(const Message& message);
+    [[nodiscard]] EncodePiece timed_encoding(EncodePiece encode) const;
 
     Transport& transport_;
     const Topology& topology_;
     LocalEnd& local_;
+    Timeline* timeline_;
     std::optional<MasterRole> master_;
     std::optional<SubMasterRole> sub_master_;
     std::optional<WorkerRole> worker_;
     std::optional<AmbientMasterRole> ambient_master_;
     std::optional<AmbientClientRole> ambient_client_;
-    MessageCounts counts_;
+    mutable std::mutex counts_mutex_;
+    MessageCounts counts_;                         ///< guarded by it
+    std::chrono::steady_clock::time_point asked_;  ///< last, for ambient values
 
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable answered_;

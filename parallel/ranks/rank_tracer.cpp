@@ -25,7 +25,8 @@ void RankTracer::take(Message message) {
     changed_.notify_all();
 }
 
-std::optional<RankTracer::Work> RankTracer::next(const StopFlag& stop) {
+std::optional<RankTracer::Work> RankTracer::next(int worker, const StopFlag& stop) {
+    const TimedActivity waiting(timeline_, worker, Activity::wait);
     // A signal's handler cannot notify: look for its request now and then.
     constexpr std::chrono::milliseconds kPatience{20};
     std::unique_lock lock(mutex_);
@@ -39,12 +40,14 @@ std::optional<RankTracer::Work> RankTracer::next(const StopFlag& stop) {
 void RankTracer::serve(int worker, const StopFlag& stop) {
     using Clock = std::chrono::steady_clock;
     BlockPixels pixels;
-    while (std::optional<Work> work = next(stop)) {
+    while (std::optional<Work> work = next(worker, stop)) {
         Job& job = *work->job;
         const Clock::time_point begin = Clock::now();
         std::call_once(job.made, [&] { job.renderer = make_(job.start); });
         if (!job.renderer->render(work->block.block, worker, pixels)) return;
-        const std::chrono::duration<double> seconds = Clock::now() - begin;
+        const Clock::time_point end = Clock::now();
+        if (timeline_ != nullptr) timeline_->add(worker, Activity::trace, begin, end);
+        const std::chrono::duration<double> seconds = end - begin;
         BlockDone done{{work->block, {}}, seconds.count()};
         if (job.start.keep) done.pixels.values = pixels.values;
         tell_(std::move(done));

@@ -11,6 +11,7 @@
 #include "parallel/block_renderer.h"
 #include "parallel/executor.h"
 #include "parallel/ranks/message.h"
+#include "parallel/ranks/timeline.h"
 
 namespace lightwalk {
 
@@ -22,8 +23,9 @@ using TellWorker = std::function<void(Message)>;
 
 class RankTracer {
   public:
-    RankTracer(MakeRenderer make, TellWorker tell)
-        : make_(std::move(make)), tell_(std::move(tell)) {}
+    /// @param timeline  with a row for each worker of the executor; null: none
+    RankTracer(MakeRenderer make, TellWorker tell, Timeline* timeline = nullptr)
+        : make_(std::move(make)), tell_(std::move(tell)), timeline_(timeline) {}
 
     /// JobStart, GiveBlocks, Finish: from any thread.
     void take(Message message);
@@ -42,11 +44,12 @@ class RankTracer {
         JobBlock block;
         std::shared_ptr<Job> job;
     };
-    [[nodiscard]] std::optional<Work> next(const StopFlag& stop);
+    [[nodiscard]] std::optional<Work> next(int worker, const StopFlag& stop);
     void serve(int worker, const StopFlag& stop);
 
     MakeRenderer make_;
     TellWorker tell_;
+    Timeline* timeline_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::map<JobId, std::shared_ptr<Job>> jobs_;

@@ -44,9 +44,10 @@ class MasterRole {
   private:
     struct Job {
         JobStart start;
-        std::deque<PixelRectangle> blocks;  ///< to be handed out
-        double pixels_waiting = 0;          ///< in these
-        double pixels_done = 0, seconds_done = 0;
+        std::deque<PixelRectangle> blocks;          ///< to be handed out
+        double pixels_waiting = 0;                  ///< in these
+        double pixels_done = 0;                     ///< in this run or an earlier one
+        double pixels_timed = 0, seconds_done = 0;  ///< in this run
         std::size_t pieces_missing = 0;
         FinishedPicture picture;
     };
@@ -123,10 +124,11 @@ class WorkerRole {
   private:
     struct Job {
         bool started = false;  ///< pixels may come before the word that they will
-        bool keep = true;
+        bool keep = true, log = false;
         SubImages parts;                 ///< who owns what
         std::vector<PixelValue> values;  ///< of the own part, row by row from the bottom
-        std::size_t missing = 0;
+        std::vector<bool> there;         ///< which of them
+        std::size_t missing = 0;         ///< how many are not
         std::vector<Pixels> early;
     };
     void start(JobStart job, Outbox& out);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cassert>
 
 #include "parallel/ranks/roles.h"
 
@@ -61,8 +60,10 @@ void WorkerRole::start(JobStart message, Outbox& out) {
     Job& job = jobs_[id];
     job.started = true;
     job.keep = message.keep;
+    job.log = message.log;
     job.parts = SubImages(message.area, options_.workers->size());
     job.missing = message.keep ? own_part(job).pixels() : 0;
+    job.there.resize(job.missing);
     out.push_back({options_.self, {options_.self.rank, Role::tracer}, std::move(message)});
     for (Pixels& pixels : std::exchange(job.early, {})) store(std::move(pixels), out);
 }
@@ -70,6 +71,7 @@ void WorkerRole::start(JobStart message, Outbox& out) {
 void WorkerRole::share_out(Pixels pixels, Outbox& out) {
     const auto found = jobs_.find(pixels.work.job);
     if (found == jobs_.end() || !found->second.keep) return;
+    if (found->second.log) out.push_back({options_.self, {0, Role::program}, pixels});
     // The own pixels last: with them the job may be over.
     const SubImages parts = found->second.parts;
     for (const std::size_t i : parts.overlapping(pixels.work.block)) {
@@ -89,14 +91,17 @@ void WorkerRole::store(Pixels pixels, Outbox& out) {
     }
     const PixelRectangle part = own_part(job);
     const PixelRectangle& block = pixels.work.block;
-    if (!pixels.values.empty()) {
-        job.values.resize(part.pixels());
-        for_rows(block, block, part, [&](std::ptrdiff_t from, std::ptrdiff_t to, int width) {
+    if (job.missing == 0) return;  // known from an earlier run, and traced again
+    if (!pixels.values.empty()) job.values.resize(part.pixels());
+    for_rows(block, block, part, [&](std::ptrdiff_t from, std::ptrdiff_t to, int width) {
+        if (!pixels.values.empty())
             std::copy_n(pixels.values.begin() + from, width, job.values.begin() + to);
-        });
-    }
-    assert(job.missing >= block.pixels());
-    job.missing -= block.pixels();
+        for (int x = 0; x < width; ++x) {
+            auto there = job.there[static_cast<std::size_t>(to + x)];
+            job.missing -= there ? 0 : 1;
+            there = true;
+        }
+    });
     if (job.missing > 0) return;
     const JobId id = pixels.work.job;
     out.push_back({options_.self,

@@ -30,7 +30,7 @@ std::vector<Message> some_messages() {
     std::vector<PixelValue> values(64);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = {{static_cast<float>(i), 1.0F / static_cast<float>(i + 1), -0.0F}, 1e10F};
-    return {JobStart{3, {0, 0, 640, 480}, 4, true, "a view"},
+    return {JobStart{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true},
             AskBlocks{2, {{work, .125}, {{7, {0, 0, 1, 1}}, 1e-9}}},
             GiveBlocks{{work, {8, {-4, 0, 4, 1}}}},
             Pixels{work, values},

@@ -67,7 +67,7 @@ TEST_CASE("ranks that are threads render a picture over the wire, gather and say
                     if (rank != 0) return;
                     for (JobId job = 0; job < 3; ++job)
                         loop.post(Role::program, {0, Role::master},
-                                  JobStart{job, {0, 0, 70, 50}, 1, true, ""});
+                                  JobStart{job, {0, 0, 70, 50}, 1, true, "", {}, false});
                     while (ends.pictures_there < 3) std::this_thread::yield();
                     for (int to = 0; to < ranks; ++to)
                         loop.post(Role::program, {to, Role::program}, Finish{});

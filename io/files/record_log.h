@@ -1,0 +1,45 @@
+#pragma once
+// A file of records that only grows, and that survives the death of its writer at any moment.
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace lightwalk {
+
+/// Layout: the line "lightwalk log 1", the header's lines, an empty line; then records: "LWRC",
+/// size of the payload (u64), its FNV-1a hash (u64), the payload. Numbers are little-endian.
+class RecordLog {
+  public:
+    /// Opens or makes the file for appending. A file that is there must have the same header; its
+    /// whole records are handed to `take`, in order; a damaged end is reported and cut off.
+    /// @param header  lines of text without an empty one: what the records belong to
+    /// Throws InputError for a file that is no log, is another's (the first line that differs is
+    /// named), is open in another process, or cannot be read or written.
+    RecordLog(std::string path, const std::string& header,
+              const std::function<void(std::string_view)>& take, WarningSink& warnings);
+    ~RecordLog();
+    RecordLog(const RecordLog&) = delete;
+    RecordLog& operator=(const RecordLog&) = delete;
+
+    /// Throws InputError when the file cannot be written.
+    void append(std::string_view payload);
+    /// What was appended is on the disk when this returns.
+    void sync();
+    /// The file is no longer needed: removes it.
+    void remove();
+
+  private:
+    void start(const std::string& head, const std::string& header,
+               const std::function<void(std::string_view)>& take, WarningSink& warnings);
+
+    std::string path_;
+    int file_ = -1;
+};
+
+/// FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923).
+[[nodiscard]] std::uint64_t fnv1a(std::string_view bytes);
+
+}  // namespace lightwalk
