@@ -169,14 +169,13 @@ void RankLink::submit(JobStart job, const std::shared_ptr<BlockKeeper>& keeper) 
         keepers_[job.job] = keeper;
     }
     const JobId id = job.job;
-    const std::vector<PixelRectangle> parts = sub_images(job.area, topology_.workers.size());
+    const SubImages parts(job.area, topology_.workers.size());
     loop_.post(Role::program, {0, Role::master}, std::move(job));
     for (BlockPixels& block : known) {
         const Pixels pixels{{id, block.block}, std::move(block.values)};
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            Pixels cut = cut_pixels(pixels, parts[i]);
-            if (cut.work.block.empty()) continue;
-            loop_.post(Role::program, {topology_.workers[i].rank, Role::worker}, std::move(cut));
+        for (const std::size_t i : parts.overlapping(block.block)) {
+            loop_.post(Role::program, {topology_.workers[i].rank, Role::worker},
+                       cut_pixels(pixels, parts[i]));
         }
     }
 }
