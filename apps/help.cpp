@@ -72,6 +72,18 @@ Light (the most used; see rpict(1) for the rest)
   -ss -st -lr -lw                specular samples and threshold, limits of reflections and weight
   -i                 irradiance instead of radiance
 
+Many processes, on one machine or many: mpirun -n RANKS lightwalk render ...
+  --variant ranks    one thread a rank; one rank is the master, with -ab another one the ambient master
+  --variant hybrid   ranks of threads (-n N each), rank 0 traces beside being the master. Default: hybrid where ranks
+                     have several threads (-n, or what mpirun binds them to) or are too few to spare any
+  --block auto|N     side of the blocks that are handed out: follows what they take, or N pixels
+  --stride auto|N    consecutive blocks lie N apart (auto: the number of workers); 1: one after the other
+  --masters auto|N   masters in all: those below rank 0 serve a group of workers each
+  --ambient-batch N  a worker sends its ambient values by N (default 16) and gets the others'; 0: none are exchanged
+  --timeline FILE.json  what every thread did when: opens in ui.perfetto.dev. --stats has the sums, by rank
+
+  --checkpoint FILE  keep finished blocks in FILE, at most two seconds after they are traced
+  --resume           with --checkpoint: a run that was killed goes on, with any number of ranks and threads
   --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
   --quiet            no progress, no warnings; -w- alone: no warnings
 )";

@@ -83,6 +83,13 @@ std::unique_ptr<Transport> open_mpi() {
     return transport;
 }
 
+void check_launch(const RankOptions& options, bool by_mpi) {
+    if (by_mpi || options.variant.value_or(Variant::threads) == Variant::threads) return;
+    throw UsageError(
+        "--variant ranks and hybrid need several processes: start them with mpirun -n RANKS "
+        "lightwalk ...");
+}
+
 Variant settle_variant(const RankOptions& options, int ranks, int threads, bool ambient) {
     const int least = ambient ? 3 : 2;  // master, ambient master and a worker
     const bool spare = ranks >= least;

@@ -29,6 +29,9 @@ struct RankOptions {
 /// The wire to the other ranks. Throws InputError when MPI cannot be loaded or started.
 [[nodiscard]] std::unique_ptr<Transport> open_mpi();
 
+/// Throws UsageError for --variant ranks or hybrid in a process that nothing but a shell started.
+void check_launch(const RankOptions& options, bool by_mpi);
+
 /// The variant that runs: the one asked for, or else `hybrid` where ranks have several threads or
 /// are too few to spare any, and `ranks` otherwise. Throws UsageError where it cannot be.
 /// @param threads  of each rank

@@ -158,9 +158,10 @@ class RenderRun {
 
     /// Whether there are others to share the work with.
     bool share_out() {
+        const RankOptions& wanted = command_.common.ranks;
+        check_launch(wanted, transport_ != nullptr);
         if (transport_ == nullptr) return false;
         const RenderOptions& light = command_.settings.light;
-        const RankOptions& wanted = command_.common.ranks;
         // A deterministic run exchanges nothing: each rank computes the same values.
         const bool ambient = light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon &&
                              !command_.deterministic && wanted.ambient_batch > 0;

@@ -76,3 +76,50 @@ TEST_CASE("blocks are aligned, at most 64 pixels wide, and enough for all worker
     CHECK(block_side(640, 480, 1, 8) > block_side(640, 480, 64, 8));
     CHECK(block_side(10, 10, 4, 100) == 100);
 }
+
+TEST_CASE("quarters cover a block once, with corners at multiples of the alignment") {
+    for (const Block block : {Block{0, 0, 64, 64}, {64, 0, 70, 64}, {3, 5, 11, 6}, {8, 8, 12, 12}}) {
+        for (const int alignment : {1, 4, 6}) {
+            CAPTURE(alignment);
+            std::size_t pixels = 0;
+            for (const Block& part : quarters(block, alignment)) {
+                pixels += part.pixels();
+                CHECK((part.x0 % alignment == 0 || part.x0 == block.x0));
+                CHECK((part.y0 % alignment == 0 || part.y0 == block.y0));
+            }
+            CHECK(pixels == block.pixels());
+            CHECK(quarters(block, alignment).size() <= 9);
+        }
+    }
+    CHECK(quarters({0, 0, 64, 64}, 1).size() == 4);
+}
+
+TEST_CASE("what is left of blocks: the known pixels are not among it, every other is") {
+    const PixelRectangle area{0, 0, 50, 40};
+    const std::vector<PixelRectangle> known{{0, 0, 16, 16}, {20, 20, 24, 28}, {49, 0, 50, 40}};
+    const std::vector<Block> blocks = make_blocks(area, 16);
+    const BlocksLeft result = blocks_left(blocks, known, 1);
+    std::vector<int> owner(area.pixels());
+    const auto mark = [&](const Block& block, int what) {
+        for (int y = block.y0; y < block.y1; ++y) {
+            for (int x = block.x0; x < block.x1; ++x) {
+                int& pixel = owner[static_cast<std::size_t>(y * area.width() + x)];
+                CHECK(pixel == 0);
+                pixel = what;
+            }
+        }
+    };
+    for (const Block& block : result.left) mark(block, 1);
+    for (const Block& block : result.known) mark(block, 2);
+    for (int y = 0; y < area.y1; ++y) {
+        for (int x = 0; x < area.x1; ++x) {
+            bool is_known = false;
+            for (const PixelRectangle& r : known) is_known = is_known || r.contains({x, y});
+            CHECK(owner[static_cast<std::size_t>(y * area.width() + x)] == (is_known ? 2 : 1));
+        }
+    }
+    // Blocks that cannot be cut so finely are traced again.
+    CHECK(blocks_left({{0, 0, 8, 8}}, {{0, 0, 2, 2}}, 8).left == std::vector<Block>{{0, 0, 8, 8}});
+    CHECK(blocks_left(blocks, {area}, 1).left.empty());
+    CHECK(blocks_left(blocks, {}, 1).left == blocks);
+}

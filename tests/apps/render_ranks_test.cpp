@@ -1,0 +1,222 @@
+// lightwalk render on ranks, started by mpirun.
+#include <doctest/doctest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/apps/program.h"
+
+using namespace lightwalk::test;
+
+namespace {
+
+const std::string kRoom = R"(
+void plastic floor 0 0 5 .5 .4 .3 .1 .1
+void glass pane 0 0 3 .9 .9 .9
+void light lamp 0 0 3 20 20 20
+floor polygon ground 0 0 12  -9 -9 0  9 -9 0  9 9 0  -9 9 0
+floor sphere ball 0 0 4 0 0 1 1
+pane polygon window 0 0 12  -2 -3 0  2 -3 0  2 -3 3  -2 -3 3
+lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
+)";
+
+std::vector<std::string> line(const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", "-vp", "0",  "-6", "2",   "-vd", "0",   "1", "-.2",
+                                   "-x",     "90",  "-y", "60", "-vh", "45",  "-vv", "31"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::string pixel_bytes(const std::string& picture) {
+    const std::size_t begin = picture.find("\n\n");
+    return begin == std::string::npos ? std::string() : picture.substr(begin);
+}
+
+bool have_mpi() {
+    if (mpirun(1)) return true;
+    MESSAGE("skipped: no mpirun here");
+    return false;
+}
+
+struct Split {
+    int ranks = 1;
+    std::vector<std::string> options, mpi;
+};
+const std::vector<Split> kSplits{
+    {3, {"--variant", "ranks"}, {}},
+    {4, {"--variant", "ranks", "--stride", "1"}, {"--mca", "btl", "self,tcp"}},
+    {9, {"--variant", "ranks", "--block", "16"}, {}},
+    {16, {"--variant", "ranks", "--masters", "3"}, {}},
+    {1, {"-n", "2"}, {}},
+    {2, {"--variant", "hybrid", "-n", "1"}, {}},
+    {2, {"-n", "2"}, {}},
+    {4, {"-n", "2", "--masters", "2"}, {}}};
+
+std::vector<std::string> with(std::vector<std::string> words,
+                              const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+}  // namespace
+
+TEST_CASE("render on ranks: the bytes of one process, for every split") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"-ps", "1", "-dj", ".5", "-z", folder.path("one.z")},
+          {"-ps", "4", "-pt", ".05"}}) {
+        CAPTURE(options[1]);
+        const ProgramResult alone =
+            run_program(line(with(options, {"-n", "2", "-o", folder.path("one.hdr"), scene})));
+        REQUIRE(alone.status == 0);
+        const std::string expected = pixel_bytes(read_whole(folder.path("one.hdr")));
+        for (const Split& split : kSplits) {
+            CAPTURE(split.ranks);
+            const std::string out = folder.path("ranks.hdr");
+            std::filesystem::remove(out);
+            std::vector<std::string> words = with(options, split.options);
+            if (words.size() > 4 && words[4] == "-z") words[5] = folder.path("ranks.z");
+            const ProgramResult shared = run_program(line(with(words, {"-o", out, scene})), "",
+                                                     *mpirun(split.ranks, split.mpi));
+            CHECK(shared.err.empty());
+            REQUIRE(shared.status == 0);
+            CHECK(pixel_bytes(read_whole(out)) == expected);
+            if (options.back() == folder.path("one.z"))
+                CHECK(read_whole(folder.path("ranks.z")) == read_whole(folder.path("one.z")));
+        }
+    }
+}
+
+TEST_CASE("render on ranks: pictures of a sequence follow each other without a pause, and are right") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string views =
+        "rview -vp 0 -6 2\nrview -vp .5 -6 2\nrview -vp 1 -6 2 -vd -.1 1 -.2\nrview -vp 1 -5 2\n";
+    const auto run = [&](const std::string& name, const std::vector<std::string>& options,
+                         const std::vector<std::string>& launcher) {
+        const std::string out = folder.path(name + "%d.hdr");
+        const ProgramResult result = run_program(
+            line(with(options, {"-ps", "1", "-pm", ".5", "-S", "1", "-o", out, scene})), views,
+            launcher);
+        CHECK(result.status == 0);
+        CHECK(result.err.empty());
+        std::string all;
+        for (const char* number : {"1", "2", "3", "4"})
+            all += pixel_bytes(read_whole(folder.path(name + number + ".hdr")));
+        return all;
+    };
+    const std::string expected = run("alone", {"-n", "1"}, {});
+    CHECK(run("ranks", {"--variant", "ranks"}, *mpirun(4)) == expected);
+    CHECK(run("hybrid", {"-n", "2"}, *mpirun(2)) == expected);
+}
+
+TEST_CASE("render on ranks: ambient values are exchanged, and kept in the file of rank 0") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string stats = folder.path("stats.json");
+    const std::vector<std::string> light{"-ab", "1",  "-ad", "64",      "-as", "0",  "-ps",
+                                         "1",   "-aa", ".1",  "--stats", stats, "-n", "1"};
+    const auto values = [&](const std::vector<std::string>& options, int ranks) {
+        const ProgramResult result = run_program(
+            line(with(with(light, options), {"-o", folder.path("a.hdr"), scene})), "",
+            *mpirun(ranks));
+        CHECK(result.err.empty());
+        REQUIRE(result.status == 0);
+        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+    };
+    const int apart = values({"--variant", "ranks", "--ambient-batch", "0"}, 5);
+    const int shared = values({"--variant", "ranks", "--ambient-batch", "2"}, 6);
+    CHECK(shared < apart);
+    const std::string file = folder.path("room.amb");
+    const int first = values({"--variant", "ranks", "-af", file}, 4);
+    CHECK(first > 0);
+    CHECK(values({"--variant", "ranks", "-af", file}, 4) < first / 4);
+    CHECK(values({"--variant", "hybrid", "-af", file}, 2) < first / 4);
+}
+
+TEST_CASE("render on ranks: what is wrong is said once, by rank 0, and nothing hangs") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string out = folder.path("none.hdr");
+    const std::string bad = folder.write("bad.rad", "void plastic p 0 0 4 1 1 1 0\n");
+    const auto run = [&](const std::vector<std::string>& words) {
+        return run_program(line(with(words, {"-o", out, bad})), "", *mpirun(3));
+    };
+    const ProgramResult wrong = run({"--variant", "ranks"});
+    CHECK(wrong.status == 1);
+    CHECK(wrong.err.find(bad + ":1: ") != std::string::npos);
+    CHECK(wrong.err.find(bad + ":1: ") == wrong.err.rfind(bad + ":1: "));
+    CHECK(run({"--variant", "rnks"}).status == 2);
+    CHECK(run({"--variant", "threads"}).status == 2);
+    CHECK(run({"--masters", "7"}).status == 1);
+    CHECK_FALSE(std::filesystem::exists(out));
+    const ProgramResult alone = run_program(line({"--variant", "ranks", "-o", out, bad}));
+    CHECK(alone.status == 2);
+    CHECK(alone.err.find("mpirun") != std::string::npos);
+}
+
+TEST_CASE("render on ranks: an error while tracing names its rank") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom + R"(
+void brightfunc missing 2 nothing nowhere.cal 0 0
+missing plastic lost 0 0 5 .5 .5 .5 0 0
+lost sphere far 0 0 4 0 4 1 1
+)");
+    const ProgramResult result = run_program(
+        line({"--variant", "ranks", "-ps", "1", "-w-", "-o", folder.path("none.hdr"), scene}), "",
+        *mpirun(3));
+    CHECK(result.status == 1);
+    CHECK(result.err.find("nowhere.cal") != std::string::npos);
+    CHECK(result.err.find("rank ") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.path("none.hdr")));
+}
+
+TEST_CASE("render: a run that is killed goes on from its checkpoint, with any split, to the same bytes") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::vector<std::string> slow{"-x", "900", "-y", "600", "-ps", "1"};
+    const std::string checkpoint = folder.path("blocks");
+    const ProgramResult whole =
+        run_program(line(with(slow, {"-o", folder.path("whole.hdr"), scene})));
+    REQUIRE(whole.status == 0);
+    const std::string expected = pixel_bytes(read_whole(folder.path("whole.hdr")));
+    const std::string out = folder.path("out.hdr");
+    const std::vector<std::string> kept{"--checkpoint", checkpoint, "-o", out, scene};
+    {
+        RunningProgram program(line(with(slow, kept)));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+    }  // killed
+    CHECK_FALSE(std::filesystem::exists(out));
+    REQUIRE(std::filesystem::exists(checkpoint));
+    // Not by accident, and not by another run.
+    const ProgramResult again = run_program(line(with(slow, kept)));
+    CHECK(again.status == 1);
+    CHECK(again.err.find("--resume") != std::string::npos);
+    const ProgramResult other =
+        run_program(line(with(with(slow, {"--resume", "-dj", ".3"}), kept)));
+    CHECK(other.status == 1);
+    CHECK(other.err.find("belongs to another run") != std::string::npos);
+    if (mpirun(1)) {
+        const std::string copy = folder.write("copy", read_whole(checkpoint));
+        std::vector<std::string> words = with(with(slow, {"--resume"}), kept);
+        words[words.size() - 4] = copy;
+        const ProgramResult ranks = run_program(line(words), "", *mpirun(3));
+        CHECK(ranks.err.empty());
+        CHECK(pixel_bytes(read_whole(out)) == expected);
+        std::filesystem::remove(out);
+    }
+    const ProgramResult rest = run_program(line(with(with(slow, {"--resume", "-n", "1"}), kept)));
+    CHECK(rest.status == 0);
+    CHECK(pixel_bytes(read_whole(out)) == expected);
+    CHECK_FALSE(std::filesystem::exists(checkpoint));
+}
