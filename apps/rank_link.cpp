@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <thread>
+#include <utility>
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
@@ -141,13 +142,24 @@ void RankLink::trace(Executor& executor, MakeRenderer make, const StopFlag& stop
         loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));
     };
     const auto tracer = std::make_shared<RankTracer>(std::move(make), tell, &timeline_);
-    {
-        const std::lock_guard lock(mutex_);
-        tracer_ = tracer;
-        for (Message& message : untaken_) tracer_->take(std::move(message));
-        untaken_.clear();
-    }
+    open_tracer([tracer](Message message) { tracer->take(std::move(message)); });
     tracer->run(executor, stop);
+}
+
+void RankLink::trace_rays(Executor& executor, AnswerChunk answer, const StopFlag& stop) {
+    const auto tell = [this](Message message) {
+        loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));
+    };
+    const auto tracer = std::make_shared<ChunkTracer>(std::move(answer), tell, &timeline_);
+    open_tracer([tracer](Message message) { tracer->take(std::move(message)); });
+    tracer->run(executor, stop);
+}
+
+void RankLink::open_tracer(std::function<void(Message)> take) {
+    const std::lock_guard lock(mutex_);
+    tracer_ = std::move(take);
+    for (Message& message : untaken_) tracer_(std::move(message));
+    untaken_.clear();
 }
 
 void RankLink::wait_for_end(const StopFlag& stop) {
@@ -201,6 +213,17 @@ std::optional<FinishedPicture> RankLink::wait_for(JobId job, const StopFlag& sto
     return std::nullopt;
 }
 
+void RankLink::submit(RayChunk chunk) {
+    loop_.post(Role::program, {0, Role::master}, std::move(chunk));
+}
+
+RankLink::RayNews RankLink::ray_news(bool wait, const StopFlag& stop) {
+    std::unique_lock lock(mutex_);
+    while (wait && ray_news_.chunks == 0 && ray_news_.answers.empty() && !stop.requested())
+        changed_.wait_for(lock, kPatience);
+    return std::exchange(ray_news_, {});
+}
+
 std::map<int, std::string> RankLink::finish(const StopFlag& stop) {
     for (int rank = 0; rank < ranks(); ++rank)
         loop_.post(Role::program, {rank, Role::program}, Finish{});
@@ -232,12 +255,17 @@ void RankLink::take(Envelope envelope) {
     } else if (auto* pixels = std::get_if<Pixels>(&message)) {
         if (const auto keeper = keepers_.find(pixels->work.job); keeper != keepers_.end())
             keeper->second->keep({pixels->work.block, std::move(pixels->values), {}});
+    } else if (const auto* ask = std::get_if<AskChunks>(&message)) {
+        ray_news_.chunks += ask->chunks;
+        ray_news_.rays = ask->rays;
+    } else if (auto* answer = std::get_if<ChunkAnswer>(&message)) {
+        ray_news_.answers.push_back(std::move(*answer));
     } else if (auto* report = std::get_if<Report>(&message)) {
         reports_[envelope.from.rank] = std::move(report->payload);
     } else {
         if (std::holds_alternative<Finish>(message)) finished_ = true;
         if (tracer_)
-            tracer_->take(std::move(message));
+            tracer_(std::move(message));
         else
             untaken_.push_back(std::move(message));
     }

@@ -2,6 +2,7 @@
 // This process as one of several ranks: its messages, and what the commands want of them.
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 
 #include "core/math/function_ref.h"
 #include "parallel/block_keeper.h"
+#include "parallel/ranks/chunk_tracer.h"
 #include "parallel/ranks/exchanging_cache.h"
 #include "parallel/ranks/rank_loop.h"
 #include "parallel/ranks/rank_tracer.h"
@@ -57,6 +59,8 @@ class RankLink final : private LocalEnd {
 
     /// Trace what the master gives, until rank 0 says that no more comes.
     void trace(Executor& executor, MakeRenderer make, const StopFlag& stop);
+    /// The same for rays.
+    void trace_rays(Executor& executor, AnswerChunk answer, const StopFlag& stop);
     /// On ranks that do not trace.
     void wait_for_end(const StopFlag& stop);
     /// What this rank did, for rank 0.
@@ -69,6 +73,15 @@ class RankLink final : private LocalEnd {
     /// share of the job's pixels that are done.
     [[nodiscard]] std::optional<FinishedPicture> wait_for(JobId job, const StopFlag& stop,
                                                           FunctionRef<void(double)> progress);
+    void submit(RayChunk chunk);
+    /// What came since the last call.
+    struct RayNews {
+        std::uint32_t chunks = 0;          ///< that are wanted more
+        std::uint32_t rays = 0;            ///< in each, about; 0: as before
+        std::vector<ChunkAnswer> answers;  ///< in the order of the chunks
+    };
+    /// @param wait  until there is some, or `stop` is requested
+    [[nodiscard]] RayNews ray_news(bool wait, const StopFlag& stop);
     /// No more work comes: what the other ranks report, by rank.
     [[nodiscard]] std::map<int, std::string> finish(const StopFlag& stop);
 
@@ -82,6 +95,8 @@ class RankLink final : private LocalEnd {
 
   private:
     void take(Envelope envelope) override;
+    /// From here on `take` gets what the tracer is to have.
+    void open_tracer(std::function<void(Message)> take);
     [[nodiscard]] std::string named(int rank, const std::string& host) const;
 
     Transport& transport_;
@@ -94,13 +109,14 @@ class RankLink final : private LocalEnd {
     std::unique_ptr<ExchangingCache> cache_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
-    std::shared_ptr<RankTracer> tracer_;
+    std::function<void(Message)> tracer_;
     std::deque<Message> untaken_;  ///< for the tracer, before it was there
     std::vector<AmbientRecord> early_values_;
     std::map<JobId, FinishedPicture> pictures_;
     std::map<JobId, double> shares_;
     std::map<JobId, std::shared_ptr<BlockKeeper>> keepers_;
     std::map<int, std::string> reports_;
+    RayNews ray_news_;
     bool finished_ = false;
 };
 

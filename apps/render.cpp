@@ -7,7 +7,6 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "apps/checkpoint.h"
 #include "apps/commands.h"
@@ -16,6 +15,7 @@
 #include "apps/progress.h"
 #include "apps/rank_pictures.h"
 #include "apps/rank_report.h"
+#include "apps/rank_session.h"
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
@@ -24,7 +24,6 @@
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
 #include "parallel/overture.h"
-#include "parallel/ranks/piece_codec.h"
 
 namespace lightwalk {
 namespace {
@@ -35,12 +34,6 @@ constexpr std::array<double, 8> kStandardPrimaries{.64, .33, .29, .6, .15, .06, 
 std::string formatted(const char* format, double value) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
-
-std::string hexadecimal(std::uint64_t value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
     return text.data();
 }
 
@@ -125,7 +118,7 @@ class RenderRun {
         same.common.workers = 1;
         same.report_interval = 0;
         std::string header = "SOFTWARE= Lightwalk " LIGHTWALK_VERSION "\n" + describe(same);
-        header += "scene " + hexadecimal(session_->digest()) + '\n';
+        header += "scene " + session_->digest() + '\n';
         checkpoint_ =
             std::make_unique<Checkpoint>(command_.checkpoint, command_.resume, header, warnings_);
     }
@@ -158,51 +151,17 @@ class RenderRun {
 
     /// Whether there are others to share the work with.
     bool share_out() {
-        const RankOptions& wanted = command_.common.ranks;
-        check_launch(wanted, transport_ != nullptr);
-        if (transport_ == nullptr) return false;
-        const RenderOptions& light = command_.settings.light;
         // A deterministic run exchanges nothing: each rank computes the same values.
-        const bool ambient = light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon &&
-                             !command_.deterministic && wanted.ambient_batch > 0;
-        const Variant variant =
-            settle_variant(wanted, transport_->size(), command_.common.workers, ambient);
-        if (variant == Variant::threads) return false;
-        if (variant == Variant::ranks) command_.common.workers = 1;
-        RankSettings settings;
-        settings.slots = command_.common.workers;
-        settings.ahead = std::max(1, settings.slots / 2);
-        settings.block = wanted.block;
-        settings.stride = wanted.stride;
-        settings.ambient_batch = static_cast<std::size_t>(wanted.ambient_batch);
-        settings.encode = encode_piece;
-        link_ = std::make_unique<RankLink>(
-            *transport_, make_topology(variant, transport_->size(), ambient, wanted.masters),
-            settings, kProgram, !wanted.timeline.empty());
-        statistics_.ranks = transport_->size();
-        return true;
+        const bool ambient =
+            caches_ambient_values(command_.settings.light) && !command_.deterministic;
+        link_ = link_ranks(transport_, command_.common, {kProgram, ambient, false});
+        if (link_) statistics_.ranks = link_->ranks();
+        return link_ != nullptr;
     }
 
-    /// Every rank reads and builds the scene; all go on, or none.
     void prepare() {
-        std::string problem;
-        int status = kSuccessStatus;
-        try {
-            session_ = std::make_unique<SceneSession>(command_.common, warnings_);
-            session_->build(command_.settings, &*link_);
-        } catch (const UsageError& error) {
-            problem = error.what();
-            status = kUsageStatus;
-        } catch (const std::exception& error) {
-            problem = error.what();
-            status = kFailureStatus;
-        }
-        std::vector<std::string> facts;
-        if (problem.empty()) {
-            facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + command_.history,
-                     "scene " + hexadecimal(session_->digest())};
-        }
-        link_->agree(facts, problem, status);
+        session_ =
+            build_on_ranks(*link_, command_.common, command_.settings, command_.history, warnings_);
         make_threads();
     }
 
@@ -239,24 +198,16 @@ class RenderRun {
         session_->warn_of_darkness();
         RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
                               *contexts_, warnings_, interrupt_flag());
-        std::thread tracing([&] {
-            try {
-                if (link_->traces()) trace_orders(pictures);
-            } catch (const std::exception& error) {
-                link_->fail(error.what());
-            }
-        });
         bool whole = false;
-        try {
-            LeadPictures all(*link_, session_->tracer(), overture(), *contexts_,
-                             progress_options());
-            open_checkpoint();
-            whole = render_all(all);
-        } catch (const std::exception& error) {
-            link_->fail(error.what());
-        }
-        statistics_.reports = link_->finish(interrupt_flag());
-        tracing.join();
+        lead_ranks(
+            *link_, [&] { trace_orders(pictures); },
+            [&] {
+                LeadPictures all(*link_, session_->tracer(), overture(), *contexts_,
+                                 progress_options());
+                open_checkpoint();
+                whole = render_all(all);
+                statistics_.reports = link_->finish(interrupt_flag());
+            });
         if (!whole) return kInterruptedStatus;
         statistics_.reports[0] = report(pictures);
         for (const auto& [rank, text] : statistics_.reports)

@@ -1,7 +1,9 @@
 #include "apps/scene_session.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
@@ -80,7 +82,7 @@ void SceneSession::make_cache(const RenderSettings& settings, RankLink* link) {
     freezable = std::make_unique<FreezableCache>(*cache);
 }
 
-std::uint64_t SceneSession::digest() const {
+std::string SceneSession::digest() const {
     // FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923).
     std::uint64_t hash = 0xcbf29ce484222325;
     const auto add = [&](const void* data, std::size_t size) {
@@ -94,7 +96,9 @@ std::uint64_t SceneSession::digest() const {
         for (const std::string& text : primitive.strings) add(text.c_str(), text.size() + 1);
         for (const double& real : primitive.reals) add(&real, sizeof real);
     }
-    return hash;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+    return text.data();
 }
 
 void SceneSession::warn_of_darkness() const {

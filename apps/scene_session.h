@@ -40,7 +40,7 @@ struct SceneSession {
     void build(const RenderSettings& settings, RankLink* link = nullptr);
 
     /// Of the description: the same on every machine for the same primitives.
-    [[nodiscard]] std::uint64_t digest() const;
+    [[nodiscard]] std::string digest() const;
 
     /// Warn when nothing lights the scene; after build().
     void warn_of_darkness() const;

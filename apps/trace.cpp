@@ -6,145 +6,33 @@
 #include <optional>
 
 #include "apps/commands.h"
+#include "apps/interrupt.h"
+#include "apps/rank_report.h"
+#include "apps/rank_session.h"
 #include "apps/scene_session.h"
+#include "apps/trace_command.h"
 #include "apps/warnings.h"
-#include "io/rays/ray_reader.h"
-#include "io/rays/ray_records.h"
-#include "io/rays/ray_tree.h"
+#include "io/files/atomic_file.h"
 #include "parallel/ray_list.h"
 
 namespace lightwalk {
 namespace {
 
 constexpr const char* kProgram = "lightwalk trace";
-constexpr std::size_t kBatch = 16384;  ///< rays read ahead when nobody asks for a flush
-
-struct TraceCommand {
-    CommonOptions common;
-    RenderSettings settings = default_render_settings(OptionDefaults::rtrace);
-    bool header = true;         ///< -h
-    RayFormats formats;         ///< -f
-    std::string letters = "v";  ///< -o
-    TreeSelection tree;         ///< -te -ti -tE -tI
-    ColorOutput color = ColorOutput::rgb;
-    bool sensor = false;           ///< -I
-    bool limit_by_length = false;  ///< -ld
-    int x = 0, y = 0;              ///< -x -y
-    bool show_defaults = false;
-    std::string history;
-};
-
-const std::vector<std::string> kOwnNames{"-h",  "-I",  "-ld",  "-x",  "-y",    "-fa",
-                                         "-ff", "-fd", "-fac", "-ov", "-pRGB", "-pXYZ",
-                                         "-pY", "-pA", "-te",  "-ti", "-tE",   "-tI"};
-
-bool parse_switch(OptionWords& words, TraceCommand& command) {
-    for (const auto& [name, place] :
-         {std::pair{"-h", &command.header}, std::pair{"-I", &command.sensor},
-          std::pair{"-ld", &command.limit_by_length}}) {
-        if (const std::optional<bool> value = words.toggle(name, *place)) {
-            *place = *value;
-            return true;
-        }
-    }
-    return false;
-}
-
-std::optional<ColorOutput> color_output(const std::string& word) {
-    if (word == "-pRGB") return ColorOutput::rgb;
-    if (word == "-pXYZ") return ColorOutput::xyz;
-    if (word == "-pY") return ColorOutput::luminance;
-    if (word == "-pA") return ColorOutput::mean;
-    if (word == "-pc") {
-        throw UsageError(
-            "option -pc converts to other primaries, which is not supported; the choices are "
-            "-pRGB, -pXYZ, -pY and -pA");
-    }
-    return std::nullopt;
-}
-
-bool parse_tree_option(OptionWords& words, const LibraryPath& library, TreeSelection& tree) {
-    const std::string word = words.option();
-    if (word != "-te" && word != "-ti" && word != "-tE" && word != "-tI") return false;
-    using Kind = TreeSelection::Kind;
-    const Kind kind = word[2] == 'e' || word[2] == 'E' ? Kind::exclude : Kind::include;
-    const std::string name = words.text();
-    const bool is_file = word[2] == 'E' || word[2] == 'I';
-    tree.add(kind, is_file ? names_in_file(name, library) : std::vector<std::string>{name});
-    return true;
-}
-
-bool parse_own_option(OptionWords& words, TraceCommand& command) {
-    const std::string word = words.option();
-    if (word == "-x")
-        command.x = words.integer();
-    else if (word == "-y")
-        command.y = words.integer();
-    else if (const auto formats =
-                 word.starts_with("-f") ? parse_ray_formats(word.substr(2)) : std::nullopt) {
-        command.formats = *formats;
-        words.skip(1);
-    } else if (word.starts_with("-o")) {
-        command.letters = word.substr(2);
-        words.skip(1);
-    } else if (const auto color = color_output(word)) {
-        command.color = *color;
-        words.skip(1);
-    } else {
-        return parse_switch(words, command);
-    }
-    return true;
-}
-
-TraceCommand parse_trace_command(const std::vector<std::string>& line) {
-    TraceCommand command;
-    const LibraryPath library = LibraryPath::from_environment();
-    OptionWords words(line);
-    while (words.at_option()) {
-        if (words.option() == "-defaults") {
-            command.show_defaults = true;
-            return command;
-        }
-        if (words.option() == "-P" || words.option() == "-PP") {
-            throw UsageError("option " + words.option() +
-                             ": persistent processes are not supported");
-        }
-        if (parse_own_option(words, command) || parse_tree_option(words, library, command.tree) ||
-            parse_render_option(words, library, command.settings) ||
-            parse_common_option(words, command.common, command.settings)) {
-            continue;
-        }
-        std::vector<std::string> names = render_option_names();
-        names.insert(names.end(), kOwnNames.begin(), kOwnNames.end());
-        refuse_option(words, std::move(names));
-    }
-    command.history = command_history("trace", words, command.common);
-    return command;
-}
-
-std::string describe(const TraceCommand& c) {
-    std::string text = option_line("-o" + c.letters, "output fields");
-    text += option_line(option_text("-h", c.header), "output header");
-    text += option_line(option_text("-I", c.sensor), "rays are points and normals: irradiance");
-    text +=
-        option_line(option_text("-ld", c.limit_by_length), "a direction's length limits its ray");
-    text += option_line(option_text("-x", c.x), "flush interval");
-    text += option_line(option_text("-y", c.y), "rows");
-    text += describe_render_settings(c.settings);
-    text += option_line(option_text("-n", c.common.workers), "threads");
-    text += option_line("--seed " + std::to_string(c.settings.light.seed), "random seed");
-    return text;
-}
+constexpr std::size_t kBatch = 16384;     ///< rays read ahead when nobody asks for a flush
+constexpr std::size_t kEnough = 1 << 16;  ///< bytes of output that are worth writing
 
 class TraceRun {
   public:
-    explicit TraceRun(TraceCommand command)
+    TraceRun(TraceCommand command, Transport* transport)
         : command_(std::move(command)),
+          transport_(transport),
           warnings_(kProgram),
           reader_(STDIN_FILENO, command_.formats.input) {
         prepare_output();
         redirect_messages(command_.common, command_.history);
-        warnings_.enable(command_.settings.warnings && !command_.common.quiet);
+        const bool speaks = transport_ == nullptr || transport_->rank() == 0;
+        warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
         check_render_settings(command_.settings);
         check();
         options_ = {shades() || command_.sensor, command_.sensor, command_.limit_by_length,
@@ -156,26 +44,171 @@ class TraceRun {
     }
 
     int run() {
+        // Values that are not computed are not exchanged. Trees are told one after the other: rank
+        // 0 has all the work, the others wait.
+        const bool ambient =
+            options_.shade && caches_ambient_values(command_.settings.light) && !tree_;
+        link_ = link_ranks(transport_, command_.common, {kProgram, ambient, true});
+        if (!link_) return trace_alone();
+        const auto body = [this] {
+            if (tree_) return link_->leads() ? lead_trees() : wait();
+            return link_->leads() ? lead() : follow();
+        };
+        return link_->run(body, interrupt_flag());
+    }
+
+  private:
+    // This process by itself.
+
+    int trace_alone() {
         session_ = std::make_unique<SceneSession>(command_.common, warnings_);
         session_->build(command_.settings);
         if (options_.shade) session_->warn_of_darkness();
-        executor_ = make_executor(command_.common.executor, command_.common.workers);
-        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
-                                                     executor_->concurrency());
+        make_threads();
         if (tree_) {
             tree_->watch(session_->tracer());
             (*contexts_)[0].observer = &*tree_;
         }
         const Stopwatch watch;
         put_header();
-        while (read_batch()) answer_batch();
-        if (expected_ > 0 && read_ < expected_) warnings_.warn("unexpected EOF on input");
-        flush();
-        if (!command_.common.stats_file.empty()) save_statistics(watch.seconds());
+        while (read_batch(tree_ ? 1 : kBatch)) answer_batch();  // trees may be large
+        finish();
+        statistics_.render_seconds = watch.seconds();
+        statistics_.rays = contexts_->rays();
+        statistics_.ambient = contexts_->ambient();
+        save_statistics();
         return kSuccessStatus;
     }
 
-  private:
+    void make_threads() {
+        executor_ = make_executor(command_.common.executor, command_.common.workers);
+        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
+                                                     executor_->concurrency());
+    }
+
+    // One of several ranks.
+
+    void prepare() {
+        session_ =
+            build_on_ranks(*link_, command_.common, command_.settings, command_.history, warnings_);
+        make_threads();
+    }
+
+    void trace_chunks() {
+        link_->trace_rays(
+            *executor_,
+            [this](const RayChunk& chunk, int worker) { return answer_chunk(chunk, worker); },
+            interrupt_flag());
+    }
+
+    int follow() {
+        prepare();
+        if (link_->traces())
+            trace_chunks();
+        else
+            link_->wait_for_end(interrupt_flag());
+        link_->report(report());
+        return kSuccessStatus;
+    }
+
+    [[nodiscard]] std::string report() const {
+        return rank_report(*link_, executor_->concurrency(), contexts_->rays(),
+                           contexts_->ambient());
+    }
+
+    /// While rank 0 works alone.
+    int wait() {
+        link_->wait_for_end(interrupt_flag());
+        link_->report(rank_report(*link_, 1, {}, {}));
+        return kSuccessStatus;
+    }
+
+    int lead_trees() {
+        const int status = trace_alone();
+        (void)link_->finish(interrupt_flag());
+        return status;
+    }
+
+    int lead() {
+        prepare();
+        if (options_.shade) session_->warn_of_darkness();
+        lead_ranks(
+            *link_, [this] { trace_chunks(); },
+            [&] {
+                const Stopwatch watch;
+                put_header();
+                share_rays();
+                finish();
+                statistics_.render_seconds = watch.seconds();
+                statistics_.reports = link_->finish(interrupt_flag());
+            });
+        statistics_.ranks = link_->ranks();
+        statistics_.reports[0] = report();
+        for (const auto& [rank, text] : statistics_.reports)
+            add_report(text, statistics_.rays, statistics_.ambient);
+        save_statistics();
+        if (!command_.common.ranks.timeline.empty())
+            write_file_atomically(command_.common.ranks.timeline,
+                                  timeline_json(statistics_.reports));
+        return kSuccessStatus;
+    }
+
+    /// All rays to the ranks, as many at a time as the master asks for; their answers to the
+    /// output.
+    void share_rays() {
+        bool more = true;
+        while (!interrupt_flag().requested() && (more || chunks_out_ > 0)) {
+            const bool can_read = more && chunks_wanted_ > 0;
+            take_news(!can_read);
+            if (!can_read) continue;
+            more = read_batch(chunk_rays_);
+            if (!more) continue;
+            give_chunk();
+            if (!flush_due_) continue;
+            while (chunks_out_ > 0 && !interrupt_flag().requested()) take_news(true);
+            flush();
+        }
+    }
+
+    void take_news(bool wait) {
+        const RankLink::RayNews news = link_->ray_news(wait, interrupt_flag());
+        chunks_wanted_ += news.chunks;
+        if (news.rays > 0) chunk_rays_ = news.rays;
+        for (const ChunkAnswer& answer : news.answers) {
+            output_ += answer.bytes;
+            --chunks_out_;
+            if (output_.size() >= kEnough) flush();
+        }
+    }
+
+    void give_chunk() {
+        RayChunk chunk{next_chunk_++, read_ - queries_.size(), {}};
+        chunk.numbers.reserve(6 * queries_.size());
+        for (const RayQuery& query : queries_) {
+            for (const Vec3& v : {query.origin, query.direction})
+                chunk.numbers.insert(chunk.numbers.end(), {v.x, v.y, v.z});
+        }
+        link_->submit(std::move(chunk));
+        --chunks_wanted_;
+        ++chunks_out_;
+    }
+
+    [[nodiscard]] std::string answer_chunk(const RayChunk& chunk, int worker) const {
+        std::vector<RayQuery> queries(chunk.rays());
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const double* const v = &chunk.numbers[6 * i];
+            queries[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+        }
+        std::string text;
+        trace_rays(session_->tracer(), (*contexts_)[worker], queries, chunk.first, options_,
+                   [&](std::size_t i, const Ray& ray, const Hit& first) {
+                       append_record(queries[i], ray, first, text);
+                   });
+        return text;
+    }
+
+    // Input and output.
+
     void prepare_output() {
         const OutputFields fields = parse_output_fields(command_.letters);
         const NumberFormat format = command_.formats.output;
@@ -234,10 +267,9 @@ class TraceRun {
     }
 
     /// Read rays until the batch is full or an answer is due. False: there are no more.
-    bool read_batch() {
+    bool read_batch(std::size_t most) {
         queries_.clear();
         flush_due_ = false;
-        const std::size_t most = tree_ ? 1 : kBatch;  // trees may be large
         while (queries_.size() < most && !flush_due_ && (expected_ == 0 || read_ < expected_)) {
             const std::optional<InputRay> ray = reader_.next();
             if (!ray) break;
@@ -254,18 +286,25 @@ class TraceRun {
 
     void answer_batch() {
         texts_.assign((queries_.size() + kRaysPerTask - 1) / kRaysPerTask, {});
-        const Scene& scene = session_->scene();
         trace_ray_list(session_->tracer(), *contexts_, queries_, read_ - queries_.size(), options_,
                        *executor_, [&](std::size_t i, const Ray& ray, const Hit& first) {
-                           const bool sensor =
-                               options_.sensor && length_squared(queries_[i].direction) > 0;
                            std::string& text = texts_[i / kRaysPerTask];
                            if (tree_) text += tree_->take();
-                           if (records_) records_->append({ray, first, sensor}, scene, text);
+                           append_record(queries_[i], ray, first, text);
                        });
         for (const std::string& text : texts_) output_ += text;
-        constexpr std::size_t kEnough = 1 << 16;
         if (flush_due_ || output_.size() >= kEnough) flush();
+    }
+
+    void append_record(const RayQuery& query, const Ray& ray, const Hit& first,
+                       std::string& text) const {
+        const bool sensor = options_.sensor && length_squared(query.direction) > 0;
+        if (records_) records_->append({ray, first, sensor}, session_->scene(), text);
+    }
+
+    void finish() {
+        if (expected_ > 0 && read_ < expected_) warnings_.warn("unexpected EOF on input");
+        flush();
     }
 
     void flush() {
@@ -274,28 +313,27 @@ class TraceRun {
         output_.clear();
     }
 
-    void save_statistics(double seconds) const {
-        RunStatistics statistics;
-        statistics.command = "trace";
-        statistics.read_seconds = session_->read_seconds;
-        statistics.build_seconds = session_->build_seconds;
-        statistics.render_seconds = seconds;
-        statistics.rays = contexts_->rays();
-        statistics.ambient = contexts_->ambient();
+    void save_statistics() {
+        if (command_.common.stats_file.empty()) return;
+        statistics_.command = "trace";
+        statistics_.read_seconds = session_->read_seconds;
+        statistics_.build_seconds = session_->build_seconds;
         if (session_->ambient) {
-            statistics.ambient_values = session_->ambient->size();
-            statistics.ambient_bytes = session_->ambient->memory_bytes();
+            statistics_.ambient_values = session_->ambient->size();
+            statistics_.ambient_bytes = session_->ambient->memory_bytes();
         }
-        statistics.threads = executor_->concurrency();
-        write_statistics(command_.common.stats_file, statistics);
+        statistics_.threads = executor_->concurrency();
+        write_statistics(command_.common.stats_file, statistics_);
     }
 
     TraceCommand command_;
+    Transport* transport_;  ///< to the other ranks; null: there are none
     StderrWarnings warnings_;
     std::optional<RayRecords> records_;  ///< not with trees alone
     std::optional<RayTree> tree_;        ///< -ot -oT
     RayReader reader_;
     RayListOptions options_;
+    std::unique_ptr<RankLink> link_;
     std::unique_ptr<SceneSession> session_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<WorkerContexts> contexts_;
@@ -305,17 +343,21 @@ class TraceRun {
     std::uint64_t read_ = 0, expected_ = 0;
     int in_row_ = 0;
     bool flush_due_ = false;
+    // On rank 0, of several:
+    std::uint64_t next_chunk_ = 0;
+    std::size_t chunks_wanted_ = 0, chunks_out_ = 0, chunk_rays_ = 0;
+    RunStatistics statistics_;
 };
 
 }  // namespace
 
-int run_trace(const std::vector<std::string>& words, Transport* /*ranks*/) {
+int run_trace(const std::vector<std::string>& words, Transport* ranks) {
     TraceCommand command = parse_trace_command(words);
     if (command.show_defaults) {
-        std::fputs(describe(command).c_str(), stdout);
+        if (ranks == nullptr || ranks->rank() == 0) std::fputs(describe(command).c_str(), stdout);
         return kSuccessStatus;
     }
-    return TraceRun(std::move(command)).run();
+    return TraceRun(std::move(command), ranks).run();
 }
 
 }  // namespace lightwalk

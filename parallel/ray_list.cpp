@@ -40,19 +40,27 @@ void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random,
 
 }  // namespace
 
+void trace_rays(const Tracer& tracer, TraceContext& context, std::span<const RayQuery> queries,
+                std::uint64_t first_index, const RayListOptions& options, TakeRay take) {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const std::uint64_t number = first_index + i;
+        const RandomStream random =
+            RandomStream::of_pixel(options.seed, static_cast<std::uint32_t>(number),
+                                   static_cast<std::uint32_t>(number >> 32), 0);
+        trace_one(tracer, queries[i], random, options, context, i, take);
+    }
+}
+
 void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts,
                     std::span<const RayQuery> queries, std::uint64_t first_index,
                     const RayListOptions& options, Executor& executor, TakeRay take) {
     const std::size_t tasks = (queries.size() + kRaysPerTask - 1) / kRaysPerTask;
     executor.for_each(tasks, [&](std::size_t task, int worker) {
-        const std::size_t end = std::min((task + 1) * kRaysPerTask, queries.size());
-        for (std::size_t i = task * kRaysPerTask; i < end; ++i) {
-            const std::uint64_t number = first_index + i;
-            const RandomStream random =
-                RandomStream::of_pixel(options.seed, static_cast<std::uint32_t>(number),
-                                       static_cast<std::uint32_t>(number >> 32), 0);
-            trace_one(tracer, queries[i], random, options, contexts[worker], i, take);
-        }
+        const std::size_t begin = task * kRaysPerTask;
+        const std::size_t count = std::min(kRaysPerTask, queries.size() - begin);
+        trace_rays(
+            tracer, contexts[worker], queries.subspan(begin, count), first_index + begin, options,
+            [&](std::size_t i, const Ray& ray, const Hit& first) { take(begin + i, ray, first); });
     });
 }
 

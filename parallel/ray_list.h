@@ -29,8 +29,13 @@ inline constexpr std::size_t kRaysPerTask = 64;
 /// Takes a finished ray and its nearest hit before shading.
 using TakeRay = FunctionRef<void(std::size_t index, const Ray& ray, const Hit& first)>;
 
-/// Trace `queries`; ray i has the random numbers of ray `first_index` + i of the whole input,
-/// whatever the workers.
+/// Trace `queries` with one context, in order; ray i has the random numbers of ray `first_index` +
+/// i of the whole input.
+void trace_rays(const Tracer& tracer, TraceContext& context, std::span<const RayQuery> queries,
+                std::uint64_t first_index, const RayListOptions& options, TakeRay take);
+
+/// The same with all workers of an executor; ray i has the random numbers of ray `first_index` + i
+/// of the whole input, whatever the workers.
 void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts,
                     std::span<const RayQuery> queries, std::uint64_t first_index,
                     const RayListOptions& options, Executor& executor, TakeRay take);

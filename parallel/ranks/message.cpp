@@ -123,6 +123,18 @@ template <class Archive>
 void fields(Archive& archive, Progress& m) {
     archive(m.job, m.done);
 }
+template <class Archive>
+void fields(Archive& archive, AskChunks& m) {
+    archive(m.chunks, m.rays);
+}
+template <class Archive>
+void fields(Archive& archive, RayChunk& m) {
+    archive(m.number, m.first, m.numbers);
+}
+template <class Archive>
+void fields(Archive& archive, ChunkAnswer& m) {
+    archive(m.number, m.rays, m.seconds, m.bytes);
+}
 
 class Writer {
   public:
@@ -196,9 +208,9 @@ Message default_message(std::size_t kind) {
 
 const char* kind_name(std::size_t kind) {
     static constexpr std::array<const char*, kMessageKinds> kNames{
-        "JobStart", "AskBlocks",       "GiveBlocks",    "Pixels",  "BlockDone",
-        "Piece",    "FinishedPicture", "AmbientValues", "Failure", "Finish",
-        "Report",   "Gather",          "Progress"};
+        "JobStart",        "AskBlocks",     "GiveBlocks", "Pixels",     "BlockDone", "Piece",
+        "FinishedPicture", "AmbientValues", "Failure",    "Finish",     "Report",    "Gather",
+        "Progress",        "AskChunks",     "RayChunk",   "ChunkAnswer"};
     return kNames[kind];
 }
 

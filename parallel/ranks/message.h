@@ -137,9 +137,36 @@ struct Progress {
     friend bool operator==(const Progress&, const Progress&) = default;
 };
 
-using Message =
-    std::variant<JobStart, AskBlocks, GiveBlocks, Pixels, BlockDone, Piece, FinishedPicture,
-                 AmbientValues, Failure, Finish, Report, Gather, Progress>;
+/// Worker to the master of rays, and that one to the program of rank 0: this many chunks more are
+/// wanted.
+struct AskChunks {
+    std::uint32_t chunks = 0;
+    std::uint32_t rays = 0;  ///< to the program: about so many in each
+    friend bool operator==(const AskChunks&, const AskChunks&) = default;
+};
+
+/// Rays that one thread traces, on their way from the program of rank 0.
+struct RayChunk {
+    std::uint64_t number = 0;     ///< of the chunk, from 0
+    std::uint64_t first = 0;      ///< number of its first ray among all rays of the input
+    std::vector<double> numbers;  ///< six a ray: origin and direction
+    [[nodiscard]] std::size_t rays() const { return numbers.size() / 6; }
+    friend bool operator==(const RayChunk&, const RayChunk&) = default;
+};
+
+/// Tracer to worker, worker to master, master to program: what a chunk's rays say, as it is to be
+/// written. From a worker it is also the wish for one chunk more.
+struct ChunkAnswer {
+    std::uint64_t number = 0;
+    std::uint32_t rays = 0;
+    double seconds = 0;  ///< that it took
+    std::string bytes;
+    friend bool operator==(const ChunkAnswer&, const ChunkAnswer&) = default;
+};
+
+using Message = std::variant<JobStart, AskBlocks, GiveBlocks, Pixels, BlockDone, Piece,
+                             FinishedPicture, AmbientValues, Failure, Finish, Report, Gather,
+                             Progress, AskChunks, RayChunk, ChunkAnswer>;
 
 inline constexpr std::size_t kMessageKinds = std::variant_size_v<Message>;
 /// Of Message::index(), for statistics: "JobStart", ...

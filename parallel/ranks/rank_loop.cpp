@@ -11,7 +11,7 @@ using std::chrono::microseconds;
 constexpr microseconds kShortestWait{50}, kLongestWait{2000};
 constexpr std::uint32_t kGoodbye = 0xffffffff;  ///< the last round of all
 
-int blocks_threads(const Topology& topology, const RankSettings& settings) {
+int tracing_threads(const Topology& topology, const RankSettings& settings) {
     return settings.slots * static_cast<int>(topology.workers.size());
 }
 
@@ -33,25 +33,10 @@ RankLoop::RankLoop(Transport& transport, const Topology& topology, RankSettings 
                    LocalEnd& local, Timeline* timeline)
     : transport_(transport), topology_(topology), local_(local), timeline_(timeline) {
     const int rank = transport.rank();
-    if (rank == 0) {
-        master_.emplace(
-            Address{0, Role::master}, topology.children, topology.workers.size(),
-            BlockPolicy{settings.block, settings.stride, blocks_threads(topology, settings)});
-    }
-    for (const Topology::SubMaster& sub : topology.sub_masters) {
-        if (sub.rank != rank) continue;
-        sub_master_.emplace(Address{rank, Role::master}, Address{0, Role::master}, sub.children,
-                            workers_of(sub.children) * static_cast<std::size_t>(settings.slots));
-    }
-    if (const auto index = topology.worker_index(rank)) {
-        worker_.emplace(WorkerOptions{{rank, Role::worker},
-                                      {topology.workers[*index].master, Role::master},
-                                      *index,
-                                      worker_ranks(topology),
-                                      settings.slots,
-                                      settings.ahead,
-                                      timed_encoding(std::move(settings.encode))});
-    }
+    if (settings.rays)
+        make_chunk_roles(settings);
+    else
+        make_block_roles(settings);
     if (topology.ambient_master && settings.ambient_batch > 0) {
         if (*topology.ambient_master == rank)
             ambient_master_.emplace(Address{rank, Role::ambient_master});
@@ -68,6 +53,42 @@ EncodePiece RankLoop::timed_encoding(EncodePiece encode) const {
                                   Activity::compress);
         return encode(block, std::move(values));
     };
+}
+
+void RankLoop::make_block_roles(const RankSettings& settings) {
+    const int rank = transport_.rank();
+    if (rank == 0) {
+        master_.emplace(
+            Address{0, Role::master}, topology_.children, topology_.workers.size(),
+            BlockPolicy{settings.block, settings.stride, tracing_threads(topology_, settings)});
+    }
+    for (const Topology::SubMaster& sub : topology_.sub_masters) {
+        if (sub.rank != rank) continue;
+        sub_master_.emplace(Address{rank, Role::master}, Address{0, Role::master}, sub.children,
+                            workers_of(sub.children) * static_cast<std::size_t>(settings.slots));
+    }
+    if (const auto index = topology_.worker_index(rank)) {
+        worker_.emplace(WorkerOptions{{rank, Role::worker},
+                                      {topology_.workers[*index].master, Role::master},
+                                      *index,
+                                      worker_ranks(topology_),
+                                      settings.slots,
+                                      settings.ahead,
+                                      timed_encoding(settings.encode)});
+    }
+}
+
+void RankLoop::make_chunk_roles(const RankSettings& settings) {
+    constexpr int kChunksAThread = 4;  // one is traced, others wait there, here, or to be written
+    const int rank = transport_.rank();
+    if (rank == 0) {
+        const int window = kChunksAThread * tracing_threads(topology_, settings);
+        chunk_master_.emplace(Address{0, Role::master}, static_cast<std::uint32_t>(window));
+    }
+    if (topology_.traces(rank)) {
+        chunk_worker_.emplace(Address{rank, Role::worker}, Address{0, Role::master}, settings.slots,
+                              settings.ahead);
+    }
 }
 
 void RankLoop::post(Role from, Address to, Message message) {
@@ -152,6 +173,8 @@ void RankLoop::begin() {
     Outbox out;
     if (sub_master_) sub_master_->begin(out);
     if (worker_) worker_->begin(out);
+    if (chunk_master_) chunk_master_->begin(out);
+    if (chunk_worker_) chunk_worker_->begin(out);
     for (Envelope& envelope : out) dispatch(std::move(envelope));
 }
 
@@ -215,9 +238,14 @@ void RankLoop::deliver(Envelope envelope, Outbox& out) {
                 sub_master_->handle(std::move(envelope), out);
             else if (master_)
                 master_->handle(std::move(envelope), out);
+            else if (chunk_master_)
+                chunk_master_->handle(std::move(envelope), out);
             return;
         case Role::worker:
-            if (worker_) worker_->handle(std::move(envelope), out);
+            if (worker_)
+                worker_->handle(std::move(envelope), out);
+            else if (chunk_worker_)
+                chunk_worker_->handle(std::move(envelope), out);
             return;
         case Role::ambient_master:
             if (ambient_master_) ambient_master_->handle(std::move(envelope), out);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/ranks/chunk_roles.h"
 #include "parallel/ranks/local_end.h"
 #include "parallel/ranks/message_counts.h"
 #include "parallel/ranks/roles.h"
@@ -26,6 +27,7 @@ struct RankSettings {
     int block = 0, stride = 0;       ///< see BlockPolicy
     std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
     EncodePiece encode;
+    bool rays = false;  ///< chunks of rays are traced, and no pictures; one master for all
 };
 
 /// Serves the messages of one rank on the thread that calls run(). Where nothing is to be done it
@@ -59,6 +61,8 @@ class RankLoop {
     }
 
   private:
+    void make_block_roles(const RankSettings& settings);
+    void make_chunk_roles(const RankSettings& settings);
     void begin();
     void say_goodbye();
     void ask_for_values();
@@ -77,6 +81,8 @@ class RankLoop {
     std::optional<MasterRole> master_;
     std::optional<SubMasterRole> sub_master_;
     std::optional<WorkerRole> worker_;
+    std::optional<ChunkMasterRole> chunk_master_;  ///< where rays are traced
+    std::optional<ChunkWorkerRole> chunk_worker_;
     std::optional<AmbientMasterRole> ambient_master_;
     std::optional<AmbientClientRole> ambient_client_;
     mutable std::mutex counts_mutex_;

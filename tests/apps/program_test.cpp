@@ -35,12 +35,14 @@ std::string read_all(int descriptor) {
 
 }  // namespace
 
-RunningProgram::RunningProgram(const std::vector<std::string>& words) {
+RunningProgram::RunningProgram(const std::vector<std::string>& words,
+                               const std::vector<std::string>& launcher) {
     std::signal(SIGPIPE, SIG_IGN);
     const std::array<int, 2> in = make_pipe();
     const std::array<int, 2> out = make_pipe();
     const std::array<int, 2> err = make_pipe();
-    std::vector<std::string> line{LIGHTWALK_PROGRAM};
+    std::vector<std::string> line = launcher;
+    line.emplace_back(LIGHTWALK_PROGRAM);
     line.insert(line.end(), words.begin(), words.end());
     std::vector<char*> arguments;
     arguments.reserve(line.size() + 1);
@@ -52,7 +54,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& words) {
         dup2(in[0], STDIN_FILENO);
         dup2(out[1], STDOUT_FILENO);
         dup2(err[1], STDERR_FILENO);
-        execv(arguments.front(), arguments.data());
+        execvp(arguments.front(), arguments.data());
         _exit(127);
     }
     for (const int unused : {in[0], out[1], err[1]}) close(unused);
@@ -102,12 +104,16 @@ void RunningProgram::interrupt() const {
     kill(process_, SIGINT);
 }
 
-ProgramResult RunningProgram::finish() {
-    end_input();
+ProgramResult RunningProgram::finish(const std::string& input) {
+    std::thread inputs([&] {
+        send(input);
+        end_input();
+    });
     ProgramResult result;
     std::thread errors([&] { result.err = read_all(err_); });
     result.out = read_all(out_);
     errors.join();
+    inputs.join();
     int status = 0;
     waitpid(process_, &status, 0);
     process_ = -1;
@@ -115,10 +121,29 @@ ProgramResult RunningProgram::finish() {
     return result;
 }
 
-ProgramResult run_program(const std::vector<std::string>& words, const std::string& input) {
-    RunningProgram program(words);
-    program.send(input);  // smaller than a pipe holds
-    return program.finish();
+ProgramResult run_program(const std::vector<std::string>& words, const std::string& input,
+                          const std::vector<std::string>& launcher) {
+    return RunningProgram(words, launcher).finish(input);
+}
+
+std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std::string>& more) {
+#if defined(__SANITIZE_THREAD__)
+    return std::nullopt;  // it takes what MPI does for races
+#endif
+    if (std::system("command -v mpirun > /dev/null") != 0) return std::nullopt;
+    // Root must say that it means it; what MPI leaves behind at its end is not ours.
+    std::vector<std::string> line{"env",
+                                  "OMPI_ALLOW_RUN_AS_ROOT=1",
+                                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                  "ASAN_OPTIONS=detect_leaks=0",
+                                  "mpirun",
+                                  "--oversubscribe",
+                                  "--bind-to",
+                                  "none",
+                                  "-n",
+                                  std::to_string(ranks)};
+    line.insert(line.end(), more.begin(), more.end());
+    return line;
 }
 
 std::string read_whole(const std::string& path) {

@@ -42,7 +42,10 @@ std::vector<Message> some_messages() {
             Finish{},
             Report{"{}"},
             Gather{9, {"a", "", "ccc"}},
-            Progress{7, .5}};
+            Progress{7, .5},
+            AskChunks{3, 4096},
+            RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
+            ChunkAnswer{5, 1, .25, std::string("\0\xff", 2)}};
 }
 
 }  // namespace

@@ -1,0 +1,40 @@
+#pragma once
+// How commands begin, lead and end on several ranks.
+#include <memory>
+#include <string>
+
+#include "apps/common_options.h"
+#include "apps/rank_link.h"
+#include "apps/scene_session.h"
+#include "core/math/function_ref.h"
+
+namespace lightwalk {
+
+/// What a command shares out.
+struct SharedWork {
+    std::string program;          ///< how messages name the command
+    bool ambient_values = false;  ///< ranks gain from each other's
+    bool rays = false;            ///< chunks of rays, not blocks of pictures
+};
+
+/// The link to the other ranks; null where there are none to share with. In variant `ranks` each
+/// has one thread: options.workers.
+[[nodiscard]] std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& options,
+                                                   const SharedWork& work);
+
+/// Whether light is computed with cached ambient values.
+[[nodiscard]] bool caches_ambient_values(const RenderOptions& light);
+
+/// Every rank reads and builds the scene; all go on, or none: throws AgreedProblem.
+/// @param history  the options, which must be the same everywhere
+[[nodiscard]] std::unique_ptr<SceneSession> build_on_ranks(RankLink& link,
+                                                           const CommonOptions& options,
+                                                           const RenderSettings& settings,
+                                                           const std::string& history,
+                                                           WarningSink& warnings);
+
+/// On rank 0: `work`, while another thread runs `trace` where this rank traces. `trace` must end
+/// after work's RankLink::finish. An exception of either ends the whole run.
+void lead_ranks(RankLink& link, FunctionRef<void()> trace, FunctionRef<void()> work);
+
+}  // namespace lightwalk
