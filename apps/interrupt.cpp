@@ -42,6 +42,7 @@ void install(int signal, void (*handler)(int)) {
 void handle_interrupts() {
     install(SIGALRM, on_patience_end);
     install(SIGINT, on_interrupt);
+    install(SIGTERM, on_interrupt);  // what mpirun sends its processes
 }
 
 void set_interrupt_phase(InterruptPhase next) {

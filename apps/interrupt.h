@@ -1,12 +1,12 @@
 #pragma once
-// Ctrl-C: end cleanly, leaving nothing half-written.
+// Ctrl-C and SIGTERM: end cleanly, leaving nothing half-written.
 #include "parallel/stop_flag.h"
 
 namespace lightwalk {
 
 inline constexpr int kInterruptedStatus = 130;  ///< what a shell reports for SIGINT
 
-/// What SIGINT does now.
+/// What these signals do now.
 enum class InterruptPhase {
     leave,    ///< end the process at once: nothing has been written
     request,  ///< ask the workers to stop; after 0.7 s, or once more, ends the process
