@@ -94,7 +94,8 @@ TEST_CASE("render on ranks: the bytes of one process, for every split") {
     }
 }
 
-TEST_CASE("render on ranks: pictures of a sequence follow each other without a pause, and are right") {
+TEST_CASE(
+    "render on ranks: pictures of a sequence follow each other without a pause, and are right") {
     if (!have_mpi()) return;
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
@@ -103,9 +104,9 @@ TEST_CASE("render on ranks: pictures of a sequence follow each other without a p
     const auto run = [&](const std::string& name, const std::vector<std::string>& options,
                          const std::vector<std::string>& launcher) {
         const std::string out = folder.path(name + "%d.hdr");
-        const ProgramResult result = run_program(
-            line(with(options, {"-ps", "1", "-pm", ".5", "-S", "1", "-o", out, scene})), views,
-            launcher);
+        const ProgramResult result =
+            run_program(line(with(options, {"-ps", "1", "-pm", ".5", "-S", "1", "-o", out, scene})),
+                        views, launcher);
         CHECK(result.status == 0);
         CHECK(result.err.empty());
         std::string all;
@@ -123,12 +124,12 @@ TEST_CASE("render on ranks: ambient values are exchanged, and kept in the file o
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string stats = folder.path("stats.json");
-    const std::vector<std::string> light{"-ab", "1",  "-ad", "64",      "-as", "0",  "-ps",
+    const std::vector<std::string> light{"-ab", "1",   "-ad", "64",      "-as", "0",  "-ps",
                                          "1",   "-aa", ".1",  "--stats", stats, "-n", "1"};
     const auto values = [&](const std::vector<std::string>& options, int ranks) {
-        const ProgramResult result = run_program(
-            line(with(with(light, options), {"-o", folder.path("a.hdr"), scene})), "",
-            *mpirun(ranks));
+        const ProgramResult result =
+            run_program(line(with(with(light, options), {"-o", folder.path("a.hdr"), scene})), "",
+                        *mpirun(ranks));
         CHECK(result.err.empty());
         REQUIRE(result.status == 0);
         return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
@@ -181,7 +182,8 @@ lost sphere far 0 0 4 0 4 1 1
     CHECK_FALSE(std::filesystem::exists(folder.path("none.hdr")));
 }
 
-TEST_CASE("render: a run that is killed goes on from its checkpoint, with any split, to the same bytes") {
+TEST_CASE(
+    "render: a run that is killed goes on from its checkpoint, with any split, to the same bytes") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::vector<std::string> slow{"-x", "900", "-y", "600", "-ps", "1"};
@@ -219,4 +221,58 @@ TEST_CASE("render: a run that is killed goes on from its checkpoint, with any sp
     CHECK(rest.status == 0);
     CHECK(pixel_bytes(read_whole(out)) == expected);
     CHECK_FALSE(std::filesystem::exists(checkpoint));
+}
+
+namespace {
+
+/// Processes that run the program with this word on their command lines, but for those that start
+/// others.
+std::vector<int> ranks_with(const std::string& word) {
+    std::vector<int> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        const std::string words = read_whole(entry.path() / "cmdline");
+        if (words.starts_with(LIGHTWALK_PROGRAM) && words.find(word) != std::string::npos)
+            found.push_back(std::stoi(name));
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("render on ranks: a rank that is killed ends the run at once, and it can be resumed") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::vector<std::string> slow{"-x", "900", "-y", "600", "-ps", "1", "-n", "1"};
+    const ProgramResult whole =
+        run_program(line(with(slow, {"-o", folder.path("whole.hdr"), scene})));
+    REQUIRE(whole.status == 0);
+    const std::string out = folder.path("out.hdr");
+    const std::string checkpoint = folder.path("blocks");
+    const auto command = [&](const std::vector<std::string>& more) {
+        return line(with(slow, with(more, {"--variant", "ranks", "--checkpoint", checkpoint, "-o",
+                                           out, scene})));
+    };
+    for (std::size_t victim = 0; victim < 4; ++victim) {
+        CAPTURE(victim);
+        RunningProgram program(command({"--resume"}), *mpirun(4));
+        std::vector<int> ranks;
+        while ((ranks = ranks_with(checkpoint)).size() < 4)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::milliseconds(150 + 100 * victim));
+        if (kill(ranks[victim], SIGKILL) != 0) continue;  // it was quicker
+        const auto begin = std::chrono::steady_clock::now();
+        const ProgramResult result = program.finish();
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        CHECK(took.count() < 10);  // it takes one second, on a machine that has nothing else to do
+        if (std::filesystem::exists(out)) continue;
+        CHECK(result.status != 0);
+        CHECK(result.err.find("rank") != std::string::npos);
+    }
+    std::filesystem::remove(out);
+    const ProgramResult rest = run_program(command({"--resume"}), "", *mpirun(3));
+    CHECK(rest.status == 0);
+    CHECK(pixel_bytes(read_whole(out)) == pixel_bytes(read_whole(folder.path("whole.hdr"))));
 }

@@ -78,7 +78,8 @@ TEST_CASE("blocks are aligned, at most 64 pixels wide, and enough for all worker
 }
 
 TEST_CASE("quarters cover a block once, with corners at multiples of the alignment") {
-    for (const Block block : {Block{0, 0, 64, 64}, {64, 0, 70, 64}, {3, 5, 11, 6}, {8, 8, 12, 12}}) {
+    for (const Block block :
+         {Block{0, 0, 64, 64}, {64, 0, 70, 64}, {3, 5, 11, 6}, {8, 8, 12, 12}}) {
         for (const int alignment : {1, 4, 6}) {
             CAPTURE(alignment);
             std::size_t pixels = 0;

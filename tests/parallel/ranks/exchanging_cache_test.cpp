@@ -22,9 +22,8 @@ AmbientRecord record_at(float x) {
 TEST_CASE("own values go out by the batch; others' come in and are not sent on") {
     SerialCache cache(ambient_limits({-1, -1, -1}, 10, .1, 64));
     std::vector<std::size_t> batches;
-    ExchangingCache exchanging(cache, 3, [&](const AmbientValues& values) {
-        batches.push_back(values.records.size());
-    });
+    ExchangingCache exchanging(
+        cache, 3, [&](const AmbientValues& values) { batches.push_back(values.records.size()); });
     for (int i = 0; i < 7; ++i) exchanging.insert(record_at(static_cast<float>(i)));
     CHECK(batches == std::vector<std::size_t>{3, 3});
     const std::vector<AmbientRecord> others{record_at(8), record_at(8.5F)};
