@@ -116,7 +116,11 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
         }
     }
     agreed_ = Timeline::Clock::now();  // all ranks have just heard the same
-    if (problems.empty() && others == 0) return;
+    if (problems.empty() && others == 0) {
+        // Rank 0 may have brought values of a file.
+        if (batch_ > 0) loop_.post(Role::cache, {rank(), Role::ambient_client}, AmbientValues{});
+        return;
+    }
     if (leads()) {
         const bool same = problems.size() == 1 && others == 0 && problems.begin()->second == 0;
         std::fprintf(stderr, "%s", same ? (problems.begin()->first + '\n').c_str() : told.c_str());

@@ -28,6 +28,7 @@ void AmbientClientRole::handle(Envelope envelope, Outbox& out) {
             out.push_back({self_, {self_.rank, Role::cache}, std::move(*values)});
     } else {
         own_.records.insert(own_.records.end(), values->records.begin(), values->records.end());
+        if (values->records.empty()) ask(out);
     }
     if (!asked_ && own_.records.size() >= batch_) ask(out);
 }

@@ -9,7 +9,8 @@ namespace {
 using std::chrono::microseconds;
 // A rank that has just heard something will soon hear more; one that has not looks less often.
 constexpr microseconds kShortestWait{50}, kLongestWait{2000};
-constexpr std::uint32_t kGoodbye = 0xffffffff;  ///< the last round of all
+constexpr std::uint32_t kLastValues = 0xfffffffe,
+                        kGoodbye = 0xffffffff;  ///< the last rounds of all
 
 int tracing_threads(const Topology& topology, const RankSettings& settings) {
     return settings.slots * static_cast<int>(topology.workers.size());
@@ -121,12 +122,13 @@ void RankLoop::end() {
 bool RankLoop::run(const StopFlag& stop) {
     begin();
     microseconds wait = kShortestWait;
-    while (!all_said_goodbye_ && !stop.requested()) {
+    while (farewell_ != Farewell::over && !stop.requested()) {
         const bool posted = serve_posted();
-        const bool busy = serve_arrived() || posted;
+        const Farewell before = farewell_;
+        const bool served = serve_arrived() || posted;
         ask_for_values();
         say_goodbye();
-        if (busy) {
+        if (served || farewell_ != before) {
             wait = kShortestWait;
             continue;
         }
@@ -138,14 +140,15 @@ bool RankLoop::run(const StopFlag& stop) {
         over_ = true;
     }
     answered_.notify_all();
-    if (all_said_goodbye_) transport_.flush();
-    return all_said_goodbye_;
+    const bool whole = farewell_ == Farewell::over;
+    if (whole) transport_.flush();
+    return whole;
 }
 
 /// A rank that makes no values is told of others' all the same, for the files that it keeps.
 void RankLoop::ask_for_values() {
     constexpr std::chrono::seconds kOften{1};
-    if (!ambient_client_ || worker_ || said_goodbye_) return;
+    if (!ambient_client_ || worker_ || farewell_ != Farewell::none) return;
     const auto now = std::chrono::steady_clock::now();
     if (now - asked_ < kOften) return;
     asked_ = now;
@@ -154,19 +157,46 @@ void RankLoop::ask_for_values() {
     for (Envelope& envelope : out) dispatch(std::move(envelope));
 }
 
-/// Once this rank has ended and waits for no answer: whatever is sent to it later would be lost.
+/// In two rounds. Before the first each rank that has ended tells its last values; then rank 0,
+/// which may keep a file of them, hears these. After the second nothing is on its way to anyone.
 void RankLoop::say_goodbye() {
-    if (said_goodbye_) return;
     {
         const std::lock_guard lock(mutex_);
         if (!ended_ || !posted_.empty()) return;
     }
-    if (ambient_client_) {
-        ambient_client_->close();
-        if (ambient_client_->waits_for_answer()) return;
+    const bool asks = ambient_client_.has_value();
+    if (asks && ambient_client_->waits_for_answer()) return;
+    const auto ask = [&] {
+        Outbox out;
+        ambient_client_->ask(out);
+        for (Envelope& envelope : out) dispatch(std::move(envelope));
+    };
+    const auto say = [&](std::uint32_t round) {
+        dispatch({{transport_.rank(), Role::worker}, {0, Role::master}, Gather{round, {}}});
+    };
+    switch (farewell_) {
+        case Farewell::none:
+            farewell_ = Farewell::telling;
+            if (asks) ask();
+            return;
+        case Farewell::telling:
+            farewell_ = Farewell::told;
+            say(kLastValues);
+            return;
+        case Farewell::heard:
+            farewell_ = Farewell::hearing;
+            if (asks && transport_.rank() == 0) ask();
+            return;
+        case Farewell::hearing:
+            farewell_ = Farewell::said;
+            if (asks) ambient_client_->close();
+            say(kGoodbye);
+            return;
+        case Farewell::told:
+        case Farewell::said:
+        case Farewell::over:
+            return;
     }
-    said_goodbye_ = true;
-    dispatch({{transport_.rank(), Role::worker}, {0, Role::master}, Gather{kGoodbye, {}}});
 }
 
 void RankLoop::begin() {
@@ -260,8 +290,8 @@ void RankLoop::deliver(Envelope envelope, Outbox& out) {
 
 void RankLoop::gather(Envelope envelope, Outbox& out) {
     auto& message = std::get<Gather>(envelope.message);
-    if (envelope.to.role != Role::master && message.round == kGoodbye) {
-        all_said_goodbye_ = true;
+    if (envelope.to.role != Role::master && message.round >= kLastValues) {
+        farewell_ = message.round == kGoodbye ? Farewell::over : Farewell::heard;
         return;
     }
     if (envelope.to.role != Role::master) {  // all parts

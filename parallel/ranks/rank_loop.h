@@ -97,7 +97,16 @@ class RankLoop {
     std::optional<std::vector<std::string>> gathered_;
     std::uint32_t round_ = 0;
 
-    bool said_goodbye_ = false, all_said_goodbye_ = false;
+    enum class Farewell {
+        none,     ///< this rank has not ended
+        telling,  ///< its last ambient values
+        told,     ///< waits until all have
+        heard,    ///< all have
+        hearing,  ///< what the others told
+        said,     ///< goodbye: waits until all have
+        over,
+    };
+    Farewell farewell_ = Farewell::none;
     struct Round {
         std::vector<std::string> parts;
         int missing = 0;

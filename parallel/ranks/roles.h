@@ -162,7 +162,8 @@ class AmbientClientRole {
   public:
     AmbientClientRole(Address self, Address master, std::size_t batch)
         : self_(self), master_(master), batch_(batch) {}
-    /// AmbientValues from the own cache, and those of others for it.
+    /// AmbientValues from the own cache, and those of others for it. None from the cache: it wants
+    /// to know what there is.
     void handle(Envelope envelope, Outbox& out);
     /// Ask, whether or not a batch is full.
     void ask(Outbox& out);

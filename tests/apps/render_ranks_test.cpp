@@ -148,7 +148,7 @@ TEST_CASE("render on ranks: what is wrong is said once, by rank 0, and nothing h
     if (!have_mpi()) return;
     const TemporaryFolder folder;
     const std::string out = folder.path("none.hdr");
-    const std::string bad = folder.write("bad.rad", "void plastic p 0 0 4 1 1 1 0\n");
+    const std::string bad = folder.write("bad.rad", "void plastic p 0 0 5 1 1 one 0 0\n");
     const auto run = [&](const std::vector<std::string>& words) {
         return run_program(line(with(words, {"-o", out, bad})), "", *mpirun(3));
     };
@@ -171,7 +171,7 @@ TEST_CASE("render on ranks: an error while tracing names its rank") {
     const std::string scene = folder.write("room.rad", kRoom + R"(
 void brightfunc missing 2 nothing nowhere.cal 0 0
 missing plastic lost 0 0 5 .5 .5 .5 0 0
-lost sphere far 0 0 4 0 4 1 1
+lost sphere near 0 0 4 1.5 -1 1 .5
 )");
     const ProgramResult result = run_program(
         line({"--variant", "ranks", "-ps", "1", "-w-", "-o", folder.path("none.hdr"), scene}), "",
