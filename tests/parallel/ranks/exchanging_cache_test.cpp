@@ -19,7 +19,7 @@ AmbientRecord record_at(float x) {
 
 }  // namespace
 
-TEST_CASE("own values go out by the batch; others' come in and are not sent on") {
+TEST_CASE("own values go out by the batch, others' come in and are not sent on") {
     SerialCache cache(ambient_limits({-1, -1, -1}, 10, .1, 64));
     std::vector<std::size_t> batches;
     ExchangingCache exchanging(

@@ -27,7 +27,7 @@ TEST_CASE("a timeline adds up by thread and activity, and keeps spans when asked
     }
 }
 
-TEST_CASE("what is timed is at least as long as it took; without a timeline nothing happens") {
+TEST_CASE("what is timed is at least as long as it took, and without a timeline nothing happens") {
     Timeline timeline(1, true);
     {
         const TimedActivity timed(&timeline, 0, Activity::compress);
