@@ -18,7 +18,7 @@ constexpr std::string_view kMark = "LWRC";
 constexpr std::size_t kHeadBytes = 4 + 8 + 8;  ///< mark, size, hash
 constexpr std::size_t kLargestLog = std::size_t{1} << 34;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
+[[noreturn]] void fail_at(const std::string& path, const std::string& what) {
     throw InputError({path, 0}, what + ": " + std::generic_category().message(errno));
 }
 
@@ -41,7 +41,7 @@ void write_all(int file, std::string_view bytes, const std::string& path) {
     while (!bytes.empty()) {
         const ssize_t written = write(file, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) fail(path, "cannot write");
+        if (written <= 0) fail_at(path, "cannot write");
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }
@@ -83,7 +83,7 @@ RecordLog::RecordLog(std::string path, const std::string& header,
     : path_(std::move(path)) {
     const std::string head = std::string(kFirstLine) + header + '\n';
     file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) fail(path_, "cannot open");
+    if (file_ < 0) fail_at(path_, "cannot open");
     try {
         start(head, header, take, warnings);
     } catch (...) {
@@ -119,8 +119,8 @@ void RecordLog::start(const std::string& head, const std::string& header,
         }
     }
     if (ftruncate(file_, static_cast<off_t>(whole)) != 0)
-        fail(path_, "cannot cut off a damaged end");
-    if (lseek(file_, 0, SEEK_END) < 0) fail(path_, "cannot write");
+        fail_at(path_, "cannot cut off a damaged end");
+    if (lseek(file_, 0, SEEK_END) < 0) fail_at(path_, "cannot write");
     if (whole == 0) write_all(file_, head, path_);
 }
 
@@ -138,7 +138,7 @@ void RecordLog::append(std::string_view payload) {
 }
 
 void RecordLog::sync() {
-    if (fdatasync(file_) != 0) fail(path_, "cannot write");
+    if (fdatasync(file_) != 0) fail_at(path_, "cannot write");
 }
 
 void RecordLog::remove() {

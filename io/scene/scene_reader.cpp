@@ -15,7 +15,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr int kMaxDepth = 64;  ///< commands that write commands that write commands ...
+constexpr int kMaxNesting = 64;  ///< commands that write commands that write commands ...
 
 /// The bytes of one argument, and what messages call it.
 struct SceneText {
@@ -75,9 +75,9 @@ class SceneReader {
     void run_command(SceneTokenizer& tokens, const SourceLocation* outer, int depth) {
         const SourceLocation where = outer != nullptr ? *outer : tokens.where();
         const std::string command = tokens.command();
-        if (depth >= kMaxDepth) {
+        if (depth >= kMaxNesting) {
             throw InputError(where, "commands write commands more than " +
-                                        std::to_string(kMaxDepth) + " levels deep");
+                                        std::to_string(kMaxNesting) + " levels deep");
         }
         std::string output;
         try {

@@ -84,6 +84,7 @@ class MemoryTransport final : public Transport {
 std::vector<std::unique_ptr<Transport>> make_memory_transports(int ranks) {
     const auto inboxes = std::make_shared<std::vector<Inbox>>(static_cast<std::size_t>(ranks));
     std::vector<std::unique_ptr<Transport>> ends;
+    ends.reserve(static_cast<std::size_t>(ranks));
     for (int rank = 0; rank < ranks; ++rank)
         ends.push_back(std::make_unique<MemoryTransport>(inboxes, rank));
     return ends;

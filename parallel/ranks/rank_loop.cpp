@@ -30,7 +30,7 @@ std::size_t workers_of(const std::vector<Address>& children) {
 
 }  // namespace
 
-RankLoop::RankLoop(Transport& transport, const Topology& topology, RankSettings settings,
+RankLoop::RankLoop(Transport& transport, const Topology& topology, const RankSettings& settings,
                    LocalEnd& local, Timeline* timeline)
     : transport_(transport), topology_(topology), local_(local), timeline_(timeline) {
     const int rank = transport.rank();

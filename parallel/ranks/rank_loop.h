@@ -36,8 +36,8 @@ class RankLoop {
   public:
     /// `transport`, `topology` and `local` must outlive this.
     /// @param timeline  whose last row is this loop's; null: none
-    RankLoop(Transport& transport, const Topology& topology, RankSettings settings, LocalEnd& local,
-             Timeline* timeline = nullptr);
+    RankLoop(Transport& transport, const Topology& topology, const RankSettings& settings,
+             LocalEnd& local, Timeline* timeline = nullptr);
 
     /// A message to a role of this rank, or to any other's. From any thread.
     void post(Role from, Address to, Message message);
