@@ -1,0 +1,354 @@
+#include "perf/model/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "parallel/blocks.h"
+#include "perf/model/simulation_state.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr double kPixelBytes = 16;   ///< of a pixel in a message
+constexpr double kOrderBytes = 400;  ///< of what a JobStart says of view and options
+constexpr double kHeadStart = 10;  ///< ranks are there so long before the picture is asked for [s]
+constexpr double kReach = 0.5;     ///< of an ambient value, see AmbientSites
+
+CellCosts overture_cells(const CostMap& map) {
+    return map.overture.width > 0 ? map.overture : map.picture;
+}
+
+}  // namespace
+
+Simulation::Simulation(const CostMap& map, const Machine& machine, const SimulatedRun& run)
+    : map_(map),
+      machine_(machine),
+      run_(run),
+      picture_costs_(map.picture, run.width, run.height),
+      overture_costs_(overture_cells(map), overture_cells(map).width, overture_cells(map).height) {
+    const bool exchange = run.ambient && run.ambient_batch > 0;
+    if (run.variant == Variant::threads) {
+        topology_.ranks = 1;
+        topology_.workers.push_back({0, 0});
+    } else {
+        topology_ = make_topology(run.variant, run.ranks, exchange, run.masters);
+    }
+    if (run.ambient) {
+        sites_ = std::make_unique<AmbientSites>(map, kReach, run.seed);
+        picture_ = map.overture.width > 0 ? 1 : 0;
+        prediction_.values_needed = sites_->size();
+    }
+    ranks_.resize(static_cast<std::size_t>(topology_.ranks));
+    owners_.resize(topology_.workers.size());
+    const std::size_t nodes = node_of(ranks_.size() - 1) + 1;
+    const double on_node = static_cast<double>(ranks_.size()) / static_cast<double>(nodes);
+    const double looks =
+        machine.sleeps && run.variant != Variant::threads
+            ? on_node * machine.look * machine.slowness / (machine.longest_wait + machine.oversleep)
+            : 0;
+    nodes_.assign(nodes, Processors(machine.node_cores, machine.crowding, looks));
+    versions_.resize(nodes);
+    for (Rank& rank : ranks_) {
+        if (sites_) rank.known.resize(sites_->size());
+    }
+    for (const Topology::Worker& worker : topology_.workers)
+        ranks_[static_cast<std::size_t>(worker.rank)].free_threads = run.threads;
+    if (run.variant != Variant::threads) make_roles();
+}
+
+Simulation::~Simulation() = default;
+
+std::size_t Simulation::node_of(std::size_t rank) const {
+    return machine_.node_ranks == 0 ? 0 : rank / static_cast<std::size_t>(machine_.node_ranks);
+}
+
+/// As RankLoop's constructor does.
+void Simulation::make_roles() {
+    const std::size_t workers = topology_.workers.size();
+    ranks_[0].master = std::make_unique<MasterRole>(
+        Address{0, Role::master}, topology_.children, workers,
+        BlockPolicy{run_.block, run_.stride, run_.threads * static_cast<int>(workers)});
+    for (const Topology::SubMaster& sub : topology_.sub_masters) {
+        ranks_[static_cast<std::size_t>(sub.rank)].sub_master = std::make_unique<SubMasterRole>(
+            Address{sub.rank, Role::master}, Address{0, Role::master}, sub.children,
+            sub.children.size() * static_cast<std::size_t>(run_.threads));
+    }
+    std::vector<int> list;
+    for (const Topology::Worker& worker : topology_.workers) list.push_back(worker.rank);
+    const auto all = std::make_shared<const std::vector<int>>(std::move(list));
+    for (std::size_t i = 0; i < workers; ++i) {
+        const Topology::Worker& worker = topology_.workers[i];
+        ranks_[static_cast<std::size_t>(worker.rank)].worker = std::make_unique<WorkerRole>(
+            WorkerOptions{{worker.rank, Role::worker},
+                          {worker.master, Role::master},
+                          i,
+                          all,
+                          run_.threads,
+                          std::max(1, run_.threads / 2),
+                          [](const PixelRectangle&, const std::vector<PixelValue>&) {
+                              return std::string();
+                          }});
+    }
+    if (!topology_.ambient_master) return;
+    const int master = *topology_.ambient_master;
+    ranks_[static_cast<std::size_t>(master)].ambient_master =
+        std::make_unique<AmbientMasterRole>(Address{master, Role::ambient_master});
+    for (const Topology::Worker& worker : topology_.workers) {
+        ranks_[static_cast<std::size_t>(worker.rank)].ambient_client =
+            std::make_unique<AmbientClientRole>(Address{worker.rank, Role::ambient_client},
+                                                Address{master, Role::ambient_master},
+                                                static_cast<std::size_t>(run_.ambient_batch));
+    }
+}
+
+Prediction Simulation::run() {
+    if (run_.variant == Variant::threads)
+        start_threads();
+    else
+        submit();
+    while (end_ == kNever || !events_.empty()) {
+        if (events_.empty()) throw std::logic_error("simulation: the picture is never finished");
+        const Event event = events_.top();
+        if (event.time >= end_) break;
+        events_.pop();
+        now_ = event.time;
+        act(event);
+    }
+    prediction_.seconds = end_;
+    for (const Processors& node : nodes_) prediction_.tracing_seconds += node.work_done();
+    prediction_.master_seconds = ranks_[0].handling;
+    for (std::size_t r = 1; r < ranks_.size(); ++r)
+        prediction_.busiest_seconds = std::max(prediction_.busiest_seconds, ranks_[r].handling);
+    if (owner_windows_ > 0) prediction_.owner_share /= owner_windows_;
+    return std::move(prediction_);
+}
+
+/// One process: threads pull blocks from a list, first those of the overture.
+void Simulation::start_threads() {
+    const auto begin_job = [&](JobId job) {
+        const PixelRectangle area =
+            is_overture(job) ? map_.overture.area() : PixelRectangle{0, 0, run_.width, run_.height};
+        const int side = block_side(area.width(), area.height(), run_.threads,
+                                    is_overture(job) ? 8 : run_.alignment);
+        for (const Block& block : make_blocks(area, side)) ranks_[0].blocks.push_back({job, block});
+    };
+    for (JobId job = 0; job <= picture_; ++job) begin_job(job);
+    threads_blocks_ = ranks_[0].blocks.size();
+    at(0, Kind::trace, 0);
+}
+
+/// The ranks ask for their first blocks long before, at no particular time.
+void Simulation::submit() {
+    std::mt19937_64 random(run_.seed);
+    std::uniform_real_distribution<double> early(0, machine_.longest_wait);
+    for (std::size_t r = 0; r < ranks_.size(); ++r) {
+        Rank& rank = ranks_[r];
+        double clock = -kHeadStart - early(random);
+        rank.wire_free = clock;
+        Outbox out;
+        if (rank.sub_master) rank.sub_master->begin(out);
+        if (rank.worker) rank.worker->begin(out);
+        now_ = clock;
+        for (Envelope& envelope : out) dispatch(r, std::move(envelope), clock);
+        rank.idle_from = rank.busy_until = clock;
+    }
+    if (picture_ > 0) at(0, Kind::request, 0, 0);
+    // Rank 0's program makes a renderer of its own first, to know the alignment.
+    at(map_.setup_seconds * machine_.slowness, Kind::request, 0, picture_);
+}
+
+void Simulation::at(double time, Kind kind, std::size_t rank, std::uint32_t what) {
+    events_.push({time, next_event_++, kind, static_cast<std::uint32_t>(rank), what});
+}
+
+void Simulation::act(const Event& event) {
+    const std::size_t rank = event.rank;
+    switch (event.kind) {
+        case Kind::arrive: {
+            Envelope envelope = std::move(messages_[event.what]);
+            free_messages_.push_back(event.what);
+            const double look = next_look(ranks_[rank]);
+            put_in(rank, std::move(envelope), look);
+            return;
+        }
+        case Kind::serve:
+            if (ranks_[rank].looks_at == event.time) serve(rank);
+            return;
+        case Kind::request: {
+            const PixelRectangle whole{0, 0, run_.width, run_.height};
+            const bool coarse = is_overture(event.what);
+            post(0, {{0, Role::program},
+                     {0, Role::master},
+                     JobStart{event.what,
+                              coarse ? map_.overture.area() : whole,
+                              coarse ? 1 : run_.alignment,
+                              !coarse,
+                              {}}});
+            return;
+        }
+        case Kind::trace:
+            trace(rank);
+            return;
+        case Kind::traced:
+            if (versions_[rank] != event.what) return;
+            if (const auto next = nodes_[rank].next(now_)) end_step(next->second);
+    }
+}
+
+/// A message from within the rank wakes its loop.
+void Simulation::post(std::size_t rank, Envelope envelope) {
+    put_in(rank, std::move(envelope),
+           std::max(ranks_[rank].busy_until, now_ + machine_.wake * machine_.slowness));
+}
+
+void Simulation::put_in(std::size_t number, Envelope envelope, double look) {
+    Rank& rank = ranks_[number];
+    rank.inbox.push_back(std::move(envelope));
+    if (look >= rank.looks_at) return;
+    rank.looks_at = look;
+    at(look, Kind::serve, number);
+}
+
+/// When a sleeping loop sees what arrives now: it sleeps ever longer, see RankLoop::run().
+double Simulation::next_look(const Rank& rank) const {
+    if (!machine_.sleeps || now_ <= rank.busy_until) return std::max(now_, rank.busy_until);
+    double look = rank.idle_from, wait = machine_.shortest_wait;
+    while (look < now_) {
+        if (wait >= machine_.longest_wait) {
+            const double each = machine_.longest_wait + machine_.oversleep;
+            return look + each * std::ceil((now_ - look) / each);
+        }
+        look += wait + machine_.oversleep;
+        wait = std::min(machine_.longest_wait, 2 * wait);
+    }
+    return look;
+}
+
+void Simulation::serve(std::size_t number) {
+    Rank& rank = ranks_[number];
+    rank.looks_at = kNever;
+    std::vector<Envelope> inbox = std::exchange(rank.inbox, {});
+    double clock = now_;
+    for (Envelope& envelope : inbox) {
+        if (envelope.from.rank != envelope.to.rank)
+            clock +=
+                machine_.slowness * (machine_.overhead + machine_.byte_work * bytes_of(envelope));
+        dispatch(number, std::move(envelope), clock);
+    }
+    rank.idle_from = rank.busy_until = clock;
+    if (now_ >= 0) rank.handling += clock - now_;
+    nodes_[node_of(number)].take_away(now_, clock - now_);
+    look_ahead(node_of(number));
+}
+
+/// As RankLoop::dispatch(): what is for this rank at once, and what follows from it.
+void Simulation::dispatch(std::size_t number, Envelope first, double& clock) {
+    const auto here = static_cast<int>(number);
+    std::vector<Envelope> due;
+    due.push_back(std::move(first));
+    Outbox out;
+    for (std::size_t i = 0; i < due.size(); ++i) {
+        Envelope envelope = std::move(due[i]);
+        const auto* piece = std::get_if<Piece>(&envelope.message);
+        if (piece != nullptr && envelope.from == Address{here, Role::worker})
+            clock += machine_.slowness * map_.encode_seconds *
+                     static_cast<double>(piece->work.block.pixels());
+        if (envelope.to.rank != here) {
+            send(std::move(envelope), clock);
+            continue;
+        }
+        deliver(std::move(envelope), out, clock);
+        std::move(out.begin(), out.end(), std::back_inserter(due));
+        out.clear();
+    }
+}
+
+void Simulation::deliver(Envelope envelope, Outbox& out, double& clock) {
+    Rank& rank = ranks_[static_cast<std::size_t>(envelope.to.rank)];
+    clock += machine_.slowness * machine_.step;
+    switch (envelope.to.role) {
+        case Role::master:
+            if (rank.sub_master)
+                rank.sub_master->handle(std::move(envelope), out);
+            else
+                rank.master->handle(std::move(envelope), out);
+            return;
+        case Role::worker:
+            if (const auto* done = std::get_if<BlockDone>(&envelope.message))
+                clock += machine_.slowness * machine_.byte_work * kPixelBytes *
+                         static_cast<double>(done->pixels.work.block.pixels());
+            rank.worker->handle(std::move(envelope), out);
+            return;
+        case Role::ambient_master:
+            rank.ambient_master->handle(std::move(envelope), out);
+            return;
+        case Role::ambient_client:
+            rank.ambient_client->handle(std::move(envelope), out);
+            return;
+        default:
+            deliver_locally(std::move(envelope), clock);
+    }
+}
+
+/// To the tracer, the cache or the program of a rank.
+void Simulation::deliver_locally(Envelope envelope, double& clock) {
+    const auto number = static_cast<std::size_t>(envelope.to.rank);
+    Rank& rank = ranks_[number];
+    if (const auto* given = std::get_if<GiveBlocks>(&envelope.message)) {
+        rank.blocks.insert(rank.blocks.end(), given->blocks.begin(), given->blocks.end());
+        at(clock, Kind::trace, number);
+    } else if (const auto* values = std::get_if<AmbientValues>(&envelope.message)) {
+        for (const AmbientRecord& record : values->records) rank.known[record.normal] = true;
+        clock +=
+            machine_.slowness * machine_.value_work * static_cast<double>(values->records.size());
+    } else if (std::holds_alternative<FinishedPicture>(envelope.message)) {
+        end_ = clock +
+               machine_.slowness * (machine_.wake + map_.decode_seconds * run_.width * run_.height);
+    }
+}
+
+/// Bytes on the wire: the real message's, and those of what simulations leave out.
+double Simulation::bytes_of(const Envelope& envelope) const {
+    const auto bytes = static_cast<double>(message_bytes(envelope.message));
+    if (const auto* pixels = std::get_if<Pixels>(&envelope.message))
+        return bytes + kPixelBytes * static_cast<double>(pixels->work.block.pixels());
+    if (const auto* piece = std::get_if<Piece>(&envelope.message))
+        return bytes + map_.packed_bytes * static_cast<double>(piece->work.block.pixels());
+    if (std::holds_alternative<JobStart>(envelope.message)) return bytes + kOrderBytes;
+    return bytes;
+}
+
+void Simulation::send(Envelope envelope, double& clock) {
+    Rank& rank = ranks_[static_cast<std::size_t>(envelope.from.rank)];
+    const double bytes = bytes_of(envelope);
+    if (now_ >= 0) prediction_.messages.add(envelope.message, static_cast<std::size_t>(bytes));
+    if (std::holds_alternative<Pixels>(envelope.message)) count_owner(envelope.to.rank);
+    clock += machine_.slowness * (machine_.overhead + machine_.byte_work * bytes);
+    const double leaves = std::max(clock, rank.wire_free);
+    rank.wire_free = leaves + std::max(machine_.gap, machine_.byte_gap * bytes);
+    std::uint32_t slot = 0;
+    if (free_messages_.empty()) {
+        slot = static_cast<std::uint32_t>(messages_.size());
+        messages_.emplace_back();
+    } else {
+        slot = free_messages_.back();
+        free_messages_.pop_back();
+    }
+    const auto to = static_cast<std::size_t>(envelope.to.rank);
+    messages_[slot] = std::move(envelope);
+    at(leaves + machine_.byte_gap * bytes + machine_.latency, Kind::arrive, to, slot);
+}
+
+void Simulation::count_owner(int owner) {
+    ++owners_[*topology_.worker_index(owner)];
+    if (++owners_counted_ < 2 * owners_.size()) return;
+    const std::uint32_t most = *std::max_element(owners_.begin(), owners_.end());
+    prediction_.owner_share += static_cast<double>(most) / owners_counted_;
+    ++owner_windows_;
+    owners_counted_ = 0;
+    std::fill(owners_.begin(), owners_.end(), 0U);
+}
+
+}  // namespace lightwalk

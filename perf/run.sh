@@ -1,0 +1,21 @@
+#!/bin/sh
+# Measure how Lightwalk scales over ranks and threads. Writes JSON and SVG into a folder.
+# Usage: perf/run.sh table1|splits|stride|ambient-exchange|model [--scenes DIR] [--lightwalk PROGRAM] [--out DIR]
+#        [--size N] [--runs N] [--cores N]                                       README.md beside this file tells more
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+# As root mpirun wants to be told twice that this is meant.
+if [ "$(id -u)" -eq 0 ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+case " $* " in
+*" --lightwalk "* | *" --lightwalk="* | *" --help "* | *" -h "*) ;;
+*)
+    cmake --preset release -S "$root" >/dev/null
+    cmake --build "$root/build/release" --target lightwalk lightwalk_mpi scaling_model cost_map message_bench
+    ;;
+esac
+# The system's Python, whatever else stands first on the PATH.
+python=/usr/bin/python3
+[ -x "$python" ] || python=python3
+exec "$python" "$root/perf/scaling/measure.py" "$@"

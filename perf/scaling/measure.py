@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+"""How Lightwalk scales over ranks and threads; perf/run.sh starts this."""
+import argparse, os, pathlib, sys
+
+import experiments
+import model
+from runs import ROOT, Program, find_scene
+
+NAMES = {"table1": experiments.table1, "splits": experiments.splits, "stride": experiments.stride,
+         "ambient-exchange": experiments.ambient_exchange, "model": model.run}
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="perf/run.sh", description=__doc__)
+    parser.add_argument("name", choices=NAMES)
+    parser.add_argument("--scenes", type=pathlib.Path, metavar="DIR",
+                        help="folder of Radiance's sample models (default: the one beside the project, else the demo scene)")
+    parser.add_argument("--lightwalk", default=ROOT / "build/release/lightwalk", metavar="PROGRAM")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/perf", metavar="DIR")
+    parser.add_argument("--size", type=int, default=480, metavar="N", help="width of pictures [pixels]")
+    parser.add_argument("--runs", type=int, default=5, metavar="N", help="of each, of which the median counts")
+    parser.add_argument("--cores", type=int, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("--predict-only", action="store_true",
+                        help="model: with the cost maps and figures that an earlier run left in the folder")
+    options = parser.parse_args()
+    if options.size < 16 or options.runs < 1 or options.cores < 1:
+        parser.error("--size is at least 16, --runs and --cores at least 1")
+    if not pathlib.Path(options.lightwalk).is_file():
+        parser.error(f"there is no program {options.lightwalk}")
+    options.out = options.out.resolve()
+    options.out.mkdir(parents=True, exist_ok=True)
+    NAMES[options.name](Program(options.lightwalk, find_scene(options.scenes)), options)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
