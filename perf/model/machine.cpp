@@ -8,19 +8,14 @@ namespace lightwalk {
 
 Machine read_machine(const nlohmann::json& json) {
     Machine m;
-    const std::map<std::string, double*> reals{{"latency", &m.latency},
-                                               {"overhead", &m.overhead},
-                                               {"byte_work", &m.byte_work},
-                                               {"gap", &m.gap},
-                                               {"byte_gap", &m.byte_gap},
-                                               {"step", &m.step},
-                                               {"oversleep", &m.oversleep},
-                                               {"shortest_wait", &m.shortest_wait},
-                                               {"wake", &m.wake},
-                                               {"longest_wait", &m.longest_wait},
-                                               {"look", &m.look},
-                                               {"slowness", &m.slowness},
-                                               {"value_work", &m.value_work}};
+    const std::map<std::string, double*> reals{
+        {"latency", &m.latency},     {"overhead", &m.overhead},
+        {"byte_work", &m.byte_work}, {"gap", &m.gap},
+        {"byte_gap", &m.byte_gap},   {"step", &m.step},
+        {"oversleep", &m.oversleep}, {"shortest_wait", &m.shortest_wait},
+        {"wake", &m.wake},           {"longest_wait", &m.longest_wait},
+        {"look", &m.look},           {"background", &m.background},
+        {"slowness", &m.slowness},   {"value_work", &m.value_work}};
     try {
         for (const auto& [name, value] : json.items()) {
             if (const auto real = reals.find(name); real != reals.end())
@@ -41,7 +36,8 @@ Machine read_machine(const nlohmann::json& json) {
     } catch (const nlohmann::json::exception& error) {
         throw InputError(std::string("a machine: ") + error.what());
     }
-    if (m.node_cores < 1 || m.node_ranks < 0 || m.crowding.empty() || !(m.slowness > 0))
+    if (m.node_cores < 1 || m.node_ranks < 0 || m.crowding.empty() || m.background < 0 ||
+        !(m.slowness > 0))
         throw InputError("a machine has at least one core, and takes some time");
     return m;
 }

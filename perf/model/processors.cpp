@@ -1,19 +1,22 @@
 #include "perf/model/processors.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lightwalk {
 
-Processors::Processors(int cores, std::vector<double> crowding, double looks)
-    : cores_(cores), crowding_(std::move(crowding)), looks_(std::min(looks, 0.5 * cores)) {}
+Processors::Processors(int cores, std::vector<double> crowding, double looks, double background)
+    : cores_(cores),
+      crowding_(std::move(crowding)),
+      looks_(std::min(looks, 0.5 * cores)),
+      background_(background) {}
 
 double Processors::speed() const {
-    const auto tasks = static_cast<int>(ends_.size());
-    if (tasks == 0) return 0;
-    const int busy = std::min(tasks, cores_);
+    if (ends_.empty()) return 0;
+    const double wanted = static_cast<double>(ends_.size()) + background_;
+    const int busy = std::min(static_cast<int>(std::ceil(wanted)), cores_);
     const double time = crowding_[std::min(static_cast<std::size_t>(busy), crowding_.size()) - 1];
-    const double free = tasks < cores_ ? busy : cores_ - looks_;
-    return free / tasks / time;
+    return (wanted < cores_ ? 1 : (cores_ - looks_) / wanted) / time;
 }
 
 void Processors::pass(double now) {
@@ -31,8 +34,8 @@ void Processors::add(double now, int task, double work) {
 
 void Processors::take_away(double now, double work) {
     pass(now);
-    const auto tasks = static_cast<int>(ends_.size());
-    if (tasks < cores_ || tasks == 0) return;
+    const auto tasks = static_cast<double>(ends_.size());
+    if (tasks + background_ < cores_ || ends_.empty()) return;
     const double lost = work * speed() / cores_;
     each_ -= lost;
     work_done_ -= lost * tasks;

@@ -14,7 +14,8 @@ class Processors {
     /// @param cores     at least 1
     /// @param crowding  time of a piece of work by number of busy cores, one alone = 1
     /// @param looks     cores that are lost, while all are busy, to threads that look for messages
-    Processors(int cores, std::vector<double> crowding, double looks);
+    /// @param background  other programs' threads, which always want a core, and get their share
+    Processors(int cores, std::vector<double> crowding, double looks, double background = 0);
 
     /// `task` starts to need `work` seconds of a core that it has for itself.
     void add(double now, int task, double work);
@@ -33,7 +34,7 @@ class Processors {
 
     int cores_;
     std::vector<double> crowding_;
-    double looks_;
+    double looks_, background_;
     double now_ = 0;
     double each_ = 0;  ///< work that a task which was always there would have had
     double work_done_ = 0;

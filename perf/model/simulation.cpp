@@ -48,7 +48,8 @@ Simulation::Simulation(const CostMap& map, const Machine& machine, const Simulat
         machine.sleeps && run.variant != Variant::threads
             ? on_node * machine.look * machine.slowness / (machine.longest_wait + machine.oversleep)
             : 0;
-    nodes_.assign(nodes, Processors(machine.node_cores, machine.crowding, looks));
+    nodes_.assign(nodes,
+                  Processors(machine.node_cores, machine.crowding, looks, machine.background));
     versions_.resize(nodes);
     for (Rank& rank : ranks_) {
         if (sites_) rank.known.resize(sites_->size());

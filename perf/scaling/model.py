@@ -1,6 +1,6 @@
 """The scaling model: its input is measured, its predictions are held against measured runs, and then it tells of
 machines that are not at hand."""
-import json, os
+import json, os, statistics
 
 import svg_plot
 from experiments import PAPER, picture, print_table, save
@@ -59,6 +59,16 @@ def validation_cases(cores):
     return found
 
 
+def background(measured, cases):
+    """Other programs' threads that always wanted a core, from the share that they took beside ours."""
+    shares = []
+    for name, one in measured.items():
+        split = cases[name][0]
+        tracing = split.threads if split.variant == "threads" else split.cores() - (split.variant == "ranks")
+        shares.append(tracing * one["others"] / max(1e-3, 1 - one["others"]))
+    return statistics.median(shares)
+
+
 def validate(program, options):
     scene, view, rows = program.scene, program.scene.views[0], []
     for light, extra in (("direct", ()), ("ambient", scene.ambient)):
@@ -78,6 +88,8 @@ def validate(program, options):
         else:
             measured = measure(program, cases, options.runs)
             measured_file.write_text(json.dumps(measured, indent=1) + "\n")
+        inputs["machines"]["here"]["background"] = background(measured, cases)
+        print(f"{light}: other programs' threads beside ours: {inputs['machines']['here']['background']:.2f}")
         for p in predict(program, options.out, f"validation-{light}", inputs, wanted):
             one = measured[p["name"]]
             rows.append({"light": light, "run": p["name"], "measured": one["seconds"], "least": one["least"],

@@ -19,13 +19,13 @@ class Scene:
 def cabin(scenes):
     words = "pattmats cabin bathroom furniture winpanes.rad mirrors.rad summerday landscape lights.off daywindows"
     return Scene("cabin", scenes / "cabin", tuple(words.split()), ("vf/living", "vf/interior", "vf/bath"),
-                 ("-ab", "1", "-aa", ".15", "-ad", "256", "-as", "0", "-av", ".1", ".1", ".1"))
+                 ("-ab", "1", "-aa", ".2", "-ad", "128", "-as", "0", "-av", ".1", ".1", ".1"))
 
 
 def lodge():
     return Scene("lodge", ROOT / "apps/scenes/lodge", ("lodge.rad", "day.rad"),
                  ("views/living.vf", "views/window.vf", "views/dining.vf"),
-                 ("-ab", "1", "-aa", ".15", "-ad", "256", "-as", "0", "-av", ".2", ".2", ".19"))
+                 ("-ab", "1", "-aa", ".2", "-ad", "128", "-as", "0", "-av", ".2", ".2", ".19"))
 
 
 def find_scene(scenes):

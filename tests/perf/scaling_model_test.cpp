@@ -78,6 +78,9 @@ TEST_CASE("threads share the cores of a node evenly") {
     CHECK(node.next(2.5)->first == doctest::Approx(3.5));
     node.take_away(3, .5);  // each of two loses a quarter of a second
     CHECK(node.next(3)->first == doctest::Approx(3.75));
+    Processors shared(2, {1}, 0, 3);  // with three threads of others
+    shared.add(0, 1, 1);
+    CHECK(shared.next(0)->first == doctest::Approx(2));
     Processors crowded(2, {1, 1.25}, 0);
     crowded.add(0, 1, 1);
     crowded.add(0, 2, 1);
