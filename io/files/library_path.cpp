@@ -1,13 +1,11 @@
 #include "io/files/library_path.h"
 
-#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -17,52 +15,6 @@
 
 namespace lightwalk {
 namespace {
-
-std::string environment(const char* name) {
-    const char* const value =
-        std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing calls setenv
-    return value == nullptr ? std::string() : std::string(value);
-}
-
-/// Home directory of a user, of the caller for ""; nothing for an unknown user.
-std::optional<std::string> home_directory(const std::string& user) {
-    if (user.empty()) {
-        const std::string home = environment("HOME");
-        if (!home.empty()) return home;
-    }
-    std::vector<char> buffer(16384);
-    passwd entry{};
-    passwd* found = nullptr;
-    if (user.empty()) {
-        getpwuid_r(getuid(), &entry, buffer.data(), buffer.size(), &found);
-    } else {
-        getpwnam_r(user.c_str(), &entry, buffer.data(), buffer.size(), &found);
-    }
-    if (found == nullptr) return std::nullopt;
-    return std::string(entry.pw_dir);
-}
-
-/// Where this program's own library files lie: beside the executable's installation, where it was
-/// installed to at build time, or in the source tree; nothing when none of these folders exists.
-std::optional<std::string> own_library() {
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    std::vector<std::string> candidates;
-    if (!error) {
-        const std::filesystem::path prefix = program.parent_path().parent_path();
-        candidates.push_back((prefix / "share" / "lightwalk" / "lib").string());
-    }
-#ifdef LIGHTWALK_INSTALLED_LIBRARY
-    candidates.emplace_back(LIGHTWALK_INSTALLED_LIBRARY);
-#endif
-#ifdef LIGHTWALK_SOURCE_LIBRARY
-    candidates.emplace_back(LIGHTWALK_SOURCE_LIBRARY);
-#endif
-    for (std::string& candidate : candidates) {
-        if (std::filesystem::is_directory(candidate, error)) return std::move(candidate);
-    }
-    return std::nullopt;
-}
 
 struct CloseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -119,17 +71,18 @@ bool is_readable_file(const std::string& path) {
            access(path.c_str(), R_OK) == 0;
 }
 
-LibraryPath::LibraryPath(std::vector<std::string> directories)
-    : directories_(std::move(directories)), given_(directories_) {}
+LibraryPath::LibraryPath(std::vector<std::string> directories, std::shared_ptr<FileSource> files)
+    : directories_(std::move(directories)), given_(directories_), files_(std::move(files)) {}
 
-LibraryPath LibraryPath::from_environment() {
-    std::vector<std::string> directories = split_search_path(environment("RAYPATH"));
-    if (std::optional<std::string> own = own_library()) directories.push_back(std::move(*own));
-    return LibraryPath(std::move(directories));
+LibraryPath LibraryPath::from_environment(std::shared_ptr<FileSource> files) {
+    std::vector<std::string> directories = split_search_path(files->place("$RAYPATH").value_or(""));
+    if (std::optional<std::string> own = files->place("library"))
+        directories.push_back(std::move(*own));
+    return LibraryPath(std::move(directories), std::move(files));
 }
 
 LibraryPath LibraryPath::relative_to(const std::string& directory) const {
-    LibraryPath result(given_);
+    LibraryPath result(given_, files_);
     result.base_ = directory;
     for (std::string& element : result.directories_) element = path_from(directory, element);
     return result;
@@ -139,17 +92,17 @@ std::optional<std::string> LibraryPath::find(const std::string& name) const {
     if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;
     if (name[0] == '/' || name[0] == '.') {
         const std::string path = path_from(base_, name);
-        return is_readable_file(path) ? std::optional(path) : std::nullopt;
+        return files_->readable(path) ? std::optional(path) : std::nullopt;
     }
     if (name[0] == '~') {
         const std::size_t slash = std::min(name.find('/'), name.size());
-        const std::optional<std::string> home = home_directory(name.substr(1, slash - 1));
-        if (!home || !is_readable_file(*home + name.substr(slash))) return std::nullopt;
+        const std::optional<std::string> home = files_->place(name.substr(0, slash));
+        if (!home || !files_->readable(*home + name.substr(slash))) return std::nullopt;
         return *home + name.substr(slash);
     }
     for (const std::string& directory : directories_) {
         const std::string path = path_from(directory, name);
-        if (is_readable_file(path)) return path;
+        if (files_->readable(path)) return path;
     }
     return std::nullopt;
 }

@@ -24,7 +24,7 @@ bool GeneratorExpressions::accept_option(GeneratorWords& words) {
     } else if (words.accept("-f")) {
         const std::string path =
             context_.library.locate(words.text("function file"), "function file");
-        environment_.define(read_file(path, kMaxFunctionFileBytes), {path, 1});
+        environment_.define(context_.library.files().read(path, kMaxFunctionFileBytes), {path, 1});
     } else {
         return false;
     }

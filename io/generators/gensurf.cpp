@@ -38,9 +38,10 @@ class Surface {
         table_begin_ = first_table(options, context);
         if (table_begin_ < 3) {
             const std::string& file = options.coordinate[2];
-            const std::string text =
-                file == "-" ? context.input
-                            : read_file(path_from(context.directory, file), kMaxTableBytes);
+            const std::string text = file == "-"
+                                         ? context.input
+                                         : context.library.files().read(
+                                               path_from(context.directory, file), kMaxTableBytes);
             table_.emplace(text, file == "-" ? "standard input" : file, options.m, options.n,
                            3 - table_begin_);
         }
@@ -74,7 +75,8 @@ class Surface {
     /// The first coordinate that is a table: 0, 2, or 3 for none.
     static int first_table(const SurfaceOptions& options, const GeneratorContext& context) {
         const std::string& file = options.coordinate[2];
-        if (file != "-" && !is_readable_file(path_from(context.directory, file))) return 3;
+        if (file != "-" && !context.library.files().readable(path_from(context.directory, file)))
+            return 3;
         const bool all = options.coordinate[0] == file && options.coordinate[1] == file;
         return all ? 0 : 2;
     }

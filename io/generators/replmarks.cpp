@@ -193,7 +193,8 @@ class Replmarks {
         if (options_.files.empty()) copy(context_.input, "standard input", 0);
         for (const std::string& file : options_.files) {
             const std::string path = path_from(context_.directory, file);
-            copy(file == "-" ? context_.input : read_file(path, kMaxGeneratedBytes),
+            copy(file == "-" ? context_.input
+                             : context_.library.files().read(path, kMaxGeneratedBytes),
                  file == "-" ? "standard input" : path, 0);
         }
         return std::move(out_);

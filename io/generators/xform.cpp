@@ -35,8 +35,9 @@ class Xform {
         const auto read = [this](const std::string& file) {
             if (file == "-") return context_.input;
             const std::string path = path_from(context_.directory, file);
-            if (!is_readable_file(path)) throw InputError("xform: cannot open " + path);
-            return read_file(path);
+            FileSource& files = context_.library.files();
+            if (!files.readable(path)) throw InputError("xform: cannot open " + path);
+            return files.read(path);
         };
         for_each_step(line_.options, read, [this](const XformStep& step) { apply(step); });
         return std::move(out_);
@@ -47,7 +48,7 @@ class Xform {
         if (line_.files.empty()) read_text(context_.input, "standard input", context_.directory, 0);
         for (const std::string& file : line_.files) {
             const std::string path = context_.library.locate(file, "scene file");
-            read_text(read_file(path), path, directory_of(path), 0);
+            read_text(context_.library.files().read(path), path, directory_of(path), 0);
         }
     }
 

@@ -1,7 +1,5 @@
 #include "io/language/command_line.h"
 
-#include <glob.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -146,18 +144,12 @@ std::string quote_pattern(const std::string& directory) {
     return result;
 }
 
-std::vector<std::string> matches_of(const std::string& pattern, const std::string& directory) {
+std::vector<std::string> matches_of(const std::string& pattern, const std::string& directory,
+                                    FileSource& files) {
     const std::string full = path_from(quote_pattern(directory), pattern);
     const std::size_t prefix = path_from(directory, pattern).size() - pattern.size();
-    glob_t found{};
-    std::vector<std::string> names;
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): a scene is read by one thread
-    if (glob(full.c_str(), 0, nullptr, &found) == 0) {
-        for (std::size_t i = 0; i < found.gl_pathc; ++i) {
-            names.push_back(std::string(found.gl_pathv[i]).substr(prefix));
-        }
-    }
-    globfree(&found);
+    std::vector<std::string> names = files.matches(full);
+    for (std::string& name : names) name.erase(0, prefix);
     return names;
 }
 
@@ -167,12 +159,12 @@ std::optional<std::vector<Pipeline>> split_command(std::string_view text) {
     return CommandSplitter(text).split();
 }
 
-std::vector<std::string> expand_patterns(const SimpleCommand& command,
-                                         const std::string& directory) {
+std::vector<std::string> expand_patterns(const SimpleCommand& command, const std::string& directory,
+                                         FileSource& files) {
     std::vector<std::string> words;
     for (const CommandWord& word : command) {
         std::vector<std::string> names;
-        if (word.pattern) names = matches_of(word.text, directory);
+        if (word.pattern) names = matches_of(word.text, directory, files);
         if (names.empty()) names.push_back(word.text);
         words.insert(words.end(), names.begin(), names.end());
     }

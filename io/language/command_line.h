@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/files/file_source.h"
 
 namespace lightwalk {
 
@@ -42,10 +43,11 @@ using Pipeline = std::vector<SimpleCommand>;     ///< each one's output is the n
 /// command substitution, conditions, groups, or a syntax error.
 [[nodiscard]] std::optional<std::vector<Pipeline>> split_command(std::string_view text);
 
-/// The words with patterns replaced by the names that match in `directory`, sorted; a pattern
-/// without a match stays as it is.
+/// The words with patterns replaced by the names in `files` that match in `directory`, sorted; a
+/// pattern without a match stays as it is.
 [[nodiscard]] std::vector<std::string> expand_patterns(const SimpleCommand& command,
-                                                       const std::string& directory);
+                                                       const std::string& directory,
+                                                       FileSource& files);
 
 /// The command without the '!' that it may begin with.
 [[nodiscard]] std::string_view without_command_mark(std::string_view command);

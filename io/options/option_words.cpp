@@ -1,13 +1,11 @@
 #include "io/options/option_words.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
 #include "core/error.h"
 #include "core/model/transform_args.h"
-#include "io/files/library_path.h"
 
 namespace lightwalk {
 namespace {
@@ -28,17 +26,15 @@ std::vector<std::string> split(std::string_view text) {
     return words;
 }
 
-std::vector<std::string> words_behind(const std::string& word) {
+std::vector<std::string> words_behind(const std::string& word, FileSource& files) {
     const std::string name = word.substr(1);
     if (word.front() == '$') {
-        const char* value =
-            std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe): before any thread
-        if (value == nullptr)
-            throw UsageError("cannot expand '" + word + "': no such environment variable");
-        return split(value);
+        const std::optional<std::string> value = files.place(word);
+        if (!value) throw UsageError("cannot expand '" + word + "': no such environment variable");
+        return split(*value);
     }
     try {
-        return split(read_file(name, kMaxWordsOfExpansion * (kMaxWordLength + 1)));
+        return split(files.read(name, kMaxWordsOfExpansion * (kMaxWordLength + 1)));
     } catch (const InputError& error) {
         throw UsageError("cannot expand '" + word + "': " + error.what());
     }
@@ -64,7 +60,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-OptionWords::OptionWords(std::vector<std::string> words) {
+OptionWords::OptionWords(std::vector<std::string> words, std::shared_ptr<FileSource> files)
+    : files_(std::move(files)) {
     words_.reserve(words.size());
     for (std::string& word : words) words_.push_back({std::move(word), -1});
 }
@@ -77,7 +74,7 @@ void OptionWords::expand() {
             throw UsageError("cannot expand '" + word.text + "': it includes itself");
         }
     }
-    const std::vector<std::string> inner = words_behind(word.text);
+    const std::vector<std::string> inner = words_behind(word.text, *files_);
     const bool too_long = std::any_of(
         inner.begin(), inner.end(), [](const std::string& w) { return w.size() > kMaxWordLength; });
     if (too_long || inner.size() > kMaxWordsOfExpansion ||

@@ -1,6 +1,7 @@
 #pragma once
 // The words of a command line, read from left to right as Radiance's programs read them.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/math/rgb.h"
+#include "io/files/file_source.h"
 
 namespace lightwalk {
 
@@ -24,7 +26,8 @@ class UsageError : public std::runtime_error {
 /// Radiance manual page rtrace(1).
 class OptionWords {
   public:
-    explicit OptionWords(std::vector<std::string> words);
+    explicit OptionWords(std::vector<std::string> words,
+                         std::shared_ptr<FileSource> files = real_files());
 
     /// Expand the word in option position; false at the end. Throws UsageError for a file or
     /// variable that is missing, too long (4095 words), or that includes itself.
@@ -64,6 +67,7 @@ class OptionWords {
     [[nodiscard]] std::string argument(std::string_view expected);
     void expand();
 
+    std::shared_ptr<FileSource> files_;
     std::vector<Word> words_;
     std::vector<Source> sources_;
     std::size_t at_ = 0;

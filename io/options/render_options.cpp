@@ -159,7 +159,7 @@ void refuse_foreign(const OptionWords& words) {
 }  // namespace
 
 std::vector<std::string> names_in_file(const std::string& name, const LibraryPath& library) {
-    std::istringstream text(read_file(library.locate(name, "modifier list")));
+    std::istringstream text(library.files().read(library.locate(name, "modifier list")));
     std::vector<std::string> names;
     for (std::string word; text >> word;) names.push_back(word);
     return names;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
-#include <iostream>
 #include <optional>
 
 #include "core/error.h"
@@ -94,22 +92,6 @@ std::optional<std::string_view> after_view_word(std::string_view line) {
     return line.substr(end);
 }
 
-/// A file's beginning, as far as it can hold view lines.
-std::string read_beginning(const std::string& name) {
-    std::ifstream file;
-    if (name != "-") {
-        file.open(name, std::ios::binary);
-        if (!file) throw InputError({name, 0}, "cannot open view file");
-    }
-    std::istream& in = name == "-" ? std::cin : file;
-    std::string text;
-    for (char c = 0; text.size() < kLargestViewText && in.get(c);) {
-        text += c;
-        if (text.ends_with("\n\n") || text.ends_with("\n\r\n")) break;
-    }
-    return text;
-}
-
 }  // namespace
 
 std::string view_text(const View& view) {
@@ -124,12 +106,14 @@ std::string view_text(const View& view) {
     return text.data();
 }
 
-std::size_t parse_view_option(std::span<const std::string> words, View& view) {
+std::size_t parse_view_option(std::span<const std::string> words, View& view, FileSource& files) {
     if (words.empty()) return 0;
     const std::string& option = words.front();
     if (option == "-vf") {
         if (words.size() < 2) throw InputError("option -vf: expected the name of a view file");
-        read_view_file(read_beginning(words[1]), words[1], view);
+        const std::optional<std::string> text =
+            files.answer(FileSource::Question::beginning, words[1], kLargestViewText);
+        read_view_file(text.value_or(""), words[1], view);
         return 2;
     }
     const std::optional<std::size_t> count = argument_count(option);

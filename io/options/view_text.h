@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/view/view.h"
+#include "io/files/file_source.h"
 
 namespace lightwalk {
 
@@ -20,7 +21,8 @@ namespace lightwalk {
 /// Camera's question.
 /// @return words used, 0 when the first word is not a view option
 /// Throws InputError when arguments are missing or malformed, or as read_view_file().
-std::size_t parse_view_option(std::span<const std::string> words, View& view);
+std::size_t parse_view_option(std::span<const std::string> words, View& view,
+                              FileSource& files = *real_files());
 
 /// Apply the view options within a text; anything else in it, malformed options and -vf are
 /// skipped.

@@ -1,7 +1,5 @@
 #include "io/scene/command_runner.h"
 
-#include <array>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -25,8 +23,9 @@ std::string run_cat(std::span<const std::string> args, GeneratorContext& context
             output += context.input;
         } else {
             const std::string path = path_from(context.directory, name);
-            if (!is_readable_file(path)) throw InputError("cat: cannot open " + path);
-            output += read_file(path, kMaxGeneratedBytes);
+            FileSource& files = context.library.files();
+            if (!files.readable(path)) throw InputError("cat: cannot open " + path);
+            output += files.read(path, kMaxGeneratedBytes);
         }
         if (output.size() > kMaxGeneratedBytes) throw InputError("cat: too much output");
     }
@@ -127,7 +126,8 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
 }
 
 std::string CommandRunner::run_program(const SimpleCommand& words, GeneratorContext& context) {
-    const std::vector<std::string> args = expand_patterns(words, context.directory);
+    const std::vector<std::string> args =
+        expand_patterns(words, context.directory, library_.files());
     return find_program(args[0])(args, context);
 }
 
@@ -136,24 +136,19 @@ std::string CommandRunner::run_shell(const std::string& command, const std::stri
     std::string script = "exec </dev/null\n";
     if (!directory.empty()) script += "cd -- " + quoted_for_shell(directory) + " || exit 1\n";
     script += command;
-    std::FILE* const pipe = popen(script.c_str(), "r");  // NOLINT(cert-env33-c): only when allowed
-    if (pipe == nullptr) throw CommandError(where, "cannot start the shell");
-    std::string output;
-    std::array<char, 65536> chunk{};
-    std::size_t got = 0;
-    while (output.size() <= kMaxGeneratedBytes &&
-           (got = std::fread(chunk.data(), 1, chunk.size(), pipe)) > 0) {
-        output.append(chunk.data(), got);
-    }
-    const int status = pclose(pipe);
-    if (output.size() > kMaxGeneratedBytes) {
+    std::optional<std::string> output =
+        library_.files().answer(FileSource::Question::script, script, kMaxGeneratedBytes);
+    if (!output) throw CommandError(where, "cannot start the shell");
+    const bool good = output->front() == '0';
+    output->erase(0, 1);
+    if (output->size() > kMaxGeneratedBytes) {
         throw CommandError(where, "\"" + abbreviate_command(command) + "\" writes too much");
     }
-    if (status != 0) {
+    if (!good) {
         warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
                        "\"");
     }
-    return output;
+    return *std::move(output);
 }
 
 }  // namespace lightwalk

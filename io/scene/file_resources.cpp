@@ -49,32 +49,32 @@ FileResources::FileResources(LibraryPath path, bool allow_commands, WarningSink&
     : path_(std::move(path)), allow_commands_(allow_commands), warnings_(warnings) {}
 
 std::string FileResources::function_file(const std::string& name) {
-    return read_file(path_.locate(name, "function file"));
+    return path_.files().read(path_.locate(name, "function file"));
 }
 
 std::shared_ptr<const DataArray> FileResources::data(const std::string& name) {
     return cached(data_, name, [&] {
         const std::string path = path_.locate(name, "data file");
-        return std::make_shared<const DataArray>(decode_data(read_file(path), path));
+        return std::make_shared<const DataArray>(decode_data(path_.files().read(path), path));
     });
 }
 
 std::shared_ptr<const PictureData> FileResources::picture(const std::string& name) {
     return cached(pictures_, name, [&] {
         const std::string path = locate_picture(path_, name);
-        return std::make_shared<const PictureData>(decode_picture(read_file(path), path));
+        return std::make_shared<const PictureData>(decode_picture(path_.files().read(path), path));
     });
 }
 
 std::shared_ptr<const Font> FileResources::font(const std::string& name) {
     return cached(fonts_, name, [&] {
         const std::string path = path_.locate(name, "font file");
-        return std::make_shared<const Font>(decode_font(read_file(path), path));
+        return std::make_shared<const Font>(decode_font(path_.files().read(path), path));
     });
 }
 
 std::vector<std::string> FileResources::text_lines(const std::string& name) {
-    const std::string text = read_file(path_.locate(name, "text file"));
+    const std::string text = path_.files().read(path_.locate(name, "text file"));
     std::vector<std::string> lines;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -90,14 +90,14 @@ std::shared_ptr<const Model> FileResources::octree(const std::string& name) {
     return cached(octrees_, name, [&] {
         const std::string path = path_.locate(name, "octree file");
         const SceneReadOptions options{path_, allow_commands_, path_.base()};
-        return read_octree(read_file(path), path, options, warnings_);
+        return read_octree(path_.files().read(path), path, options, warnings_);
     });
 }
 
 std::shared_ptr<const MeshModel> FileResources::mesh(const std::string& name) {
     return cached(meshes_, name, [&] {
         const std::string path = path_.locate(name, "mesh file");
-        return std::make_shared<const MeshModel>(decode_mesh(read_file(path), path));
+        return std::make_shared<const MeshModel>(decode_mesh(path_.files().read(path), path));
     });
 }
 

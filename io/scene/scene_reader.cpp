@@ -27,18 +27,19 @@ class SceneReader {
     SceneReader(const SceneReadOptions& options, WarningSink& warnings, ProblemList& problems)
         : problems_(problems),
           directory_(options.directory),
+          files_(options.library.files()),
           runner_(options.library, options.allow_commands, warnings),
           warnings_(warnings) {}
 
     /// Open a scene argument: a file, "-", or "!command".
     SceneText open(const std::string& argument) {
-        if (argument == "-") return {read_standard_input(), "standard input"};
+        if (argument == "-") return {files_.standard_input(), "standard input"};
         if (!argument.empty() && argument[0] == '!') {
             return {runner_.run(argument, directory_, {abbreviate_command(argument), 0}),
                     abbreviate_command(argument)};
         }
         const std::string path = path_from(directory_, argument);
-        return {read_file(path), path};
+        return {files_.read(path), path};
     }
 
     void read(std::string_view text, const std::string& name) {
@@ -182,6 +183,7 @@ class SceneReader {
     bool skipped_command_ = false;         ///< it may have defined anything
     std::set<std::string> skipped_names_;  ///< of primitives that were read over
     std::string directory_;
+    FileSource& files_;  ///< which the runner's library path keeps
     ModelBuilder builder_;
     CommandRunner runner_;
     WarningSink& warnings_;

@@ -65,7 +65,7 @@ TEST_CASE("patterns become the names that match, or stay") {
     folder.write("b.rad", "");
     folder.write("a.rad", "");
     const auto expand = [&](const std::string& text) {
-        return expand_patterns(split_command(text)->at(0).at(0), folder.path());
+        return expand_patterns(split_command(text)->at(0).at(0), folder.path(), *real_files());
     };
     CHECK(expand("xform *.rad") == Words{"xform", "a.rad", "b.rad"});
     CHECK(expand("xform '*.rad'") == Words{"xform", "*.rad"});
