@@ -90,7 +90,7 @@ std::vector<std::string> common_option_names() {
     return names;
 }
 
-void settle_scene_files(CommonOptions& options, const std::string& taken_by) {
+void settle_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& input) {
     std::vector<std::string>& files = options.scene_files;
     if (!taken_by.empty()) {
         if (files.empty()) {
@@ -101,13 +101,14 @@ void settle_scene_files(CommonOptions& options, const std::string& taken_by) {
             throw UsageError("standard input holds " + taken_by + ", so the scene cannot be -");
     }
     if (!files.empty()) return;
-    if (isatty(STDIN_FILENO) != 0) {
+    const std::string state =
+        input.answer(FileSource::Question::input_state, "standard input", 0).value_or("empty");
+    if (state == "terminal") {
         throw UsageError(
             "no scene: name an octree or scene files, or send one of them to standard input");
     }
-    const int first = std::getc(stdin);
-    if (first == EOF) throw UsageError("no scene: none is named, and standard input holds nothing");
-    (void)std::ungetc(first, stdin);
+    if (state == "empty")
+        throw UsageError("no scene: none is named, and standard input holds nothing");
     files.emplace_back("-");
 }
 

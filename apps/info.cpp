@@ -129,7 +129,7 @@ int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
         print_ambient_file(options.scene_files[0]);
         return kSuccessStatus;
     }
-    settle_scene_files(options, "");
+    settle_scene_files(options, "", *real_files());
     SceneSession session(options, warnings);
     print_counts(*session.model);
     print_unsupported(*session.model);

@@ -85,8 +85,8 @@ void RankLink::fail(const std::string& text) {
     std::_Exit(kFailureStatus);
 }
 
-void RankLink::agree(const std::vector<std::string>& facts, const std::string& problem,
-                     int status) {
+void RankLink::agree(const std::vector<std::string>& facts, const std::string& problem, int status,
+                     const std::string& advice) {
     // Line 0: exit status; 1: host; then the facts; a problem's text comes after a line of its own.
     std::vector<std::string> own{std::to_string(status), host_};
     own.insert(own.end(), facts.begin(), facts.end());
@@ -108,11 +108,13 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
             if (problems.emplace(text, rank).second) told += named(rank, lines[1]) + text + '\n';
             continue;
         }
+        // The first difference: others may follow from it.
         for (std::size_t i = 2; i < std::min(lines.size(), first.size()); ++i) {
             if (lines[i] == first[i]) continue;
             ++others;
             told += named(rank, lines[1]) + lines[i] + ", but rank 0 (" + first[1] + ") has " +
                     first[i] + '\n';
+            break;
         }
     }
     agreed_ = Timeline::Clock::now();  // all ranks have just heard the same
@@ -123,6 +125,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     }
     if (leads()) {
         const bool same = problems.size() == 1 && others == 0 && problems.begin()->second == 0;
+        if (!advice.empty() && problem.empty() && !problems.empty()) told += advice + '\n';
         std::fprintf(stderr, "%s", same ? (problems.begin()->first + '\n').c_str() : told.c_str());
     }
     throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst};

@@ -50,7 +50,13 @@ class RankLink final : private LocalEnd {
     /// AgreedProblem.
     /// @param problem  "" is none
     /// @param status   the exit status that goes with it
-    void agree(const std::vector<std::string>& facts, const std::string& problem, int status);
+    /// @param advice   said by rank 0 where others have a problem that it has not
+    void agree(const std::vector<std::string>& facts, const std::string& problem, int status,
+               const std::string& advice = "");
+    /// Rank 0's bytes, on every rank.
+    [[nodiscard]] std::string broadcast(std::string bytes) {
+        return loop_.broadcast(std::move(bytes));
+    }
 
     /// The cache whose new values go to the other ranks, and which gets theirs; `known` are values
     /// of this rank that the others do not have. `cache` itself where none are exchanged.

@@ -16,6 +16,12 @@ Variant variant_named(const std::string& name) {
     throw UsageError("option --variant: expected threads, ranks or hybrid, found \"" + name + "\"");
 }
 
+SceneFrom scene_from_named(const std::string& name) {
+    if (name == "each") return SceneFrom::each;
+    if (name == "rank0") return SceneFrom::rank0;
+    throw UsageError("option --scene-from: expected rank0 or each, found \"" + name + "\"");
+}
+
 int count_or_auto(OptionWords& words, int most) {
     const std::string option = words.option();
     const std::string text = words.text();
@@ -42,6 +48,8 @@ bool parse_rank_option(OptionWords& words, RankOptions& options) {
     const std::string& word = words.option();
     if (word == "--variant") {
         options.variant = variant_named(words.text());
+    } else if (word == "--scene-from") {
+        options.scene_from = scene_from_named(words.text());
     } else if (word == "--block") {
         options.block = count_or_auto(words, kLargestBlock);
     } else if (word == "--stride") {
@@ -61,7 +69,8 @@ bool parse_rank_option(OptionWords& words, RankOptions& options) {
 }
 
 std::vector<std::string> rank_option_names() {
-    return {"--variant", "--block", "--stride", "--masters", "--ambient-batch", "--timeline"};
+    return {"--variant", "--scene-from",    "--block",   "--stride",
+            "--masters", "--ambient-batch", "--timeline"};
 }
 
 bool started_by_mpi() {

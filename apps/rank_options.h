@@ -11,13 +11,20 @@
 
 namespace lightwalk {
 
+/// Who reads a scene's files.
+enum class SceneFrom {
+    each,   ///< every rank its own copy of them
+    rank0,  ///< rank 0 alone, for all
+};
+
 struct RankOptions {
     std::optional<Variant> variant;  ///< --variant; nothing: follows from how we were started
     int block = 0;                   ///< --block [pixels]; 0: auto
     int stride = 0;                  ///< --stride; 0: auto
     int masters = 0;                 ///< --masters; 0: auto
     int ambient_batch = 16;          ///< --ambient-batch; 0: no values are exchanged
-    std::string timeline;            ///< --timeline: file for the spans of all threads; "" is none
+    SceneFrom scene_from = SceneFrom::each;  ///< --scene-from
+    std::string timeline;  ///< --timeline: file for the spans of all threads; "" is none
 };
 
 /// Take one of these options; false when the word is something else.

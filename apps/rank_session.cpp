@@ -1,9 +1,12 @@
 #include "apps/rank_session.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <string_view>
 #include <thread>
 
 #include "apps/commands.h"
+#include "io/files/file_source.h"
 #include "parallel/ranks/piece_codec.h"
 
 namespace lightwalk {
@@ -35,15 +38,68 @@ std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& option
                                       settings, work.program, !wanted.timeline.empty());
 }
 
+void parse_on_ranks(Transport* transport, const std::string& program,
+                    FunctionRef<void(const std::shared_ptr<FileSource>&)> parse) {
+    if (transport == nullptr || transport->size() == 1) return parse(real_files());
+    // What goes round: an exit status, and where that is 0 what rank 0 has read.
+    const auto tell = [&](int status, const std::string& recording) {
+        (void)transport->broadcast(std::to_string(status) + recording);
+    };
+    if (transport->rank() == 0) {
+        const auto recorder = std::make_shared<FileRecorder>(real_files(), true);
+        try {
+            parse(recorder);
+        } catch (const UsageError&) {
+            tell(kUsageStatus, "");
+            throw;
+        } catch (const std::exception&) {
+            tell(kFailureStatus, "");
+            throw;
+        }
+        return tell(kSuccessStatus, recorder->take());
+    }
+    const std::string told = transport->broadcast({});
+    if (told.front() == '0' + kUsageStatus) throw UsageError("");
+    if (told.front() != '0' + kSuccessStatus) throw InputError("");
+    try {
+        parse(std::make_shared<FileReplay>(std::string_view(told).substr(1)));
+    } catch (const std::exception& error) {
+        const bool usage = dynamic_cast<const UsageError*>(&error) != nullptr;
+        std::fprintf(stderr, "%s: rank %d (%s): %s\n", program.c_str(), transport->rank(),
+                     transport->host().c_str(), printable(error.what()).c_str());
+        transport->abort(usage ? kUsageStatus : kFailureStatus);
+    }
+}
+
+namespace {
+
+/// What rank 0 has read, on the other ranks; null when it could not read all.
+std::shared_ptr<FileReplay> replay_of_rank_0(RankLink& link) {
+    const std::string recording = link.broadcast({});
+    if (recording.empty()) return nullptr;
+    return std::make_shared<FileReplay>(std::string_view(recording).substr(1));
+}
+
+}  // namespace
+
 std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions& options,
                                              const RenderSettings& settings,
                                              const std::string& history, WarningSink& warnings) {
+    const bool shared = options.ranks.scene_from == SceneFrom::rank0;
+    auto files = std::make_shared<FileRecorder>(real_files(), shared && link.leads());
+    std::shared_ptr<FileReplay> replay;
     std::unique_ptr<SceneSession> session;
     std::string problem;
     int status = kSuccessStatus;
     try {
-        session = std::make_unique<SceneSession>(options, warnings);
-        session->build(settings, &link);
+        if (shared && !link.leads()) {
+            replay = replay_of_rank_0(link);
+            if (replay) files = std::make_shared<FileRecorder>(replay);
+        }
+        if (!shared || link.leads() || replay) {
+            session = std::make_unique<SceneSession>(options, warnings, files);
+            session->build(settings, &link);
+        }
     } catch (const UsageError& error) {
         problem = error.what();
         status = kUsageStatus;
@@ -51,12 +107,18 @@ std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions
         problem = error.what();
         status = kFailureStatus;
     }
+    if (shared && link.leads()) (void)link.broadcast(problem.empty() ? '+' + files->take() : "");
+    if (replay) replay->clear();
     std::vector<std::string> facts;
-    if (problem.empty()) {
-        facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + history,
-                 "scene " + session->digest()};
+    if (session && problem.empty()) {
+        facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + history};
+        for (const std::string& file : session->files->digests()) facts.push_back("file " + file);
     }
-    link.agree(facts, problem, status);
+    link.agree(facts, problem, status,
+               shared
+                   ? ""
+                   : "Every rank reads its own copy of the scene; with --scene-from rank0 rank 0 "
+                     "reads it for all.");
     return session;
 }
 

@@ -17,6 +17,14 @@ struct SharedWork {
     bool rays = false;            ///< chunks of rays, not blocks of pictures
 };
 
+/// Understands the command line: rank 0 first, by the files, environment and standard input it has;
+/// then the others, by what rank 0 has read of these. `parse` throws UsageError or InputError for
+/// what is wrong; when that is so on rank 0, the others throw the same without a text, and when on
+/// another, it says so and ends the run.
+/// @param transport  null: this process is alone
+void parse_on_ranks(Transport* transport, const std::string& program,
+                    FunctionRef<void(const std::shared_ptr<FileSource>&)> parse);
+
 /// The link to the other ranks; null where there are none to share with. In variant `ranks` each
 /// has one thread: options.workers.
 [[nodiscard]] std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& options,
@@ -25,7 +33,8 @@ struct SharedWork {
 /// Whether light is computed with cached ambient values.
 [[nodiscard]] bool caches_ambient_values(const RenderOptions& light);
 
-/// Every rank reads and builds the scene; all go on, or none: throws AgreedProblem.
+/// Every rank reads and builds the scene, from its own files or from what rank 0 has read
+/// (--scene-from); all go on, or none: throws AgreedProblem.
 /// @param history  the options, which must be the same everywhere
 [[nodiscard]] std::unique_ptr<SceneSession> build_on_ranks(RankLink& link,
                                                            const CommonOptions& options,

@@ -65,7 +65,8 @@ void write_to_stdout(const std::string& bytes) {
 
 class RenderRun {
   public:
-    RenderRun(RenderCommand command, Transport* transport)
+    /// @param files  where standard input comes from
+    RenderRun(RenderCommand command, Transport* transport, FileSource& files)
         : command_(std::move(command)), transport_(transport), warnings_(kProgram) {
         redirect_messages(command_.common, command_.history);
         const bool speaks = transport_ == nullptr || transport_->rank() == 0;
@@ -75,8 +76,8 @@ class RenderRun {
         if (command_.first_frame == 0)
             (void)Camera(command_.view);  // a bad view is told before the scene is read
         settle_scene_files(command_.common,
-                           command_.first_frame > 0 ? "the views of the sequence (-S)" : "");
-        if (command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
+                           command_.first_frame > 0 ? "the views of the sequence (-S)" : "", files);
+        if (speaks && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
         }
     }
@@ -355,12 +356,15 @@ class RenderRun {
 }  // namespace
 
 int run_render(const std::vector<std::string>& words, Transport* ranks) {
-    RenderCommand command = parse_render_command(words);
-    if (command.show_defaults) {
-        if (ranks == nullptr || ranks->rank() == 0) std::fputs(describe(command).c_str(), stdout);
-        return kSuccessStatus;
-    }
-    return RenderRun(std::move(command), ranks).run();
+    std::unique_ptr<RenderRun> run;
+    parse_on_ranks(ranks, kProgram, [&](const std::shared_ptr<FileSource>& files) {
+        RenderCommand command = parse_render_command(words, files);
+        if (!command.show_defaults)
+            run = std::make_unique<RenderRun>(std::move(command), ranks, *files);
+        else if (ranks == nullptr || ranks->rank() == 0)
+            std::fputs(describe(command).c_str(), stdout);
+    });
+    return run ? run->run() : kSuccessStatus;
 }
 
 }  // namespace lightwalk

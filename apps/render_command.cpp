@@ -16,11 +16,11 @@ const std::vector<std::string> kOwnNames{
     "-vts",         "--exposure", "--tone", "--samples", "--overture", "--deterministic",
     "--checkpoint", "--resume"};
 
-bool parse_view(OptionWords& words, View& view) {
+bool parse_view(OptionWords& words, View& view, FileSource& files) {
     const std::vector<std::string> rest = words.rest();
     std::size_t used = 0;
     try {
-        used = parse_view_option(rest, view);
+        used = parse_view_option(rest, view, files);
     } catch (const InputError& error) {
         if (words.option() == "-vf" && rest.size() > 1)
             throw;  // the file is at fault, not the command line
@@ -130,7 +130,7 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
         return;
     }
     refuse_foreign(word);
-    if (parse_view(words, command.view) || parse_pixel_option(words, command) ||
+    if (parse_view(words, command.view, library.files()) || parse_pixel_option(words, command) ||
         parse_output_option(words, command) ||
         parse_render_option(words, library, command.settings) ||
         parse_common_option(words, command.common, command.settings)) {
@@ -162,11 +162,12 @@ void check(const RenderCommand& command) {
 
 }  // namespace
 
-RenderCommand parse_render_command(const std::vector<std::string>& line) {
+RenderCommand parse_render_command(const std::vector<std::string>& line,
+                                   const std::shared_ptr<FileSource>& files) {
     RenderCommand command;
     command.settings = default_render_settings(OptionDefaults::rpict);
-    const LibraryPath library = LibraryPath::from_environment();
-    OptionWords words(line);
+    const LibraryPath library = LibraryPath::from_environment(files);
+    OptionWords words(line, files);
     while (!command.show_defaults && words.at_option()) parse_option(words, library, command);
     check(command);
     command.history = command_history("render", words, command.common);

@@ -35,7 +35,8 @@ struct RenderCommand {
 };
 
 /// Throws UsageError, and InputError for files that options name.
-[[nodiscard]] RenderCommand parse_render_command(const std::vector<std::string>& words);
+[[nodiscard]] RenderCommand parse_render_command(const std::vector<std::string>& words,
+                                                 const std::shared_ptr<FileSource>& files);
 
 /// What -defaults prints: every option with its value.
 [[nodiscard]] std::string describe(const RenderCommand& command);

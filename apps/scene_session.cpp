@@ -1,9 +1,7 @@
 #include "apps/scene_session.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
@@ -29,9 +27,11 @@ double Stopwatch::seconds() const {
     return 1e-9 * static_cast<double>(now_ns() - start_ns_);
 }
 
-SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink)
+SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink,
+                           std::shared_ptr<FileRecorder> source)
     : warnings(sink),
-      library(LibraryPath::from_environment()),
+      files(std::move(source)),
+      library(LibraryPath::from_environment(files)),
       resources(library, options.allow_commands, sink) {
     const Stopwatch watch;
     model = read_scene(options.scene_files, {library, options.allow_commands}, warnings, &problems);
@@ -80,25 +80,6 @@ void SceneSession::make_cache(const RenderSettings& settings, RankLink* link) {
     }
     if (link != nullptr) cache = &link->exchange(*cache, known);
     freezable = std::make_unique<FreezableCache>(*cache);
-}
-
-std::string SceneSession::digest() const {
-    // FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923).
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto add = [&](const void* data, std::size_t size) {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3;
-    };
-    for (const Primitive& primitive : model->primitives) {
-        add(&primitive.type, sizeof primitive.type);
-        add(&primitive.modifier, sizeof primitive.modifier);
-        add(primitive.name.c_str(), primitive.name.size() + 1);
-        for (const std::string& text : primitive.strings) add(text.c_str(), text.size() + 1);
-        for (const double& real : primitive.reals) add(&real, sizeof real);
-    }
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-    return text.data();
 }
 
 void SceneSession::warn_of_darkness() const {

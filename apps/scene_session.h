@@ -32,15 +32,16 @@ class Stopwatch {
 struct SceneSession {
     /// Reads the description. Throws InputError for what cannot be read at all. `options`: after
     /// settle_scene_files.
-    SceneSession(const CommonOptions& options, WarningSink& warnings);
+    SceneSession(const CommonOptions& options, WarningSink& warnings,
+                 std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>());
     /// Compiles the scene, then the tracer. Throws InputError, with all problems of the
     /// description.
     /// @param link  the other ranks, with which ambient values are exchanged; rank 0 alone has the
     ///              ambient file
     void build(const RenderSettings& settings, RankLink* link = nullptr);
 
-    /// Of the description: the same on every machine for the same primitives.
-    [[nodiscard]] std::string digest() const;
+    /// Of all that was read: the same on every machine for the same files.
+    [[nodiscard]] std::string digest() const { return files->digest(); }
 
     /// Warn when nothing lights the scene; after build().
     void warn_of_darkness() const;
@@ -49,6 +50,7 @@ struct SceneSession {
     [[nodiscard]] const Tracer& tracer() const { return *made; }
 
     WarningSink& warnings;
+    std::shared_ptr<FileRecorder> files;
     LibraryPath library;
     FileResources resources;
     ProblemList problems;  ///< of the description, which `model` leaves out

@@ -24,7 +24,7 @@ constexpr std::size_t kEnough = 1 << 16;  ///< bytes of output that are worth wr
 
 class TraceRun {
   public:
-    TraceRun(TraceCommand command, Transport* transport)
+    TraceRun(TraceCommand command, Transport* transport, FileSource& files)
         : command_(std::move(command)),
           transport_(transport),
           warnings_(kProgram),
@@ -34,7 +34,7 @@ class TraceRun {
         const bool speaks = transport_ == nullptr || transport_->rank() == 0;
         warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
         check_render_settings(command_.settings);
-        check();
+        check(files);
         options_ = {shades() || command_.sensor, command_.sensor, command_.limit_by_length,
                     command_.settings.light.seed};
         if (!options_.shade) {  // nothing is lit: do not prepare light sources
@@ -222,8 +222,8 @@ class TraceRun {
 
     [[nodiscard]] bool shades() const { return tree_ || records_->shades(); }
 
-    void check() {
-        settle_scene_files(command_.common, "the rays");
+    void check(FileSource& files) {
+        settle_scene_files(command_.common, "the rays", files);
         const bool irradiance = command_.sensor || command_.settings.light.irradiance;
         if (irradiance && !shades())
             throw UsageError("-I+ and -i+ options require some value output");
@@ -352,12 +352,15 @@ class TraceRun {
 }  // namespace
 
 int run_trace(const std::vector<std::string>& words, Transport* ranks) {
-    TraceCommand command = parse_trace_command(words);
-    if (command.show_defaults) {
-        if (ranks == nullptr || ranks->rank() == 0) std::fputs(describe(command).c_str(), stdout);
-        return kSuccessStatus;
-    }
-    return TraceRun(std::move(command), ranks).run();
+    std::unique_ptr<TraceRun> run;
+    parse_on_ranks(ranks, kProgram, [&](const std::shared_ptr<FileSource>& files) {
+        TraceCommand command = parse_trace_command(words, files);
+        if (!command.show_defaults)
+            run = std::make_unique<TraceRun>(std::move(command), ranks, *files);
+        else if (ranks == nullptr || ranks->rank() == 0)
+            std::fputs(describe(command).c_str(), stdout);
+    });
+    return run ? run->run() : kSuccessStatus;
 }
 
 }  // namespace lightwalk

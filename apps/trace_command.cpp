@@ -70,10 +70,11 @@ bool parse_own_option(OptionWords& words, TraceCommand& command) {
 
 }  // namespace
 
-TraceCommand parse_trace_command(const std::vector<std::string>& line) {
+TraceCommand parse_trace_command(const std::vector<std::string>& line,
+                                 const std::shared_ptr<FileSource>& files) {
     TraceCommand command;
-    const LibraryPath library = LibraryPath::from_environment();
-    OptionWords words(line);
+    const LibraryPath library = LibraryPath::from_environment(files);
+    OptionWords words(line, files);
     while (words.at_option()) {
         if (words.option() == "-defaults") {
             command.show_defaults = true;

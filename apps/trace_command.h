@@ -26,7 +26,8 @@ struct TraceCommand {
 };
 
 /// Throws UsageError, and InputError for files that options name.
-[[nodiscard]] TraceCommand parse_trace_command(const std::vector<std::string>& words);
+[[nodiscard]] TraceCommand parse_trace_command(const std::vector<std::string>& words,
+                                               const std::shared_ptr<FileSource>& files);
 
 /// What -defaults prints: every option with its value.
 [[nodiscard]] std::string describe(const TraceCommand& command);

@@ -12,6 +12,7 @@ struct Inbox {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Transport::Packet> packets;
+    std::deque<std::string> broadcasts;  ///< of rank 0
     bool woken = false;
     std::optional<int> aborted;
 };
@@ -59,6 +60,25 @@ class MemoryTransport final : public Transport {
             inbox.woken = true;
         }
         inbox.changed.notify_one();
+    }
+
+    [[nodiscard]] std::string broadcast(std::string bytes) override {
+        if (rank_ == 0) {
+            for (int to = 1; to < size(); ++to) {
+                Inbox& inbox = of(to);
+                const std::lock_guard lock(inbox.mutex);
+                inbox.broadcasts.push_back(bytes);
+                inbox.changed.notify_one();
+            }
+            return bytes;
+        }
+        Inbox& inbox = of(rank_);
+        std::unique_lock lock(inbox.mutex);
+        inbox.changed.wait(lock, [&] { return !inbox.broadcasts.empty() || inbox.aborted; });
+        if (inbox.aborted) throw Aborted{*inbox.aborted};
+        std::string got = std::move(inbox.broadcasts.front());
+        inbox.broadcasts.pop_front();
+        return got;
     }
 
     void flush() override {}

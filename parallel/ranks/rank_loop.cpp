@@ -111,6 +111,30 @@ std::vector<std::string> RankLoop::all_gather(std::string bytes) {
     return *std::exchange(gathered_, std::nullopt);
 }
 
+std::string RankLoop::broadcast(std::string bytes) {
+    std::unique_lock lock(mutex_);
+    to_broadcast_ = std::move(bytes);
+    transport_.wake();
+    answered_.wait(lock, [&] { return broadcast_.has_value() || over_; });
+    if (!broadcast_) throw Aborted{1};
+    return *std::exchange(broadcast_, std::nullopt);
+}
+
+void RankLoop::serve_broadcast() {
+    std::optional<std::string> bytes;
+    {
+        const std::lock_guard lock(mutex_);
+        bytes = std::exchange(to_broadcast_, std::nullopt);
+    }
+    if (!bytes) return;
+    std::string got = transport_.broadcast(*std::move(bytes));
+    {
+        const std::lock_guard lock(mutex_);
+        broadcast_ = std::move(got);
+    }
+    answered_.notify_all();
+}
+
 void RankLoop::end() {
     {
         const std::lock_guard lock(mutex_);
@@ -123,6 +147,7 @@ bool RankLoop::run(const StopFlag& stop) {
     begin();
     microseconds wait = kShortestWait;
     while (farewell_ != Farewell::over && !stop.requested()) {
+        serve_broadcast();
         const bool posted = serve_posted();
         const Farewell before = farewell_;
         const bool served = serve_arrived() || posted;
@@ -148,7 +173,7 @@ bool RankLoop::run(const StopFlag& stop) {
 /// A rank that makes no values is told of others' all the same, for the files that it keeps.
 void RankLoop::ask_for_values() {
     constexpr std::chrono::seconds kOften{1};
-    if (!ambient_client_ || worker_ || farewell_ != Farewell::none) return;
+    if (!ambient_client_ || worker_ || chunk_worker_ || farewell_ != Farewell::none) return;
     const auto now = std::chrono::steady_clock::now();
     if (now - asked_ < kOften) return;
     asked_ = now;

@@ -46,6 +46,8 @@ class RankLoop {
     /// slowest. From any thread but the one that runs run(), by one thread at a time, and by all
     /// ranks the same number of times. Throws Aborted when the loop ends before.
     [[nodiscard]] std::vector<std::string> all_gather(std::string bytes);
+    /// Rank 0's bytes, on every rank; called in the same way. This rank's messages wait meanwhile.
+    [[nodiscard]] std::string broadcast(std::string bytes);
 
     /// Until end() is called, or `stop` is requested. Asks for the first blocks by itself.
     /// False: stopped.
@@ -66,6 +68,7 @@ class RankLoop {
     void begin();
     void say_goodbye();
     void ask_for_values();
+    void serve_broadcast();
     [[nodiscard]] bool serve_posted();
     [[nodiscard]] bool serve_arrived();
     void dispatch(Envelope envelope);
@@ -95,6 +98,7 @@ class RankLoop {
     bool ended_ = false;  ///< by this rank
     bool over_ = false;   ///< the loop
     std::optional<std::vector<std::string>> gathered_;
+    std::optional<std::string> to_broadcast_, broadcast_;
     std::uint32_t round_ = 0;
 
     enum class Farewell {

@@ -36,6 +36,9 @@ class Transport {
     /// From any thread.
     virtual void wake() = 0;
 
+    /// Rank 0's bytes, on every rank: all must call it, in the same order. Waits for rank 0.
+    [[nodiscard]] virtual std::string broadcast(std::string bytes) = 0;
+
     /// All that was sent has left, so that the rank may end. Waits.
     virtual void flush() = 0;
 

@@ -1,13 +1,17 @@
 // MPI as the wire between ranks: a module of its own, loaded by processes that mpirun started.
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <list>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 
 #include "parallel/ranks/mpi_module.h"
 #include "parallel/ranks/transport.h"
@@ -88,6 +92,16 @@ class MpiTransport final : public Transport {
         changed_.notify_one();
     }
 
+    [[nodiscard]] std::string broadcast(std::string bytes) override {
+        std::uint64_t size = bytes.size();
+        spread(&size, sizeof size);
+        bytes.resize(size);
+        constexpr std::size_t kAtOnce = std::size_t{1} << 30;  // MPI counts with int
+        for (std::size_t at = 0; at < bytes.size(); at += kAtOnce)
+            spread(bytes.data() + at, std::min(kAtOnce, bytes.size() - at));
+        return bytes;
+    }
+
     void flush() override {
         for (Sent& sent : sent_) check(MPI_Wait(&sent.request, MPI_STATUS_IGNORE), "MPI_Wait");
         sent_.clear();
@@ -103,6 +117,19 @@ class MpiTransport final : public Transport {
         std::string bytes;
         MPI_Request request = MPI_REQUEST_NULL;
     };
+
+    /// Asks now and then whether it has come: waiting inside MPI takes a whole core.
+    void spread(void* data, std::size_t size) {
+        constexpr std::chrono::microseconds kPatience{500};
+        MPI_Request request = MPI_REQUEST_NULL;
+        check(MPI_Ibcast(data, static_cast<int>(size), MPI_BYTE, 0, MPI_COMM_WORLD, &request),
+              "MPI_Ibcast");
+        for (int done = 0;;) {
+            check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+            if (done != 0) return;
+            std::this_thread::sleep_for(kPatience);
+        }
+    }
 
     /// Forget what has left.
     void let_go() {

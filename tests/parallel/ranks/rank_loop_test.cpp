@@ -85,6 +85,39 @@ TEST_CASE("ranks that are threads render a picture over the wire, gather and say
     }
 }
 
+TEST_CASE("rank 0's bytes reach every rank, also while its messages are served") {
+    constexpr int kRanks = 3;
+    const Topology topology = make_topology(Variant::hybrid, kRanks, false, 1);
+    const auto transports = make_memory_transports(kRanks);
+    const StopFlag never;
+    std::atomic<int> right{0};
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < kRanks; ++rank) {
+        threads.emplace_back([&, rank] {
+            Transport& transport = *transports[static_cast<std::size_t>(rank)];
+            right += transport.broadcast(rank == 0 ? "first" : "nobody's") == "first" ? 1 : 0;
+            Ends ends;
+            RankSettings settings;
+            settings.encode = no_bytes;
+            RankLoop loop(transport, topology, settings, ends);
+            ends.loop = &loop;
+            ends.rank = rank;
+            std::thread program([&] {
+                for (const char* word : {"", "second", "third"}) {
+                    const std::string own = rank == 0 ? word : "";
+                    right += loop.broadcast(own) == word ? 1 : 0;
+                    right += loop.all_gather(word).size() == kRanks ? 1 : 0;
+                }
+                loop.end();
+            });
+            (void)loop.run(never);
+            program.join();
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    CHECK(right == 7 * kRanks);
+}
+
 TEST_CASE("a loop that is stopped ends, and so does who waits for a round") {
     const auto transports = make_memory_transports(2);
     const Topology topology = make_topology(Variant::hybrid, 2, false, 1);
