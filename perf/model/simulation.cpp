@@ -180,13 +180,12 @@ void Simulation::act(const Event& event) {
         case Kind::request: {
             const PixelRectangle whole{0, 0, run_.width, run_.height};
             const bool coarse = is_overture(event.what);
-            post(0, {{0, Role::program},
-                     {0, Role::master},
-                     JobStart{event.what,
-                              coarse ? map_.overture.area() : whole,
-                              coarse ? 1 : run_.alignment,
-                              !coarse,
-                              {}}});
+            JobStart start;
+            start.job = event.what;
+            start.area = coarse ? map_.overture.area() : whole;
+            start.alignment = coarse ? 1 : run_.alignment;
+            start.keep = !coarse;
+            post(0, {{0, Role::program}, {0, Role::master}, std::move(start)});
             return;
         }
         case Kind::trace:
