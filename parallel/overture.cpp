@@ -1,7 +1,14 @@
 #include "parallel/overture.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
+
+#include "parallel/ambient_rounds.h"
+#include "parallel/block_renderer.h"
+#include "parallel/blocks.h"
 
 namespace lightwalk {
 namespace {
@@ -14,7 +21,7 @@ std::vector<int> steps_of(Overture overture) {
         case Overture::quick:
             return {kQuickStep};
         case Overture::deterministic:
-            return {16, 8, 4, 2};
+            return {16, 8, 4, 2, 1};
     }
     return {};
 }
@@ -29,14 +36,112 @@ FrameOptions coarse_options(const FrameOptions& options, Overture overture, int 
     FrameOptions coarse = options;
     coarse.step = step;
     coarse.pixels.spacing = 1;
-    coarse.pixels.samples = 1;
-    coarse.previous = nullptr;
     coarse.hits = false;
     coarse.window.reset();
+    if (step > 1) {
+        coarse.pixels.samples = 1;
+        coarse.previous = nullptr;
+    }
     if (options.window && overture != Overture::deterministic)
         coarse.window = coarser(*options.window, step);
     return coarse;
 }
+
+/// Adds up the coarse pictures of an overture, and tells how far it is. Of several, all count the
+/// same: the finer one is, the less of what it misses is still to be computed.
+class OvertureSum {
+  public:
+    OvertureSum(std::size_t pictures, TakeProgress progress)
+        : pictures_(static_cast<double>(pictures)), progress_(progress) {}
+
+    /// Of the picture at hand.
+    void tell(const FrameProgress& now) {
+        progress_({std::min(1.0, (before_ + now.done) / pictures_), result_.rays.total() + now.rays,
+                   result_.ambient.computed + now.ambient_values});
+    }
+    void add(const RayCounters& rays, const AmbientCounters& ambient) {
+        result_.rays += rays;
+        result_.ambient += ambient;
+        ++before_;
+    }
+    [[nodiscard]] OvertureResult result(bool complete) const {
+        OvertureResult result = result_;
+        result.complete = complete;
+        return result;
+    }
+
+  private:
+    double pictures_, before_ = 0;
+    TakeProgress progress_;
+    OvertureResult result_;
+};
+
+/// What a rendering of coarse pictures needs.
+struct Players {
+    const Tracer& tracer;
+    const Camera& camera;
+    FreezableCache& cache;
+    Executor& executor;
+    WorkerContexts& contexts;
+    RoundExchange& exchange;
+    const StopFlag& stop;
+};
+
+/// Finds what the pixels of one coarse picture after another miss, and has it computed in rounds.
+class DeterministicOverture {
+  public:
+    DeterministicOverture(const Players& players, OvertureSum& sum)
+        : players_(players),
+          sum_(sum),
+          rounds_(players.tracer, players.cache, players.executor, players.contexts,
+                  players.exchange, players.stop, after_round_) {}
+
+    /// False: stopped.
+    [[nodiscard]] bool play(const FrameOptions& coarse) {
+        players_.contexts.reset_counters();
+        std::vector<AmbientPoint> points = rounds_.collect([&] { look_at(coarse); });
+        points_ = points.size();
+        if (!rounds_.stopped()) tell(points.empty() ? 1 : kLooked);
+        rounds_.serve(std::move(points));
+        if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points were served by others
+        sum_.add(players_.contexts.rays(), players_.contexts.ambient());
+        return !rounds_.stopped();
+    }
+
+  private:
+    static constexpr double kLooked = 0.1;  ///< share of the work that finding the points is
+
+    /// Trace this process's share of the pixels, for what they miss.
+    void look_at(const FrameOptions& coarse) {
+        const BlockRenderer renderer(players_.tracer, players_.camera, coarse, players_.contexts,
+                                     players_.stop);
+        const PixelRectangle area = coarse.area();
+        const int workers = players_.executor.concurrency() * players_.exchange.count();
+        const std::vector<Block> all = make_blocks(
+            area, block_side(area.width(), area.height(), workers, renderer.alignment()));
+        std::vector<Block> mine;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (players_.exchange.does(i)) mine.push_back(all[i]);
+        }
+        BlockQueue blocks(std::move(mine));
+        render_blocks(renderer, blocks, players_.executor, players_.stop,
+                      [](const BlockPixels&, int) {});
+    }
+
+    void tell(double done) {
+        told_ = done;
+        sum_.tell({done, players_.contexts.rays().total(), players_.contexts.ambient().computed});
+    }
+
+    Players players_;
+    OvertureSum& sum_;
+    std::size_t points_ = 0;  ///< of the picture at hand
+    double told_ = 0;
+    std::function<void(std::size_t)> after_round_ = [this](std::size_t left) {
+        tell(1 - (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points_));
+    };
+    AmbientRounds rounds_;
+};
 
 }  // namespace
 
@@ -55,30 +160,34 @@ OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
                                   const FrameOptions& options, Overture overture,
                                   FreezableCache& cache, Executor& executor,
                                   WorkerContexts& contexts, const StopFlag& stop,
-                                  TakeProgress progress) {
-    const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
-    Executor& workers = overture == Overture::deterministic ? *one : executor;
-    const auto all_pixels = static_cast<double>(overture_pixels(options, overture));
-    double pixels_before = 0;
-    OvertureResult result;
+                                  TakeProgress progress, RoundExchange* exchange) {
+    const std::vector<int> steps = steps_of(overture);
+    OvertureSum sum(steps.size(), progress);
+    NoExchange alone;
+    std::optional<DeterministicOverture> rounds;
     cache.freeze(false);
-    for (const int step : steps_of(overture)) {
-        const FrameOptions coarse = coarse_options(options, overture, step);
-        const auto pixels = static_cast<double>(coarse.area().pixels());
-        const auto tell = [&](const FrameProgress& now) {
-            progress({std::min(1.0, (pixels_before + now.done * pixels) / all_pixels),
-                      result.rays.total() + now.rays,
-                      result.ambient.computed + now.ambient_values});
-        };
-        const Frame frame = render_frame(tracer, camera, coarse, workers, contexts, stop, tell);
-        result.rays += frame.rays;
-        result.ambient += frame.ambient;
-        if (!frame.complete) return result;
-        pixels_before += pixels;
+    if (overture == Overture::deterministic) {
+        const Players players{tracer,   camera,   cache,
+                              executor, contexts, exchange != nullptr ? *exchange : alone,
+                              stop};
+        rounds.emplace(players, sum);
     }
-    cache.freeze(overture == Overture::deterministic);
-    result.complete = true;
-    return result;
+    bool complete = true;
+    for (const int step : steps) {
+        const FrameOptions coarse = coarse_options(options, overture, step);
+        if (rounds) {
+            complete = rounds->play(coarse);
+        } else {
+            const auto tell = [&](const FrameProgress& now) { sum.tell(now); };
+            const Frame frame =
+                render_frame(tracer, camera, coarse, executor, contexts, stop, tell);
+            sum.add(frame.rays, frame.ambient);
+            complete = frame.complete;
+        }
+        if (!complete) break;
+    }
+    if (!complete) cache.freeze(false);
+    return sum.result(complete);
 }
 
 }  // namespace lightwalk

@@ -5,13 +5,15 @@
 #include "parallel/executor.h"
 #include "parallel/frame.h"
 #include "parallel/freezable_cache.h"
+#include "parallel/round_exchange.h"
 
 namespace lightwalk {
 
 enum class Overture {
     none,   ///< the picture fills the cache as it goes
     quick,  ///< one coarse picture, by all workers
-    /// Finer and finer pictures by one worker; then the cache takes no more values, so that what is
+    /// Finer and finer pictures, the last one whole: what they miss is computed in rounds, whose
+    /// values are the same for any number of workers. Then the cache takes no more, so that what is
     /// looked up no longer depends on who computes what when.
     deterministic,
 };
@@ -37,11 +39,14 @@ inline constexpr int kQuickStep = 6;
 /// @param cache     the one that `tracer` uses; open while the overture lasts, and after it unless
 ///                  `deterministic`
 /// @param progress  of the overture as a whole; otherwise as in render_frame, as are the others
-/// Values are those of one thread for `deterministic`, whatever the executor.
+/// @param exchange  with other processes that call this with the same scene and options for a
+///                  `deterministic` overture, and end with the same cache; null: there are none.
+///                  Counters tell of this process alone
 [[nodiscard]] OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
                                                 const FrameOptions& options, Overture overture,
                                                 FreezableCache& cache, Executor& executor,
                                                 WorkerContexts& contexts, const StopFlag& stop,
-                                                TakeProgress progress);
+                                                TakeProgress progress,
+                                                RoundExchange* exchange = nullptr);
 
 }  // namespace lightwalk

@@ -11,8 +11,6 @@ namespace {
 // Measured on pictures of two furnished rooms, with one and two bounces and spacings
 // of 1 and 4; the tests replay some of them.
 constexpr double kUsualExponent = 0.85;  ///< of an overture's work over its share done
-/// Values that a picture with a ray for every pixel computes, per value of its overture.
-constexpr double kLateValues = 2.5;
 /// Before a phase begins, what was expected of it weighs as much as this share of it will; the less
 /// of it is left, the less.
 constexpr double kTrust = 0.6;
@@ -32,11 +30,12 @@ std::vector<WorkPhase> plan_picture(const FrameOptions& options, Overture overtu
     if (overture != Overture::none) {
         phases.push_back({WorkPhase::Kind::overture,
                           static_cast<double>(overture_pixels(options, overture)), 1,
-                          overture == Overture::deterministic ? 1.0 : workers});
+                          static_cast<double>(workers)});
     }
     phases.push_back({WorkPhase::Kind::picture, static_cast<double>(options.area().pixels()),
                       (options.pixels.spacing > 1 ? kTracedShare : 1.0) * options.pixels.samples,
                       static_cast<double>(workers)});
+    if (overture == Overture::deterministic) phases.back().late_values = 0;
     return phases;
 }
 
@@ -122,7 +121,7 @@ double TimeEstimator::expected_total(const WorkPhase& phase) const {
     const double pixel_rays = rays_a_pixel();
     const double value_rays = std::max(all_rays - pixel_rays * present.pixels, 0.0);
     const double expected =
-        pixel_rays * phase.pixels * phase.rays + kLateValues * phase.rays * value_rays;
+        pixel_rays * phase.pixels * phase.rays + phase.late_values * phase.rays * value_rays;
     return expected * elapsed_ / rays * present.workers / phase.workers;
 }
 

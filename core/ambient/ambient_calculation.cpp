@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "core/ambient/derivatives.h"
 #include "core/math/direction_code.h"
@@ -25,6 +26,12 @@ RandomStream stream_of(const AmbientQuery& query, std::uint64_t seed) {
             key = mix_bits(key ^ std::bit_cast<std::uint64_t>(v[k]));
     }
     return RandomStream(key);
+}
+
+/// Whether all that its hemisphere's rays inherit fits an AmbientPoint.
+bool can_stand_alone(const Ray& ray) {
+    return ray.clip == nullptr && ray.next_clip == nullptr && ray.medium.scatter == nullptr &&
+           !ray.aimed;
 }
 
 std::array<float, 2> floats(const std::array<double, 2>& v) {
@@ -119,7 +126,10 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     const double divisions =
         std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
     sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
-    sampling.extra = static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
+    if (request.context.misses == nullptr) {
+        sampling.extra =
+            static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
+    }
     const float share = 1.0f / static_cast<float>(sampling.divisions * sampling.divisions);
     sampling.share = static_cast<double>(brightness(coef) * share);
     sampling.farthest = 10 * tracer_.scene().cube().size + 1000;
@@ -138,11 +148,12 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     RandomStream stream = cached ? stream_of(request.query, options.seed) : ray.random.child();
     if (cached) ray.random = stream.child();
     ++request.context.ambient_level;
-    ++request.context.ambient.computed;
+    if (request.context.misses == nullptr) ++request.context.ambient.computed;
     Hemisphere hemisphere = sample_hemisphere(request.query.normal, sampling, stream, trace);
     --request.context.ambient_level;
     if (cached) ray.random = before;
-    if (!hemisphere.complete()) ++request.context.ambient.incomplete;
+    if (!hemisphere.complete() && request.context.misses == nullptr)
+        ++request.context.ambient.incomplete;
     return hemisphere;
 }
 
@@ -177,6 +188,10 @@ Rgb AmbientCalculation::with_cache(const Request& request) const {
         return request.coef * value;
     };
     if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
+    if (AmbientMisses* misses = request.context.misses) {
+        if (can_stand_alone(request.ray)) misses->points.push_back(point_of(request));
+        return {};
+    }
     const Claimed claimed(*cache_, request.query);
     if (claimed.waited()) {
         ++counters.waits;
@@ -186,33 +201,129 @@ Rgb AmbientCalculation::with_cache(const Request& request) const {
 }
 
 Rgb AmbientCalculation::new_value(const Request& request) const {
+    const std::optional<NewValue> made = make_value(request);
+    if (!made) return constant(request.coef);
+    if (!made->record) return request.coef * made->value;
+    store(request, *made->record);
     const AmbientQuery& query = request.query;
-    double weight = std::pow(kReflectance, query.level);
-    if (query.weight < 0.1 * weight) weight = 1.25 * query.weight;
+    if (dot(query.normal, query.shading_normal) >= kAligned) return request.coef * made->value;
+    const double factor = extrapolated(DecodedRecord(*made->record), {}, query.shading_normal);
+    return request.coef * made->value * static_cast<float>(factor);
+}
+
+void AmbientCalculation::store(const Request& request, const AmbientRecord& record) const {
+    TraceContext& context = request.context;
+    if (context.finds != nullptr) {
+        if (can_stand_alone(request.ray))
+            context.finds->finds.push_back({point_of(request), record});
+        return;
+    }
+    if (known(request).weight > kEpsilon) ++context.ambient.duplicates;
+    cache_->insert(record);
+}
+
+/// What an evaluation weighs: it decides on the number of samples.
+double AmbientCalculation::evaluation_weight(const AmbientQuery& query) {
+    const double weight = std::pow(kReflectance, query.level);
+    return query.weight < 0.1 * weight ? 1.25 * query.weight : weight;
+}
+
+std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
+    const Request& request) const {
+    const AmbientQuery& query = request.query;
+    const double weight = evaluation_weight(query);
     const Hemisphere h = sample(request, Rgb::grey(kReflectance), weight, true);
-    if (h.succeeded == 0) return constant(request.coef);
-    const Rgb value = h.sum * static_cast<float>(1 / kReflectance);
-    if (!h.complete()) return request.coef * value;
+    if (h.succeeded == 0) return std::nullopt;
+    NewValue made{h.sum * static_cast<float>(1 / kReflectance), std::nullopt};
+    if (!h.complete()) return made;
     const AmbientLimits& limits = cache_->limits();
     const AmbientDerivatives d =
         derive(h, {limits.accuracy, limits.least_radius, limits.most_radius, weight});
-    if (!(d.radius[0] > kEpsilon)) return request.coef * value;
-    AmbientRecord record;
+    if (!(d.radius[0] > kEpsilon)) return made;
+    AmbientRecord& record = made.record.emplace();
     for (std::size_t k = 0; k < 3; ++k) record.position[k] = static_cast<float>(query.position[k]);
     record.normal = encode_direction(h.normal);
     record.axis = encode_direction(d.u);
     record.radius = floats(d.radius);
     record.translation = floats(d.translation);
     record.rotation = floats(d.rotation);
-    record.value = value;
+    record.value = made.value;
     record.weight = static_cast<float>(weight);
     record.corral = d.corral;
     record.level = static_cast<std::uint8_t>(std::min(query.level, 255));
-    if (known(request).weight > kEpsilon) ++request.context.ambient.duplicates;
-    cache_->insert(record);
-    if (dot(h.normal, query.shading_normal) >= kAligned) return request.coef * value;
-    const double factor = extrapolated(DecodedRecord(record), {}, query.shading_normal);
-    return request.coef * value * static_cast<float>(factor);
+    return made;
+}
+
+namespace {
+
+/// The ray that asked at a point, as far as its hemisphere's rays inherit from it.
+Ray ray_to(const AmbientPoint& point) {
+    Ray ray;
+    ray.hit.t = point.distance;
+    ray.hit.position = point.query.position;
+    ray.hit.normal = point.far_side ? -point.query.normal : point.query.normal;
+    ray.limit = point.limit;
+    ray.weight = point.query.weight;
+    ray.level = point.ray_level;
+    ray.history = point.history;
+    ray.target = point.target;
+    ray.medium = point.medium;
+    ray.path_length = point.path_length;
+    return ray;
+}
+
+/// The level at which a point asks, while this lives.
+class AtLevel {
+  public:
+    AtLevel(TraceContext& context, int level)
+        : context_(context), before_(std::exchange(context.ambient_level, level)) {}
+    ~AtLevel() { context_.ambient_level = before_; }
+    AtLevel(const AtLevel&) = delete;
+    AtLevel& operator=(const AtLevel&) = delete;
+
+  private:
+    TraceContext& context_;
+    int before_;
+};
+
+}  // namespace
+
+AmbientPoint AmbientCalculation::point_of(const Request& request) {
+    const Ray& ray = request.ray;
+    AmbientPoint point;
+    point.query = request.query;
+    point.far_side = request.far_side;
+    point.distance = ray.hit.t;
+    point.path_length = ray.path_length;
+    point.limit = ray.limit;
+    point.ray_level = ray.level;
+    point.history = ray.history;
+    point.target = ray.target;
+    point.medium = ray.medium;
+    return point;
+}
+
+bool AmbientCalculation::is_served(const AmbientPoint& point) const {
+    const Ray ray = ray_to(point);
+    const AmbientSum sum =
+        cache_->lookup(point.query, [&](const Vec3& target) { return is_blocked(ray, target); });
+    return sum.weight > kEpsilon;
+}
+
+std::optional<AmbientRecord> AmbientCalculation::record_at(const AmbientPoint& point,
+                                                           TraceContext& context) const {
+    Ray ray = ray_to(point);
+    const AtLevel at_level(context, point.query.level);
+    const std::optional<NewValue> made =
+        make_value({ray, Rgb::grey(kReflectance), point.query, point.far_side, context});
+    return made ? made->record : std::nullopt;
+}
+
+void AmbientCalculation::scout(const AmbientPoint& point, TraceContext& context) const {
+    Ray ray = ray_to(point);
+    const AtLevel at_level(context, point.query.level);
+    (void)sample({ray, Rgb::grey(kReflectance), point.query, point.far_side, context},
+                 Rgb::grey(kReflectance), evaluation_weight(point.query), true);
 }
 
 /// Whether an opaque surface stands between the hit and `target`.

@@ -238,7 +238,7 @@ void DirectCalculation::trace_shadow(std::size_t i) {
 
 void LightSources::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                               const Vec3* front) const {
-    if (sampled_.empty()) return;
+    if (sampled_.empty() || context.misses != nullptr) return;
     DirectCalculation direct(*this, ray, context);
     direct.gather(coefficient, front);
     if (options_.shadow_threshold <= 0 || direct.count() <= kFirstBlock ||

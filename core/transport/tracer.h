@@ -17,6 +17,8 @@ namespace lightwalk {
 
 class AmbientCache;
 class AmbientCalculation;
+struct AmbientFinds;
+struct AmbientMisses;
 class LightSources;
 class Tracer;
 
@@ -85,6 +87,10 @@ struct TraceContext {
     int ambient_level = 0;  ///< ambient evaluations that are open
     AmbientCounters ambient;
     RayObserver* observer = nullptr;  ///< told of every ray; null: nobody watches
+    /// Takes the ambient values that are missing, and there is no direct light; null: they are
+    /// computed.
+    AmbientMisses* misses = nullptr;
+    AmbientFinds* finds = nullptr;  ///< takes those that are computed; null: the cache
     // Sets made on the way (antimatter, mist); forgotten when a path starts.
     std::deque<ClipSet> clip_sets;
     std::deque<ScatterList> scatter_lists;

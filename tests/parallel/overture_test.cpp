@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -27,9 +28,9 @@ paint polygon back 0 0 12  -3 3 0  3 3 0  3 3 3  -3 3 3
 paint sphere ball 0 0 4 0 1 1 .7
 )";
 
-RenderOptions indirect() {
+RenderOptions indirect(int bounces) {
     RenderOptions options;
-    options.ambient_bounces = 1;
+    options.ambient_bounces = bounces;
     options.ambient_divisions = 32;
     options.ambient_super_samples = 0;
     options.ambient_accuracy = 0.5;
@@ -40,11 +41,11 @@ RenderOptions indirect() {
 /// A scene with a cache of its own, the overture played and a picture made after it.
 struct Played {
     explicit Played(Overture overture, int workers = 1, const FrameOptions& frame = small(),
-                    ExecutorKind kind = ExecutorKind::threads)
-        : scene(kRoom, indirect()),
+                    int bounces = 1)
+        : scene(kRoom, indirect(bounces)),
           shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.5, 8)),
           cache(shared),
-          executor(make_executor(kind, workers)),
+          executor(make_executor(ExecutorKind::threads, workers)),
           contexts(scene.tracer, scene.warnings, workers),
           options(frame) {
         scene.tracer.use_ambient_cache(&cache);
@@ -111,18 +112,61 @@ TEST_CASE("the overture computes most of the values that the picture needs, and 
 }
 
 TEST_CASE("after a deterministic overture the cache is closed and pictures are the same bytes") {
-    Played expected(Overture::deterministic, 1);
-    const std::size_t values = expected.shared.size();
-    CHECK(values > 0);
-    const Frame picture = expected.picture();
-    CHECK(expected.shared.size() == values);
-    CHECK(expected.picture().radiance == picture.radiance);
-    for (const int workers : {2, 7}) {
-        CAPTURE(workers);
-        Played other(Overture::deterministic, workers);
-        CHECK(other.shared.size() == values);
-        CHECK(other.result.rays.total() == expected.result.rays.total());
-        CHECK(same_bytes(other.picture().radiance, picture.radiance));
+    for (const int bounces : {1, 2, 3}) {
+        CAPTURE(bounces);
+        Played expected(Overture::deterministic, 1, Played::small(), bounces);
+        const std::size_t values = expected.shared.size();
+        CHECK(values > 0);
+        const Frame picture = expected.picture();
+        CHECK(expected.shared.size() == values);
+        CHECK(expected.picture().radiance == picture.radiance);
+        for (const int workers : {2, 7}) {
+            CAPTURE(workers);
+            Played other(Overture::deterministic, workers, Played::small(), bounces);
+            CHECK(other.shared.size() == values);
+            CHECK(other.result.rays.total() == expected.result.rays.total());
+            CHECK(same_bytes(other.picture().radiance, picture.radiance));
+        }
+    }
+}
+
+TEST_CASE("a deterministic overture leaves nothing for the picture to compute") {
+    FrameOptions sampled = Played::small();
+    sampled.pixels.samples = 3;
+    for (const FrameOptions& options : {Played::small(), sampled}) {
+        for (const int bounces : {1, 2}) {
+            Played played(Overture::deterministic, 2, options, bounces);
+            CHECK(played.result.ambient.computed > 0);
+            CHECK(played.picture().ambient.computed == 0);
+        }
+    }
+}
+
+TEST_CASE(
+    "the values of a deterministic overture are as good, and about as many, as one worker's") {
+    // Accurate: so many values that each is of few points.
+    FrameOptions large = Played::small();
+    large.width = 132;
+    large.height = 100;
+    for (const int bounces : {1, 2}) {
+        CAPTURE(bounces);
+        Played rounds(Overture::deterministic, 2, large, bounces),
+            quick(Overture::quick, 1, large, bounces), none(Overture::none, 1, large, bounces);
+        none.scene.tracer.use_ambient_cache(nullptr);
+        const Frame exact = none.picture(), serial = quick.picture(), picture = rounds.picture();
+        const auto error = [&](const Frame& frame) {
+            double sum = 0, all = 0;
+            for (std::size_t i = 0; i < exact.radiance.size(); ++i) {
+                sum += static_cast<double>(
+                    std::abs(brightness(frame.radiance[i]) - brightness(exact.radiance[i])));
+                all += static_cast<double>(brightness(exact.radiance[i]));
+            }
+            return sum / all;
+        };
+        CHECK(error(serial) > 0);
+        CHECK(error(picture) < 1.15 * error(serial));
+        const auto most = 1.25 * static_cast<double>(quick.shared.size());
+        CHECK(static_cast<double>(rounds.result.ambient.computed) < most);
     }
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+// A point where an ambient value is missing, apart from the ray that found it.
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "core/ambient/ambient_record.h"
+#include "core/transport/ray.h"
+
+namespace lightwalk {
+
+/// All that the value at a point depends on, but for the cache: what was asked, and what the rays
+/// of its hemisphere inherit from the one that asked.
+struct AmbientPoint {
+    AmbientQuery query;
+    Medium medium;           ///< without scattering sources
+    double distance = 0;     ///< length of the ray that asked [m]
+    double path_length = 0;  ///< of its ancestors [m]
+    double limit = 0;        ///< its aft clipping distance; 0: none [m]
+    int ray_level = 0;       ///< its reflections
+    std::int32_t target = kNoTarget;
+    std::uint16_t history = kPrimary;
+    bool far_side = false;  ///< not the viewer's
+};
+
+/// What is wanted and not there. Where a context has one, rays only find points: no value is
+/// computed and no light source looked at, so that what they bring back means nothing. Points
+/// inside clipped matter or a mist that scatters are left out: they do not stand alone.
+struct AmbientMisses {
+    std::vector<AmbientPoint> points;
+};
+
+/// A value that was computed on the way to others, with the point that wanted it.
+struct AmbientFind {
+    AmbientPoint point;
+    AmbientRecord record;
+};
+
+/// Takes values that are computed on the way, in their order. Where a context has one, they are not
+/// stored; those whose points do not stand alone are lost.
+struct AmbientFinds {
+    std::vector<AmbientFind> finds;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,263 @@
+#include "parallel/ambient_rounds.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace lightwalk {
+namespace {
+
+// A round has so many values at most: more as more are known, so that few are needless. Never as
+// many as there are workers: their number must not tell.
+constexpr std::size_t kFewestValues = 64, kMostValues = 1024;
+constexpr std::size_t kKnownPerValue = 4;
+constexpr std::size_t kPointsPerValue = 4;  ///< points looked at, per value that a round may have
+constexpr std::size_t kLookupsPerTask = 64;
+
+/// Random, so that any head of it is spread evenly; whoever found the points.
+void put_in_order(std::vector<AmbientPoint>& points) {
+    std::vector<std::pair<std::uint64_t, std::size_t>> order(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) order[i] = {hash_of(points[i]), i};
+    std::sort(order.begin(), order.end());
+    std::vector<AmbientPoint> sorted;
+    sorted.reserve(points.size());
+    for (const auto& [hash, i] : order) sorted.push_back(points[i]);
+    points.swap(sorted);
+}
+
+/// While it lives the workers' rays note what they miss.
+class Collecting {
+  public:
+    explicit Collecting(WorkerContexts& contexts)
+        : contexts_(contexts), misses_(static_cast<std::size_t>(contexts.size())) {
+        for (int w = 0; w < contexts.size(); ++w)
+            contexts[w].misses = &misses_[static_cast<std::size_t>(w)];
+    }
+    ~Collecting() {
+        for (int w = 0; w < contexts_.size(); ++w) contexts_[w].misses = nullptr;
+    }
+    Collecting(const Collecting&) = delete;
+    Collecting& operator=(const Collecting&) = delete;
+
+    [[nodiscard]] std::vector<AmbientPoint> points() const {
+        std::vector<AmbientPoint> all;
+        for (const AmbientMisses& misses : misses_)
+            all.insert(all.end(), misses.points.begin(), misses.points.end());
+        return all;
+    }
+
+  private:
+    WorkerContexts& contexts_;
+    std::vector<AmbientMisses> misses_;
+};
+
+/// While it lives the values that a worker computes on the way are kept.
+class Finding {
+  public:
+    explicit Finding(TraceContext& context) : context_(context) { context.finds = &finds_; }
+    ~Finding() { context_.finds = nullptr; }
+    Finding(const Finding&) = delete;
+    Finding& operator=(const Finding&) = delete;
+    [[nodiscard]] std::vector<AmbientFind> take() { return std::move(finds_.finds); }
+
+  private:
+    TraceContext& context_;
+    AmbientFinds finds_;
+};
+
+}  // namespace
+
+/// Points in their order, of which those at the head are looked at.
+class AmbientRounds::Waiting {
+  public:
+    Waiting(AmbientRounds& rounds, std::vector<AmbientPoint> points)
+        : rounds_(rounds), points_(std::move(points)) {
+        put_in_order(points_);
+    }
+
+    /// Drop those that are served from the head, and fill it up to `size` or somewhat more.
+    void look(std::size_t size) {
+        drop_served(0);
+        while (head_.size() < size && next_ < points_.size()) {
+            const std::size_t count = std::min(points_.size() - next_, 2 * size),
+                              first = head_.size();
+            const auto from = points_.begin() + static_cast<std::ptrdiff_t>(next_);
+            head_.insert(head_.end(), from, from + static_cast<std::ptrdiff_t>(count));
+            drop_served(first);
+            next_ += count;
+        }
+    }
+
+    /// Up to `most` from the head, in order, none close to one before it; they wait no longer.
+    [[nodiscard]] std::vector<AmbientPoint> choose(std::size_t most) {
+        const SpacingGuess& guess = rounds_.guess_;
+        ApartSet taken(guess.least(), guess.greatest());
+        std::vector<AmbientPoint> chosen, rest;
+        for (const AmbientPoint& point : head_) {
+            if (chosen.size() >= most || taken.reached(point.query)) {
+                rest.push_back(point);
+                continue;
+            }
+            taken.add(point.query, guess(point.query));
+            chosen.push_back(point);
+        }
+        head_.swap(rest);
+        return chosen;
+    }
+
+    [[nodiscard]] std::size_t left() const { return head_.size() + points_.size() - next_; }
+
+  private:
+    /// From the head's place `first` on.
+    void drop_served(std::size_t first) {
+        const std::vector<char> done = rounds_.served(head_.data() + first, head_.size() - first);
+        std::size_t kept = first;
+        for (std::size_t i = 0; i < done.size(); ++i) {
+            if (done[i] == 0) head_[kept++] = head_[first + i];
+        }
+        head_.resize(kept);
+    }
+
+    AmbientRounds& rounds_;
+    std::vector<AmbientPoint> points_;
+    std::size_t next_ = 0;            ///< those from here on have not been looked at
+    std::vector<AmbientPoint> head_;  ///< in the order of points_
+};
+
+AmbientRounds::AmbientRounds(const Tracer& tracer, FreezableCache& cache, Executor& executor,
+                             WorkerContexts& contexts, RoundExchange& exchange,
+                             const StopFlag& stop, FunctionRef<void(std::size_t left)> after_round)
+    : tracer_(tracer),
+      cache_(cache),
+      executor_(executor),
+      contexts_(contexts),
+      exchange_(exchange),
+      stop_(stop),
+      after_round_(after_round),
+      calculation_(tracer),
+      guess_(cache.limits()),
+      counts_(static_cast<std::size_t>(std::max(tracer.options().ambient_bounces, 1))) {
+    calculation_.use_cache(&cache);
+    cache_.freeze(true);
+}
+
+/// Of all processes; with each goes whether it is to stop, so that all stop at the same place.
+std::vector<std::string> AmbientRounds::gather(std::string mine) {
+    mine.push_back(stop_.requested() ? 1 : 0);
+    std::vector<std::string> all = exchange_.all_gather(std::move(mine));
+    for (std::string& bytes : all) {
+        stopped_ = stopped_ || bytes.empty() || bytes.back() != 0;
+        if (!bytes.empty()) bytes.pop_back();
+    }
+    return all;
+}
+
+std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
+    std::vector<AmbientPoint> points;
+    {
+        const Collecting collecting(contexts_);
+        trace();
+        points = collecting.points();
+    }
+    const bool alone = exchange_.count() == 1;
+    const std::vector<std::string> all = gather(alone ? std::string() : encode_points(points));
+    if (stopped_) return {};
+    if (alone) return points;
+    points.clear();
+    for (const std::string& bytes : all) decode_points(bytes, points);
+    return points;
+}
+
+/// Whether each of some points is served.
+std::vector<char> AmbientRounds::served(const AmbientPoint* points, std::size_t count) {
+    std::vector<char> result(count, 0);
+    const auto look = [&](std::size_t task, int) {
+        const std::size_t last = std::min(count, (task + 1) * kLookupsPerTask);
+        for (std::size_t i = task * kLookupsPerTask; i < last; ++i)
+            result[i] = calculation_.is_served(points[i]) ? 1 : 0;
+    };
+    executor_.for_each((count + kLookupsPerTask - 1) / kLookupsPerTask, look);
+    return result;
+}
+
+void AmbientRounds::serve(std::vector<AmbientPoint> points) {
+    if (points.empty()) return;
+    const auto level = static_cast<std::size_t>(points.front().query.level);
+    Waiting waiting(*this, std::move(points));
+    while (!stopped_) {
+        const std::size_t most =
+            std::clamp(counts_[level].values / kKnownPerValue, kFewestValues, kMostValues);
+        waiting.look(kPointsPerValue * most);
+        const std::vector<AmbientPoint> chosen = waiting.choose(most);
+        if (chosen.empty()) return;
+        prepare(chosen);
+        if (stopped_) return;
+        const std::vector<RoundValue> values = compute(chosen);
+        if (stopped_) return;
+        store(chosen, values);
+        if (level == 0) left_ = waiting.left();
+        after_round_(left_);
+    }
+}
+
+/// Before values are computed: those of the next level that they will need.
+void AmbientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
+    if (chosen.front().query.level + 1 >= tracer_.options().ambient_bounces) return;
+    serve(collect([&] {
+        const auto scout = [&](std::size_t task, int worker) {
+            if (exchange_.does(task)) calculation_.scout(chosen[task], contexts_[worker]);
+        };
+        executor_.for_each(chosen.size(), scout, stop_);
+    }));
+}
+
+/// The values of the points, in their order; after a stop, nothing.
+std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& chosen) {
+    std::vector<RoundValue> made(chosen.size());
+    const auto make = [&](std::size_t task, int worker) {
+        if (!exchange_.does(task)) return;
+        Finding finding(contexts_[worker]);
+        if (const auto record = calculation_.record_at(chosen[task], contexts_[worker]))
+            made[task].record.push_back(*record);
+        made[task].finds = finding.take();
+    };
+    executor_.for_each(chosen.size(), make, stop_);
+    const bool alone = exchange_.count() == 1;
+    const std::vector<std::string> all = gather(alone ? std::string() : encode_values(made));
+    if (stopped_) return {};
+    for (std::size_t other = 0; !alone && other < all.size(); ++other) {
+        std::vector<RoundValue> theirs = decode_values(all[other]);
+        if (theirs.size() != chosen.size())
+            throw InputError("another rank computes other ambient values");
+        for (std::size_t i = other; i < theirs.size(); i += all.size())
+            made[i] = std::move(theirs[i]);
+    }
+    return made;
+}
+
+/// All that were chosen; of those that were found on the way, what is not served by now.
+void AmbientRounds::store(const std::vector<AmbientPoint>& chosen,
+                          const std::vector<RoundValue>& values) {
+    Counts& counts = counts_[static_cast<std::size_t>(chosen.front().query.level)];
+    ++counts.rounds;
+    counts.values += chosen.size();
+    cache_.freeze(false);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        for (const AmbientFind& find : values[i].finds) {
+            ++counts_.at(static_cast<std::size_t>(find.point.query.level)).finds;
+            if (!calculation_.is_served(find.point)) store(find.record);
+        }
+        if (values[i].record.empty()) continue;
+        if (calculation_.is_served(chosen[i])) ++counts.needless;
+        store(values[i].record.front());
+    }
+    cache_.freeze(true);
+}
+
+void AmbientRounds::store(const AmbientRecord& record) {
+    cache_.insert(record);
+    guess_.add(record);
+}
+
+}  // namespace lightwalk

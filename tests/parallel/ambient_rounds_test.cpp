@@ -1,0 +1,260 @@
+#include "parallel/ambient_rounds.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <condition_variable>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "parallel/concurrent_cache.h"
+#include "parallel/overture.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using lightwalk::test::TestScene;
+
+namespace {
+
+const std::string kRoom = R"(
+void plastic paint 0 0 5 .6 .5 .4 0 0
+void glow sky 0 0 4 1 1 2 0
+sky source dome 0 0 4 0 -1 0 180
+paint polygon ground 0 0 12  -3 -3 0  3 -3 0  3 3 0  -3 3 0
+paint polygon ceiling 0 0 12  -3 -3 3  -3 3 3  3 3 3  3 -3 3
+paint polygon back 0 0 12  -3 3 0  3 3 0  3 3 3  -3 3 3
+paint sphere ball 0 0 4 0 1 1 .7
+)";
+
+RenderOptions indirect(int bounces) {
+    RenderOptions options;
+    options.ambient_bounces = bounces;
+    options.ambient_divisions = 32;
+    options.ambient_super_samples = 0;
+    options.ambient_accuracy = 0.3;
+    options.ambient_resolution = 16;
+    return options;
+}
+
+/// A cache that knows whether it changes while tasks run.
+class WatchedCache final : public AmbientCache {
+  public:
+    explicit WatchedCache(AmbientCache& cache) : cache_(cache) {}
+    [[nodiscard]] const AmbientLimits& limits() const override { return cache_.limits(); }
+    [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override {
+        return cache_.lookup(query, leaks);
+    }
+    void insert(const AmbientRecord& record) override {
+        ++(at_work ? while_at_work : between);
+        cache_.insert(record);
+    }
+    [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
+    bool at_work = false;
+    int while_at_work = 0, between = 0;
+
+  private:
+    AmbientCache& cache_;
+};
+
+/// An executor that says when it is at work.
+class WatchedExecutor final : public Executor {
+  public:
+    WatchedExecutor(Executor& executor, bool& at_work) : executor_(executor), at_work_(at_work) {}
+    void for_each(std::size_t count, Task task, const StopFlag& stop) override {
+        at_work_ = true;
+        executor_.for_each(count, task, stop);
+        at_work_ = false;
+    }
+    using Executor::for_each;
+    [[nodiscard]] int concurrency() const override { return executor_.concurrency(); }
+
+  private:
+    Executor& executor_;
+    bool& at_work_;
+};
+
+/// Processes in memory: threads that meet.
+class Meeting {
+  public:
+    explicit Meeting(int count) : parts_(static_cast<std::size_t>(count)) {}
+    std::vector<std::string> all_gather(std::size_t index, std::string mine) {
+        std::unique_lock lock(mutex_);
+        parts_[index] = std::move(mine);
+        const std::uint64_t round = round_;
+        if (++arrived_ == parts_.size()) {
+            gathered_ = parts_;
+            arrived_ = 0;
+            ++round_;
+            changed_.notify_all();
+        } else {
+            changed_.wait(lock, [&] { return round_ != round; });
+        }
+        return gathered_;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<std::string> parts_, gathered_;
+    std::size_t arrived_ = 0;
+    std::uint64_t round_ = 0;
+};
+
+class MeetingExchange final : public RoundExchange {
+  public:
+    MeetingExchange(Meeting& meeting, int index, int count)
+        : meeting_(meeting), index_(index), count_(count) {}
+    [[nodiscard]] int index() const override { return index_; }
+    [[nodiscard]] int count() const override { return count_; }
+    [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
+        return meeting_.all_gather(static_cast<std::size_t>(index_), std::move(mine));
+    }
+
+  private:
+    Meeting& meeting_;
+    int index_, count_;
+};
+
+/// One process: a scene with a cache and workers of its own.
+struct Process {
+    Process(int bounces, int workers)
+        : scene(kRoom, indirect(bounces)),
+          shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.3, 16)),
+          watched(shared),
+          cache(watched),
+          pool(make_executor(ExecutorKind::threads, workers)),
+          executor(*pool, watched.at_work),
+          contexts(scene.tracer, scene.warnings, workers) {
+        scene.tracer.use_ambient_cache(&cache);
+        options.width = 40;
+        options.height = 30;
+        options.pixels.spacing = 1;
+    }
+    static Camera eye() {
+        View view;
+        view.position = {0.5, -5, 1.4};
+        view.direction = {0, 1, 0};
+        return Camera(view);
+    }
+    OvertureResult play(RoundExchange* exchange = nullptr) {
+        return fill_ambient_cache(
+            scene.tracer, camera, options, Overture::deterministic, cache, executor, contexts, stop,
+            [&](const FrameProgress&) { told(); }, exchange);
+    }
+    std::vector<Rgb> picture() {
+        return render_frame(scene.tracer, camera, options, executor, contexts, stop,
+                            [](const FrameProgress&) {})
+            .radiance;
+    }
+    void look() { (void)picture(); }
+
+    TestScene scene;
+    ConcurrentCache shared;
+    WatchedCache watched;
+    FreezableCache cache;
+    std::unique_ptr<Executor> pool;
+    WatchedExecutor executor;
+    WorkerContexts contexts;
+    Camera camera = eye();
+    FrameOptions options;
+    StopFlag stop;
+    std::function<void()> told = [] {};
+};
+
+bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("values of a round see those of earlier rounds only: none is stored while rays travel") {
+    for (const int bounces : {1, 2}) {
+        Process process(bounces, 2);
+        CHECK(process.play().complete);
+        CHECK(process.watched.while_at_work == 0);
+        CHECK(process.watched.between > 0);
+        CHECK(static_cast<std::size_t>(process.watched.between) == process.shared.size());
+    }
+}
+
+TEST_CASE("rounds end when every point is served, and few of their values were needless") {
+    Process process(2, 2);
+    NoExchange alone;
+    std::vector<std::size_t> left;
+    AmbientRounds rounds(process.scene.tracer, process.cache, process.executor, process.contexts,
+                         alone, process.stop, [&](std::size_t n) { left.push_back(n); });
+    const std::vector<AmbientPoint> points = rounds.collect([&] { process.look(); });
+    CHECK(points.size() > 100);
+    CHECK(process.contexts.ambient().computed == 0);  // points are found, not computed
+    CHECK(process.contexts.rays().shadow == 0);
+    rounds.serve(points);
+    CHECK(rounds.collect([&] { process.look(); }).empty());
+    REQUIRE(rounds.counts().size() == 2);
+    for (const AmbientRounds::Counts& counts : rounds.counts()) {
+        CHECK(counts.rounds > 1);
+        CHECK(counts.values > 20);
+        CHECK(counts.needless * 5 < counts.values);
+    }
+    REQUIRE_FALSE(left.empty());
+    CHECK(left.back() == 0);
+    CHECK(std::is_sorted(left.rbegin(), left.rend()));
+    CHECK(rounds.counts()[0].finds == 0);
+    CHECK_FALSE(rounds.stopped());
+}
+
+TEST_CASE("processes that do the same rounds share the work and end with the same cache") {
+    for (const int bounces : {1, 2}) {
+        Process one(bounces, 1);
+        const std::uint64_t computed = one.play().ambient.computed;
+        const std::vector<Rgb> picture = one.picture();
+        for (const int count : {2, 3}) {
+            Meeting meeting(count);
+            std::vector<std::unique_ptr<Process>> processes;
+            std::vector<std::uint64_t> shares(static_cast<std::size_t>(count));
+            for (int i = 0; i < count; ++i)
+                processes.push_back(std::make_unique<Process>(bounces, i == 0 ? 2 : 1));
+            std::vector<std::thread> threads;
+            for (int i = 0; i < count; ++i) {
+                threads.emplace_back([&, i] {
+                    const auto k = static_cast<std::size_t>(i);
+                    MeetingExchange exchange(meeting, i, count);
+                    shares[k] = processes[k]->play(&exchange).ambient.computed;
+                });
+            }
+            for (std::thread& thread : threads) thread.join();
+            std::uint64_t sum = 0;
+            for (const std::uint64_t share : shares) {
+                CHECK(share < computed);
+                sum += share;
+            }
+            CHECK(sum == computed);
+            for (const auto& process : processes) CHECK(same_bytes(process->picture(), picture));
+        }
+    }
+}
+
+TEST_CASE("a stop that one process wants stops all") {
+    constexpr int kCount = 3;
+    Meeting meeting(kCount);
+    std::vector<std::unique_ptr<Process>> processes;
+    for (int i = 0; i < kCount; ++i) processes.push_back(std::make_unique<Process>(2, 1));
+    Process& impatient = *processes[1];
+    impatient.told = [&] { impatient.stop.request(); };
+    std::array<bool, kCount> complete{};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < kCount; ++i) {
+        threads.emplace_back([&, i] {
+            const auto k = static_cast<std::size_t>(i);
+            MeetingExchange exchange(meeting, i, kCount);
+            complete[k] = processes[k]->play(&exchange).complete;
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (const bool done : complete) CHECK_FALSE(done);
+}
