@@ -144,6 +144,18 @@ AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientR
     return *cache_;
 }
 
+void RankLink::spread(const std::vector<AmbientRecord>& known, AmbientCache& cache) {
+    std::string mine;
+    if (leads())
+        mine = encode_message({{0, Role::program}, {0, Role::program}, AmbientValues{known}});
+    const std::vector<std::string> all = loop_.all_gather(std::move(mine));
+    if (leads()) return;
+    const Envelope envelope = decode_message(all.front(), 0, rank());
+    const auto* values = std::get_if<AmbientValues>(&envelope.message);
+    if (values == nullptr) throw InputError("rank 0's ambient values cannot be read");
+    for (const AmbientRecord& record : values->records) cache.insert(record);
+}
+
 void RankLink::trace(Executor& executor, MakeRenderer make, const StopFlag& stop) {
     const auto tell = [this](Message message) {
         loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));

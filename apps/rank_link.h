@@ -15,6 +15,7 @@
 #include "parallel/ranks/exchanging_cache.h"
 #include "parallel/ranks/rank_loop.h"
 #include "parallel/ranks/rank_tracer.h"
+#include "parallel/round_exchange.h"
 
 namespace lightwalk {
 
@@ -63,6 +64,9 @@ class RankLink final : private LocalEnd {
     [[nodiscard]] AmbientCache& exchange(AmbientCache& cache,
                                          const std::vector<AmbientRecord>& known);
 
+    /// Rank 0's values, for the caches of all others. By all ranks, after agree().
+    void spread(const std::vector<AmbientRecord>& known, AmbientCache& cache);
+
     /// Trace what the master gives, until rank 0 says that no more comes.
     void trace(Executor& executor, MakeRenderer make, const StopFlag& stop);
     /// The same for rays.
@@ -71,6 +75,9 @@ class RankLink final : private LocalEnd {
     void wait_for_end(const StopFlag& stop);
     /// What this rank did, for rank 0.
     void report(std::string text);
+
+    /// Among the ranks that trace, for one of their tracing threads. Once used, no more agree().
+    [[nodiscard]] RoundExchange& rounds() { return rounds_; }
 
     // On rank 0:
     /// @param keeper  what it knows is not traced again; it gets what is. Null: none
@@ -112,6 +119,23 @@ class RankLink final : private LocalEnd {
     Timeline timeline_;  ///< a row for each tracing thread, the last one for messages
     std::size_t batch_;  ///< 0: no ambient values are exchanged
     RankLoop loop_;
+    class Rounds final : public RoundExchange {
+      public:
+        explicit Rounds(RankLink& link) : link_(link) {}
+        [[nodiscard]] int index() const override {
+            return static_cast<int>(link_.topology_.worker_index(link_.rank()).value_or(0));
+        }
+        [[nodiscard]] int count() const override {
+            return static_cast<int>(link_.topology_.workers.size());
+        }
+        [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
+            return link_.loop_.gather_among_tracers(std::move(mine));
+        }
+
+      private:
+        RankLink& link_;
+    };
+    Rounds rounds_{*this};
     std::unique_ptr<ExchangingCache> cache_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;

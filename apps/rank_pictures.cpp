@@ -122,11 +122,12 @@ std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
 
 /// Rank 0 orders no other picture meanwhile, so that no rays of another one are under way.
 void RankPictures::fill(const Camera& camera, const FrameOptions& options) {
-    WorkerContexts contexts(tracer_, warnings_, 1);
-    const auto one = make_executor(ExecutorKind::serial, 1);
-    const OvertureResult played =
-        fill_ambient_cache(tracer_, camera, options, Overture::deterministic, *cache_, *one,
-                           contexts, stop_, [](const FrameProgress&) {});
+    // The tracing threads wait meanwhile, and theirs is not to be called from one of its own tasks.
+    WorkerContexts contexts(tracer_, warnings_, contexts_.size());
+    const auto executor = make_executor(ExecutorKind::threads, contexts.size());
+    const OvertureResult played = fill_ambient_cache(
+        tracer_, camera, options, Overture::deterministic, *cache_, *executor, contexts, stop_,
+        [](const FrameProgress&) {}, &exchange_);
     overture_rays_ += played.rays;
     overture_ambient_ += played.ambient;
 }

@@ -23,7 +23,7 @@ struct PictureOrder {
     std::optional<View> previous;  ///< for motion blur
     int width = 0, height = 0;
     int step = 1;
-    bool deterministic = false;  ///< fill the cache before, each rank by itself
+    bool deterministic = false;  ///< fill the cache before, all ranks together
 };
 [[nodiscard]] std::string encode_order(const PictureOrder& order);
 /// Throws InputError for text that encode_order did not make.
@@ -67,13 +67,16 @@ class LeadPictures final : public PictureMaker {
 class RankPictures {
   public:
     /// @param options  of all pictures, but for what an order says
-    /// @param cache    null without ambient values
+    /// @param cache     null without ambient values
+    /// @param exchange  among all ranks that trace
     RankPictures(const Tracer& tracer, const FrameOptions& options, FreezableCache* cache,
-                 WorkerContexts& contexts, WarningSink& warnings, const StopFlag& stop)
+                 WorkerContexts& contexts, RoundExchange& exchange, WarningSink& warnings,
+                 const StopFlag& stop)
         : tracer_(tracer),
           options_(options),
           cache_(cache),
           contexts_(contexts),
+          exchange_(exchange),
           warnings_(warnings),
           stop_(stop) {}
 
@@ -90,6 +93,7 @@ class RankPictures {
     FrameOptions options_;
     FreezableCache* cache_;
     WorkerContexts& contexts_;
+    RoundExchange& exchange_;
     WarningSink& warnings_;
     const StopFlag& stop_;
     RayCounters overture_rays_;

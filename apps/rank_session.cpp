@@ -28,7 +28,7 @@ std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& option
     settings.ahead = std::max(1, settings.slots / 2);
     settings.block = wanted.block;
     settings.stride = wanted.stride;
-    settings.ambient_batch = static_cast<std::size_t>(wanted.ambient_batch);
+    settings.ambient_batch = ambient ? static_cast<std::size_t>(wanted.ambient_batch) : 0;
     settings.encode = encode_piece;
     settings.rays = work.rays;
     // Chunks of rays are few: one master deals them out.

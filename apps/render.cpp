@@ -152,7 +152,7 @@ class RenderRun {
 
     /// Whether there are others to share the work with.
     bool share_out() {
-        // A deterministic run exchanges nothing: each rank computes the same values.
+        // A deterministic run exchanges values in rounds, among all who trace.
         const bool ambient =
             caches_ambient_values(command_.settings.light) && !command_.deterministic;
         link_ = link_ranks(transport_, command_.common, {kProgram, ambient, false});
@@ -163,6 +163,9 @@ class RenderRun {
     void prepare() {
         session_ =
             build_on_ranks(*link_, command_.common, command_.settings, command_.history, warnings_);
+        // The rounds of all ranks begin with the same cache.
+        if (overture() == Overture::deterministic)
+            link_->spread(session_->known, *session_->ambient);
         make_threads();
     }
 
@@ -185,7 +188,7 @@ class RenderRun {
     int follow() {
         prepare();
         RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
-                              *contexts_, warnings_, interrupt_flag());
+                              *contexts_, link_->rounds(), warnings_, interrupt_flag());
         if (link_->traces())
             trace_orders(pictures);
         else
@@ -198,7 +201,7 @@ class RenderRun {
         prepare();
         session_->warn_of_darkness();
         RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
-                              *contexts_, warnings_, interrupt_flag());
+                              *contexts_, link_->rounds(), warnings_, interrupt_flag());
         bool whole = false;
         lead_ranks(
             *link_, [&] { trace_orders(pictures); },

@@ -70,7 +70,6 @@ void SceneSession::make_cache(const RenderSettings& settings, RankLink* link) {
     ambient = std::make_unique<ConcurrentCache>(ambient_limits(
         cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
     AmbientCache* cache = ambient.get();
-    std::vector<AmbientRecord> known;
     if (!settings.ambient_file.empty() && (link == nullptr || link->leads())) {
         recorder = std::make_unique<RecordingCache>(*ambient);
         ambient_store =

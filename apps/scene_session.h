@@ -61,6 +61,7 @@ struct SceneSession {
     std::unique_ptr<RecordingCache> recorder;     ///< with -af
     std::unique_ptr<AmbientStore> ambient_store;  ///< with -af
     std::unique_ptr<FreezableCache> freezable;
+    std::vector<AmbientRecord> known;  ///< values that were in the ambient file
     std::unique_ptr<const Tracer> made;
     double read_seconds = 0, build_seconds = 0;
 

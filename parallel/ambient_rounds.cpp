@@ -185,6 +185,7 @@ void AmbientRounds::serve(std::vector<AmbientPoint> points) {
     if (points.empty()) return;
     const auto level = static_cast<std::size_t>(points.front().query.level);
     Waiting waiting(*this, std::move(points));
+    if (level == 0) left_ = waiting.left();
     while (!stopped_) {
         const std::size_t most =
             std::clamp(counts_[level].values / kKnownPerValue, kFewestValues, kMostValues);

@@ -1,6 +1,7 @@
 #include "parallel/overture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -47,22 +48,24 @@ FrameOptions coarse_options(const FrameOptions& options, Overture overture, int 
     return coarse;
 }
 
-/// Adds up the coarse pictures of an overture, and tells how far it is. Of several, all count the
-/// same: the finer one is, the less of what it misses is still to be computed.
+/// Adds up the coarse pictures of an overture, and tells how far it is. A finer one has more
+/// pixels, but less of what they miss is still to be computed: its share goes with the root of its
+/// pixels' density.
 class OvertureSum {
   public:
-    OvertureSum(std::size_t pictures, TakeProgress progress)
-        : pictures_(static_cast<double>(pictures)), progress_(progress) {}
-
-    /// Of the picture at hand.
-    void tell(const FrameProgress& now) {
-        progress_({std::min(1.0, (before_ + now.done) / pictures_), result_.rays.total() + now.rays,
-                   result_.ambient.computed + now.ambient_values});
+    OvertureSum(const std::vector<int>& steps, TakeProgress progress) : progress_(progress) {
+        for (const int step : steps) all_ += share_of(step);
     }
-    void add(const RayCounters& rays, const AmbientCounters& ambient) {
+
+    /// Of the picture at hand, which is one of every `step`-th pixel.
+    void tell(int step, const FrameProgress& now) {
+        progress_({std::min(1.0, (before_ + now.done * share_of(step)) / all_),
+                   result_.rays.total() + now.rays, result_.ambient.computed + now.ambient_values});
+    }
+    void add(int step, const RayCounters& rays, const AmbientCounters& ambient) {
         result_.rays += rays;
         result_.ambient += ambient;
-        ++before_;
+        before_ += share_of(step);
     }
     [[nodiscard]] OvertureResult result(bool complete) const {
         OvertureResult result = result_;
@@ -71,8 +74,10 @@ class OvertureSum {
     }
 
   private:
-    double pictures_, before_ = 0;
+    static double share_of(int step) { return 1 / std::sqrt(step); }
+
     TakeProgress progress_;
+    double all_ = 0, before_ = 0;
     OvertureResult result_;
 };
 
@@ -98,13 +103,14 @@ class DeterministicOverture {
 
     /// False: stopped.
     [[nodiscard]] bool play(const FrameOptions& coarse) {
+        step_ = coarse.step;
         players_.contexts.reset_counters();
         std::vector<AmbientPoint> points = rounds_.collect([&] { look_at(coarse); });
         points_ = points.size();
         if (!rounds_.stopped()) tell(points.empty() ? 1 : kLooked);
         rounds_.serve(std::move(points));
         if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points were served by others
-        sum_.add(players_.contexts.rays(), players_.contexts.ambient());
+        sum_.add(step_, players_.contexts.rays(), players_.contexts.ambient());
         return !rounds_.stopped();
     }
 
@@ -130,12 +136,14 @@ class DeterministicOverture {
 
     void tell(double done) {
         told_ = done;
-        sum_.tell({done, players_.contexts.rays().total(), players_.contexts.ambient().computed});
+        sum_.tell(step_,
+                  {done, players_.contexts.rays().total(), players_.contexts.ambient().computed});
     }
 
     Players players_;
     OvertureSum& sum_;
-    std::size_t points_ = 0;  ///< of the picture at hand
+    int step_ = 1;            ///< of the picture at hand
+    std::size_t points_ = 0;  ///< that its pixels miss
     double told_ = 0;
     std::function<void(std::size_t)> after_round_ = [this](std::size_t left) {
         tell(1 - (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points_));
@@ -162,7 +170,7 @@ OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
                                   WorkerContexts& contexts, const StopFlag& stop,
                                   TakeProgress progress, RoundExchange* exchange) {
     const std::vector<int> steps = steps_of(overture);
-    OvertureSum sum(steps.size(), progress);
+    OvertureSum sum(steps, progress);
     NoExchange alone;
     std::optional<DeterministicOverture> rounds;
     cache.freeze(false);
@@ -178,10 +186,10 @@ OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
         if (rounds) {
             complete = rounds->play(coarse);
         } else {
-            const auto tell = [&](const FrameProgress& now) { sum.tell(now); };
+            const auto tell = [&](const FrameProgress& now) { sum.tell(step, now); };
             const Frame frame =
                 render_frame(tracer, camera, coarse, executor, contexts, stop, tell);
-            sum.add(frame.rays, frame.ambient);
+            sum.add(step, frame.rays, frame.ambient);
             complete = frame.complete;
         }
         if (!complete) break;

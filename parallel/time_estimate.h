@@ -17,9 +17,9 @@ struct WorkPhase {
         picture,
     };
     Kind kind = Kind::picture;
-    double pixels = 0;       ///< that will be reported done
-    double rays = 1;         ///< primary ones a pixel, about: samples, or a share of the pixels
-    double workers = 1;      ///< that share the work
+    double pixels = 0;   ///< that will be reported done
+    double rays = 1;     ///< primary ones a pixel, about: samples, or a share of the pixels
+    double workers = 1;  ///< that share the work
     /// That it computes, where each pixel has a ray, per value of its overture; measured as the
     /// constants of the model are.
     double late_values = 2.5;

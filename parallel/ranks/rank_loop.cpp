@@ -1,6 +1,5 @@
 #include "parallel/ranks/rank_loop.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace lightwalk {
@@ -9,6 +8,7 @@ namespace {
 using std::chrono::microseconds;
 // A rank that has just heard something will soon hear more; one that has not looks less often.
 constexpr microseconds kShortestWait{50}, kLongestWait{2000};
+constexpr std::uint32_t kAmongTracers = 0x80000000;  ///< bit of the rounds of these alone
 constexpr std::uint32_t kLastValues = 0xfffffffe,
                         kGoodbye = 0xffffffff;  ///< the last rounds of all
 
@@ -100,11 +100,11 @@ void RankLoop::post(Role from, Address to, Message message) {
     transport_.wake();
 }
 
-std::vector<std::string> RankLoop::all_gather(std::string bytes) {
+std::vector<std::string> RankLoop::gather(std::string bytes, bool tracers) {
     std::unique_lock lock(mutex_);
-    posted_.push_back({{transport_.rank(), Role::worker},
-                       {0, Role::master},
-                       Gather{round_++, {std::move(bytes)}}});
+    const std::uint32_t round = round_++ | (tracers ? kAmongTracers : 0);
+    posted_.push_back(
+        {{transport_.rank(), Role::worker}, {0, Role::master}, Gather{round, {std::move(bytes)}}});
     transport_.wake();
     answered_.wait(lock, [&] { return gathered_.has_value() || over_; });
     if (!gathered_) throw Aborted{1};
@@ -284,7 +284,7 @@ void RankLoop::deliver(Envelope envelope, Outbox& out) {
     const TimedActivity timed(timeline_, timeline_ != nullptr ? timeline_->message_row() : 0,
                               activity_of(envelope.message));
     if (std::holds_alternative<Gather>(envelope.message)) {
-        gather(std::move(envelope), out);
+        serve_gather(std::move(envelope), out);
         return;
     }
     switch (envelope.to.role) {
@@ -313,7 +313,7 @@ void RankLoop::deliver(Envelope envelope, Outbox& out) {
     }
 }
 
-void RankLoop::gather(Envelope envelope, Outbox& out) {
+void RankLoop::serve_gather(Envelope envelope, Outbox& out) {
     auto& message = std::get<Gather>(envelope.message);
     if (envelope.to.role != Role::master && message.round >= kLastValues) {
         farewell_ = message.round == kGoodbye ? Farewell::over : Farewell::heard;
@@ -327,19 +327,27 @@ void RankLoop::gather(Envelope envelope, Outbox& out) {
         answered_.notify_all();
         return;
     }
-    const auto ranks = static_cast<std::size_t>(transport_.size());
+    // The numbers of the last rounds, in which all take part, hold every bit.
+    const bool tracers = message.round < kLastValues && (message.round & kAmongTracers) != 0;
+    const auto members =
+        tracers ? topology_.workers.size() : static_cast<std::size_t>(transport_.size());
+    const int from = envelope.from.rank;
+    const std::optional<std::size_t> place =
+        tracers ? topology_.worker_index(from) : static_cast<std::size_t>(from);
+    if (!place) return;
     Round& round = rounds_[message.round];
     if (round.parts.empty()) {
-        round.parts.resize(ranks);
-        round.missing = transport_.size();
+        round.parts.resize(members);
+        round.missing = static_cast<int>(members);
     }
-    round.parts[static_cast<std::size_t>(envelope.from.rank)] =
-        message.parts.empty() ? std::string() : std::move(message.parts.front());
+    round.parts[*place] = message.parts.empty() ? std::string() : std::move(message.parts.front());
     if (--round.missing > 0) return;
-    Gather all{message.round, std::move(round.parts)};
+    const Gather all{message.round, std::move(round.parts)};
     rounds_.erase(message.round);
-    for (int rank = 0; rank < transport_.size(); ++rank)
+    for (std::size_t i = 0; i < members; ++i) {
+        const int rank = tracers ? topology_.workers[i].rank : static_cast<int>(i);
         out.push_back({{0, Role::master}, {rank, Role::worker}, all});
+    }
 }
 
 }  // namespace lightwalk

@@ -45,8 +45,15 @@ class RankLoop {
     /// Every rank gives bytes and gets everyone's, in the order of the ranks; waits for the
     /// slowest. From any thread but the one that runs run(), by one thread at a time, and by all
     /// ranks the same number of times. Throws Aborted when the loop ends before.
-    [[nodiscard]] std::vector<std::string> all_gather(std::string bytes);
-    /// Rank 0's bytes, on every rank; called in the same way. This rank's messages wait meanwhile.
+    [[nodiscard]] std::vector<std::string> all_gather(std::string bytes) {
+        return gather(std::move(bytes), false);
+    }
+    /// The same among the workers alone, in the order of the topology's. Once one has begun, no
+    /// more all_gather.
+    [[nodiscard]] std::vector<std::string> gather_among_tracers(std::string bytes) {
+        return gather(std::move(bytes), true);
+    }
+    /// Rank 0's bytes, on every rank; called as all_gather is. This rank's messages wait meanwhile.
     [[nodiscard]] std::string broadcast(std::string bytes);
 
     /// Until end() is called, or `stop` is requested. Asks for the first blocks by itself.
@@ -73,7 +80,8 @@ class RankLoop {
     [[nodiscard]] bool serve_arrived();
     void dispatch(Envelope envelope);
     void deliver(Envelope envelope, Outbox& out);
-    void gather(Envelope envelope, Outbox& out);
+    [[nodiscard]] std::vector<std::string> gather(std::string bytes, bool tracers);
+    void serve_gather(Envelope envelope, Outbox& out);
     [[nodiscard]] static Activity activity_of(const Message& message);
     [[nodiscard]] EncodePiece timed_encoding(EncodePiece encode) const;
 

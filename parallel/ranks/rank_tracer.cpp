@@ -1,6 +1,7 @@
 #include "parallel/ranks/rank_tracer.h"
 
 #include <chrono>
+#include <utility>
 
 #include "parallel/ranks/roles.h"
 
@@ -25,12 +26,24 @@ void RankTracer::take(Message message) {
     changed_.notify_all();
 }
 
+/// A job that nobody has begun, to be begun by the caller, which holds the mutex; null: none.
+std::shared_ptr<RankTracer::Job> RankTracer::new_job() {
+    for (auto& [id, job] : jobs_) {
+        if (!std::exchange(job->begun, true)) return job;
+    }
+    return nullptr;
+}
+
 std::optional<RankTracer::Work> RankTracer::next(int worker, const StopFlag& stop) {
     const TimedActivity waiting(timeline_, worker, Activity::wait);
     // A signal's handler cannot notify: look for its request now and then.
     constexpr std::chrono::milliseconds kPatience{20};
     std::unique_lock lock(mutex_);
-    while (blocks_.empty() && !finished_ && !stop.requested()) changed_.wait_for(lock, kPatience);
+    while (!stop.requested()) {
+        if (std::shared_ptr<Job> job = new_job()) return Work{std::nullopt, std::move(job)};
+        if (!blocks_.empty() || finished_) break;
+        changed_.wait_for(lock, kPatience);
+    }
     if (blocks_.empty() || stop.requested()) return std::nullopt;
     const JobBlock block = blocks_.front();
     blocks_.pop_front();
@@ -44,11 +57,12 @@ void RankTracer::serve(int worker, const StopFlag& stop) {
         Job& job = *work->job;
         const Clock::time_point begin = Clock::now();
         std::call_once(job.made, [&] { job.renderer = make_(job.start); });
-        if (!job.renderer->render(work->block.block, worker, pixels)) return;
+        if (!work->block) continue;
+        if (!job.renderer->render(work->block->block, worker, pixels)) return;
         const Clock::time_point end = Clock::now();
         if (timeline_ != nullptr) timeline_->add(worker, Activity::trace, begin, end);
         const std::chrono::duration<double> seconds = end - begin;
-        BlockDone done{{work->block, {}}, seconds.count()};
+        BlockDone done{{*work->block, {}}, seconds.count()};
         if (job.start.keep) done.pixels.values = pixels.values;
         tell_(std::move(done));
     }

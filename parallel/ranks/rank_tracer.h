@@ -15,8 +15,8 @@
 
 namespace lightwalk {
 
-/// Makes what renders a job's blocks, and keeps alive what it needs. Called once a job, by one of
-/// the tracing threads.
+/// Makes what renders a job's blocks, and keeps alive what it needs. Called once a job on every
+/// rank that traces, by one of the tracing threads, even where the rank gets none of the blocks.
 using MakeRenderer = std::function<std::shared_ptr<const BlockRenderer>(const JobStart&)>;
 /// Takes a message for the rank's worker; called by many threads.
 using TellWorker = std::function<void(Message)>;
@@ -37,13 +37,15 @@ class RankTracer {
   private:
     struct Job {
         JobStart start;
+        bool begun = false;  ///< somebody makes its renderer, or has
         std::once_flag made;
         std::shared_ptr<const BlockRenderer> renderer;
     };
     struct Work {
-        JobBlock block;
+        std::optional<JobBlock> block;  ///< nothing: the job is new
         std::shared_ptr<Job> job;
     };
+    [[nodiscard]] std::shared_ptr<Job> new_job();
     [[nodiscard]] std::optional<Work> next(int worker, const StopFlag& stop);
     void serve(int worker, const StopFlag& stop);
 

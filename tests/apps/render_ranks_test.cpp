@@ -144,6 +144,51 @@ TEST_CASE("render on ranks: ambient values are exchanged, and kept in the file o
     CHECK(values({"--variant", "hybrid", "-af", file}, 2) < first / 4);
 }
 
+TEST_CASE("render on ranks: --deterministic gives the bytes of one process with indirect light") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::vector<std::string> options{"-ps",
+                                           "1",
+                                           "-ab",
+                                           "2",
+                                           "-ad",
+                                           "32",
+                                           "-as",
+                                           "0",
+                                           "-aa",
+                                           ".3",
+                                           "-ar",
+                                           "16",
+                                           "-av",
+                                           ".01",
+                                           ".01",
+                                           ".01",
+                                           "--deterministic"};
+    const auto render = [&](const std::string& name, const std::vector<std::string>& more,
+                            const std::vector<std::string>& launcher) {
+        const std::string out = folder.path(name);
+        const ProgramResult result =
+            run_program(line(with(with(options, more), {"-o", out, scene})), "", launcher);
+        CHECK(result.err.empty());
+        CHECK(result.status == 0);
+        return pixel_bytes(read_whole(out));
+    };
+    const std::string alone = render("one.hdr", {"-n", "1"}, {});
+    CHECK(render("two.hdr", {"-n", "2"}, {}) == alone);
+    for (const Split& split : kSplits) {
+        CAPTURE(split.ranks);
+        CHECK(render("ranks.hdr", split.options, *mpirun(split.ranks, split.mpi)) == alone);
+    }
+    // Values of an ambient file, which rank 0 reads, are where all begin.
+    const std::string file = folder.path("room.amb");
+    (void)render("coarse.hdr", {"-n", "1", "-x", "20", "-y", "20", "-af", file}, {});
+    std::filesystem::copy_file(file, folder.path("again.amb"));
+    const std::string after = render("one.hdr", {"-n", "1", "-af", folder.path("again.amb")}, {});
+    CHECK(after != alone);
+    CHECK(render("ranks.hdr", {"-n", "2", "-af", file}, *mpirun(2)) == after);
+}
+
 TEST_CASE("render on ranks: what is wrong is said once, by rank 0, and nothing hangs") {
     if (!have_mpi()) return;
     const TemporaryFolder folder;

@@ -151,3 +151,38 @@ TEST_CASE("abort reaches every rank") {
     CHECK_THROWS_AS((void)transports[0]->receive(), Aborted);
     CHECK_THROWS_AS((void)transports[2]->receive(), Aborted);
 }
+
+TEST_CASE("ranks that trace gather among themselves, while the others serve") {
+    constexpr int kRanks = 5;
+    const Topology topology = make_topology(Variant::ranks, kRanks, true, 1);  // two do not trace
+    const auto transports = make_memory_transports(kRanks);
+    const StopFlag never;
+    std::vector<std::thread> threads;
+    std::atomic<int> good{0};
+    for (int rank = 0; rank < kRanks; ++rank) {
+        threads.emplace_back([&, rank] {
+            Ends ends;
+            RankSettings settings;
+            settings.encode = no_bytes;
+            RankLoop loop(*transports[static_cast<std::size_t>(rank)], topology, settings, ends);
+            ends.loop = &loop;
+            ends.rank = rank;
+            std::thread program([&] {
+                bool same = loop.all_gather("x").size() == kRanks;
+                for (int round = 0; topology.traces(rank) && round < 20; ++round) {
+                    const auto all = loop.gather_among_tracers(std::to_string(100 * round + rank));
+                    same = same && all.size() == topology.workers.size();
+                    for (std::size_t i = 0; same && i < all.size(); ++i)
+                        same = all[i] == std::to_string(100 * round + topology.workers[i].rank);
+                }
+                good += same ? 1 : 0;
+                loop.end();
+            });
+            CHECK(loop.run(never));
+            program.join();
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    CHECK(topology.workers.size() == 3);
+    CHECK(good == kRanks);
+}
