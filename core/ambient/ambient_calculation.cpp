@@ -53,6 +53,36 @@ class Claimed {
     AmbientClaim claim_;
 };
 
+/// The ray that asked at a point, as far as its hemisphere's rays inherit from it.
+Ray ray_to(const AmbientPoint& point) {
+    Ray ray;
+    ray.hit.t = point.distance;
+    ray.hit.position = point.query.position;
+    ray.hit.normal = point.far_side ? -point.query.normal : point.query.normal;
+    ray.limit = point.limit;
+    ray.weight = point.query.weight;
+    ray.level = point.ray_level;
+    ray.history = point.history;
+    ray.target = point.target;
+    ray.medium = point.medium;
+    ray.path_length = point.path_length;
+    return ray;
+}
+
+/// The level at which a point asks, while this lives.
+class AtLevel {
+  public:
+    AtLevel(TraceContext& context, int level)
+        : context_(context), before_(std::exchange(context.ambient_level, level)) {}
+    ~AtLevel() { context_.ambient_level = before_; }
+    AtLevel(const AtLevel&) = delete;
+    AtLevel& operator=(const AtLevel&) = delete;
+
+  private:
+    TraceContext& context_;
+    int before_;
+};
+
 }  // namespace
 
 /// One ambient value that a surface asks for.
@@ -253,40 +283,6 @@ std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     record.level = static_cast<std::uint8_t>(std::min(query.level, 255));
     return made;
 }
-
-namespace {
-
-/// The ray that asked at a point, as far as its hemisphere's rays inherit from it.
-Ray ray_to(const AmbientPoint& point) {
-    Ray ray;
-    ray.hit.t = point.distance;
-    ray.hit.position = point.query.position;
-    ray.hit.normal = point.far_side ? -point.query.normal : point.query.normal;
-    ray.limit = point.limit;
-    ray.weight = point.query.weight;
-    ray.level = point.ray_level;
-    ray.history = point.history;
-    ray.target = point.target;
-    ray.medium = point.medium;
-    ray.path_length = point.path_length;
-    return ray;
-}
-
-/// The level at which a point asks, while this lives.
-class AtLevel {
-  public:
-    AtLevel(TraceContext& context, int level)
-        : context_(context), before_(std::exchange(context.ambient_level, level)) {}
-    ~AtLevel() { context_.ambient_level = before_; }
-    AtLevel(const AtLevel&) = delete;
-    AtLevel& operator=(const AtLevel&) = delete;
-
-  private:
-    TraceContext& context_;
-    int before_;
-};
-
-}  // namespace
 
 AmbientPoint AmbientCalculation::point_of(const Request& request) {
     const Ray& ray = request.ray;
