@@ -40,6 +40,10 @@ class Collecting {
     Collecting(const Collecting&) = delete;
     Collecting& operator=(const Collecting&) = delete;
 
+    [[nodiscard]] bool left_out() const {
+        return std::any_of(misses_.begin(), misses_.end(),
+                           [](const AmbientMisses& misses) { return misses.left_out; });
+    }
     [[nodiscard]] std::vector<AmbientPoint> points() const {
         std::vector<AmbientPoint> all;
         for (const AmbientMisses& misses : misses_)
@@ -142,13 +146,17 @@ AmbientRounds::AmbientRounds(const Tracer& tracer, FreezableCache& cache, Execut
     cache_.freeze(true);
 }
 
-/// Of all processes; with each goes whether it is to stop, so that all stop at the same place.
+/// Of all processes; with each goes whether it is to stop, so that all stop at the same place, and
+/// whether it left points out.
 std::vector<std::string> AmbientRounds::gather(std::string mine) {
-    mine.push_back(stop_.requested() ? 1 : 0);
+    constexpr char kStop = 1, kLeftOut = 2;
+    mine.push_back(static_cast<char>((stop_.requested() ? kStop : 0) | (left_out_ ? kLeftOut : 0)));
     std::vector<std::string> all = exchange_.all_gather(std::move(mine));
     for (std::string& bytes : all) {
-        stopped_ = stopped_ || bytes.empty() || bytes.back() != 0;
-        if (!bytes.empty()) bytes.pop_back();
+        if (bytes.empty()) throw InputError("another rank takes no part in a round");
+        stopped_ = stopped_ || (bytes.back() & kStop) != 0;
+        left_out_ = left_out_ || (bytes.back() & kLeftOut) != 0;
+        bytes.pop_back();
     }
     return all;
 }
@@ -159,6 +167,7 @@ std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
         const Collecting collecting(contexts_);
         trace();
         points = collecting.points();
+        left_out_ = left_out_ || collecting.left_out();
     }
     const bool alone = exchange_.count() == 1;
     const std::vector<std::string> all = gather(alone ? std::string() : encode_points(points));

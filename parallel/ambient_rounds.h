@@ -52,6 +52,8 @@ class AmbientRounds {
 
     /// A stop was requested, of this process or of another: nothing is done any more.
     [[nodiscard]] bool stopped() const { return stopped_; }
+    /// Pixels missed values at points that do not stand alone, which rounds leave out.
+    [[nodiscard]] bool left_out() const { return left_out_; }
     [[nodiscard]] const std::vector<Counts>& counts() const { return counts_; }  ///< by level
 
   private:
@@ -74,7 +76,7 @@ class AmbientRounds {
     SpacingGuess guess_;
     std::vector<Counts> counts_;
     std::size_t left_ = 0;  ///< points of level 0
-    bool stopped_ = false;
+    bool stopped_ = false, left_out_ = false;
 };
 
 }  // namespace lightwalk

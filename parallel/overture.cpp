@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -63,9 +64,12 @@ class OvertureSum {
                    result_.rays.total() + now.rays, result_.ambient.computed + now.ambient_values});
     }
     void add(int step, const RayCounters& rays, const AmbientCounters& ambient) {
+        add(rays, ambient);
+        before_ += share_of(step);
+    }
+    void add(const RayCounters& rays, const AmbientCounters& ambient) {
         result_.rays += rays;
         result_.ambient += ambient;
-        before_ += share_of(step);
     }
     [[nodiscard]] OvertureResult result(bool complete) const {
         OvertureResult result = result_;
@@ -112,6 +116,24 @@ class DeterministicOverture {
         if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points were served by others
         sum_.add(step_, players_.contexts.rays(), players_.contexts.ambient());
         return !rounds_.stopped();
+    }
+
+    /// Once all pictures are played: values at points that do not stand alone, inside clipped
+    /// matter or a mist that scatters, by one worker; all processes do the same. False: stopped.
+    [[nodiscard]] bool play_left_out(const FrameOptions& options) {
+        if (!rounds_.left_out()) return true;
+        const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
+        players_.cache.freeze(false);
+        for (const int step : {16, 8, 4, 2}) {
+            const Frame frame =
+                render_frame(players_.tracer, players_.camera,
+                             coarse_options(options, Overture::deterministic, step), *one,
+                             players_.contexts, players_.stop, [](const FrameProgress&) {});
+            sum_.add(frame.rays, frame.ambient);
+            if (!frame.complete) return false;
+        }
+        players_.cache.freeze(true);
+        return true;
     }
 
   private:
@@ -194,6 +216,7 @@ OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
         }
         if (!complete) break;
     }
+    if (rounds && complete) complete = rounds->play_left_out(options);
     if (!complete) cache.freeze(false);
     return sum.result(complete);
 }

@@ -219,7 +219,10 @@ Rgb AmbientCalculation::with_cache(const Request& request) const {
     };
     if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
     if (AmbientMisses* misses = request.context.misses) {
-        if (can_stand_alone(request.ray)) misses->points.push_back(point_of(request));
+        if (can_stand_alone(request.ray))
+            misses->points.push_back(point_of(request));
+        else if (request.query.level == 0)
+            misses->left_out = true;
         return {};
     }
     const Claimed claimed(*cache_, request.query);

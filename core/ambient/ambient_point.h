@@ -28,6 +28,7 @@ struct AmbientPoint {
 /// inside clipped matter or a mist that scatters are left out: they do not stand alone.
 struct AmbientMisses {
     std::vector<AmbientPoint> points;
+    bool left_out = false;  ///< one was, that a primary ray or what it became wanted
 };
 
 /// A value that was computed on the way to others, with the point that wanted it.

@@ -41,8 +41,8 @@ RenderOptions indirect(int bounces) {
 /// A scene with a cache of its own, the overture played and a picture made after it.
 struct Played {
     explicit Played(Overture overture, int workers = 1, const FrameOptions& frame = small(),
-                    int bounces = 1)
-        : scene(kRoom, indirect(bounces)),
+                    int bounces = 1, const std::string& more = "")
+        : scene(kRoom + more, indirect(bounces)),
           shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.5, 8)),
           cache(shared),
           executor(make_executor(ExecutorKind::threads, workers)),
@@ -168,6 +168,18 @@ TEST_CASE(
         const auto most = 1.25 * static_cast<double>(quick.shared.size());
         CHECK(static_cast<double>(rounds.result.ambient.computed) < most);
     }
+}
+
+TEST_CASE("a deterministic overture fills clipped matter, too, with the same bytes") {
+    const std::string cut = "void antimatter hole 1 paint 0 0\nhole sphere cut 0 0 4 0 .2 1 .8\n";
+    Played expected(Overture::deterministic, 1, Played::small(), 1, cut);
+    const std::size_t values = expected.shared.size();
+    const Frame picture = expected.picture();
+    CHECK(values > Played(Overture::quick, 1, Played::small(), 1, cut).shared.size() / 2);
+    CHECK(picture.ambient.computed < values / 2);  // most of the hole is filled
+    Played other(Overture::deterministic, 2, Played::small(), 1, cut);
+    CHECK(other.shared.size() == values);
+    CHECK(same_bytes(other.picture().radiance, picture.radiance));
 }
 
 TEST_CASE("windows of a picture after a deterministic overture are parts of the whole") {
