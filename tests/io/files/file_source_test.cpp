@@ -47,7 +47,7 @@ std::string read_all(const TemporaryFolder& folder, const std::shared_ptr<FileSo
     const auto model = read_scene(names, {library, true, folder.path()}, silent);
     FileResources resources(library, true, silent);
     std::string text = resources.function_file("paint.cal");
-    text += std::to_string(resources.data("table.dat")->size(0));
+    text += std::to_string(resources.data("table.dat")->axes[0].count);
     text += library.find("none.cal").value_or("-");
     for (const Primitive& primitive : model->primitives) {
         text += ' ' + primitive.name;
