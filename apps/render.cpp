@@ -77,7 +77,8 @@ class RenderRun {
             (void)Camera(command_.view);  // a bad view is told before the scene is read
         settle_scene_files(command_.common,
                            command_.first_frame > 0 ? "the views of the sequence (-S)" : "", files);
-        if (speaks && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
+        // mpirun shows its processes a terminal, whatever becomes of their output.
+        if (transport_ == nullptr && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
         }
     }

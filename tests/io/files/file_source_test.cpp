@@ -42,12 +42,12 @@ std::string write_scene(const TemporaryFolder& folder) {
 /// What reading the scene gives, in words.
 std::string read_all(const TemporaryFolder& folder, const std::shared_ptr<FileSource>& files) {
     Silent silent;
-    const LibraryPath library({folder.path("lib")}, files);
+    const LibraryPath library({folder.path("lib"), folder.path()}, files);
     const std::vector<std::string> names{"room.rad"};
     const auto model = read_scene(names, {library, true, folder.path()}, silent);
     FileResources resources(library, true, silent);
     std::string text = resources.function_file("paint.cal");
-    text += std::to_string(resources.data("table.dat")->axes[0].count);
+    text += std::to_string(resources.data("table.dat")->values.at(1));
     text += library.find("none.cal").value_or("-");
     for (const Primitive& primitive : model->primitives) {
         text += ' ' + primitive.name;
