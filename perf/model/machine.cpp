@@ -24,6 +24,8 @@ Machine read_machine(const nlohmann::json& json) {
                 m.name = value;
             else if (name == "sleeps")
                 m.sleeps = value;
+            else if (name == "unpacks")
+                m.unpacks = value;
             else if (name == "node_cores")
                 m.node_cores = value;
             else if (name == "node_ranks")

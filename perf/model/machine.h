@@ -30,8 +30,10 @@ struct Machine {
     int node_ranks = 1;  ///< that share them; 0: all ranks are on one node
     /// Time of tracing by number of busy cores of a node, one alone = 1; the last counts for more.
     std::vector<double> crowding{1};
-    double background = 0;     ///< other programs' threads that always want a core, on each node
-    double slowness = 1;       ///< time of all processing, beside the machine of the cost map
+    double background = 0;  ///< other programs' threads that always want a core, on each node
+    double slowness = 1;    ///< time of all processing, beside the machine of the cost map
+    bool unpacks =
+        true;  ///< whether rank 0 makes pixels of the pieces, or passes them on as they are
     double value_work = 1e-6;  ///< processor time to add an ambient value that another rank made
 };
 

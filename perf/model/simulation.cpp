@@ -304,8 +304,8 @@ void Simulation::deliver_locally(Envelope envelope, double& clock) {
         clock +=
             machine_.slowness * machine_.value_work * static_cast<double>(values->records.size());
     } else if (std::holds_alternative<FinishedPicture>(envelope.message)) {
-        end_ = clock +
-               machine_.slowness * (machine_.wake + map_.decode_seconds * run_.width * run_.height);
+        const double unpacking = machine_.unpacks ? map_.decode_seconds : 0;
+        end_ = clock + machine_.slowness * (machine_.wake + unpacking * run_.width * run_.height);
     }
 }
 

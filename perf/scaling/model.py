@@ -10,7 +10,7 @@ from runs import Split, about, measure, mpirun
 CLUSTER = {"name": "a cluster of today", "latency": 1.5e-6, "overhead": 1e-6, "gap": 3e-7, "byte_gap": 8e-11,
            "byte_work": 3e-10}
 T3E = {"name": "Cray T3E-900", "latency": 6e-6, "overhead": 5e-6, "gap": 5e-6, "byte_gap": 3.3e-9, "byte_work": 1e-10,
-       "step": 1e-8, "value_work": 1e-8, "sleeps": False, "slowness": 100, "wake": 0}
+       "step": 1e-8, "value_work": 1e-8, "sleeps": False, "unpacks": False, "slowness": 100, "wake": 0}
 WIDTH_4K = 3840
 
 
@@ -35,7 +35,8 @@ def model_inputs(program, options, view, extra, tag="direct", size=None):
         costs.write_text(json.dumps(measure_machine(program), indent=1) + "\n")
     crowding = json.loads(path.read_text())["crowding"]
     here = {**json.loads(costs.read_text()), "node_cores": options.cores, "node_ranks": 0, "crowding": crowding}
-    return {"map": str(path), "machines": {"here": here, "cluster": CLUSTER, "t3e": T3E}}
+    return {"map": str(path), "machines": {"here": here, "cluster": CLUSTER, "t3e": T3E,
+                                            "forwarding": {**CLUSTER, "unpacks": False}}}
 
 
 def predict(program, out, tag, inputs, cases):
@@ -150,6 +151,12 @@ def large_cases(height, ambient):
         for more in ({"block": 8}, {"block": 32}, {"stride": 1}):
             cases.append(case(f"ranks 4096x1 tree work 16 {more}", Split("ranks", 4096), "cluster", work=16,
                               node_cores=1, node_ranks=1, cores=4096, tree="tree", **more, **size))
+        for work in (1, 4, 16, 64, 256):
+            for ranks, threads in ((4096, 1), (64, 64)):
+                variant = "ranks" if threads == 1 else "hybrid"
+                cases.append(case(f"{variant} {ranks}x{threads} forwarding work {work}", Split(variant, ranks, threads),
+                                  "forwarding", work=work, node_cores=threads, node_ranks=1, cores=4096,
+                                  tree="forwarding", **size))
         for masters in (2, 5, 17, 33, 65, 129):
             cases.append(case(f"ranks 4096x1 {masters} masters work 16", Split("ranks", 4096), "cluster", work=16,
                               node_cores=1, node_ranks=1, cores=4096, masters=masters, tree=str(masters), **size))
