@@ -152,7 +152,7 @@ Frame assemble(const FinishedPicture& picture, int width, int height) {
     frame.radiance.resize(whole.pixels());
     frame.distance.resize(whole.pixels());
     std::size_t pixels = 0;
-    for (const Piece& piece : picture.pieces) {
+    for (const PicturePiece& piece : picture.pieces) {
         const PixelRectangle& block = piece.work.block;
         if (block.x0 < 0 || block.y0 < 0 || block.x1 > width || block.y1 > height)
             throw InputError("a part of a picture lies outside it");

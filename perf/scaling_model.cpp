@@ -57,7 +57,7 @@ Json counts_of(const MessageCounts& counts) {
         {Message(AskBlocks{}).index(), "AskBlocks"},
         {Message(GiveBlocks{}).index(), "GiveBlocks"},
         {Message(Pixels{}).index(), "Pixels"},
-        {Message(Piece{}).index(), "Piece"},
+        {Message(PicturePiece{}).index(), "PicturePiece"},
         {Message(AmbientValues{}).index(), "AmbientValues"}};
     Json json;
     for (const auto& [kind, name] : names)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """The arrows of the design: apps -> parallel, io -> core, and inside core and io from folder to folder in one
-order. core knows no threads, sockets, MPI or files. Also: test names that CTest can find.
+order. core knows no threads, sockets, MPI or files. Also: types that share a name, test names that CTest can find.
 
     architecture_test.py              the project
     architecture_test.py --self-test  small planted trees: what must be found is found, and nothing else"""
@@ -78,6 +78,24 @@ def unnamed_order(root, order):
                 yield f"README.md: the order of {top}'s folders is not there: {words}"
 
 
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.M)
+TYPE = re.compile(r"^(?:struct|class|union|enum|enum class) (?:\[\[\w+\]\] |alignas\([^)]*\) )?(\w+)(?: final)?(?: : [^{;]*)? \{", re.M)
+
+
+def shared_names(root):
+    """Two types of one name break the one-definition rule: the linker keeps one of their members, for both.
+    Compilers need not find it, and where calls are inlined it does no harm, until a build inlines less."""
+    places = {}
+    for path in sorted(p for top in (*FORBIDDEN_FOLDERS, "perf", "tests") for p in sources(root / top)):
+        text = re.sub(r"^namespace \{$.*?^\}  // namespace$", "", path.read_text(), flags=re.M | re.S)
+        space = NAMESPACE.search(text)
+        for name in TYPE.findall(text):
+            places.setdefault((space and space[1], name), []).append(str(path.relative_to(root)))
+    for (_, name), paths in sorted(places.items(), key=lambda place: place[1]):
+        if len(paths) > 1:
+            yield f"{paths[-1]}: a type named {name} is also in {paths[0]}"
+
+
 def lost_tests(root):
     """CMake would cut such names apart, and CTest would run none of the pieces."""
     for path in sorted((root / "tests").rglob("*_test.cpp")):
@@ -89,7 +107,7 @@ def lost_tests(root):
 def check_project():
     files = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.h")]
     embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.[hc]*") if "embree3/" in p.read_text()]
-    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unnamed_order(ROOT, ORDER), *lost_tests(ROOT)]
+    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unnamed_order(ROOT, ORDER), *shared_names(ROOT), *lost_tests(ROOT)]
     if len(files) < 20:
         problems.append("the headers were not found: is this the project's root?")
     if len(embree) != 1:
@@ -123,6 +141,10 @@ PLANTED = [
     ({"io/low/low.cpp": '#include "parallel/blocks.h"\n'}, "io/low/low.cpp: includes parallel/blocks.h"),
     ({"io/low/low.cpp": "#include <thread>\n"}, "io/low/low.cpp: includes thread"),
     ({"core/any/a.h": '#include "io/base.h"\n'}, "core/any/a.h: includes io/base.h"),
+    ({"io/low/low.cpp": "namespace a {\nstruct Piece {\n};\n}\n", "core/any/a.h": "namespace a {\nstruct Piece : Base {\n};\n}\n"},
+     "io/low/low.cpp: a type named Piece is also in core/any/a.h"),
+    ({"io/low/low.cpp": "namespace a {\nnamespace {\nstruct Piece {\n};\n}  // namespace\n}\n", "core/any/a.h": "namespace a {\nstruct Piece {\n};\n}\n"},
+     None),
     ({"tests/sound_test.cpp": 'TEST_CASE("a; b") {}\n'}, "tests/sound_test.cpp: test name with ; [ ] or \\: a; b"),
 ]
 
@@ -136,7 +158,8 @@ def self_test():
                 if text is not None:
                     (root / name).parent.mkdir(parents=True, exist_ok=True)
                     (root / name).write_text(text)
-            found = [*wrong_includes(root), *wrong_order(root, SOUND_ORDER), *unnamed_order(root, SOUND_ORDER), *lost_tests(root)]
+            found = [*wrong_includes(root), *wrong_order(root, SOUND_ORDER), *unnamed_order(root, SOUND_ORDER), *shared_names(root),
+                     *lost_tests(root)]
         if found != ([] if expected is None else [expected]):
             failures += 1
             print(f"planted {planted}:\n  found {found}\n  expected {expected}")

@@ -53,7 +53,7 @@ void MasterRole::handle(Envelope envelope, Outbox& out) {
         for (const FinishedBlock& finished : ask->finished) note(finished, out);
         if (ask->count > 0) wishes_.push_back({envelope.from, ask->count});
         serve(out);
-    } else if (auto* piece = std::get_if<Piece>(&envelope.message)) {
+    } else if (auto* piece = std::get_if<PicturePiece>(&envelope.message)) {
         gather(std::move(*piece), out);
     }
 }
@@ -141,7 +141,7 @@ void MasterRole::serve(Outbox& out) {
     }
 }
 
-void MasterRole::gather(Piece piece, Outbox& out) {
+void MasterRole::gather(PicturePiece piece, Outbox& out) {
     const auto found = jobs_.find(piece.work.job);
     if (found == jobs_.end()) return;
     Job& job = found->second;

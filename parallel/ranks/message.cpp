@@ -66,7 +66,7 @@ void fields(Archive& archive, Pixels& m) {
     archive(m.work, m.values);
 }
 template <class Archive>
-void fields(Archive& archive, Piece& m) {
+void fields(Archive& archive, PicturePiece& m) {
     archive(m.work, m.bytes);
 }
 /// Fewest bytes of one element on the wire: a length that promises more elements than bytes are
@@ -208,7 +208,7 @@ Message default_message(std::size_t kind) {
 
 const char* kind_name(std::size_t kind) {
     static constexpr std::array<const char*, kMessageKinds> kNames{
-        "JobStart",        "AskBlocks",     "GiveBlocks", "Pixels",     "BlockDone", "Piece",
+        "JobStart",        "AskBlocks",     "GiveBlocks", "Pixels",     "BlockDone", "PicturePiece",
         "FinishedPicture", "AmbientValues", "Failure",    "Finish",     "Report",    "Gather",
         "Progress",        "AskChunks",     "RayChunk",   "ChunkAnswer"};
     return kNames[kind];

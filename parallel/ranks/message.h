@@ -86,16 +86,16 @@ struct BlockDone {
 };
 
 /// Worker to master: its whole part of a picture, compressed; and master to program.
-struct Piece {
+struct PicturePiece {
     JobBlock work;
     std::string bytes;
-    friend bool operator==(const Piece&, const Piece&) = default;
+    friend bool operator==(const PicturePiece&, const PicturePiece&) = default;
 };
 
 /// Master to program: all pieces of a picture are there.
 struct FinishedPicture {
     JobId job = 0;
-    std::vector<Piece> pieces;
+    std::vector<PicturePiece> pieces;
     friend bool operator==(const FinishedPicture&, const FinishedPicture&) = default;
 };
 
@@ -164,7 +164,7 @@ struct ChunkAnswer {
     friend bool operator==(const ChunkAnswer&, const ChunkAnswer&) = default;
 };
 
-using Message = std::variant<JobStart, AskBlocks, GiveBlocks, Pixels, BlockDone, Piece,
+using Message = std::variant<JobStart, AskBlocks, GiveBlocks, Pixels, BlockDone, PicturePiece,
                              FinishedPicture, AmbientValues, Failure, Finish, Report, Gather,
                              Progress, AskChunks, RayChunk, ChunkAnswer>;
 

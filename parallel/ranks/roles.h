@@ -34,8 +34,8 @@ class MasterRole {
     MasterRole(Address self, std::vector<Address> children, std::size_t workers,
                BlockPolicy policy);
 
-    /// From children: AskBlocks. From workers: Piece. From the program: JobStart. To the program:
-    /// Progress, FinishedPicture.
+    /// From children: AskBlocks. From workers: PicturePiece. From the program: JobStart. To the
+    /// program: Progress, FinishedPicture.
     void handle(Envelope envelope, Outbox& out);
 
     /// Blocks that were handed out and are not finished.
@@ -59,7 +59,7 @@ class MasterRole {
     void note(const FinishedBlock& finished, Outbox& out);
     void serve(Outbox& out);
     [[nodiscard]] JobBlock take_block(Job& job);
-    void gather(Piece piece, Outbox& out);
+    void gather(PicturePiece piece, Outbox& out);
 
     Address self_;
     std::vector<Address> children_;

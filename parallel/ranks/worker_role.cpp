@@ -106,7 +106,7 @@ void WorkerRole::store(Pixels pixels, Outbox& out) {
     const JobId id = pixels.work.job;
     out.push_back({options_.self,
                    {0, Role::master},
-                   Piece{{id, part}, options_.encode(part, std::exchange(job.values, {}))}});
+                   PicturePiece{{id, part}, options_.encode(part, std::exchange(job.values, {}))}});
 }
 
 }  // namespace lightwalk

@@ -251,7 +251,7 @@ void Simulation::dispatch(std::size_t number, Envelope first, double& clock) {
     Outbox out;
     for (std::size_t i = 0; i < due.size(); ++i) {
         Envelope envelope = std::move(due[i]);
-        const auto* piece = std::get_if<Piece>(&envelope.message);
+        const auto* piece = std::get_if<PicturePiece>(&envelope.message);
         if (piece != nullptr && envelope.from == Address{here, Role::worker})
             clock += machine_.slowness * map_.encode_seconds *
                      static_cast<double>(piece->work.block.pixels());
@@ -314,7 +314,7 @@ double Simulation::bytes_of(const Envelope& envelope) const {
     const auto bytes = static_cast<double>(message_bytes(envelope.message));
     if (const auto* pixels = std::get_if<Pixels>(&envelope.message))
         return bytes + kPixelBytes * static_cast<double>(pixels->work.block.pixels());
-    if (const auto* piece = std::get_if<Piece>(&envelope.message))
+    if (const auto* piece = std::get_if<PicturePiece>(&envelope.message))
         return bytes + map_.packed_bytes * static_cast<double>(piece->work.block.pixels());
     if (std::holds_alternative<JobStart>(envelope.message)) return bytes + kOrderBytes;
     return bytes;

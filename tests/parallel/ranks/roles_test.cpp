@@ -15,7 +15,7 @@ namespace {
 void check_picture(const RoleNetwork& network, const FinishedPicture& picture,
                    const PixelRectangle& area) {
     std::set<std::pair<int, int>> seen;
-    for (const Piece& piece : picture.pieces) {
+    for (const PicturePiece& piece : picture.pieces) {
         const PixelRectangle& block = piece.work.block;
         REQUIRE(piece.bytes.size() == block.pixels() * sizeof(PixelValue));
         std::vector<PixelValue> values(block.pixels());
