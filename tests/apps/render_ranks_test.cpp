@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -56,6 +57,16 @@ const std::vector<Split> kSplits{
     {2, {"--variant", "hybrid", "-n", "1"}, {}},
     {2, {"-n", "2"}, {}},
     {4, {"-n", "2", "--masters", "2"}, {}}};
+
+/// Whether it comes true within a minute.
+bool comes_true(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return true;
+}
 
 std::vector<std::string> with(std::vector<std::string> words,
                               const std::vector<std::string>& more) {
@@ -231,7 +242,7 @@ TEST_CASE(
     "render: a run that is killed goes on from its checkpoint, with any split, to the same bytes") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
-    const std::vector<std::string> slow{"-x", "900", "-y", "600", "-ps", "1"};
+    const std::vector<std::string> slow{"-x", "1800", "-y", "1200", "-ps", "1"};
     const std::string checkpoint = folder.path("blocks");
     const ProgramResult whole =
         run_program(line(with(slow, {"-o", folder.path("whole.hdr"), scene})));
@@ -240,8 +251,13 @@ TEST_CASE(
     const std::string out = folder.path("out.hdr");
     const std::vector<std::string> kept{"--checkpoint", checkpoint, "-o", out, scene};
     {
-        RunningProgram program(line(with(slow, kept)));
-        std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+        RunningProgram program(line(with(slow, with({"-n", "1"}, kept))));
+        constexpr std::uintmax_t kSomeBlocks = 100'000;  // bytes
+        REQUIRE(comes_true([&] {
+            std::error_code none;
+            const std::uintmax_t size = std::filesystem::file_size(checkpoint, none);
+            return !none && size > kSomeBlocks;
+        }));
     }  // killed
     CHECK_FALSE(std::filesystem::exists(out));
     REQUIRE(std::filesystem::exists(checkpoint));
@@ -304,8 +320,12 @@ TEST_CASE("render on ranks: a rank that is killed ends the run at once, and it c
         CAPTURE(victim);
         RunningProgram program(command({"--resume"}), *mpirun(4));
         std::vector<int> ranks;
-        while ((ranks = ranks_with(checkpoint)).size() < 4)
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        if (!comes_true([&] {
+                ranks = ranks_with(checkpoint);
+                return ranks.size() == 4 || std::filesystem::exists(out);
+            }))
+            FAIL("the ranks do not start");
+        if (ranks.size() < 4) break;  // they were quicker
         std::this_thread::sleep_for(std::chrono::milliseconds(150 + 100 * victim));
         if (kill(ranks[victim], SIGKILL) != 0) continue;  // it was quicker
         const auto begin = std::chrono::steady_clock::now();
