@@ -11,7 +11,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::chrono::seconds kMostPatience{1};  ///< of what is kept, before it is written
+constexpr std::chrono::seconds kOften{1};  ///< between two times of writing, which cost a sync
 
 using Head = std::array<std::int32_t, 5>;  ///< frame, x0, y0, x1, y1
 
@@ -96,10 +96,12 @@ void Checkpoint::keep(int frame, const BlockPixels& pixels) {
 
 void Checkpoint::write() {
     std::unique_lock lock(mutex_);
+    std::chrono::steady_clock::time_point next{};
     while (true) {
         changed_.wait(lock, [&] { return ending_ || !kept_.empty(); });
-        if (!ending_) changed_.wait_for(lock, kMostPatience, [&] { return ending_; });
+        changed_.wait_until(lock, next, [&] { return ending_; });
         if (kept_.empty()) return;
+        next = std::chrono::steady_clock::now() + kOften;
         std::deque<Kept> kept;
         kept.swap(kept_);
         lock.unlock();

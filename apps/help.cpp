@@ -84,7 +84,8 @@ Many processes, on one machine or many: mpirun -n RANKS lightwalk render ...
   --ambient-batch N  a worker sends its ambient values by N (default 16) and gets the others'; 0: none are exchanged
   --timeline FILE.json  what every thread did when: opens in ui.perfetto.dev. --stats has the sums, by rank
 
-  --checkpoint FILE  keep finished blocks in FILE, at most two seconds after they are traced
+  --checkpoint FILE  keep finished blocks in FILE, at most two seconds after they are traced; with -ab, ambient
+                     values in FILE-ambient, unless -af or --deterministic does what that is for
   --resume           with --checkpoint: a run that was killed goes on, with any number of ranks and threads
   --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
   --quiet            no progress, no warnings; -w- alone: no warnings

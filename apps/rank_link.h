@@ -108,6 +108,10 @@ class RankLink final : private LocalEnd {
 
   private:
     void take(Envelope envelope) override;
+    [[nodiscard]] AmbientValues unsent_values() override {
+        const std::lock_guard lock(mutex_);
+        return cache_ ? cache_->unsent() : AmbientValues{};
+    }
     /// From here on `take` gets what the tracer is to have.
     void open_tracer(std::function<void(Message)> take);
     [[nodiscard]] std::string named(int rank, const std::string& host) const;

@@ -81,6 +81,7 @@ class RenderRun {
         if (transport_ == nullptr && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
         }
+        keep_ambient_values(speaks);
     }
 
     int run() {
@@ -119,6 +120,7 @@ class RenderRun {
         RenderCommand same = command_;  // the number of threads changes nothing
         same.common.workers = 1;
         same.report_interval = 0;
+        if (!kept_values_.empty()) same.settings.ambient_file.clear();
         std::string header = "SOFTWARE= Lightwalk " LIGHTWALK_VERSION "\n" + describe(same);
         header += "scene " + session_->digest() + '\n';
         checkpoint_ =
@@ -147,6 +149,21 @@ class RenderRun {
         }
         if (!command_.common.stats_file.empty())
             write_statistics(command_.common.stats_file, statistics_);
+    }
+
+    /// With --checkpoint and cached ambient light: the values are kept beside it, as with -af. Not
+    /// where the same are found again, which others would disturb.
+    void keep_ambient_values(bool leads) {
+        std::string& file = command_.settings.ambient_file;
+        if (command_.checkpoint.empty() || !file.empty() || command_.deterministic ||
+            !caches_ambient_values(command_.settings.light))
+            return;
+        file = kept_values_ = command_.checkpoint + "-ambient";
+        if (leads && !command_.resume && std::filesystem::exists(file)) {
+            throw InputError({file, 0},
+                             "values of a checkpoint are there already: continue its run with "
+                             "--resume, or remove them");
+        }
     }
 
     // One of several ranks.
@@ -282,6 +299,7 @@ class RenderRun {
             if (!finish(wanted[taken], size, maker)) return false;
         }
         if (checkpoint_) checkpoint_->remove();
+        if (!kept_values_.empty()) std::filesystem::remove(kept_values_);
         return true;
     }
 
@@ -351,6 +369,7 @@ class RenderRun {
     StderrWarnings warnings_;
     std::unique_ptr<RankLink> link_;
     std::unique_ptr<Checkpoint> checkpoint_;
+    std::string kept_values_;  ///< file of ambient values that goes with the checkpoint; "": none
     std::unique_ptr<SceneSession> session_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<WorkerContexts> contexts_;

@@ -131,14 +131,15 @@ class AmbientRounds::Waiting {
 
 AmbientRounds::AmbientRounds(const Tracer& tracer, FreezableCache& cache, Executor& executor,
                              WorkerContexts& contexts, RoundExchange& exchange,
-                             const StopFlag& stop, FunctionRef<void(std::size_t left)> after_round)
+                             const StopFlag& stop,
+                             std::function<void(std::size_t left)> after_round)
     : tracer_(tracer),
       cache_(cache),
       executor_(executor),
       contexts_(contexts),
       exchange_(exchange),
       stop_(stop),
-      after_round_(after_round),
+      after_round_(std::move(after_round)),
       calculation_(tracer),
       guess_(cache.limits()),
       counts_(static_cast<std::size_t>(std::max(tracer.options().ambient_bounces, 1))) {

@@ -1,6 +1,7 @@
 #pragma once
 // Ambient values for many points at once, in rounds: the same values for any number of workers.
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/ambient/ambient_calculation.h"
@@ -40,7 +41,7 @@ class AmbientRounds {
     ///                     level 0 that are still to be looked at
     AmbientRounds(const Tracer& tracer, FreezableCache& cache, Executor& executor,
                   WorkerContexts& contexts, RoundExchange& exchange, const StopFlag& stop,
-                  FunctionRef<void(std::size_t left)> after_round);
+                  std::function<void(std::size_t left)> after_round);
 
     /// The points that `trace`, which may trace rays by all workers, finds to miss a value, in any
     /// of the processes.
@@ -71,7 +72,7 @@ class AmbientRounds {
     WorkerContexts& contexts_;
     RoundExchange& exchange_;
     const StopFlag& stop_;
-    FunctionRef<void(std::size_t)> after_round_;
+    std::function<void(std::size_t)> after_round_;
     AmbientCalculation calculation_;
     SpacingGuess guess_;
     std::vector<Counts> counts_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -103,7 +102,8 @@ class DeterministicOverture {
         : players_(players),
           sum_(sum),
           rounds_(players.tracer, players.cache, players.executor, players.contexts,
-                  players.exchange, players.stop, after_round_) {}
+                  players.exchange, players.stop,
+                  [this](std::size_t left) { tell_of_round(left); }) {}
 
     /// False: stopped.
     [[nodiscard]] bool play(const FrameOptions& coarse) {
@@ -156,6 +156,10 @@ class DeterministicOverture {
                       [](const BlockPixels&, int) {});
     }
 
+    /// @param left  points that the round has left
+    void tell_of_round(std::size_t left) {
+        tell(1 - (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points_));
+    }
     void tell(double done) {
         told_ = done;
         sum_.tell(step_,
@@ -167,9 +171,6 @@ class DeterministicOverture {
     int step_ = 1;            ///< of the picture at hand
     std::size_t points_ = 0;  ///< that its pixels miss
     double told_ = 0;
-    std::function<void(std::size_t)> after_round_ = [this](std::size_t left) {
-        tell(1 - (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points_));
-    };
     AmbientRounds rounds_;
 };
 

@@ -28,7 +28,7 @@ std::optional<std::string> environment(const std::string& name) {
 /// Home directory of a user, of the caller for ""; nothing for an unknown user.
 std::optional<std::string> home_directory(const std::string& user) {
     if (user.empty()) {
-        const std::optional<std::string> home = environment("HOME");
+        std::optional<std::string> home = environment("HOME");
         if (home && !home->empty()) return home;
     }
     std::vector<char> buffer(16384);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include "core/ambient/ambient_cache.h"
 #include "parallel/ranks/message.h"
@@ -16,6 +17,12 @@ class ExchangingCache final : public AmbientCache {
     ///               whichever thread made the last of them
     ExchangingCache(AmbientCache& cache, std::size_t batch, std::function<void(AmbientValues)> send)
         : cache_(cache), batch_(batch), send_(std::move(send)) {}
+
+    /// Own values that do not make a batch yet, and need not be sent any more.
+    [[nodiscard]] AmbientValues unsent() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(own_, {});
+    }
 
     /// Values of other ranks, which are not sent on.
     void take(std::span<const AmbientRecord> records) {

@@ -10,6 +10,9 @@ class LocalEnd {
     /// A message to Role::tracer, cache or program of this rank. Called by the thread that serves
     /// the messages, which must not wait here.
     virtual void take(Envelope envelope) = 0;
+    /// Ambient values that were made here and wait to be sent. Called by the same thread, every
+    /// second and at the end.
+    [[nodiscard]] virtual AmbientValues unsent_values() { return {}; }
 };
 
 }  // namespace lightwalk

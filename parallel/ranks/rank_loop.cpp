@@ -151,7 +151,7 @@ bool RankLoop::run(const StopFlag& stop) {
         const bool posted = serve_posted();
         const Farewell before = farewell_;
         const bool served = serve_arrived() || posted;
-        ask_for_values();
+        exchange_values_in_time();
         say_goodbye();
         if (served || farewell_ != before) {
             wait = kShortestWait;
@@ -170,13 +170,21 @@ bool RankLoop::run(const StopFlag& stop) {
     return whole;
 }
 
-/// A rank that makes no values is told of others' all the same, for the files that it keeps.
-void RankLoop::ask_for_values() {
+/// Values go out now and then also where they do not make a batch, and a rank that makes none is
+/// told of others' all the same: rank 0 may keep a file of them.
+void RankLoop::exchange_values_in_time() {
     constexpr std::chrono::seconds kOften{1};
-    if (!ambient_client_ || worker_ || chunk_worker_ || farewell_ != Farewell::none) return;
+    if (!ambient_client_ || farewell_ != Farewell::none) return;
     const auto now = std::chrono::steady_clock::now();
-    if (now - asked_ < kOften) return;
-    asked_ = now;
+    if (now - exchanged_ < kOften) return;
+    exchanged_ = now;
+    exchange_values();
+}
+
+void RankLoop::exchange_values() {
+    const Address client{transport_.rank(), Role::ambient_client};
+    AmbientValues own = local_.unsent_values();
+    if (!own.records.empty()) dispatch({{client.rank, Role::cache}, client, std::move(own)});
     Outbox out;
     ambient_client_->ask(out);
     for (Envelope& envelope : out) dispatch(std::move(envelope));
@@ -191,18 +199,13 @@ void RankLoop::say_goodbye() {
     }
     const bool asks = ambient_client_.has_value();
     if (asks && ambient_client_->waits_for_answer()) return;
-    const auto ask = [&] {
-        Outbox out;
-        ambient_client_->ask(out);
-        for (Envelope& envelope : out) dispatch(std::move(envelope));
-    };
     const auto say = [&](std::uint32_t round) {
         dispatch({{transport_.rank(), Role::worker}, {0, Role::master}, Gather{round, {}}});
     };
     switch (farewell_) {
         case Farewell::none:
             farewell_ = Farewell::telling;
-            if (asks) ask();
+            if (asks) exchange_values();
             return;
         case Farewell::telling:
             farewell_ = Farewell::told;
@@ -210,7 +213,7 @@ void RankLoop::say_goodbye() {
             return;
         case Farewell::heard:
             farewell_ = Farewell::hearing;
-            if (asks && transport_.rank() == 0) ask();
+            if (asks && transport_.rank() == 0) exchange_values();
             return;
         case Farewell::hearing:
             farewell_ = Farewell::said;

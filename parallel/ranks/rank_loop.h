@@ -74,7 +74,8 @@ class RankLoop {
     void make_chunk_roles(const RankSettings& settings);
     void begin();
     void say_goodbye();
-    void ask_for_values();
+    void exchange_values_in_time();
+    void exchange_values();
     void serve_broadcast();
     [[nodiscard]] bool serve_posted();
     [[nodiscard]] bool serve_arrived();
@@ -97,8 +98,8 @@ class RankLoop {
     std::optional<AmbientMasterRole> ambient_master_;
     std::optional<AmbientClientRole> ambient_client_;
     mutable std::mutex counts_mutex_;
-    MessageCounts counts_;                         ///< guarded by it
-    std::chrono::steady_clock::time_point asked_;  ///< last, for ambient values
+    MessageCounts counts_;                             ///< guarded by it
+    std::chrono::steady_clock::time_point exchanged_;  ///< when values were, last
 
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable answered_;

@@ -68,6 +68,14 @@ bool comes_true(const std::function<bool()>& condition) {
     return true;
 }
 
+/// Whether there is more in a checkpoint than what it begins with.
+bool holds_blocks(const std::string& checkpoint) {
+    constexpr std::uintmax_t kHeader = 4000;  // bytes
+    std::error_code none;
+    const std::uintmax_t size = std::filesystem::file_size(checkpoint, none);
+    return !none && size > kHeader;
+}
+
 std::vector<std::string> with(std::vector<std::string> words,
                               const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
@@ -242,7 +250,7 @@ TEST_CASE(
     "render: a run that is killed goes on from its checkpoint, with any split, to the same bytes") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
-    const std::vector<std::string> slow{"-x", "1800", "-y", "1200", "-ps", "1"};
+    const std::vector<std::string> slow{"-x", "900", "-y", "600", "-ps", "1"};
     const std::string checkpoint = folder.path("blocks");
     const ProgramResult whole =
         run_program(line(with(slow, {"-o", folder.path("whole.hdr"), scene})));
@@ -252,12 +260,7 @@ TEST_CASE(
     const std::vector<std::string> kept{"--checkpoint", checkpoint, "-o", out, scene};
     {
         RunningProgram program(line(with(slow, with({"-n", "1"}, kept))));
-        constexpr std::uintmax_t kSomeBlocks = 100'000;  // bytes
-        REQUIRE(comes_true([&] {
-            std::error_code none;
-            const std::uintmax_t size = std::filesystem::file_size(checkpoint, none);
-            return !none && size > kSomeBlocks;
-        }));
+        REQUIRE(comes_true([&] { return holds_blocks(checkpoint); }));
     }  // killed
     CHECK_FALSE(std::filesystem::exists(out));
     REQUIRE(std::filesystem::exists(checkpoint));
@@ -282,6 +285,40 @@ TEST_CASE(
     CHECK(rest.status == 0);
     CHECK(pixel_bytes(read_whole(out)) == expected);
     CHECK_FALSE(std::filesystem::exists(checkpoint));
+}
+
+TEST_CASE("render: a run with indirect light that is killed goes on from the values it had") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", kRoom);
+    const std::string checkpoint = folder.path("blocks"), values = checkpoint + "-ambient";
+    const std::string out = folder.path("out.hdr"), stats = folder.path("stats.json");
+    const std::vector<std::string> light{"-x",  "600",     "-y",  "450", "-ps", "1",   "-ab",
+                                         "1",   "-ad",     "64",  "-as", "0",   "-aa", ".1",
+                                         "-w-", "--stats", stats, "-o",  out,   scene};
+    const auto computed = [&](const std::vector<std::string>& more) {
+        const ProgramResult result = run_program(line(with(more, light)));
+        CHECK(result.status == 0);
+        CHECK(result.err.empty());
+        return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
+    };
+    const int whole = computed({});
+    std::filesystem::remove(out);
+    {
+        RunningProgram program(line(with({"-n", "1", "--checkpoint", checkpoint}, light)));
+        REQUIRE(comes_true([&] { return holds_blocks(checkpoint); }));
+    }  // killed
+    CHECK_FALSE(std::filesystem::exists(out));
+    REQUIRE(std::filesystem::exists(values));
+    const ProgramResult again = run_program(line(with({"--checkpoint", checkpoint}, light)));
+    CHECK(again.status == 1);
+    CHECK(again.err.find(values) != std::string::npos);
+    CHECK(computed({"--checkpoint", checkpoint, "--resume"}) < whole / 2);
+    CHECK(std::filesystem::exists(out));
+    CHECK_FALSE(std::filesystem::exists(checkpoint));
+    CHECK_FALSE(std::filesystem::exists(values));
+    // A deterministic run finds the same values again.
+    (void)computed({"--deterministic", "-x", "60", "-y", "40", "--checkpoint", checkpoint});
+    CHECK_FALSE(std::filesystem::exists(values));
 }
 
 namespace {

@@ -26,6 +26,8 @@ TEST_CASE("own values go out by the batch, others' come in and are not sent on")
         cache, 3, [&](const AmbientValues& values) { batches.push_back(values.records.size()); });
     for (int i = 0; i < 7; ++i) exchanging.insert(record_at(static_cast<float>(i)));
     CHECK(batches == std::vector<std::size_t>{3, 3});
+    CHECK(exchanging.unsent().records.size() == 1);
+    CHECK(exchanging.unsent().records.empty());
     const std::vector<AmbientRecord> others{record_at(8), record_at(8.5F)};
     exchanging.take(others);
     CHECK(batches.size() == 2);

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <thread>
+#include <utility>
 
 using namespace lightwalk;
 
@@ -18,7 +19,10 @@ class Ends final : public LocalEnd {
     std::vector<FinishedPicture> pictures;
     std::function<void()> on_finish;
     std::atomic<int> pictures_there{0};
+    AmbientValues unsent;   ///< were made here
+    std::size_t heard = 0;  ///< values of others
 
+    [[nodiscard]] AmbientValues unsent_values() override { return std::exchange(unsent, {}); }
     void take(Envelope envelope) override {
         if (const auto* given = std::get_if<GiveBlocks>(&envelope.message)) {
             for (const JobBlock& block : given->blocks) {
@@ -31,6 +35,8 @@ class Ends final : public LocalEnd {
         } else if (std::holds_alternative<Finish>(envelope.message)) {
             finished = true;
             loop->end();
+        } else if (const auto* values = std::get_if<AmbientValues>(&envelope.message)) {
+            heard += values->records.size();
         }
     }
 };
@@ -58,6 +64,7 @@ TEST_CASE("ranks that are threads render a picture over the wire, gather and say
                               ends);
                 ends.loop = &loop;
                 ends.rank = rank;
+                ends.unsent.records.resize(3);  // not enough for a batch
                 std::thread program([&] {
                     const std::vector<std::string> all = loop.all_gather(std::to_string(rank));
                     bool same = static_cast<int>(all.size()) == ranks;
@@ -76,6 +83,7 @@ TEST_CASE("ranks that are threads render a picture over the wire, gather and say
                 program.join();
                 if (rank == 0) {
                     CHECK(ends.pictures.size() == 3);
+                    CHECK(ends.heard == 3 * static_cast<std::size_t>(ranks - 1));
                 }
             });
         }
