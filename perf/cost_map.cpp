@@ -16,6 +16,7 @@
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
 #include "core/error.h"
+#include "io/files/file_source.h"
 #include "parallel/block_renderer.h"
 #include "parallel/overture.h"
 #include "parallel/ranks/piece_codec.h"
@@ -70,7 +71,8 @@ class Measurement {
     explicit Measurement(RenderCommand command)
         : command_(std::move(command)),
           warnings_("cost_map"),
-          session_((settle_scene_files(command_.common, ""), command_.common), warnings_) {
+          session_((settle_scene_files(command_.common, "", *real_files()), command_.common),
+                   warnings_) {
         session_.build(command_.settings);
     }
 
@@ -207,7 +209,7 @@ class Measurement {
 
 int main(int count, char** words) {
     try {
-        Measurement measurement(parse_render_command({words + 1, words + count}));
+        Measurement measurement(parse_render_command({words + 1, words + count}, real_files()));
         std::printf("%s\n", measurement.run().dump().c_str());
         return 0;
     } catch (const std::exception& error) {

@@ -45,7 +45,8 @@ std::string text(const std::vector<double>& values) {
     std::string result;
     for (const double value : values) {
         const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
-        result += (result.empty() ? "" : " ") + text(whole ? "%.0f" : "%g", value);
+        if (!result.empty()) result += ' ';
+        result += text(whole ? "%.0f" : "%g", value);
     }
     return result;
 }
