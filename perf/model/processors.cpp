@@ -14,7 +14,7 @@ Processors::Processors(int cores, std::vector<double> crowding, double looks, do
 double Processors::speed() const {
     if (ends_.empty()) return 0;
     const double wanted = static_cast<double>(ends_.size()) + background_;
-    const int busy = std::min(static_cast<int>(std::ceil(wanted)), cores_);
+    const int busy = std::clamp(static_cast<int>(std::lround(wanted)), 1, cores_);
     const double time = crowding_[std::min(static_cast<std::size_t>(busy), crowding_.size()) - 1];
     return (wanted < cores_ ? 1 : (cores_ - looks_) / wanted) / time;
 }

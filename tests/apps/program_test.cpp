@@ -123,7 +123,15 @@ ProgramResult RunningProgram::finish(const std::string& input) {
 
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input,
                           const std::vector<std::string>& launcher) {
-    return RunningProgram(words, launcher).finish(input);
+    // Open MPI 4's mpirun itself may die while it passes input on: open-mpi/ompi issue 7483.
+    constexpr int kTries = 3;
+    for (int tries = 1;; ++tries) {
+        ProgramResult result = RunningProgram(words, launcher).finish(input);
+        const bool launcher_died =
+            result.status == 128 + SIGSEGV && result.err.find("orte_iof_hnp") != std::string::npos;
+        if (launcher.empty() || !launcher_died || tries == kTries) return result;
+        MESSAGE("mpirun itself died; once more");
+    }
 }
 
 std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std::string>& more) {
