@@ -5,7 +5,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kSameSide = 0.985;  ///< cosine of normals whose values serve each other
+constexpr double kServingCosine = 0.985;  ///< cosine of normals whose values serve each other
 
 }  // namespace
 
@@ -13,7 +13,7 @@ const ClaimTable::Entry* ClaimTable::find(const AmbientQuery& query) const {
     for (const Entry& entry : entries_) {
         const AmbientQuery& other = entry.query;
         if (other.level == query.level && other.weight >= query.weight &&
-            dot(other.normal, query.normal) > kSameSide &&
+            dot(other.normal, query.normal) > kServingCosine &&
             length_squared(other.position - query.position) < reach_ * reach_)
             return &entry;
     }
