@@ -6,8 +6,23 @@ namespace lightwalk {
 namespace {
 
 using std::chrono::microseconds;
-// A rank that has just heard something will soon hear more; one that has not looks less often.
-constexpr microseconds kShortestWait{50}, kLongestWait{2000};
+
+/// How soon to look again after a message has come (soon there will be more), and how late at most.
+/// Looking takes some 10 us of a core: where threads have blocks ahead of them, and lose nothing by
+/// a later answer, it is done less. Without other ranks nothing comes by itself but a signal's
+/// request to stop.
+struct Patience {
+    microseconds shortest, longest;
+};
+constexpr Patience kOneThread{microseconds{50}, microseconds{2000}};
+constexpr Patience kThreads{microseconds{200}, microseconds{2000}};
+constexpr Patience kAlone{microseconds{20000}, microseconds{20000}};
+
+Patience patience_of(const Topology& topology) {
+    if (topology.ranks == 1) return kAlone;
+    return topology.traces(0) ? kThreads : kOneThread;
+}
+
 constexpr std::uint32_t kAmongTracers = 0x80000000;  ///< bit of the rounds of these alone
 constexpr std::uint32_t kLastValues = 0xfffffffe,
                         kGoodbye = 0xffffffff;  ///< the last rounds of all
@@ -145,7 +160,8 @@ void RankLoop::end() {
 
 bool RankLoop::run(const StopFlag& stop) {
     begin();
-    microseconds wait = kShortestWait;
+    const Patience patience = patience_of(topology_);
+    microseconds wait = patience.shortest;
     while (farewell_ != Farewell::over && !stop.requested()) {
         serve_broadcast();
         const bool posted = serve_posted();
@@ -154,11 +170,11 @@ bool RankLoop::run(const StopFlag& stop) {
         exchange_values_in_time();
         say_goodbye();
         if (served || farewell_ != before) {
-            wait = kShortestWait;
+            wait = patience.shortest;
             continue;
         }
         transport_.wait(wait);
-        wait = std::min(kLongestWait, 2 * wait);
+        wait = std::min(patience.longest, 2 * wait);
     }
     {
         const std::lock_guard lock(mutex_);

@@ -79,8 +79,10 @@ void WorkerRole::share_out(Pixels pixels, Outbox& out) {
         out.push_back(
             {options_.self, {(*options_.workers)[i], Role::worker}, cut_pixels(pixels, parts[i])});
     }
-    Pixels own = cut_pixels(pixels, parts[options_.index]);
-    if (!own.work.block.empty()) store(std::move(own), out);
+    const PixelRectangle own = common(pixels.work.block, parts[options_.index]);
+    if (own.empty()) return;
+    const bool whole = own.pixels() == pixels.work.block.pixels();
+    store(whole ? std::move(pixels) : cut_pixels(pixels, parts[options_.index]), out);
 }
 
 void WorkerRole::store(Pixels pixels, Outbox& out) {
