@@ -6,23 +6,6 @@ namespace lightwalk {
 namespace {
 
 using std::chrono::microseconds;
-
-/// How soon to look again after a message has come (soon there will be more), and how late at most.
-/// Looking takes some 10 us of a core: where threads have blocks ahead of them, and lose nothing by
-/// a later answer, it is done less. Without other ranks nothing comes by itself but a signal's
-/// request to stop.
-struct Patience {
-    microseconds shortest, longest;
-};
-constexpr Patience kOneThread{microseconds{50}, microseconds{2000}};
-constexpr Patience kThreads{microseconds{200}, microseconds{2000}};
-constexpr Patience kAlone{microseconds{20000}, microseconds{20000}};
-
-Patience patience_of(const Topology& topology) {
-    if (topology.ranks == 1) return kAlone;
-    return topology.traces(0) ? kThreads : kOneThread;
-}
-
 constexpr std::uint32_t kAmongTracers = 0x80000000;  ///< bit of the rounds of these alone
 constexpr std::uint32_t kLastValues = 0xfffffffe,
                         kGoodbye = 0xffffffff;  ///< the last rounds of all
@@ -44,6 +27,11 @@ std::size_t workers_of(const std::vector<Address>& children) {
 }
 
 }  // namespace
+
+Patience patience_of(const Topology& topology) {
+    if (topology.ranks == 1) return {microseconds{20000}, microseconds{20000}};
+    return {topology.traces(0) ? microseconds{200} : microseconds{50}, microseconds{2000}};
+}
 
 RankLoop::RankLoop(Transport& transport, const Topology& topology, const RankSettings& settings,
                    LocalEnd& local, Timeline* timeline)

@@ -30,6 +30,15 @@ struct RankSettings {
     bool rays = false;  ///< chunks of rays are traced, and no pictures; one master for all
 };
 
+/// How soon a rank's loop looks again after a message has come (soon there will be more), and how
+/// late at most: each time it finds nothing it waits twice as long. Looking takes some 10 us of a
+/// core: where threads have blocks ahead of them, and lose nothing by a later answer, it is done
+/// less. Without other ranks nothing comes by itself but a signal's request to stop.
+struct Patience {
+    std::chrono::microseconds shortest, longest;
+};
+[[nodiscard]] Patience patience_of(const Topology& topology);
+
 /// Serves the messages of one rank on the thread that calls run(). Where nothing is to be done it
 /// sleeps: it takes no core from those who trace.
 class RankLoop {

@@ -12,8 +12,7 @@ Machine read_machine(const nlohmann::json& json) {
         {"latency", &m.latency},     {"overhead", &m.overhead},
         {"byte_work", &m.byte_work}, {"gap", &m.gap},
         {"byte_gap", &m.byte_gap},   {"step", &m.step},
-        {"oversleep", &m.oversleep}, {"shortest_wait", &m.shortest_wait},
-        {"wake", &m.wake},           {"longest_wait", &m.longest_wait},
+        {"oversleep", &m.oversleep}, {"wake", &m.wake},
         {"look", &m.look},           {"background", &m.background},
         {"slowness", &m.slowness},   {"value_work", &m.value_work}};
     try {

@@ -21,10 +21,9 @@ struct Machine {
     /// Whether who waits for messages sleeps between two looks, as RankLoop does: a message that
     /// arrives meanwhile waits for the next look. Else it is taken at once.
     bool sleeps = true;
-    double shortest_wait = 50e-6, longest_wait = 2e-3;  ///< as in parallel/ranks/rank_loop.cpp
-    double oversleep = 60e-6;                           ///< by which sleeping takes longer
-    double wake = 30e-6;                                ///< until a thread that is woken runs
-    double look = 5e-6;                                 ///< processor time of a look
+    double oversleep = 60e-6;  ///< by which sleeping takes longer
+    double wake = 30e-6;       ///< until a thread that is woken runs
+    double look = 5e-6;        ///< processor time of a look
 
     int node_cores = 1;  ///< of a node
     int node_ranks = 1;  ///< that share them; 0: all ranks are on one node

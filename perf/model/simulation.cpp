@@ -1,11 +1,13 @@
 #include "perf/model/simulation.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "parallel/blocks.h"
+#include "parallel/ranks/rank_loop.h"
 #include "perf/model/simulation_state.h"
 
 namespace lightwalk {
@@ -35,6 +37,9 @@ Simulation::Simulation(const CostMap& map, const Machine& machine, const Simulat
     } else {
         topology_ = make_topology(run.variant, run.ranks, exchange, run.masters);
     }
+    const Patience patience = patience_of(topology_);
+    shortest_wait_ = std::chrono::duration<double>(patience.shortest).count();
+    longest_wait_ = std::chrono::duration<double>(patience.longest).count();
     if (run.ambient) {
         sites_ = std::make_unique<AmbientSites>(map, kReach, run.seed);
         picture_ = map.overture.width > 0 ? 1 : 0;
@@ -46,7 +51,7 @@ Simulation::Simulation(const CostMap& map, const Machine& machine, const Simulat
     const double on_node = static_cast<double>(ranks_.size()) / static_cast<double>(nodes);
     const double looks =
         machine.sleeps && run.variant != Variant::threads
-            ? on_node * machine.look * machine.slowness / (machine.longest_wait + machine.oversleep)
+            ? on_node * machine.look * machine.slowness / (longest_wait_ + machine.oversleep)
             : 0;
     nodes_.assign(nodes,
                   Processors(machine.node_cores, machine.crowding, looks, machine.background));
@@ -143,7 +148,7 @@ void Simulation::start_threads() {
 /// The ranks ask for their first blocks long before, at no particular time.
 void Simulation::submit() {
     std::mt19937_64 random(run_.seed);
-    std::uniform_real_distribution<double> early(0, machine_.longest_wait);
+    std::uniform_real_distribution<double> early(0, longest_wait_);
     for (std::size_t r = 0; r < ranks_.size(); ++r) {
         Rank& rank = ranks_[r];
         double clock = -kHeadStart - early(random);
@@ -214,14 +219,14 @@ void Simulation::put_in(std::size_t number, Envelope envelope, double look) {
 /// When a sleeping loop sees what arrives now: it sleeps ever longer, see RankLoop::run().
 double Simulation::next_look(const Rank& rank) const {
     if (!machine_.sleeps || now_ <= rank.busy_until) return std::max(now_, rank.busy_until);
-    double look = rank.idle_from, wait = machine_.shortest_wait;
+    double look = rank.idle_from, wait = shortest_wait_;
     while (look < now_) {
-        if (wait >= machine_.longest_wait) {
-            const double each = machine_.longest_wait + machine_.oversleep;
+        if (wait >= longest_wait_) {
+            const double each = longest_wait_ + machine_.oversleep;
             return look + each * std::ceil((now_ - look) / each);
         }
         look += wait + machine_.oversleep;
-        wait = std::min(machine_.longest_wait, 2 * wait);
+        wait = std::min(longest_wait_, 2 * wait);
     }
     return look;
 }

@@ -103,7 +103,8 @@ class Simulation {
     PixelRectangle overture_area_;
     std::unique_ptr<AmbientSites> sites_;
     Topology topology_;
-    JobId picture_ = 0;  ///< number of the picture's job
+    double shortest_wait_ = 0, longest_wait_ = 0;  ///< see Patience [s]
+    JobId picture_ = 0;                            ///< number of the picture's job
     std::vector<Rank> ranks_;
     std::vector<Processors> nodes_;
     std::vector<std::uint32_t> versions_;  ///< of what is known of a node's next end

@@ -1,6 +1,6 @@
 """The scaling model: its input is measured, its predictions are held against measured runs, and then it tells of
 machines that are not at hand."""
-import json, os, statistics
+import copy, json, os, statistics
 
 import svg_plot
 from experiments import PAPER, picture, print_table, save
@@ -25,12 +25,17 @@ def measure_machine(program):
     return {name: min(run[name] for run in runs) for name in runs[0]}
 
 
-def model_inputs(program, options, view, extra, tag="direct", size=None):
+def width(options, light):
+    """Of the measured pictures. With direct light alone they are larger, so that all runs last long enough to be timed."""
+    return 2 * options.size if light == "direct" else options.size
+
+
+def model_inputs(program, options, view, extra, tag):
     """Cost map and machines; the files stay in the folder, for --predict-only."""
     path = options.out / f"cost-{program.scene.name}-{tag}.json"
     costs = options.out / "message-costs.json"
     if not (options.predict_only and path.is_file()):
-        write_cost_map(program, path, view, size or options.size, extra, options.cores)
+        write_cost_map(program, path, view, width(options, tag), extra, options.cores)
     if not (options.predict_only and costs.is_file()):
         costs.write_text(json.dumps(measure_machine(program), indent=1) + "\n")
     crowding = json.loads(path.read_text())["crowding"]
@@ -86,18 +91,18 @@ def calibrate(program, options, inputs, measured, light):
     return names
 
 
-def validate(program, options):
+def validate(program, options, inputs_of):
     scene, view, rows = program.scene, program.scene.views[0], []
     for light, extra in (("direct", ()), ("ambient", scene.ambient)):
-        inputs = model_inputs(program, options, view, extra, light)
+        inputs, size = copy.deepcopy(inputs_of[light]), picture(width(options, light))
         cases, wanted = {}, []
         for split, words, more in validation_cases(options.cores):
             name = " ".join(map(str, [split, *words]))
-            cases[name] = (split, ["-vf", view, *picture(options.size), *extra, *words])
+            cases[name] = (split, ["-vf", view, *size, *extra, *words])
             wanted.append(case(name, split, **more))
         if light == "ambient":
             name = "ranks 4 --ambient-batch 0"
-            cases[name] = (Split("ranks", 4), ["-vf", view, *picture(options.size), *extra, "--ambient-batch", 0])
+            cases[name] = (Split("ranks", 4), ["-vf", view, *size, *extra, "--ambient-batch", 0])
             wanted.append(case(name, Split("ranks", 4), ambient_batch=0))
         measured_file = options.out / f"measured-{light}.json"
         if options.predict_only and measured_file.is_file():
@@ -211,11 +216,11 @@ def predict_large(program, options, inputs, tag):
 
 def run(program, options):
     view, scene = program.scene.views[0], program.scene
-    rows = validate(program, options)
-    fine = model_inputs(program, options, view, (), "direct-fine", 2 * options.size)
-    paper = t3e(program, options, fine)
-    large = predict_large(program, options, fine, "direct")
-    ambient = model_inputs(program, options, view, scene.ambient, "ambient")
-    large_ambient = predict_large(program, options, ambient, "ambient")
-    save(options.out, "model", about(scene, options.size), machine_figures=fine["machines"], validation=rows, t3e=paper,
+    inputs = {light: model_inputs(program, options, view, extra, light)
+              for light, extra in (("direct", ()), ("ambient", scene.ambient))}
+    rows = validate(program, options, inputs)
+    paper = t3e(program, options, inputs["direct"])
+    large = predict_large(program, options, inputs["direct"], "direct")
+    large_ambient = predict_large(program, options, inputs["ambient"], "ambient")
+    save(options.out, "model", about(scene, options.size), machine_figures=inputs["direct"]["machines"], validation=rows, t3e=paper,
          large=large, large_ambient=large_ambient, cores_at_hand=os.cpu_count())

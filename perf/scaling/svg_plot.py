@@ -3,8 +3,8 @@ import math
 from xml.sax.saxutils import escape
 
 COLOURS = ["#1b6ca8", "#d1495b", "#3a7d44", "#edae49", "#6a4c93", "#00798c", "#8d6a4f", "#555555"]
-WIDTH, HEIGHT = 700, 400
-LEFT, RIGHT, TOP, BOTTOM = 64, 230, 36, 48
+WIDTH, HEIGHT = 730, 400
+LEFT, RIGHT, TOP, BOTTOM = 64, 260, 36, 48
 
 
 class Axis:
