@@ -7,6 +7,7 @@ constexpr const char* kProgramHelp =
     R"(lightwalk: physically based pictures of Radiance scenes.
 
   lightwalk render OPTIONS SCENE...   a picture of a view          (like rpict)
+  lightwalk animate OPTIONS SCENE...  the frames of a walk
   lightwalk trace OPTIONS SCENE...    radiance along single rays   (like rtrace)
   lightwalk info SCENE...             what a scene holds
   lightwalk help COMMAND              how to use one of them
@@ -91,6 +92,55 @@ Many processes, on one machine or many: mpirun -n RANKS lightwalk render ...
   --quiet            no progress, no warnings; -w- alone: no warnings
 )";
 
+constexpr const char* kAnimateHelp =
+    R"(lightwalk animate OPTIONS SCENE...
+
+Compute the frames of a walk. Options are those of `lightwalk render`, but for -S and the checkpoint; what a frame has
+in common with those before it is not traced again.
+
+  -o FILE            name of the frames' files, with %d or %04d for their numbers, from 1: frame%04d.hdr .exr .png .jpg.
+                     Pictures for the screen are all exposed as the first one (--exposure EV: fixed).
+                     FILE.mp4: a film, by the program ffmpeg where it is installed
+  --fps N            of a film: frames a second, default 25
+
+The walk, one of
+  --path FILE        a file of views, one a line: "VIEW= -vp X Y Z -vd X Y Z ..."; what a line leaves out is as in the line
+                     before. A number before it is its time in seconds, otherwise a second passes. Each line is a
+                     frame; with --frames N, N of them are spread over the time, on a smooth path through the views
+  --rotate DEGREES   a turn to the right, about the view's up vector, by so much in all. Needs --frames
+  --walk MOVE        turn, forward, backward, left or right, from the view of the command line. Needs --frames
+  --step PERCENT     of a move: share of the field of view, default 1. A turn's step is that share of -vh; a step
+                     sideways shifts what the middle of the first picture shows by that share of the picture's width;
+                     steps forward and backward are as long
+  --frames N         number of frames
+
+Reuse. Every traced pixel leaves a point: where its light came from, and how much. Later frames take points instead of
+rays wherever these are true.
+  --reuse WHAT       off: every pixel of every frame is traced; cloud: a point lasts while each frame uses it;
+                     supersaturated (default): others stay, too, until they leave the view or grow old
+  --cloud-age N      supersaturated: frames that a point outlives unused, default 25
+  --cloud-limit N    points are at most N times the pixels, default 4
+  --check WHICH      of which pixels a ray tells what is there, so that no other thing's point shows: all (default),
+                     edges (where points are missing or jump in depth, and the picture's rim), none
+  --drop WHICH       where no ray tells: hidden: points far behind most of those around them are dropped; lonely: those
+                     far from all around them; both (default), none
+  --look WHERE       back (default): a pixel takes the nearest point of what its ray meets; forward: only a point that
+                     falls onto it
+  --near PIXELS      back: a point so near is as good as a ray (.7)
+  --reach PIXELS     back: where the points around agree, one so near will do (1.5, which is the most)
+  --contrast PERCENT back: they agree when the darkest and the brightest differ by no more (10)
+  --specular-tolerance PERCENT  how far a colour that depends on the view may be off before it is traced anew (20; few
+                     colours come near this bound)
+  --audit PERCENT    of the reused pixels are traced all the same, a quarter of these twice; --stats has the errors, and
+                     how much two rays of a pixel differ. Default 1
+  --audit-limit PERCENT  when so many more of them are off by a tenth than two rays differ by as much, reuse is
+                     tightened (ages, angles, distances) until it holds, then slowly loosened. Default 5, 0: never
+  --budget MS        milliseconds a frame: the worst holes are traced first, what does not fit is filled from around
+                     it, and traced in later frames. Default 0: all are traced
+  --refine PERCENT   when a frame has the view of the frame before, that share of its pixels is made better (10): those
+                     filled, then those reused, oldest first, then, with further rays, those at steps of brightness
+)";
+
 constexpr const char* kTraceHelp =
     R"(lightwalk trace OPTIONS SCENE...
 
@@ -139,6 +189,7 @@ cannot be rendered; what could be found out is printed all the same.
 
 const char* help_text(const std::string& command) {
     if (command == "render") return kRenderHelp;
+    if (command == "animate") return kAnimateHelp;
     if (command == "trace") return kTraceHelp;
     if (command == "info") return kInfoHelp;
     return kProgramHelp;

@@ -1,5 +1,7 @@
 #pragma once
 // Ctrl-C and SIGTERM: end cleanly, leaving nothing half-written.
+#include <string>
+
 #include "parallel/stop_flag.h"
 
 namespace lightwalk {
@@ -17,5 +19,9 @@ enum class InterruptPhase {
 void handle_interrupts();
 void set_interrupt_phase(InterruptPhase phase);
 [[nodiscard]] const StopFlag& interrupt_flag();
+
+/// A file that is removed when an interrupt ends the process at once; "": none (any more). At most
+/// one; longer names than the system allows are not remembered.
+void set_interrupt_litter(const std::string& path);
 
 }  // namespace lightwalk

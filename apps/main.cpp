@@ -18,7 +18,8 @@ struct Command {
     const char* name;
     int (*run)(const std::vector<std::string>&, Transport* ranks);
 };
-constexpr Command kCommands[] = {{"render", run_render}, {"trace", run_trace}, {"info", run_info}};
+constexpr Command kCommands[] = {
+    {"render", run_render}, {"animate", run_animate}, {"trace", run_trace}, {"info", run_info}};
 
 /// --help, --version and their Radiance spellings, wherever they stand; nothing: none of them.
 bool answer_questions(const std::string& command, const std::vector<std::string>& words) {
@@ -76,7 +77,8 @@ int run(const std::vector<std::string>& words) {
     try {
         if (started_by_mpi()) ranks = open_mpi();
         // Only pictures and rays are shared out: rank 0 answers everything else.
-        const bool shared = !words.empty() && (words[0] == "render" || words[0] == "trace");
+        const bool shared = !words.empty() &&
+                            (words[0] == "render" || words[0] == "animate" || words[0] == "trace");
         if (ranks && ranks->rank() != 0 && !shared) return kSuccessStatus;
         return dispatch(words, ranks.get());
     } catch (const UsageError& error) {

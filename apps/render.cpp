@@ -1,17 +1,18 @@
-// lightwalk render: pictures of a scene, as rpict makes them.
+// lightwalk render and animate: pictures of a scene, as rpict makes them, one or the frames of a
+// walk.
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <deque>
 #include <filesystem>
 #include <memory>
 
 #include "apps/checkpoint.h"
+#include "apps/cloud_pictures.h"
 #include "apps/commands.h"
+#include "apps/film.h"
 #include "apps/interrupt.h"
 #include "apps/local_pictures.h"
+#include "apps/picture_series.h"
 #include "apps/progress.h"
 #include "apps/rank_pictures.h"
 #include "apps/rank_report.h"
@@ -28,46 +29,14 @@
 namespace lightwalk {
 namespace {
 
-constexpr const char* kProgram = "lightwalk render";
-constexpr std::array<double, 8> kStandardPrimaries{.64, .33, .29, .6, .15, .06, 1.0 / 3, 1.0 / 3};
-
-std::string formatted(const char* format, double value) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
-
-std::string primaries_line(const RenderCommand& command) {
-    std::string line = "PRIMARIES=";
-    for (const double value : command.primaries.value_or(kStandardPrimaries))
-        line += formatted(" %.4f", value);
-    return line;
-}
-
-PictureHeader picture_header(const RenderCommand& command, const Model& model, const View& view,
-                             double pixel_aspect, int frame) {
-    PictureHeader header{history_header(model.header, command.history)};
-    if (frame > 0) header.lines.push_back("FRAME=" + std::to_string(frame));
-    header.lines.push_back("VIEW= " + view_text(view));
-    if (pixel_aspect < 0.995 || pixel_aspect > 1.005) {
-        header.lines.push_back("PIXASPECT=" + formatted("%f", pixel_aspect));
-    }
-    for (const std::string& line : date_lines()) header.lines.push_back(line);
-    if (!command.xyz) header.lines.push_back(primaries_line(command));
-    header.xyz = command.xyz;
-    return header;
-}
-
-void write_to_stdout(const std::string& bytes) {
-    const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
-    if (!whole || std::fflush(stdout) != 0) throw InputError("cannot write standard output");
-}
-
 class RenderRun {
   public:
     /// @param files  where standard input comes from
     RenderRun(RenderCommand command, Transport* transport, FileSource& files)
-        : command_(std::move(command)), transport_(transport), warnings_(kProgram) {
+        : command_(std::move(command)),
+          program_("lightwalk " + command_.name),
+          transport_(transport),
+          warnings_(program_) {
         redirect_messages(command_.common, command_.history);
         const bool speaks = transport_ == nullptr || transport_->rank() == 0;
         warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
@@ -98,12 +67,19 @@ class RenderRun {
         session_->build(command_.settings);
         session_->warn_of_darkness();
         make_threads();
-        LocalPictures pictures(*session_, overture(), *executor_, *contexts_, progress_options(),
-                               warnings_, statistics_);
         open_checkpoint();
-        if (!render_all(pictures)) return kInterruptedStatus;
+        if (!render_all(*local_pictures())) return kInterruptedStatus;
         save_statistics();
         return kSuccessStatus;
+    }
+
+    std::unique_ptr<PictureMaker> local_pictures() {
+        if (command_.walk && command_.walk->reuse)
+            return std::make_unique<CloudPictures>(
+                *session_, overture(), command_.walk->cloud, walk_length(*command_.walk),
+                *executor_, *contexts_, progress_options(), warnings_, statistics_);
+        return std::make_unique<LocalPictures>(*session_, overture(), *executor_, *contexts_,
+                                               progress_options(), warnings_, statistics_);
     }
 
     void make_threads() {
@@ -130,7 +106,7 @@ class RenderRun {
     [[nodiscard]] ProgressOptions progress_options() const {
         const bool bar = !command_.common.quiet && command_.common.error_file.empty() &&
                          isatty(STDERR_FILENO) != 0;
-        return {bar, command_.report_interval, kProgram};
+        return {bar, command_.report_interval, program_};
     }
 
     [[nodiscard]] Overture overture() const {
@@ -140,7 +116,7 @@ class RenderRun {
     }
 
     void save_statistics() {
-        statistics_.command = "render";
+        statistics_.command = command_.name;
         statistics_.read_seconds = session_->read_seconds;
         statistics_.build_seconds = session_->build_seconds;
         if (session_->ambient) {
@@ -173,7 +149,7 @@ class RenderRun {
         // A deterministic run exchanges values in rounds, among all who trace.
         const bool ambient =
             caches_ambient_values(command_.settings.light) && !command_.deterministic;
-        link_ = link_ranks(transport_, command_.common, {kProgram, ambient, false});
+        link_ = link_ranks(transport_, command_.common, {program_, ambient, false});
         if (link_) statistics_.ranks = link_->ranks();
         return link_ != nullptr;
     }
@@ -187,16 +163,6 @@ class RenderRun {
         make_threads();
     }
 
-    [[nodiscard]] FrameOptions frame_options(const PictureSize& size) const {
-        FrameOptions options;
-        options.width = size.width;
-        options.height = size.height;
-        options.pixels = command_.pixels;
-        options.seed = command_.settings.light.seed;
-        options.use_distances = !command_.depth.empty();
-        return options;
-    }
-
     /// What rank 0 orders, until it says that no more comes.
     void trace_orders(RankPictures& pictures) {
         link_->trace(
@@ -205,8 +171,9 @@ class RenderRun {
 
     int follow() {
         prepare();
-        RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
-                              *contexts_, link_->rounds(), warnings_, interrupt_flag());
+        RankPictures pictures(session_->tracer(), frame_options(command_, {}),
+                              session_->freezable.get(), *contexts_, link_->rounds(), warnings_,
+                              interrupt_flag());
         if (link_->traces())
             trace_orders(pictures);
         else
@@ -218,8 +185,9 @@ class RenderRun {
     int lead() {
         prepare();
         session_->warn_of_darkness();
-        RankPictures pictures(session_->tracer(), frame_options({}), session_->freezable.get(),
-                              *contexts_, link_->rounds(), warnings_, interrupt_flag());
+        RankPictures pictures(session_->tracer(), frame_options(command_, {}),
+                              session_->freezable.get(), *contexts_, link_->rounds(), warnings_,
+                              interrupt_flag());
         bool whole = false;
         lead_ranks(
             *link_, [&] { trace_orders(pictures); },
@@ -255,6 +223,11 @@ class RenderRun {
             spacing = kLargestSpacing;
         }
         if (spacing < 1) spacing = 1;
+        if (command_.walk && command_.walk->reuse && spacing > 1) {
+            if (command_.spacing_given)
+                warnings_.warn("-ps ignored: every pixel that is not reused is traced");
+            spacing = 1;
+        }
         if (command_.pixels.samples > 1 && spacing > 1) {
             if (command_.spacing_given)
                 warnings_.warn("-ps ignored: with --samples every pixel is traced");
@@ -262,16 +235,11 @@ class RenderRun {
         }
     }
 
-    struct Wanted {
-        View view;
-        std::optional<View> before;
-        int frame = 0;  ///< number in a sequence; 0: the only picture
-    };
-
     /// What is to be rendered; pictures of a sequence that are there already are left out.
-    [[nodiscard]] std::vector<Wanted> wanted_pictures() {
+    [[nodiscard]] std::vector<WantedPicture> wanted_pictures() {
+        if (command_.walk) return frames_of_walk();
         if (command_.first_frame == 0) return {{command_.view, std::nullopt, 0}};
-        std::vector<Wanted> wanted;
+        std::vector<WantedPicture> wanted;
         int frame = command_.first_frame;
         View before = command_.view;
         for (const View& view : read_view_sequence(read_standard_input(), command_.view)) {
@@ -286,85 +254,27 @@ class RenderRun {
         return wanted;
     }
 
+    [[nodiscard]] std::vector<WantedPicture> frames_of_walk() const {
+        std::vector<WantedPicture> wanted;
+        std::optional<View> before;
+        for (const View& view : walk_views(*command_.walk, command_.view, session_->scene())) {
+            wanted.push_back({view, before, static_cast<int>(wanted.size()) + 1});
+            before = view;
+        }
+        return wanted;
+    }
+
     /// False: interrupted.
     bool render_all(PictureMaker& maker) {
-        const std::vector<Wanted> wanted = wanted_pictures();
-        std::deque<PictureSize> sizes;
-        std::size_t ordered = 0;
-        for (std::size_t taken = 0; taken < wanted.size(); ++taken) {
-            for (; ordered < std::min(wanted.size(), taken + maker.ahead()); ++ordered)
-                sizes.push_back(order(wanted[ordered], maker));
-            const PictureSize size = sizes.front();
-            sizes.pop_front();
-            if (!finish(wanted[taken], size, maker)) return false;
-        }
-        if (checkpoint_) checkpoint_->remove();
+        PictureSeries series(command_, *session_->model, warnings_, statistics_, checkpoint_.get());
+        if (command_.walk) series.keep_exposure();
+        if (!series.make(wanted_pictures(), maker)) return false;
         if (!kept_values_.empty()) std::filesystem::remove(kept_values_);
         return true;
     }
 
-    PictureSize order(const Wanted& wanted, PictureMaker& maker) {
-        const Camera camera(wanted.view);
-        const PictureSize size =
-            fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
-        check_size(size);
-        if (wanted.frame > 0 && command_.report_interval > 0) {
-            std::fprintf(stderr, "FRAME %d:%s\n", wanted.frame, view_text(wanted.view).c_str());
-        }
-        if (is_empty(size)) return size;
-        const auto request = std::make_shared<PictureRequest>(
-            wanted.view, wanted.before ? &*wanted.before : nullptr, frame_options(size));
-        if (checkpoint_)
-            request->keeper = checkpoint_->picture(wanted.frame, request->options.area());
-        maker.order(request);
-        return size;
-    }
-
-    /// False: interrupted.
-    bool finish(const Wanted& wanted, const PictureSize& size, PictureMaker& maker) {
-        set_interrupt_phase(InterruptPhase::request);
-        const Stopwatch watch;
-        const std::optional<Frame> frame = is_empty(size) ? Frame{} : maker.take();
-        statistics_.render_seconds += watch.seconds();
-        statistics_.width = size.width;
-        statistics_.height = size.height;
-        ++statistics_.frames;
-        if (!frame) return false;
-        set_interrupt_phase(InterruptPhase::finish);
-        write(*frame,
-              picture_header(command_, *session_->model, wanted.view, size.pixel_aspect,
-                             wanted.frame),
-              wanted.frame);
-        if (checkpoint_) checkpoint_->forget(wanted.frame);
-        if (interrupt_flag().requested()) return false;
-        set_interrupt_phase(InterruptPhase::leave);
-        return true;
-    }
-
-    static bool is_empty(const PictureSize& size) { return size.width <= 0 || size.height <= 0; }
-
-    void check_size(const PictureSize& size) {
-        constexpr double kMostPixels = 1 << 28;
-        if (is_empty(size)) warnings_.warn("empty output picture");
-        if (static_cast<double>(size.width) * size.height > kMostPixels) {
-            throw UsageError("options -x and -y: more than " + formatted("%.0f", kMostPixels) +
-                             " pixels");
-        }
-    }
-
-    void write(const Frame& frame, const PictureHeader& header, int number) {
-        const Picture picture{frame.width, frame.height, frame.radiance};
-        if (!command_.depth.empty()) {
-            write_depth(frame_name(command_.depth, number), frame.width, frame.height,
-                        frame.distance);
-        }
-        if (command_.output.empty())
-            write_to_stdout(encode_hdr(picture, header));
-        else
-            write_picture(frame_name(command_.output, number), picture, header, command_.tone);
-    }
-
     RenderCommand command_;
+    std::string program_;   ///< how messages name it
     Transport* transport_;  ///< to the other ranks; null: there are none
     StderrWarnings warnings_;
     std::unique_ptr<RankLink> link_;
@@ -376,18 +286,32 @@ class RenderRun {
     RunStatistics statistics_;
 };
 
-}  // namespace
-
-int run_render(const std::vector<std::string>& words, Transport* ranks) {
+int run_pictures(const std::string& name, const std::vector<std::string>& words, Transport* ranks) {
     std::unique_ptr<RenderRun> run;
-    parse_on_ranks(ranks, kProgram, [&](const std::shared_ptr<FileSource>& files) {
-        RenderCommand command = parse_render_command(words, files);
+    parse_on_ranks(ranks, "lightwalk " + name, [&](const std::shared_ptr<FileSource>& files) {
+        RenderCommand command = parse_render_command(name, words, files);
+        if (command.walk && command.walk->reuse && ranks != nullptr)
+            throw UsageError(
+                "points are kept by one process: start it without mpirun, or say --reuse off");
+        const bool writes = ranks == nullptr || ranks->rank() == 0;
+        if (command.walk && !command.show_defaults && writes && is_film(command.output))
+            (void)film_encoder();  // before anything is drawn
         if (!command.show_defaults)
             run = std::make_unique<RenderRun>(std::move(command), ranks, *files);
-        else if (ranks == nullptr || ranks->rank() == 0)
+        else if (writes)
             std::fputs(describe(command).c_str(), stdout);
     });
     return run ? run->run() : kSuccessStatus;
+}
+
+}  // namespace
+
+int run_render(const std::vector<std::string>& words, Transport* ranks) {
+    return run_pictures("render", words, ranks);
+}
+
+int run_animate(const std::vector<std::string>& words, Transport* ranks) {
+    return run_pictures("animate", words, ranks);
 }
 
 }  // namespace lightwalk

@@ -1,5 +1,6 @@
 #include "apps/render_command.h"
 
+#include "apps/film.h"
 #include "core/model/transform_args.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
@@ -130,6 +131,7 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
         return;
     }
     refuse_foreign(word);
+    if (command.walk && parse_walk_option(words, *command.walk)) return;
     if (parse_view(words, command.view, library.files()) || parse_pixel_option(words, command) ||
         parse_output_option(words, command) ||
         parse_render_option(words, library, command.settings) ||
@@ -138,6 +140,8 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
     }
     std::vector<std::string> names = render_option_names();
     names.insert(names.end(), kOwnNames.begin(), kOwnNames.end());
+    if (command.walk)
+        for (std::string& name : walk_option_names()) names.push_back(std::move(name));
     refuse_option(words, std::move(names));
 }
 
@@ -160,17 +164,38 @@ void check(const RenderCommand& command) {
     (void)frame_name(command.depth, 0);
 }
 
+/// A walk's pictures are many, and what is kept from one to the next are points on surfaces.
+void check_walk(const RenderCommand& command) {
+    if (command.first_frame > 0) throw UsageError("option -S: say --path FILE");
+    if (!command.checkpoint.empty())
+        throw UsageError("option --checkpoint: a walk's frames are kept as files, one by one");
+    if (command.output.empty() || (!varies_by_frame(command.output) && !is_film(command.output)))
+        throw UsageError(
+            "name the frames' files with -o, with %d for their numbers: -o f%04d.hdr; or a film: "
+            "-o walk.mp4");
+    if (!command.depth.empty() && !varies_by_frame(command.depth))
+        throw UsageError("option -z: expected %d in the name, for the frames' numbers");
+    if (command.walk->reuse && (command.pixels.aperture > 0 || command.pixels.motion > 0))
+        throw UsageError("options -pd and -pm blur what points show sharp: say --reuse off");
+}
+
 }  // namespace
 
-RenderCommand parse_render_command(const std::vector<std::string>& line,
+RenderCommand parse_render_command(const std::string& name, const std::vector<std::string>& line,
                                    const std::shared_ptr<FileSource>& files) {
     RenderCommand command;
+    command.name = name;
+    if (name == "animate") command.walk.emplace();
     command.settings = default_render_settings(OptionDefaults::rpict);
     const LibraryPath library = LibraryPath::from_environment(files);
     OptionWords words(line, files);
     while (!command.show_defaults && words.at_option()) parse_option(words, library, command);
     check(command);
-    command.history = command_history("render", words, command.common);
+    if (command.walk && !command.show_defaults) {
+        check_walk(command);
+        settle_walk(*command.walk, command.view, *files);
+    }
+    command.history = command_history(name, words, command.common);
     return command;
 }
 

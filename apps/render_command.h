@@ -1,10 +1,11 @@
 #pragma once
-// What the command line of `lightwalk render` says.
+// What the command line of `lightwalk render` or `lightwalk animate` says.
 #include <array>
 #include <optional>
 #include <string>
 
 #include "apps/common_options.h"
+#include "apps/walk_command.h"
 #include "core/view/view.h"
 #include "io/picture/tone.h"
 #include "parallel/pixel_rays.h"
@@ -12,6 +13,7 @@
 namespace lightwalk {
 
 struct RenderCommand {
+    std::string name = "render";  ///< of the command
     CommonOptions common;
     RenderSettings settings;
     View view;
@@ -29,13 +31,16 @@ struct RenderCommand {
     ToneMapping tone;                                ///< --exposure --tone
     bool overture = true;                            ///< --overture auto|off
     bool deterministic = false;                      ///< --deterministic
-    int first_frame = 0;         ///< -S: number of the first frame of a sequence; 0: one picture
-    bool show_defaults = false;  ///< -defaults
-    std::string history;         ///< the command line for the picture's header
+    int first_frame = 0;  ///< -S: number of the first frame of a sequence; 0: one picture
+    std::optional<WalkCommand> walk;  ///< of `lightwalk animate`; nothing for `render`
+    bool show_defaults = false;       ///< -defaults
+    std::string history;              ///< the command line for the picture's header
 };
 
 /// Throws UsageError, and InputError for files that options name.
-[[nodiscard]] RenderCommand parse_render_command(const std::vector<std::string>& words,
+/// @param name  of the command: render or animate
+[[nodiscard]] RenderCommand parse_render_command(const std::string& name,
+                                                 const std::vector<std::string>& words,
                                                  const std::shared_ptr<FileSource>& files);
 
 /// What -defaults prints: every option with its value.

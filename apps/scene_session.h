@@ -14,6 +14,7 @@
 #include "parallel/concurrent_cache.h"
 #include "parallel/freezable_cache.h"
 #include "parallel/recording_cache.h"
+#include "parallel/walk/cloud_frames.h"
 
 namespace lightwalk {
 
@@ -81,6 +82,7 @@ struct RunStatistics {
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;
     int ranks = 1;
+    std::vector<CloudReport> walk;       ///< of each frame that reused others' points
     std::map<int, std::string> reports;  ///< of each rank (see rank_report); empty for one process
 };
 /// Write as JSON, whole or not at all. Throws InputError.

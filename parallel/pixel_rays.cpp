@@ -54,6 +54,8 @@ PixelRay PixelRays::operator()(int x, int y, int sample) const {
     const double h = (x + (0.5 + off.x)) / width_;
     const double v = (y + (0.5 + off.y)) / height_;
     pixel.ray = camera_.ray(h, v);
+    pixel.h = h;
+    pixel.v = v;
     if (!pixel.ray) return pixel;
     if (previous_ != nullptr && options_.motion > kEpsilon)
         pixel.ray = blur_motion(*pixel.ray, h, v, pixel.random);

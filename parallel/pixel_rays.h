@@ -24,6 +24,7 @@ struct PixelOptions {
 struct PixelRay {
     std::optional<Camera::ViewRay> ray;  ///< nothing outside the view's domain
     RandomStream random;
+    double h = 0, v = 0;  ///< its place in the picture, as Camera::ray has it
 };
 
 /// The ray of each pixel as a pure function of the pixel.

@@ -7,12 +7,15 @@ void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<Pixel
     trace_sample(0, places, values, hits);
     if (pixel_rays_.samples() == 1) return;
     more_.resize(places.size());
+    more_hits_.resize(hits.size());
     for (int sample = 1; sample < pixel_rays_.samples() && !stop_.requested(); ++sample) {
-        trace_sample(sample, places, more_, {});
+        trace_sample(sample, places, more_, more_hits_);
         for (std::size_t i = 0; i < places.size(); ++i) values[i].radiance += more_[i].radiance;
+        for (std::size_t i = 0; i < hits.size(); ++i) hits[i].mirrored += more_hits_[i].mirrored;
     }
-    for (PixelValue& value : values)
-        value.radiance *= 1 / static_cast<float>(pixel_rays_.samples());
+    const float share = 1 / static_cast<float>(pixel_rays_.samples());
+    for (PixelValue& value : values) value.radiance *= share;
+    for (PixelHit& hit : hits) hit.mirrored *= share;
 }
 
 void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
@@ -22,7 +25,7 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
     targets_.clear();
     for (std::size_t i = 0; i < places.size(); ++i) {
         values[i] = {};
-        if (!hits.empty()) hits[i] = {true, kNoSurface, kVoid, Vec3{}, kHuge};
+        if (!hits.empty()) hits[i] = {true, kNoSurface, kVoid, Vec3{}, kHuge, Rgb{}};
         const PixelRay pixel = pixel_rays_(places[i].x, places[i].y, sample);
         if (!pixel.ray) continue;
         const double limit = pixel.ray->limit;
@@ -41,8 +44,8 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
         if (hits.empty()) continue;
         // Shading finds sources at infinity; what is nearer was known before.
         const Hit& first = hits_[k].exists() ? hits_[k] : ray.hit;
-        hits[targets_[k]] = {true, first.surface, first.modifier, first.position,
-                             ray.mirrored_distance};
+        hits[targets_[k]] = {true,           first.surface,         first.modifier,
+                             first.position, ray.mirrored_distance, ray.mirrored};
     }
 }
 

@@ -23,7 +23,8 @@ class PixelTracer {
     /// Set values[i], and hits[i] unless `hits` is empty, for places[i]. Pixels outside the view's
     /// domain are black at distance 0 and hit nothing; likewise those that a requested stop leaves
     /// undone. With several samples a pixel: their mean radiance, to which those outside the domain
-    /// add black; distance and hit are the first sample's, which is nearest to the pixel's centre.
+    /// add black; distance and hit are the first sample's, which is nearest to the pixel's centre,
+    /// but for the mirrored radiance, which is the mean.
     void operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                     std::span<PixelHit> hits = {});
 
@@ -40,6 +41,7 @@ class PixelTracer {
     std::vector<Hit> hits_;
     std::vector<std::size_t> targets_;  ///< into places
     std::vector<PixelValue> more_;      ///< of one further sample
+    std::vector<PixelHit> more_hits_;
 };
 
 }  // namespace lightwalk

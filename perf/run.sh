@@ -1,7 +1,7 @@
 #!/bin/sh
-# Measure how Lightwalk scales over ranks and threads. Writes JSON and SVG into a folder.
-# Usage: perf/run.sh table1|splits|stride|ambient-exchange|model [--scenes DIR] [--lightwalk PROGRAM] [--out DIR]
-#        [--size N] [--runs N] [--cores N]                                       README.md beside this file tells more
+# Measure how Lightwalk scales over ranks and threads, and what walks reuse. Writes JSON and SVG into a folder.
+# Usage: perf/run.sh table1|splits|stride|ambient-exchange|model|table2|walkfilm [--scenes DIR] [--lightwalk PROGRAM]
+#        [--out DIR] [--size N] [--runs N] [--cores N] [--frames N]              README.md beside this file tells more
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 # As root mpirun wants to be told twice that this is meant.

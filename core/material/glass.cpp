@@ -12,13 +12,16 @@ namespace lightwalk {
 namespace {
 
 constexpr double kUsualIndex = 1.52;
+constexpr double kNormalReflectance = 0.08;  ///< of a pane of it, both sides together
 constexpr double kDarkest = 1e-15;  ///< transmissivity of a channel of a pane that transmits at all
 
 class Glass final : public Modifier {
   public:
     explicit Glass(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
-    [[nodiscard]] MaterialTraits traits() const override { return {.transparent = true}; }
+    [[nodiscard]] MaterialTraits traits() const override {
+        return {.transparent = true, .appearance = Appearance::pane, .gloss = kNormalReflectance};
+    }
 
   private:
     [[nodiscard]] std::array<double, 3> internal(double cosine_inside) const;

@@ -15,10 +15,13 @@ class Light final : public Modifier {
     explicit Light(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
     [[nodiscard]] MaterialTraits traits() const override {
-        return {.blocks_shadow_rays = type_ != PrimitiveType::illum};
+        return {.blocks_shadow_rays = type_ != PrimitiveType::illum,
+                .appearance = appearance(),
+                .seen = alternate_};
     }
 
   private:
+    [[nodiscard]] Appearance appearance() const;
     [[nodiscard]] bool far_glow(double distance) const;
     [[nodiscard]] bool misses(const Ray& ray, const LightSource* target) const;
     [[nodiscard]] bool shade_alternate(Ray& ray, TraceContext& context) const;
@@ -41,6 +44,11 @@ Light::Light(const ModifierBuild& build) : type_(build.primitive.type), next_(bu
         alternate_ = build.reference(0);
     }
     if (spot) cone_ = spot_cone(primitive);
+}
+
+Appearance Light::appearance() const {
+    if (type_ == PrimitiveType::illum) return Appearance::another;
+    return type_ == PrimitiveType::spotlight ? Appearance::unknown : Appearance::constant;
 }
 
 /// A glow that does not light what is so far away; it is seen by every ray instead.

@@ -13,7 +13,10 @@ class Mirror final : public Modifier {
     explicit Mirror(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
     [[nodiscard]] MaterialTraits traits() const override {
-        return {.blocks_shadow_rays = !has_alternate_};
+        return {.blocks_shadow_rays = !has_alternate_,
+                .appearance = has_alternate_ ? Appearance::another : Appearance::mirror,
+                .gloss = 1,
+                .seen = alternate_};
     }
 
   private:

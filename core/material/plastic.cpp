@@ -29,10 +29,7 @@ class Plastic final : public Modifier {
   public:
     explicit Plastic(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
-    [[nodiscard]] MaterialTraits traits() const override {
-        return {.transparent = type_ == PrimitiveType::trans,
-                .blocks_shadow_rays = type_ != PrimitiveType::trans};
-    }
+    [[nodiscard]] MaterialTraits traits() const override;
 
   private:
     [[nodiscard]] Shading prepare(const Ray& ray, const TraceContext& context) const;
@@ -66,6 +63,20 @@ Plastic::Plastic(const ModifierBuild& build) : type_(build.primitive.type), next
         transmissivity_ = primitive.reals[5];
         transmitted_specular_ = primitive.reals[6];
     }
+}
+
+MaterialTraits Plastic::traits() const {
+    if (type_ == PrimitiveType::trans) return {.transparent = true};
+    MaterialTraits traits{.blocks_shadow_rays = true, .appearance = Appearance::constant};
+    if (specularity_ <= kEpsilon) return traits;
+    traits.appearance = pure_ ? Appearance::polished : Appearance::glossy;
+    traits.gloss = specularity_;
+    traits.roughness = alpha_;
+    // A metal's lobe has its colour, another one's is white.
+    const double color =
+        type_ == PrimitiveType::metal ? 1 : static_cast<double>(brightness(color_));
+    traits.diffuse = color * (1 - specularity_);
+    return traits;
 }
 
 bool Plastic::shade(Ray& ray, TraceContext& context) const {

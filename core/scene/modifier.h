@@ -17,6 +17,18 @@ struct TraceContext;
 class FunctionBinding;
 class FunctionEnvironment;
 
+/// How what a material sends to the eye changes when the eye moves.
+enum class Appearance : std::uint8_t {
+    unknown,   ///< nobody knows
+    constant,  ///< not at all
+    glossy,    ///< it has a rough lobe
+    polished,  ///< constant, dimmed a little by the mirror-like reflection on top of it
+    mirror,    ///< a mirror-like reflection is all there is
+    pane,      ///< what lies behind, straight on, with a mirror-like reflection on top of it
+    absent,    ///< what lies behind, as if the surface were not there
+    another,   ///< as another modifier looks (MaterialTraits::seen)
+};
+
 /// What others have to know of a material before they shade it.
 struct MaterialTraits {
     /// Nominally: light goes through it (trans, glass, ...), however little.
@@ -24,6 +36,13 @@ struct MaterialTraits {
     /// No shadow ray gets through, so that none needs to be shaded. A material that is neither has
     /// to be asked ray by ray.
     bool blocks_shadow_rays = false;
+    /// To primary rays, unless textures turn its normals.
+    Appearance appearance = Appearance::unknown;
+    /// Specular reflectance; of polished ones and mirrors when seen from straight above.
+    double gloss = 0;
+    double roughness = 0;     ///< of glossy ones: rms slope of their facets
+    double diffuse = 0;       ///< of glossy ones: reflectance, where that of the lobe is `gloss`
+    ModifierId seen = kVoid;  ///< what the eye sees instead (Appearance::another)
 };
 
 /// Evaluates one modifier on a ray whose hit is set. Immutable; called from many threads at once.

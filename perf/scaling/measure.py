@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""How Lightwalk scales over ranks and threads; perf/run.sh starts this."""
+"""How Lightwalk scales over ranks and threads, and what walks reuse; perf/run.sh starts this."""
 import argparse, os, pathlib, sys
 
 import experiments
 import model
+import walks
 from runs import ROOT, Program, find_scene
 
 NAMES = {"table1": experiments.table1, "splits": experiments.splits, "stride": experiments.stride,
-         "ambient-exchange": experiments.ambient_exchange, "model": model.run}
+         "ambient-exchange": experiments.ambient_exchange, "model": model.run, "table2": walks.table2, "walkfilm": walks.walkfilm}
 
 
 def main():
@@ -20,11 +21,12 @@ def main():
     parser.add_argument("--size", type=int, default=480, metavar="N", help="width of pictures [pixels]")
     parser.add_argument("--runs", type=int, default=5, metavar="N", help="of each, of which the median counts")
     parser.add_argument("--cores", type=int, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("--frames", type=int, default=50, metavar="N", help="table2, walkfilm: of a walk")
     parser.add_argument("--predict-only", action="store_true",
                         help="model: with the cost maps and figures that an earlier run left in the folder")
     options = parser.parse_args()
-    if options.size < 16 or options.runs < 1 or options.cores < 1:
-        parser.error("--size is at least 16, --runs and --cores at least 1")
+    if options.size < 16 or options.runs < 1 or options.cores < 1 or options.frames < 2:
+        parser.error("--size is at least 16, --frames 2, --runs and --cores 1")
     if not pathlib.Path(options.lightwalk).is_file():
         parser.error(f"there is no program {options.lightwalk}")
     options.out = options.out.resolve()

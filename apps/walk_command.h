@@ -1,0 +1,51 @@
+#pragma once
+// What `lightwalk animate` knows beside the options of `lightwalk render`: the walk, and what is
+// carried on from frame to frame.
+#include <string>
+#include <vector>
+
+#include "core/view/view_path.h"
+#include "io/files/file_source.h"
+#include "io/options/option_words.h"
+#include "parallel/walk/cloud_frames.h"
+
+namespace lightwalk {
+
+class Scene;
+
+struct WalkCommand {
+    /// How the views of the frames come about.
+    enum class Way { none, path, rotate, walk };
+    Way way = Way::none;
+    std::string path;                   ///< --path
+    std::vector<ViewKey> keys;          ///< what that file holds
+    double degrees = 0;                 ///< --rotate: of the whole turn, to the right
+    WalkMove move = WalkMove::forward;  ///< --walk
+    double step = 0.01;                 ///< --step: share of the field of view
+    int frames = 0;                     ///< --frames; 0: one for each view of the path
+    double rate = 25;                   ///< --fps: of a film's frames [1/s]
+    bool reuse = true;                  ///< --reuse off: every frame is traced
+    /// The other values of --reuse, and what goes with it.
+    CloudOptions cloud{.audit = 0.01, .audit_limit = 0.05, .refine = 0.1};
+};
+
+/// Take an option of animate's own; false when the word is another one. Throws UsageError.
+[[nodiscard]] bool parse_walk_option(OptionWords& words, WalkCommand& walk);
+
+/// Names of these options, for suggestions.
+[[nodiscard]] std::vector<std::string> walk_option_names();
+
+/// What can only be told when all options are known; reads the path file.
+/// @param view  of the command line: what the path's first line starts from
+/// Throws UsageError, and InputError for a path file that cannot be read or is none.
+void settle_walk(WalkCommand& walk, const View& view, FileSource& files);
+
+/// Number of its frames.
+[[nodiscard]] std::size_t walk_length(const WalkCommand& walk);
+
+/// The views of all frames, from the first one.
+/// @param view  of the command line: where moves begin
+[[nodiscard]] std::vector<View> walk_views(const WalkCommand& walk, const View& view,
+                                           const Scene& scene);
+
+}  // namespace lightwalk

@@ -1,0 +1,74 @@
+#pragma once
+// The z-buffer of the cloud: which point each pixel of a picture gets.
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace lightwalk {
+
+inline constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
+
+/// One cell a pixel. Of the points offered to a cell it keeps the nearest one; of those about
+/// equally near (within 0.8 %) the one closest to the pixel's centre; of those the one with the
+/// lowest index. So it does not matter who offers first, and many threads may at once.
+class DepthGrid {
+  public:
+    /// All cells are empty.
+    DepthGrid(int width, int height)
+        : width_(width),
+          cells_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+          keys_(std::make_unique<std::atomic<std::uint64_t>[]>(cells_)) {
+        clear(0, cells_);
+    }
+
+    [[nodiscard]] std::size_t size() const { return cells_; }
+    /// Empty the cells first ... last - 1, row by row from the bottom.
+    void clear(std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            keys_[i].store(kEmpty, std::memory_order_relaxed);
+    }
+
+    /// @param x,y       the pixel, inside the picture
+    /// @param distance  > 0 [m]
+    /// @param apart     from the pixel's centre, 0 ... 1 [pixels]
+    void offer(int x, int y, float distance, float apart, std::uint32_t index) {
+        const std::uint64_t key = pack(distance, apart, index);
+        std::atomic<std::uint64_t>& cell = keys_[at(x, y)];
+        std::uint64_t kept = cell.load(std::memory_order_relaxed);
+        while (key < kept && !cell.compare_exchange_weak(kept, key, std::memory_order_relaxed)) {
+        }
+    }
+
+    /// kNoPoint where there is none.
+    [[nodiscard]] std::uint32_t winner(int x, int y) const {
+        return static_cast<std::uint32_t>(keys_[at(x, y)].load(std::memory_order_relaxed));
+    }
+
+  private:
+    static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
+    [[nodiscard]] static std::uint64_t pack(float distance, float apart, std::uint32_t index) {
+        // Floats that are not negative are ordered as their bits are: 8 of exponent, 7 of mantissa.
+        const std::uint64_t depth = std::bit_cast<std::uint32_t>(distance) >> 16;
+        const auto off = static_cast<std::uint64_t>(apart * 65535.0f);
+        return depth << 48 | off << 32 | index;
+    }
+    [[nodiscard]] std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
+    }
+
+    int width_;
+    std::size_t cells_;
+    std::unique_ptr<std::atomic<std::uint64_t>[]> keys_;
+};
+
+/// The grids of what lies ahead and of what is mirrored: a mirror's images lie behind it, and
+/// would lose against it.
+struct CloudGrids {
+    CloudGrids(int width, int height) : ahead(width, height), mirrored(width, height) {}
+    DepthGrid ahead, mirrored;
+};
+
+}  // namespace lightwalk

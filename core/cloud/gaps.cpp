@@ -1,0 +1,85 @@
+#include "core/cloud/gaps.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace lightwalk {
+namespace {
+
+/// A picture at a fraction of the size: means of what is known below each pixel.
+struct GapLevel {
+    int width = 0, height = 0;
+    std::vector<Rgb> radiance;
+    std::vector<std::uint8_t> known;
+
+    GapLevel(int w, int h) : width(w), height(h), radiance(count()), known(count()) {}
+    [[nodiscard]] std::size_t count() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    [[nodiscard]] std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+    [[nodiscard]] bool full() const {
+        return std::find(known.begin(), known.end(), std::uint8_t{0}) == known.end();
+    }
+};
+
+GapLevel halved(const GapLevel& fine) {
+    GapLevel coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
+    for (int y = 0; y < coarse.height; ++y) {
+        for (int x = 0; x < coarse.width; ++x) {
+            Rgb sum;
+            int found = 0;
+            for (int v = 2 * y; v < std::min(2 * y + 2, fine.height); ++v) {
+                for (int u = 2 * x; u < std::min(2 * x + 2, fine.width); ++u) {
+                    if (fine.known[fine.at(u, v)] == 0) continue;
+                    sum += fine.radiance[fine.at(u, v)];
+                    ++found;
+                }
+            }
+            if (found == 0) continue;
+            coarse.radiance[coarse.at(x, y)] = sum * (1.0f / static_cast<float>(found));
+            coarse.known[coarse.at(x, y)] = 1;
+        }
+    }
+    return coarse;
+}
+
+/// The coarse picture between its pixels: 9 : 3 : 3 : 1 of the four around a fine one.
+Rgb between(const GapLevel& coarse, int x, int y) {
+    const int x0 = x / 2, y0 = y / 2;
+    const int x1 = std::clamp(x0 + (x % 2 == 0 ? -1 : 1), 0, coarse.width - 1);
+    const int y1 = std::clamp(y0 + (y % 2 == 0 ? -1 : 1), 0, coarse.height - 1);
+    const auto value = [&](int u, int v) { return coarse.radiance[coarse.at(u, v)]; };
+    return (9.0f / 16) * value(x0, y0) + (3.0f / 16) * (value(x1, y0) + value(x0, y1)) +
+           (1.0f / 16) * value(x1, y1);
+}
+
+void fill_from(const GapLevel& coarse, GapLevel& fine) {
+    for (int y = 0; y < fine.height; ++y) {
+        for (int x = 0; x < fine.width; ++x) {
+            const std::size_t i = fine.at(x, y);
+            if (fine.known[i] == 0) fine.radiance[i] = between(coarse, x, y);
+        }
+    }
+}
+
+}  // namespace
+
+void fill_gaps(int width, int height, std::span<Rgb> radiance,
+               std::span<const std::uint8_t> known) {
+    std::vector<GapLevel> levels{GapLevel(width, height)};
+    std::copy(radiance.begin(), radiance.end(), levels[0].radiance.begin());
+    std::copy(known.begin(), known.end(), levels[0].known.begin());
+    if (levels[0].full()) return;
+    while (!levels.back().full()) {
+        if (levels.back().count() <= 1) return;  // nothing is known at all
+        levels.push_back(halved(levels.back()));
+    }
+    for (std::size_t i = levels.size() - 1; i > 0; --i) fill_from(levels[i], levels[i - 1]);
+    std::copy(levels[0].radiance.begin(), levels[0].radiance.end(), radiance.begin());
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,49 @@
+#pragma once
+// Where the points of the cloud appear in a view.
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/cloud/depth_grid.h"
+#include "core/cloud/point.h"
+#include "core/view/view.h"
+
+namespace lightwalk {
+
+/// A place in a picture.
+struct ImagePlace {
+    float x = -1, y = -1;  ///< from the lower left [pixels]
+    float distance = 0;  ///< from where the pixel's ray begins [m]; 0: the picture doesn't show it
+};
+
+/// From points to places in a picture of width x height pixels; any view type.
+class PointProjector {
+  public:
+    /// The camera must outlive this.
+    PointProjector(const Camera& camera, int width, int height);
+
+    /// The place of a point, but for what hides it.
+    [[nodiscard]] ImagePlace operator()(const Vec3& point) const;
+    [[nodiscard]] const Camera& camera() const { return camera_; }
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+  private:
+    [[nodiscard]] ImagePlace in_perspective(const Vec3& point) const;
+
+    const Camera& camera_;
+    int width_, height_;
+    bool perspective_;
+    // Of perspectives: image coordinates times depth [pixels m], and depth [m].
+    Vec3 across_, upward_, forward_;
+    double shift_ = 0, lift_ = 0;
+};
+
+/// Project points first ... last - 1 into the grids, which hold the winners of all ranges when all
+/// are done.
+/// @param places  one for each point of the cloud; those of the range are set
+void project_points(const PointProjector& projector, std::span<const CloudPoint> points,
+                    std::size_t first, std::size_t last, CloudGrids& grids,
+                    std::span<ImagePlace> places);
+
+}  // namespace lightwalk

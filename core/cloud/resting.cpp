@@ -1,0 +1,90 @@
+#include "core/cloud/resting.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwalk {
+namespace {
+
+/// Neighbours that differ by a larger share of the brighter one show steps.
+constexpr float kSteep = 0.1f;
+
+bool is_step(const Rgb& a, const Rgb& b) {
+    const float x = brightness(a), y = brightness(b);
+    return std::abs(x - y) > kSteep * std::max(x, y);
+}
+
+}  // namespace
+
+void RestingPicture::begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins) {
+    radiance_.assign(radiance.begin(), radiance.end());
+    origins_.assign(origins.begin(), origins.end());
+}
+
+RestingWork RestingPicture::next(std::size_t most) const {
+    RestingWork work = open(most);
+    return work.places.empty() ? steep(most) : work;
+}
+
+/// Pixels that have not been traced.
+RestingWork RestingPicture::open(std::size_t most) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < origins_.size(); ++i)
+        if (origins_[i].kind != PixelOrigin::Kind::traced) found.push_back(i);
+    const auto sooner = [&](std::size_t a, std::size_t b) {
+        const PixelOrigin &p = origins_[a], &q = origins_[b];
+        if (p.kind != q.kind) return p.kind < q.kind;
+        return p.order != q.order ? p.order < q.order : a < b;
+    };
+    if (found.size() > most) {
+        std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(most),
+                         found.end(), sooner);
+        found.resize(most);
+    }
+    std::sort(found.begin(), found.end(), sooner);
+    RestingWork work;
+    work.places.reserve(found.size());
+    const auto width = static_cast<std::size_t>(width_);
+    for (const std::size_t i : found)
+        work.places.push_back({static_cast<int>(i % width), static_cast<int>(i / width)});
+    return work;
+}
+
+bool RestingPicture::is_steep(int x, int y) const {
+    const Rgb& own = radiance_[at(x, y)];
+    return (x > 0 && is_step(own, radiance_[at(x - 1, y)])) ||
+           (x + 1 < width_ && is_step(own, radiance_[at(x + 1, y)])) ||
+           (y > 0 && is_step(own, radiance_[at(x, y - 1)])) ||
+           (y + 1 < height_ && is_step(own, radiance_[at(x, y + 1)]));
+}
+
+/// Of the pixels at steps those with the fewest rays.
+RestingWork RestingPicture::steep(std::size_t most) const {
+    RestingWork work;
+    work.sample = kMostSamples;
+    for (int y = 0; y < height_; ++y) {
+        for (int x = 0; x < width_; ++x) {
+            const int samples = origins_[at(x, y)].samples;
+            if (samples > work.sample || samples >= kMostSamples || !is_steep(x, y)) continue;
+            if (samples < work.sample) work.places.clear();
+            work.sample = samples;
+            work.places.push_back({x, y});
+        }
+    }
+    if (work.places.size() > most) work.places.resize(most);
+    return work;
+}
+
+void RestingPicture::take(const RestingWork& work, std::span<const Rgb> traced) {
+    for (std::size_t i = 0; i < traced.size(); ++i) {
+        const std::size_t pixel = at(work.places[i].x, work.places[i].y);
+        const auto before = static_cast<float>(work.sample);
+        radiance_[pixel] = work.sample == 0
+                               ? traced[i]
+                               : (before * radiance_[pixel] + traced[i]) * (1 / (before + 1));
+        origins_[pixel] = {PixelOrigin::Kind::traced, static_cast<std::uint8_t>(work.sample + 1),
+                           0};
+    }
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,197 @@
+#include "core/cloud/reuse.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwalk {
+namespace {
+
+/// Points of one surface at more different distances belong to different parts of it: a plane that
+/// is seen at a grazing angle changes its distance by this much within a pixel.
+constexpr float kSameDepth = 0.05f;
+
+/// Depths that differ by more jump.
+constexpr float kDepthJump = 0.1f;
+
+/// So few points do not tell whether a neighbourhood is even.
+constexpr int kFewPoints = 3;
+
+bool depths_jump(float a, float b) {
+    return std::abs(a - b) > kDepthJump * std::min(a, b);
+}
+
+/// Direction from where the pixel's ray begins to a point beside it.
+Vec3 toward(const CloudPoint& point, const PixelSights& sights, const Sight& sight) {
+    const double scale = 1 / std::max(static_cast<double>(sight.distance), kEpsilon);
+    return normalize(sights.direction + (point.place() - sight.position) * scale);
+}
+
+}  // namespace
+
+/// The points around a pixel, as far as they show what its ray sees.
+struct PointFinder::Search {
+    std::uint32_t best = kNoPoint;
+    float squared = HUGE_VALF;  ///< distance of the best one [pixels²]
+    float darkest = HUGE_VALF, brightest = 0;
+    int points = 0;       ///< usable ones
+    bool any = false;     ///< there is a point at all
+    bool turned = false;  ///< some were seen from elsewhere
+};
+
+void PointFinder::look_at(std::uint32_t index, const PixelSights& sights, const Sight& sight,
+                          Search& found) const {
+    found.any = true;
+    const CloudPoint& point = points_[index];
+    if (point.surface != sight.surface) return;
+    const ImagePlace& place = places_[index];
+    if (std::abs(place.distance - sight.distance) > kSameDepth * sight.distance) return;
+    if (point.turn != kAnyTurn &&
+        !holds_from(point, toward(point, sights, sight), rules_.tightness)) {
+        found.turned = true;
+        return;
+    }
+    ++found.points;
+    const float light = brightness(point.radiance);
+    found.darkest = std::min(found.darkest, light);
+    found.brightest = std::max(found.brightest, light);
+    const float dx = place.x - sights.x, dy = place.y - sights.y;
+    const float squared = dx * dx + dy * dy;
+    // Of equally near ones the older point: whatever the order.
+    if (squared > found.squared || (squared == found.squared && index > found.best)) return;
+    found.squared = squared;
+    found.best = index;
+}
+
+/// @param base  what the pixel shows besides: points may differ by a share of the sum
+HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
+                              const PixelSights& sights, const Sight& sight, float base,
+                              std::uint32_t& best, float& apart) const {
+    Search found;
+    const float near = rules_.near * rules_.near;
+    const std::uint32_t own = grid.winner(pixel.x, pixel.y);
+    if (own != kNoPoint) look_at(own, sights, sight, found);
+    if (rules_.look_back && !(found.squared <= near)) {
+        for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
+            for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
+                if (!inside(x, y) || (x == pixel.x && y == pixel.y)) continue;
+                const std::uint32_t index = grid.winner(x, y);
+                if (index != kNoPoint) look_at(index, sights, sight, found);
+            }
+        }
+    }
+    best = found.best;
+    apart = std::max(apart, std::sqrt(found.squared));
+    if (found.points == 0)
+        return found.turned ? HoleCause::turned
+               : found.any  ? HoleCause::hidden
+                            : HoleCause::uncovered;
+    if (!rules_.look_back || found.squared <= near) return HoleCause::none;
+    const bool even = found.points >= kFewPoints &&
+                      found.brightest - found.darkest <= rules_.contrast * (found.brightest + base);
+    return even && found.squared <= rules_.reach * rules_.reach ? HoleCause::none
+                                                                : HoleCause::uneven;
+}
+
+PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sights) const {
+    PixelAnswer answer{HoleCause::none, kNoPoint, kNoPoint, 0};
+    if ((sights.ahead.seen && sights.ahead.slope == kUnsteady) ||
+        (sights.mirrored.seen && sights.mirrored.slope == kUnsteady)) {
+        answer.cause = HoleCause::unsteady;
+        return answer;
+    }
+    float base = 0;
+    if (sights.ahead.seen) {
+        answer.cause =
+            search(grids_.ahead, pixel, sights, sights.ahead, base, answer.ahead, answer.apart);
+        if (!answer.found()) return answer;
+        base = brightness(points_[answer.ahead].radiance);
+    }
+    if (sights.mirrored.seen)
+        answer.cause = search(grids_.mirrored, pixel, sights, sights.mirrored, base,
+                              answer.mirrored, answer.apart);
+    return answer;
+}
+
+PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
+    PixelAnswer answer;
+    const std::uint32_t ahead = grids_.ahead.winner(pixel.x, pixel.y);
+    const std::uint32_t mirrored = grids_.mirrored.winner(pixel.x, pixel.y);
+    const bool lone_mirror = mirrored != kNoPoint && !points_[mirrored].paired;
+    if (ahead == kNoPoint && !lone_mirror) return answer;
+    const bool mirror = ahead == kNoPoint;
+    answer.cause = contradicts(pixel, mirror ? grids_.mirrored : grids_.ahead) ? HoleCause::hidden
+                                                                               : HoleCause::none;
+    if (!mirror) answer.ahead = ahead;
+    if (mirror || points_[ahead].paired) {
+        answer.mirrored = mirrored;
+        if (mirrored == kNoPoint) answer.cause = HoleCause::uncovered;
+    }
+    for (const std::uint32_t index : {answer.ahead, answer.mirrored}) {
+        if (index == kNoPoint || !answer.found()) continue;
+        const Camera& camera = projector_.camera();
+        const auto ray =
+            camera.ray((pixel.x + 0.5) / projector_.width(), (pixel.y + 0.5) / projector_.height());
+        if (!ray || !holds_from(points_[index], normalize(points_[index].place() - ray->origin),
+                                rules_.tightness))
+            answer.cause = HoleCause::turned;
+    }
+    return answer;
+}
+
+/// Distances of the points that fell onto the pixel and those around it, from below, left to
+/// right; 0: none.
+std::array<float, 9> PointFinder::depths(const PixelPlace& pixel, const DepthGrid& grid) const {
+    std::array<float, 9> result{};
+    std::size_t i = 0;
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x, ++i) {
+            if (!inside(x, y)) continue;
+            const std::uint32_t index = grid.winner(x, y);
+            if (index != kNoPoint) result[i] = places_[index].distance;
+        }
+    }
+    return result;
+}
+
+/// Whether the pixel's point is not what is seen there, for all that those around it say.
+bool PointFinder::contradicts(const PixelPlace& pixel, const DepthGrid& grid) const {
+    const std::array<float, 9> around = depths(pixel, grid);
+    constexpr std::size_t kOwn = 4;
+    const float own = around[kOwn];
+    int known = 0, nearer = 0, different = 0;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        if (i == kOwn || !(around[i] > 0)) continue;
+        ++known;
+        if (!depths_jump(around[i], own)) continue;
+        ++different;
+        if (around[i] < own) ++nearer;
+    }
+    if (rules_.drop_hidden && 2 * nearer > known) return true;
+    return rules_.drop_lonely && known > 0 && different == known;
+}
+
+bool PointFinder::is_edge(const PixelPlace& pixel) const {
+    if (!inside(pixel.x - 1, pixel.y - 1) || !inside(pixel.x + 1, pixel.y + 1)) return true;
+    const std::array<float, 9> around = depths(pixel, grids_.ahead);
+    const auto [least, most] = std::minmax_element(around.begin(), around.end());
+    return !(*least > 0) || depths_jump(*least, *most);
+}
+
+Rgb PointFinder::radiance(const PixelAnswer& answer) const {
+    Rgb sum;
+    if (answer.ahead != kNoPoint) sum += points_[answer.ahead].radiance;
+    if (answer.mirrored != kNoPoint) sum += points_[answer.mirrored].radiance;
+    return sum;
+}
+
+bool PointFinder::is_guess(const PixelAnswer& answer) const {
+    if (answer.cause != HoleCause::uneven) return false;
+    return answer.ahead == kNoPoint || !points_[answer.ahead].paired || answer.mirrored != kNoPoint;
+}
+
+float PointFinder::distance(const PixelAnswer& answer) const {
+    if (answer.ahead != kNoPoint) return places_[answer.ahead].distance;
+    return answer.mirrored != kNoPoint ? places_[answer.mirrored].distance : 0;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,93 @@
+#pragma once
+// Which points of the cloud answer a pixel truthfully.
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/cloud/depth_grid.h"
+#include "core/cloud/point.h"
+#include "core/cloud/projection.h"
+#include "core/cloud/sight.h"
+
+namespace lightwalk {
+
+/// Why a pixel has to be traced, the worst first.
+enum class HoleCause : std::uint8_t {
+    none,       ///< it has not
+    uncovered,  ///< no point lies there
+    hidden,     ///< what lies there belongs to another surface, or is not what the ray meets
+    unsteady,   ///< its colour holds for this ray only
+    turned,     ///< its colour was seen from too different a side
+    uneven,     ///< the points around disagree, and none of them is near enough
+    audited,    ///< it is not a hole, but traced all the same
+    refined,    ///< it is not a hole, but the view stands still, and there is time
+};
+inline constexpr std::size_t kHoleCauses = 8;
+
+/// When a point answers a pixel.
+struct ReuseRules {
+    /// Look around the pixel for the nearest point of what its ray meets; false: only the point
+    /// that fell onto the pixel counts (forward projection alone).
+    bool look_back = true;
+    float near = 0.7f;      ///< a point as near as this to the ray is as good as its own [pixels]
+    float reach = 1.5f;     ///< and where the points around agree, one as near as this [pixels]
+    float contrast = 0.1f;  ///< they agree when they differ by no more, as a share of the brightest
+    double tightness = 1;   ///< factor of how far view directions may turn, 0 ... 1
+    // Where no ray says what is there:
+    bool drop_hidden = true;  ///< a point far behind most of those around it shows through a gap
+    bool drop_lonely = true;  ///< a point far from all those around it may be left over
+};
+
+/// What answers a pixel: the sum of up to two points.
+struct PixelAnswer {
+    HoleCause cause = HoleCause::uncovered;
+    std::uint32_t ahead = kNoPoint, mirrored = kNoPoint;
+    float apart = 0;  ///< of the farther one from the pixel's ray [pixels]
+    [[nodiscard]] bool found() const { return cause == HoleCause::none; }
+};
+
+/// Finds points for the pixels of one frame. All arguments must outlive it; many threads may ask.
+class PointFinder {
+  public:
+    PointFinder(const PointProjector& projector, std::span<const CloudPoint> points,
+                const CloudGrids& grids, std::span<const ImagePlace> places,
+                const ReuseRules& rules)
+        : projector_(projector), points_(points), grids_(grids), places_(places), rules_(rules) {}
+
+    /// For a pixel of which a ray has told what it sees.
+    [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel, const PixelSights& sights) const;
+    /// For a pixel of which nothing is known: the point that fell onto it.
+    [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
+    /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
+    /// without a point, where depths jump.
+    [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
+
+    /// The sum of an answer's points.
+    [[nodiscard]] Rgb radiance(const PixelAnswer& answer) const;
+    /// Whether an answer that was not found still has all points that its pixel is made of, though
+    /// not near enough: the best guess until it is traced.
+    [[nodiscard]] bool is_guess(const PixelAnswer& answer) const;
+    /// Along the ray: of what lies ahead, unless a mirror is all there is [m].
+    [[nodiscard]] float distance(const PixelAnswer& answer) const;
+
+  private:
+    struct Search;
+    [[nodiscard]] HoleCause search(const DepthGrid& grid, const PixelPlace& pixel,
+                                   const PixelSights& sights, const Sight& sight, float base,
+                                   std::uint32_t& best, float& apart) const;
+    void look_at(std::uint32_t index, const PixelSights& sights, const Sight& sight,
+                 Search& found) const;
+    [[nodiscard]] bool contradicts(const PixelPlace& pixel, const DepthGrid& grid) const;
+    [[nodiscard]] std::array<float, 9> depths(const PixelPlace& pixel, const DepthGrid& grid) const;
+    [[nodiscard]] bool inside(int x, int y) const {
+        return x >= 0 && x < projector_.width() && y >= 0 && y < projector_.height();
+    }
+
+    const PointProjector& projector_;
+    std::span<const CloudPoint> points_;
+    const CloudGrids& grids_;
+    std::span<const ImagePlace> places_;
+    ReuseRules rules_;
+};
+
+}  // namespace lightwalk

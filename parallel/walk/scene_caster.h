@@ -1,0 +1,54 @@
+#pragma once
+// The cloud's rays, cast into a scene by the tracer.
+#include <span>
+#include <vector>
+
+#include "core/cloud/scene_sights.h"
+#include "core/cloud/sight.h"
+#include "parallel/frame_options.h"
+#include "parallel/pixel_rays.h"
+#include "parallel/pixel_tracer.h"
+#include "parallel/stop_flag.h"
+#include "parallel/worker_contexts.h"
+
+namespace lightwalk {
+
+/// The rays of one frame: those that a picture with the same options has, to the bit.
+class SceneCaster {
+  public:
+    /// All must outlive this.
+    SceneCaster(const Tracer& tracer, const SceneSights& sights, const Camera& camera,
+                const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop);
+
+    /// What the pixels' (first) rays see; see PixelCaster.
+    void look(std::span<const PixelPlace> places, std::span<PixelSights> sights, int worker);
+    /// The pixels traced, with the same sights; see PixelCaster.
+    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
+               int worker);
+
+  private:
+    /// Of one worker.
+    struct Scratch {
+        std::vector<RaySegment> segments;
+        std::vector<Hit> hits;
+        std::vector<std::size_t> targets;  ///< into the places
+        std::vector<PixelSights> sights;
+        std::vector<PixelValue> values;
+        std::vector<PixelHit> pixel_hits;
+    };
+
+    [[nodiscard]] PixelRays rays_of(int sample) const;
+    void look_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
+                    std::span<PixelSights> sights, Scratch& scratch) const;
+
+    const Tracer& tracer_;
+    const SceneSights& sights_;
+    const Camera& camera_;
+    FrameOptions options_;
+    PixelRays rays_;  ///< of sample 0
+    WorkerContexts& contexts_;
+    const StopFlag& stop_;
+    std::vector<Scratch> scratch_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,73 @@
+#include "parallel/walk/walk_frame.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/light/small_sources.h"
+#include "parallel/walk/scene_caster.h"
+
+namespace lightwalk {
+namespace {
+
+/// Rows from the top.
+Frame turned_over(CloudFrame& drawn, int width, int height) {
+    Frame frame;
+    frame.width = width;
+    frame.height = height;
+    const auto row = static_cast<std::ptrdiff_t>(width);
+    for (int y = 0; y < height / 2; ++y) {
+        const std::ptrdiff_t below = y * row, above = (height - 1 - y) * row;
+        std::swap_ranges(drawn.radiance.begin() + below, drawn.radiance.begin() + below + row,
+                         drawn.radiance.begin() + above);
+        std::swap_ranges(drawn.distance.begin() + below, drawn.distance.begin() + below + row,
+                         drawn.distance.begin() + above);
+    }
+    frame.radiance = std::move(drawn.radiance);
+    frame.distance = std::move(drawn.distance);
+    return frame;
+}
+
+/// They are no part of the points: a source covers more or less of a pixel from frame to frame.
+void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                        Executor& executor, WorkerContexts& contexts, Frame& frame) {
+    if (options.pixels.samples > 1) return;
+    const SmallSources sources(tracer, camera, options.width, options.height, 1);
+    if (sources.empty()) return;
+    const std::vector<Block> blocks = make_blocks(options.whole(), 64);
+    executor.for_each(blocks.size(), [&](std::size_t i, int worker) {
+        sources.draw(blocks[i], contexts[worker], [&](const SourcePixel& source) {
+            const std::size_t at = static_cast<std::size_t>(frame.height - 1 - source.y) *
+                                       static_cast<std::size_t>(frame.width) +
+                                   static_cast<std::size_t>(source.x);
+            blend_source(source, frame.radiance[at],
+                         options.use_distances ? &frame.distance[at] : nullptr);
+        });
+    });
+}
+
+}  // namespace
+
+WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer, const SceneSights& sights,
+                          const Camera& camera, const FrameOptions& options, Executor& executor,
+                          WorkerContexts& contexts, const StopFlag& stop) {
+    contexts.reset_counters();
+    SceneCaster caster(tracer, sights, camera, options, contexts, stop);
+    const auto look = [&](std::span<const PixelPlace> places, std::span<PixelSights> seen,
+                          int worker) { caster.look(places, seen, worker); };
+    const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
+                           int sample,
+                           int worker) { caster.trace(places, pixels, sample, worker); };
+    CloudFrame drawn = frames.draw(camera, {look, trace}, executor, stop);
+    WalkFrame result;
+    result.frame = turned_over(drawn, options.width, options.height);
+    result.report = std::move(drawn.report);
+    result.causes = std::move(drawn.causes);
+    if (drawn.complete)
+        draw_small_sources(tracer, camera, options, executor, contexts, result.frame);
+    result.frame.rays = contexts.rays();
+    result.frame.ambient = contexts.ambient();
+    result.frame.complete = drawn.complete && !stop.requested();
+    return result;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,118 @@
+#include "core/cloud/projection.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/math/random.h"
+
+using namespace lightwalk;
+
+namespace {
+
+View view_of_type(char type) {
+    View view;
+    view.type = type;
+    view.position = {1, -2, 0.5};
+    view.direction = {0.3, 1, 0.2};
+    view.horizontal = type == 'l' ? 8 : 100;
+    view.vertical = type == 'l' ? 6 : 70;
+    view.fore = 0.25;
+    view.shift = 0.1;
+    view.lift = -0.2;
+    return view;
+}
+
+CloudPoint point_at(const Vec3& place, PointKind kind = PointKind::plain) {
+    CloudPoint point;
+    point.position = {static_cast<float>(place.x), static_cast<float>(place.y),
+                      static_cast<float>(place.z)};
+    point.kind = kind;
+    return point;
+}
+
+constexpr int kWidth = 64, kHeight = 48;
+
+}  // namespace
+
+TEST_CASE("cloud: a point on a pixel's ray is projected onto that place, in every type of view") {
+    for (const char type : std::string("vlchas")) {
+        CAPTURE(type);
+        const Camera camera(view_of_type(type));
+        const PointProjector project(camera, kWidth, kHeight);
+        RandomStream random(7);
+        int shown = 0;
+        for (int i = 0; i < 500; ++i) {
+            const double h = random.next(), v = random.next();
+            const auto ray = camera.ray(h, v);
+            if (!ray) continue;
+            ++shown;
+            const double distance = 0.5 + 20 * random.next();
+            const ImagePlace place = project(ray->origin + ray->direction * distance);
+            // Single precision of a coordinate of at most 64 pixels, and of twenty metres.
+            CHECK(static_cast<double>(place.x) == doctest::Approx(h * kWidth).epsilon(1e-5));
+            CHECK(static_cast<double>(place.y) == doctest::Approx(v * kHeight).epsilon(1e-5));
+            CHECK(static_cast<double>(place.distance) == doctest::Approx(distance).epsilon(1e-5));
+        }
+        CHECK(shown > 100);
+    }
+}
+
+TEST_CASE(
+    "cloud: what lies behind the eye, before the fore plane or beside the picture is not shown") {
+    const Camera camera(view_of_type('v'));
+    const PointProjector project(camera, kWidth, kHeight);
+    const Vec3 eye = camera.view().position;
+    CHECK(project(eye - camera.forward() * 3).distance == 0);
+    CHECK(project(eye + camera.forward() * 0.2).distance == 0);
+    CHECK(project(eye + camera.forward() + camera.right() * 9).distance == 0);
+}
+
+TEST_CASE("cloud: a cell keeps the nearest point, whoever comes first") {
+    DepthGrid grid(4, 2);
+    CHECK(grid.winner(3, 1) == kNoPoint);
+    grid.offer(3, 1, 2.0f, 0.1f, 5);
+    grid.offer(3, 1, 1.0f, 0.4f, 9);
+    grid.offer(3, 1, 3.0f, 0, 1);
+    CHECK(grid.winner(3, 1) == 9);
+    SUBCASE("of about equally near ones the one nearest to the pixel's centre") {
+        grid.offer(3, 1, 1.001f, 0.2f, 10);
+        CHECK(grid.winner(3, 1) == 10);
+    }
+    SUBCASE("of equals the one with the lowest index") {
+        grid.offer(3, 1, 1.0f, 0.4f, 7);
+        grid.offer(3, 1, 1.0f, 0.4f, 8);
+        CHECK(grid.winner(3, 1) == 7);
+    }
+    grid.clear(0, grid.size());
+    CHECK(grid.winner(3, 1) == kNoPoint);
+}
+
+TEST_CASE("cloud: the winners do not depend on how the points are divided") {
+    const Camera camera(view_of_type('v'));
+    const PointProjector project(camera, kWidth, kHeight);
+    RandomStream random(3);
+    std::vector<CloudPoint> points;
+    for (int i = 0; i < 5000; ++i) {
+        const auto ray = camera.ray(random.next(), random.next());
+        points.push_back(point_at(ray->origin + ray->direction * (1 + 4 * random.next()),
+                                  i % 3 == 0 ? PointKind::mirrored : PointKind::plain));
+    }
+    std::vector<ImagePlace> places(points.size());
+    CloudGrids whole(kWidth, kHeight), parts(kWidth, kHeight);
+    project_points(project, points, 0, points.size(), whole, places);
+    for (std::size_t last = points.size(); last > 0;) {  // backwards
+        const std::size_t first = last > 700 ? last - 700 : 0;
+        project_points(project, points, first, last, parts, places);
+        last = first;
+    }
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            CHECK(whole.ahead.winner(x, y) == parts.ahead.winner(x, y));
+            CHECK(whole.mirrored.winner(x, y) == parts.mirrored.winner(x, y));
+        }
+    }
+}

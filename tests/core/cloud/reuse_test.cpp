@@ -1,0 +1,168 @@
+#include "core/cloud/reuse.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/math/random.h"
+
+using namespace lightwalk;
+
+namespace {
+
+constexpr int kSide = 16;
+
+/// Looks along y at a wall; a pixel of the wall, four metres away, is a quarter of a metre wide.
+View wall_view() {
+    View view;
+    view.horizontal = view.vertical = 2 * std::atan(0.5) * 180 / kPi;
+    return view;
+}
+
+struct Wall {
+    Camera camera{wall_view()};
+    PointProjector projector{camera, kSide, kSide};
+    CloudGrids grids{kSide, kSide};
+    std::vector<CloudPoint> points;
+    std::vector<ImagePlace> places;
+    ReuseRules rules;
+
+    /// What the ray through (x, y) [pixels] sees of a surface `distance` away.
+    [[nodiscard]] PixelSights sights(double x, double y, std::uint32_t surface,
+                                     double distance = 4) const {
+        PixelSights s;
+        const auto ray = camera.ray(x / kSide, y / kSide);
+        s.ray = true;
+        s.direction = ray->direction;
+        s.x = static_cast<float>(x);
+        s.y = static_cast<float>(y);
+        s.ahead.seen = true;
+        s.ahead.position = ray->origin + ray->direction * distance;
+        s.ahead.distance = static_cast<float>(distance);
+        s.ahead.surface = surface;
+        return s;
+    }
+
+    void add(double x, double y, std::uint32_t surface, float light, double distance = 4) {
+        const PixelPoints left =
+            points_of({sights(x, y, surface, distance), Rgb::grey(light), {}, 0}, 0.05);
+        points.insert(points.end(), left.points.begin(), left.points.begin() + left.count);
+    }
+
+    PointFinder project() {
+        places.resize(points.size());
+        project_points(projector, points, 0, points.size(), grids, places);
+        return {projector, points, grids, places, rules};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("cloud: a point of the pixel's own surface and place answers it") {
+    Wall wall;
+    wall.add(5.4, 5.6, 1, 3);
+    const PointFinder finder = wall.project();
+    const PixelAnswer answer = finder.checked({5, 5}, wall.sights(5.5, 5.5, 1));
+    REQUIRE(answer.found());
+    CHECK(finder.radiance(answer).g == 3);
+    CHECK(finder.distance(answer) == doctest::Approx(4));
+    CHECK(static_cast<double>(answer.apart) == doctest::Approx(std::hypot(0.1, 0.1)).epsilon(1e-4));
+}
+
+TEST_CASE("cloud: no point of another surface, or of another depth, shows through") {
+    Wall wall;
+    wall.add(5.5, 5.5, 1, 3);
+    const PointFinder finder = wall.project();
+    CHECK(finder.checked({5, 5}, wall.sights(5.5, 5.5, 2)).cause == HoleCause::hidden);
+    CHECK(finder.checked({5, 5}, wall.sights(5.5, 5.5, 1, 3)).cause == HoleCause::hidden);
+    CHECK(finder.checked({9, 9}, wall.sights(9.5, 9.5, 1)).cause == HoleCause::uncovered);
+}
+
+TEST_CASE("cloud: a pixel between points is answered where these agree, and traced where not") {
+    for (const bool edge : {false, true}) {
+        CAPTURE(edge);
+        Wall wall;
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                if (x == 5 && y == 5) continue;  // the gap
+                wall.add(x + 0.5, y + 0.5, 1, edge && x > 5 ? 2.0f : 1.0f);
+            }
+        }
+        const PixelSights sights = wall.sights(5.5, 5.5, 1);
+        wall.rules.near = 0.7f;
+        CHECK(wall.project().checked({5, 5}, sights).cause ==
+              (edge ? HoleCause::uneven : HoleCause::none));
+        wall.rules.look_back = false;
+        CHECK(wall.project().checked({5, 5}, sights).cause == HoleCause::uncovered);
+    }
+}
+
+TEST_CASE(
+    "cloud: a view-dependent point holds until the view has turned as far as its slope allows") {
+    Wall wall;
+    TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(1), {}, 4};
+    pixel.sights.ahead.slope = 2;  // 5 % of the colour in 0.025 rad
+    const PixelPoints left = points_of(pixel, 0.05);
+    REQUIRE(left.count == 1);
+    const CloudPoint& point = left.points[0];
+    CHECK(static_cast<double>(point.turn) == doctest::Approx(0.025));
+    const Vec3 d = pixel.sights.direction, side = perpendicular(d);
+    CHECK(holds_from(point, normalize(d + side * 0.024), 1));
+    CHECK(!holds_from(point, normalize(d + side * 0.026), 1));
+    CHECK(!holds_from(point, normalize(d + side * 0.024), 0.5));
+    wall.points.push_back(point);
+    PixelSights turned = pixel.sights;
+    turned.direction = normalize(d + side * 0.03);
+    CHECK(wall.project().checked({8, 8}, turned).cause == HoleCause::turned);
+    CHECK(wall.project().checked({8, 8}, pixel.sights).found());
+}
+
+TEST_CASE(
+    "cloud: a pixel with a reflection is the sum of two points, and lacks both if it lacks one") {
+    Wall wall;
+    TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(3), Rgb::grey(1), 4};
+    pixel.sights.mirrored = pixel.sights.ahead;
+    pixel.sights.mirrored.kind = PointKind::mirrored;
+    pixel.sights.mirrored.surface = 77;
+    pixel.sights.mirrored.distance = 9;
+    pixel.sights.mirrored.position = pixel.sights.direction * 9;
+    PixelPoints left = points_of(pixel, 0.05);
+    REQUIRE(left.count == 2);
+    CHECK(left.points[0].radiance.g == 2);
+    CHECK(left.points[1].radiance.g == 1);
+    CHECK((left.points[0].paired && left.points[1].paired));
+    wall.points.assign(left.points.begin(), left.points.end());
+    {
+        const PointFinder finder = wall.project();
+        const PixelAnswer answer = finder.checked({8, 8}, pixel.sights);
+        REQUIRE(answer.found());
+        CHECK(finder.radiance(answer).g == 3);
+        CHECK(finder.unchecked({8, 8}).found());
+        PixelSights moved = pixel.sights;
+        moved.mirrored.surface = 78;  // something else is in the mirror
+        CHECK(finder.checked({8, 8}, moved).cause == HoleCause::hidden);
+    }
+    pixel.sights.mirrored.slope = kUnsteady;
+    CHECK(points_of(pixel, 0.05).count == 0);
+    CHECK(wall.project().checked({8, 8}, pixel.sights).cause == HoleCause::unsteady);
+}
+
+TEST_CASE("cloud: without rays, points that show through a gap or stand alone are dropped") {
+    Wall wall;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x)
+            wall.add(x + 0.5, y + 0.5, 1, 1, x == 5 && y == 5 ? 8 : x == 9 && y == 9 ? 2 : 4);
+    }
+    CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);  // behind the wall
+    CHECK(wall.project().unchecked({9, 9}).cause == HoleCause::hidden);  // alone before it
+    CHECK(wall.project().unchecked({12, 12}).found());
+    wall.rules.drop_lonely = false;
+    CHECK(wall.project().unchecked({9, 9}).found());
+    CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);
+    wall.rules.drop_hidden = false;
+    CHECK(wall.project().unchecked({5, 5}).found());
+    CHECK(wall.project().is_edge({4, 5}));
+    CHECK(wall.project().is_edge({0, 7}));
+    CHECK(!wall.project().is_edge({12, 12}));
+}

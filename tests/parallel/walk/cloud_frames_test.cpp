@@ -1,0 +1,324 @@
+#include "parallel/walk/cloud_frames.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/math/random.h"
+#include "parallel/frame.h"
+#include "parallel/walk/scene_caster.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using lightwalk::test::TestScene;
+
+namespace {
+
+/// A room with a mirror on the far wall, a pane that stands free, a polished floor, a rough ball
+/// and a box that hides things.
+const std::string kRoom = R"(
+void plastic grey 0 0 5 .5 .5 .5 0 0
+void plastic red 0 0 5 .6 .1 .1 0 0
+void plastic tiles 0 0 5 .4 .4 .5 .06 0
+void plastic satin 0 0 5 .3 .5 .3 .04 .1
+void mirror silver 0 0 3 .9 .9 .9
+void glass pane 0 0 3 .9 .9 .9
+void light lamp 0 0 3 40 40 40
+grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
+grey polygon left 0 0 12  -4 -6 0  -4 6 0  -4 6 3  -4 -6 3
+red polygon right 0 0 12  4 6 0  4 -6 0  4 -6 3  4 6 3
+grey polygon near 0 0 12  4 -6 0  -4 -6 0  -4 -6 3  4 -6 3
+tiles polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+grey polygon ceiling 0 0 12  -4 6 3  4 6 3  4 -6 3  -4 -6 3
+silver polygon mirror 0 0 12  -2 5.99 .5  1 5.99 .5  1 5.99 2.5  -2 5.99 2.5
+pane polygon window 0 0 12  1.5 3 0  3.5 3 0  3.5 3 2.5  1.5 3 2.5
+satin sphere ball 0 0 4 -1.5 2 .7 .7
+red cylinder post 0 0 7 .8 1 0 .8 1 3 .1
+lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
+)";
+
+constexpr int kWidth = 160, kHeight = 120;
+
+View view_at(double forward, double aside, double turned) {
+    View view;
+    view.position = {aside, -4 + forward, 1.5};
+    view.direction = {std::sin(turned), std::cos(turned), -0.05};
+    view.horizontal = 60;
+    view.vertical = 46.8;
+    return view;
+}
+
+/// Twelve steps: a turn, forward, backward, sideways.
+View view_of(const std::string& walk, int step) {
+    const double pace = 0.03 * step;
+    if (walk == "turn") return view_at(0, 0, 0.0105 * step);
+    if (walk == "forward") return view_at(pace, 0, 0);
+    if (walk == "backward") return view_at(1 - pace, 0, 0);
+    return view_at(0, pace, 0);
+}
+
+FrameOptions frame_options() {
+    FrameOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.pixels.spacing = 1;
+    return options;
+}
+
+struct Room {
+    TestScene scene{kRoom};
+    SceneSights sights{scene.tracer};
+    StopFlag stop;
+
+    CloudFrame draw(CloudFrames& frames, const View& view, Executor& executor) {
+        WorkerContexts contexts(scene.tracer, scene.warnings, executor.concurrency());
+        const Camera camera(view);
+        SceneCaster caster(scene.tracer, sights, camera, frame_options(), contexts, stop);
+        return frames.draw(camera,
+                           {[&](auto places, auto seen, int w) { caster.look(places, seen, w); },
+                            [&](auto places, auto out, int sample, int w) {
+                                caster.trace(places, out, sample, w);
+                            }},
+                           executor, stop);
+    }
+
+    /// All of the frame traced, row by row from the bottom.
+    std::vector<TracedPixel> truth(const View& view) {
+        WorkerContexts contexts(scene.tracer, scene.warnings, 1);
+        const Camera camera(view);
+        SceneCaster caster(scene.tracer, sights, camera, frame_options(), contexts, stop);
+        std::vector<PixelPlace> places;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) places.push_back({x, y});
+        std::vector<TracedPixel> pixels(places.size());
+        caster.trace(places, pixels, 0, 0);
+        return pixels;
+    }
+};
+
+std::vector<Rgb> radiance_of(const std::vector<TracedPixel>& pixels) {
+    std::vector<Rgb> radiance;
+    for (const TracedPixel& pixel : pixels) radiance.push_back(pixel.radiance);
+    return radiance;
+}
+
+std::size_t off_by_a_tenth(const std::vector<Rgb>& radiance, const std::vector<TracedPixel>& truth,
+                           bool mirrored_only = false) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        if (mirrored_only && !truth[i].sights.mirrored.seen) continue;
+        const float is = brightness(radiance[i]), should = brightness(truth[i].radiance);
+        if (std::abs(is - should) > 0.1f * should) ++off;
+    }
+    return off;
+}
+
+const char* const kWalks[] = {"turn", "forward", "backward", "sideways"};
+
+}  // namespace
+
+TEST_CASE("cloud: the first frame is the picture, every pixel traced") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudFrames frames(kWidth, kHeight, {});
+    const View view = view_at(0, 0, 0);
+    const CloudFrame first = room.draw(frames, view, *executor);
+    WorkerContexts contexts(room.scene.tracer, room.scene.warnings, 1);
+    const Frame picture = render_frame(room.scene.tracer, Camera(view), frame_options(), *executor,
+                                       contexts, room.stop, [](const FrameProgress&) {});
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const auto i = static_cast<std::size_t>(y * kWidth + x);
+            const auto j = static_cast<std::size_t>((kHeight - 1 - y) * kWidth + x);
+            CHECK(first.radiance[i] == picture.radiance[j]);
+            CHECK(first.distance[i] == picture.distance[j]);
+        }
+    }
+    CHECK(first.report.holes[static_cast<std::size_t>(HoleCause::uncovered)] ==
+          first.report.pixels);
+}
+
+TEST_CASE("cloud: a view that stands still is reused whole, but for what nobody can tell") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudFrames frames(kWidth, kHeight, {});
+    const CloudFrame first = room.draw(frames, view_at(0, 0, 0), *executor);
+    const CloudFrame second = room.draw(frames, view_at(0, 0, 0), *executor);
+    CHECK(second.report.reused == second.report.pixels);
+    // Sums of two points differ from what was traced by rounding.
+    for (std::size_t i = 0; i < first.radiance.size(); ++i)
+        CHECK(std::abs(second.radiance[i].g - first.radiance[i].g) <=
+              1e-6f * (1 + first.radiance[i].g));
+}
+
+TEST_CASE("cloud: mirrors, panes, polished floors and hidden things are true in motion") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    for (const std::string walk : kWalks) {
+        CAPTURE(walk);
+        CloudFrames frames(kWidth, kHeight, {});
+        // The floor: what the picture moved by half a pixel is off.
+        std::size_t off = 0, off_mirrored = 0, floor = 0, floor_mirrored = 0, reused = 0;
+        for (int i = 0; i < 12; ++i) {
+            View view = view_of(walk, i);
+            const CloudFrame frame = room.draw(frames, view, *executor);
+            const std::vector<TracedPixel> truth = room.truth(view);
+            view.shift = 0.5 / kWidth;
+            view.lift = 0.5 / kHeight;
+            const std::vector<Rgb> moved = radiance_of(room.truth(view));
+            if (i == 0) continue;
+            off += off_by_a_tenth(frame.radiance, truth);
+            off_mirrored += off_by_a_tenth(frame.radiance, truth, true);
+            floor += off_by_a_tenth(moved, truth);
+            floor_mirrored += off_by_a_tenth(moved, truth, true);
+            reused += frame.report.reused;
+        }
+        const auto share = [](std::size_t count) {
+            return static_cast<double>(count) / (double{kWidth} * kHeight * 11);
+        };
+        MESSAGE(walk << ": reused " << share(reused) << ", off " << share(off) << " (floor "
+                     << share(floor) << "), of these with mirrors " << share(off_mirrored)
+                     << " (floor " << share(floor_mirrored) << ")");
+        CHECK(share(off) < share(floor) + 0.01);
+        CHECK(share(off_mirrored) < share(floor_mirrored) + 0.01);
+        CHECK(share(reused) > 0.9);
+    }
+}
+
+TEST_CASE("cloud: the same bytes with any number of threads, in every mode") {
+    Room room;
+    for (const CloudCheck check : {CloudCheck::all, CloudCheck::edges, CloudCheck::none}) {
+        CloudOptions options;
+        options.check = check;
+        options.audit = 0.02;
+        options.supersaturated = check != CloudCheck::edges;
+        options.limit = 1.5;
+        std::vector<std::vector<Rgb>> expected;
+        for (const int workers : {1, 2, 7}) {
+            const auto executor =
+                make_executor(workers == 1 ? ExecutorKind::serial : ExecutorKind::threads, workers);
+            CloudFrames frames(kWidth, kHeight, options);
+            for (std::size_t i = 0; i < 10; ++i) {
+                const CloudFrame frame = room.draw(
+                    frames, view_of(i < 5 ? "forward" : "turn", static_cast<int>(i)), *executor);
+                if (workers == 1)
+                    expected.push_back(frame.radiance);
+                else
+                    CHECK(frame.radiance == expected[i]);
+                CHECK(frames.points().size() <= kWidth * kHeight * 3 / 2);
+            }
+        }
+    }
+}
+
+TEST_CASE("cloud: a frame that is stopped leaves the cloud as it was") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudFrames frames(kWidth, kHeight, {});
+    (void)room.draw(frames, view_at(0, 0, 0), *executor);
+    const std::vector<CloudPoint> before(frames.points().begin(), frames.points().end());
+    room.stop.request();
+    CHECK(!room.draw(frames, view_at(0.5, 0, 0), *executor).complete);
+    CHECK(std::equal(before.begin(), before.end(), frames.points().begin(), frames.points().end()));
+}
+
+TEST_CASE("cloud: what a budget leaves out is filled from around, and traced in time") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options;
+    options.budget = 1e-9;  // the least that a frame traces
+    options.refine = 0.25;
+    CloudFrames frames(kWidth, kHeight, options);
+    const View view = view_at(0, 0, 0);
+    const CloudFrame first = room.draw(frames, view, *executor);
+    const std::size_t traced = first.report.holes[static_cast<std::size_t>(HoleCause::uncovered)];
+    CHECK(traced > 0);
+    CHECK(traced < first.report.pixels / 10);
+    CHECK(first.report.filled == first.report.pixels - traced);
+    for (const Rgb& color : first.radiance) CHECK(color.g > 0);  // none is left black
+    const CloudFrame moved = room.draw(frames, view_at(0, 0.01, 0), *executor);
+    CHECK(moved.report.filled > 0);
+    CHECK(moved.report.reused + moved.report.filled < moved.report.pixels);
+    std::size_t filled = moved.report.filled;
+    for (int i = 0; i < 3; ++i) {
+        const CloudFrame next = room.draw(frames, view_at(0, 0.01, 0), *executor);
+        CHECK(next.report.filled < filled);
+        filled = next.report.filled;
+    }
+}
+
+TEST_CASE("cloud: a view that stands still becomes the traced picture, then a smoother one") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options;
+    options.refine = 0.25;
+    CloudFrames frames(kWidth, kHeight, options);
+    for (int i = 0; i < 4; ++i) (void)room.draw(frames, view_of("forward", i), *executor);
+    const View view = view_of("forward", 4);
+    const std::vector<TracedPixel> truth = room.truth(view);
+    const auto wrong = [&](const CloudFrame& frame) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            count += frame.radiance[i] == truth[i].radiance ? 0 : 1;
+        return count;
+    };
+    std::size_t last = wrong(room.draw(frames, view, *executor));
+    CHECK(last > truth.size() / 2);
+    for (int i = 0; i < 4; ++i) {
+        const CloudFrame frame = room.draw(frames, view, *executor);
+        const std::size_t now = wrong(frame);
+        CHECK(now <= last);
+        last = now;
+        CHECK(frame.report.holes[static_cast<std::size_t>(HoleCause::refined)] <=
+              truth.size() / 4 + 1);
+    }
+    CHECK(last == 0);
+    const CloudFrame smoother = room.draw(frames, view, *executor);
+    CHECK(smoother.report.holes[static_cast<std::size_t>(HoleCause::refined)] > 100);
+    CHECK(wrong(smoother) > 100);
+    const CloudFrame on = room.draw(frames, view_of("forward", 5), *executor);  // and on it goes
+    CHECK(on.report.reused > on.report.pixels * 8 / 10);
+}
+
+TEST_CASE("cloud: audited errors are told, and too large ones tighten reuse") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options;
+    options.audit = 0.1;
+    options.audit_limit = 1e-6;  // more than any reuse can hold
+    CloudFrames frames(kWidth, kHeight, options);
+    std::size_t errors = 0, floors = 0;
+    double tightness = 1;
+    for (int i = 0; i < 6; ++i) {
+        const CloudFrame frame = room.draw(frames, view_of("sideways", i), *executor);
+        errors += frame.report.audit_errors.size();
+        floors += frame.report.audit_floors.size();
+        CHECK(frame.report.tightness <= tightness);
+        tightness = frame.report.tightness;
+    }
+    CHECK(errors > 1000);
+    CHECK(floors > errors / 6);
+    CHECK(floors < errors / 3);
+}
+
+TEST_CASE("cloud: a long walk at random neither grows nor fails") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options;
+    options.limit = 2;
+    CloudFrames frames(kWidth, kHeight, options);
+    RandomStream random(11);
+    double forward = 2, aside = 0, turned = 0;
+    for (int i = 0; i < 30; ++i) {
+        forward = std::clamp(forward + 0.3 * (random.next() - 0.5), 0.5, 6.0);
+        aside = std::clamp(aside + 0.3 * (random.next() - 0.5), -2.0, 2.0);
+        turned += 0.2 * (random.next() - 0.5);
+        const CloudFrame frame = room.draw(frames, view_at(forward, aside, turned), *executor);
+        CHECK(frame.complete);
+        CHECK(frames.points().size() <= std::size_t{2} * kWidth * kHeight);
+        CHECK(frame.report.points <= frames.points().size());
+    }
+}
