@@ -209,7 +209,8 @@ class Measurement {
 
 int main(int count, char** words) {
     try {
-        Measurement measurement(parse_render_command({words + 1, words + count}, real_files()));
+        Measurement measurement(
+            parse_render_command("render", {words + 1, words + count}, real_files()));
         std::printf("%s\n", measurement.run().dump().c_str());
         return 0;
     } catch (const std::exception& error) {
