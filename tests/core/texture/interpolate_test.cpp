@@ -40,7 +40,7 @@ std::string picture_bytes(const std::string& variables, const std::string& resol
 
 std::string conformance_picture(const std::string& setup) {
     if (setup.starts_with("1x1")) {
-        return std::string("#?RADIANCE\n\n-Y 1 +X 1\n") + "\x07\x08\x09" + static_cast<char>(136);
+        return "#?RADIANCE\n\n-Y 1 +X 1\n\x07\x08\x09\x88";
     }
     if (setup.starts_with("PIC34")) return picture_bytes("", "-Y 4 +X 3", 4, 3, 0);
     if (setup.find("PIXASPECT=2") != std::string::npos)

@@ -94,7 +94,9 @@ TEST_CASE("runs end at 127 bytes, literals at 128") {
           "a"
           "\x83"
           "a");
-    CHECK(coded_red(std::string(254, 'a') + "b") ==
+    std::string row(254, 'a');
+    row.push_back('b');
+    CHECK(coded_red(row) ==
           "\xff"
           "a"
           "\xff"
