@@ -119,7 +119,7 @@ def stride(program, options):
     cases = {name: (Split("ranks", ranks), ["-vf", view, *picture(options.size), "--block", 8, *words])
              for name, words in strides.items()}
     found = measure(program, cases, options.runs)
-    inputs = model_inputs(program, options, view, ())
+    inputs = model_inputs(program, options, view, (), "stride")
     wanted = [{"name": f"{name}/{n}", "variant": "ranks", "ranks": n, "block": 8, "machine": machine,
                "stride": 0 if name == "auto" else int(name)}
               for n, machine in ((ranks, "here"), (65, "cluster")) for name in strides]

@@ -2,13 +2,15 @@
 """How Lightwalk scales over ranks and threads, and what walks reuse; perf/run.sh starts this."""
 import argparse, os, pathlib, sys
 
+import checks
 import experiments
 import model
 import walks
 from runs import ROOT, Program, find_scene
 
 NAMES = {"table1": experiments.table1, "splits": experiments.splits, "stride": experiments.stride,
-         "ambient-exchange": experiments.ambient_exchange, "model": model.run, "table2": walks.table2, "walkfilm": walks.walkfilm}
+         "ambient-exchange": experiments.ambient_exchange, "model": model.run, "table2": walks.table2, "walkfilm": walks.walkfilm,
+         "same-bytes": checks.same_bytes, "kills": checks.kills, "many-ranks": checks.many_ranks}
 
 
 def main():
@@ -31,8 +33,10 @@ def main():
         parser.error(f"there is no program {options.lightwalk}")
     options.out = options.out.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
-    NAMES[options.name](Program(options.lightwalk, find_scene(options.scenes)), options)
-    return 0
+    result = NAMES[options.name](Program(options.lightwalk, find_scene(options.scenes)), options)
+    if result is False:
+        print(f"{options.name}: not all of it holds", file=sys.stderr)
+    return 1 if result is False else 0
 
 
 if __name__ == "__main__":

@@ -83,7 +83,7 @@ def calibrate(program, options, inputs, measured, light):
     names = [str(Split("threads", 1, n)) for n in sorted({1, options.cores})]
     wanted = [case(name, Split("threads", 1, int(name.split()[1]))) for name in names]
     found = {p["name"]: p["seconds"] for p in predict(program, options.out, f"calibration-{light}", inputs, wanted)}
-    slow = [measured[name]["least"] / found[name] for name in names]
+    slow = [measured[name]["seconds"] / found[name] for name in names]
     here["slowness"] = slow[0]
     most = max(1, slow[-1] / slow[0])
     here["crowding"] = [1 + (most - 1) * k / max(1, options.cores - 1) for k in range(options.cores)]
@@ -117,17 +117,17 @@ def validate(program, options, inputs_of):
             one = measured[p["name"]]
             rows.append({"light": light, "run": p["name"], "measured": one["seconds"], "least": one["least"],
                          "most": one["most"], "others": one["others"], "given": p["name"] in given,
-                         "predicted": p["seconds"], "error": p["seconds"] / one["least"] - 1, "values": one["ambient_values"],
+                         "predicted": p["seconds"], "error": p["seconds"] / one["seconds"] - 1, "values": one["ambient_values"],
                          "values_predicted": p.get("values_made", 0)})
     print_table(rows)
     errors = [abs(r["error"]) for r in rows if not r["given"]]
     print(f"{sum(e <= 0.1 for e in errors)} of {len(errors)} within 10 %; median {statistics.median(errors):.1%}")
-    series = {light: [(r["least"], r["predicted"]) for r in rows if r["light"] == light]
+    series = {light: [(r["measured"], r["predicted"]) for r in rows if r["light"] == light]
               for light in ("direct", "ambient")}
-    ends = [min(r["least"] for r in rows), max(r["least"] for r in rows)]
+    ends = [min(r["measured"] for r in rows), max(r["measured"] for r in rows)]
     series["equal"] = [(e, e) for e in ends]
     svg_plot.write_lines(options.out / "model-validation.svg", f"Predicted against measured, {scene.name}",
-                         "measured, the least [s]", "predicted [s]", series, x_log=0, points=("direct", "ambient"))
+                         "measured, the median [s]", "predicted [s]", series, x_log=0, points=("direct", "ambient"))
     return rows
 
 

@@ -2,11 +2,13 @@
 """Build for several levels of x86-64, run the tests of functions, textures and lights in each, and compare what the builds compute:
 values of the function language, records of single rays, pictures. They must agree to the bit.
 
-  compare_levels.py [--shared DIR] [--work DIR] [--release FOLDER] [--scale N] [LEVEL...]
+  compare_levels.py [--shared DIR] [--work DIR] [--release FOLDER] [--scale N] [--all-tests] [LEVEL...]
 
-LEVEL: v2, v3, v4-256, v4-512 (vectors of so many bits preferred); default: all. One that this processor cannot run is said and left
-out. With --release FOLDER the project's own build there, made for v3 by the preset, stands for v3: its tests are run elsewhere. Reference scenes come from DIR (default: ../shared); without them the demo scene alone is rendered. --scale makes pictures N
-times as large a side. Exit 0: all agree, 1: something differs or fails.
+LEVEL: v2, v3, v4-256, v4-512 (vectors of so many bits preferred); default: all. One that this processor cannot run is
+said and left out. With --release FOLDER the project's own build there, made for v3 by the preset, stands for v3: its tests
+are run elsewhere. Reference scenes come from DIR (default: ../shared); without them the demo scene alone is rendered.
+--scale makes pictures N times as large a side. --all-tests builds and runs all tests in each level: some ten minutes each.
+Exit 0: all agree, 1: something differs or fails.
 """
 import argparse
 import hashlib
@@ -24,6 +26,7 @@ V3 = V2 | {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}
 V4 = V3 | {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}
 LEVELS = {"v2": ("x86-64-v2", "", V2), "v3": ("x86-64-v3", "", V3),
           "v4-256": ("x86-64-v4", "-mprefer-vector-width=256", V4), "v4-512": ("x86-64-v4", "-mprefer-vector-width=512", V4)}
+TARGETS = ["lightwalk", "lightwalk_level_tests", "lightwalk_level_values"]
 DIRECT = "-ps 1 -ab 0 -av .1 .1 .1"
 AMBIENT = "--deterministic -ps 1 -ab 1 -ad 256 -as 64 -aa .15 -ar 64 -av .1 .1 .1"
 LODGE = "apps/scenes/lodge"
@@ -63,14 +66,23 @@ def call(command, **more):
     return done.stdout
 
 
-def build(name, work, shared):
+def build(name, work, shared, targets):
     level, flags, _ = LEVELS[name]
     folder = work / name
     # As the release preset, but -O2 and nothing across files: it builds sooner, and compilers err as well.
     call(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
           f"-DLIGHTWALK_ISA={level}", f"-DCMAKE_CXX_FLAGS={flags}", "-DLIGHTWALK_PERF=OFF", "-DLIGHTWALK_UNITY=ON", f"-DLIGHTWALK_SHARED={shared}"])
-    call(["ninja", "-C", folder, "lightwalk", "lightwalk_level_tests", "lightwalk_level_values"])
+    call(["ninja", "-C", folder, *targets])
     return folder
+
+
+def run_tests(folder, everything):
+    """Run those of functions, textures and lights, or all that the project has; what ctest says of them."""
+    if not everything:
+        call([folder / "tests" / "lightwalk_level_tests", "--minimal"])
+        return "passes its tests"
+    said = call(["ctest", "--test-dir", folder, "-j", os.cpu_count(), "--output-on-failure"]).decode()
+    return next(line for line in said.splitlines() if "tests passed" in line)
 
 
 def build_released(folder):
@@ -170,13 +182,12 @@ def check(name, given, shared, first):
     """Build and run a level; its results, and whether an old processor computes the same."""
     start = time.monotonic()
     released = name == "v3" and given.release is not None
-    folder = build_released(given.release.resolve()) if released else build(name, given.work.resolve(), shared)
+    targets = ["all", "lightwalk_level_values"] if given.all_tests else TARGETS
+    folder = build_released(given.release.resolve()) if released else build(name, given.work.resolve(), shared, targets)
     built = time.monotonic()
-    if not released:
-        call([folder / "tests" / "lightwalk_level_tests", "--minimal"])
+    passed = "released" if released else run_tests(folder, given.all_tests)
     found = Build(folder, shared).results(given.scale)
-    print(f"{name}: built in {built - start:.0f} s, {'released' if released else 'passes its tests'}, "
-          f"ran in {time.monotonic() - built:.0f} s", flush=True)
+    print(f"{name}: built in {built - start:.0f} s, {passed}, ran in {time.monotonic() - built:.0f} s", flush=True)
     if first:
         for what, output in found.items():
             print(f"  {what}: {len(output)} bytes, SHA-1 {hashlib.sha1(output).hexdigest()[:12]}")
@@ -189,6 +200,7 @@ def main():
     options.add_argument("--work", type=pathlib.Path, default=ROOT / "build" / "levels")
     options.add_argument("--release", type=pathlib.Path)
     options.add_argument("--scale", type=int, default=1)
+    options.add_argument("--all-tests", action="store_true")
     options.add_argument("levels", nargs="*", metavar="LEVEL", default=list(LEVELS))
     given = options.parse_args()
     for name in given.levels:
