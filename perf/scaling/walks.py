@@ -20,24 +20,14 @@ def views_of(scene):
     return ("vf/living", "vf/interior", "vf/ext.ne") if scene.name == "cabin" else scene.views[:2]
 
 
-def start_of(program, options, view, move):
-    """Options of a walk's first view. Walks backward begin where those forward end: behind the views there are walls."""
-    if move != "backward":
-        return ["-vf", view]
-    with tempfile.TemporaryDirectory() as scratch:
-        program.run([program.lightwalk, "animate", "--quiet", "-vf", view, "--walk", "forward", "--frames", options.frames,
-                     "-x", 16, "-y", 16, "-o", pathlib.Path(scratch) / "f%d.hdr", *program.scene.words])
-        head = (pathlib.Path(scratch) / f"f{options.frames}.hdr").read_bytes().split(b"\n\n")[0].decode(errors="replace")
-    return [line for line in head.split("\n") if line.startswith("VIEW=")][-1].split()[1:]
-
-
-def animate(program, options, view, move, words, folder):
-    """--stats of a walk whose frames are f0001.hdr ... in the folder."""
-    stats = folder / "stats.json"
-    start = start_of(program, options, view, move)
-    program.run([program.lightwalk, "animate", "--quiet", "-n", options.cores, *start, "--walk", move, "--frames",
-                 options.frames, "-x", options.size, "-y", options.size * 3 // 4, "-ps", 1, "-av", ".02", ".02", ".02",
-                 *words, "--stats", stats, "-o", folder / "f%04d.hdr", *program.scene.words], timeout=7200)
+def animate(program, options, views, words, folder):
+    """--stats of a walk whose frames are f0001.hdr ... in the folder. views: as of views_of_walk."""
+    from walk.views import lines
+    stats, path = folder / "stats.json", folder / "walk.vf"
+    path.write_text(lines(views))
+    program.run([program.lightwalk, "animate", "--quiet", "-n", options.cores, "--path", path, "-x", options.size, "-y",
+                 options.size * 3 // 4, "-ps", 1, "-av", ".02", ".02", ".02", *words, "--stats", stats, "-o",
+                 folder / "f%04d.hdr", *program.scene.words], timeout=7200)
     return json.loads(stats.read_text())
 
 
@@ -48,21 +38,24 @@ def frame_seconds(stats):
 
 def table2(program, options):
     """Share of reused pixels and speed-up over traced frames, for each walk and way, beside the paper's Table 2."""
+    from walk.moves import views_of_walk
     rows = []
     for view in views_of(program.scene):
         for move in MOVES:
             with tempfile.TemporaryDirectory() as scratch:
-                full = animate(program, options, view, move, ("--reuse", "off"), pathlib.Path(scratch))
+                views = views_of_walk(program, view, move, options.frames, pathlib.Path(scratch))
+                full = animate(program, options, views, ("--reuse", "off"), pathlib.Path(scratch))
                 traced = full["seconds"]["render"] / options.frames
                 for mode, words in MODES.items():
-                    stats = animate(program, options, view, move, words, pathlib.Path(scratch))
+                    stats = animate(program, options, views, words, pathlib.Path(scratch))
                     seconds = frame_seconds(stats)
                     rows.append({"view": view, "walk": move, "mode": mode, "reused": stats["reuse"]["reused"],
                                  "paper": PAPER.get(move, "-"), "traced_s": traced, "frame_s": seconds,
                                  "speedup": traced / seconds})
                     print(f"{view} {move} {mode}: {stats['reuse']['reused']:.1%}", file=sys.stderr, flush=True)
     print_table(rows)
-    save(options.out, "table2", about(program.scene, options.size), frames=options.frames, cores=options.cores, rows=rows)
+    save(options.out, "table2", about(program.scene, options.size), frames=options.frames, cores=options.cores,
+         rows=rows)
     series = {mode: [statistics.mean(r["reused"] for r in rows if r["walk"] == move and r["mode"] == mode)
                      for move in MOVES] for mode in MODES}
     series["SC'99"] = [PAPER.get(move) for move in MOVES]
@@ -108,6 +101,7 @@ def film_frames(folders, count):
 
 def walkfilm(program, options):
     """Each walk as a film: what is shown, and beside it how far it is off."""
+    from walk.moves import views_of_walk
     rows, lines = [], {}
     for view in views_of(program.scene):
         name = pathlib.Path(view).stem if view.endswith(".vf") else pathlib.Path(view).name
@@ -116,8 +110,9 @@ def walkfilm(program, options):
                 folders = {kind: pathlib.Path(scratch) / kind for kind in ("truth", "reused")}
                 for folder in folders.values():
                     folder.mkdir()
-                animate(program, options, view, move, ("--reuse", "off"), folders["truth"])
-                animate(program, options, view, move, MODES["supersaturated"], folders["reused"])
+                views = views_of_walk(program, view, move, options.frames, folders["truth"])
+                animate(program, options, views, ("--reuse", "off"), folders["truth"])
+                animate(program, options, views, MODES["supersaturated"], folders["reused"])
                 frames, off = film_frames(folders, options.frames)
             film = film_of(options.out, f"walkfilm-{name}-{move}", frames)
             rows.append({"view": view, "walk": move, "film": film.name, "off": statistics.mean(off),
@@ -125,5 +120,5 @@ def walkfilm(program, options):
             lines[f"{name} {move}"] = [(i + 1, 100 * share) for i, share in enumerate(off)]
     print_table(rows)
     save(options.out, "walkfilm", about(program.scene, options.size), frames=options.frames, rows=rows)
-    svg_plot.write_lines(options.out / "walkfilm.svg", f"Pixels off by more than a tenth, {program.scene.name}", "frame",
-                         "percent", lines, x_log=0)
+    svg_plot.write_lines(options.out / "walkfilm.svg", f"Pixels off by more than a tenth, {program.scene.name}",
+                         "frame", "percent", lines, x_log=0)

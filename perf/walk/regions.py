@@ -1,5 +1,5 @@
 """The parts of a picture where what is seen moves otherwise than surfaces do: mirrors, panes, shiny floors."""
-import dataclasses, subprocess, sys
+import dataclasses, sys
 
 import numpy
 
@@ -15,8 +15,9 @@ class Region:
 
 
 REGIONS = (Region("mirror", "cabin/bath", ("mirror",)), Region("mirror", "cabin/dresser", ("mirror",)),
-           Region("window", "cabin/living", ("window_glass",)), Region("shiny floor", "cabin/living", ("wood_floor",)),
-           Region("mirror", "lodge/mirror", ("silvering",)), Region("window", "lodge/window", ("pane",)),
+           Region("window", "cabin/living", ("window_glass", "window_illum")),
+           Region("shiny floor", "cabin/living", ("wood_floor",)),
+           Region("mirror", "lodge/mirror", ("silvering",)), Region("window", "lodge/window", ("pane", "window_light")),
            Region("shiny floor", "lodge/living", ("floor_wood",)))
 
 
@@ -24,13 +25,9 @@ def first_modifiers(place, view, shape):
     """Names of what the middles of the pixels meet, height x width of text; "*" where there is nothing."""
     origins, along = views.rays(view, shape[1], shape[0])
     rays = numpy.concatenate([origins + numpy.zeros_like(along), along], axis=2).astype(numpy.float64)
-    done = subprocess.run([str(word) for word in (place.program.lightwalk, "trace", "-h", "-fda", "-om", "--quiet",
-                                                  *place.program.scene.words)],
-                          cwd=place.program.scene.folder, env=place.program.environment, input=rays.tobytes(),
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    if done.returncode != 0:
-        sys.exit(f"lightwalk trace failed: {done.stderr.decode(errors='replace')[-500:]}")
-    return names_of(done.stdout.decode(), shape)
+    told = place.program.run([place.program.lightwalk, "trace", "-h", "-fda", "-om", "--quiet",
+                              *place.program.scene.words], input=rays.tobytes())
+    return names_of(told, shape)
 
 
 def names_of(text, shape):

@@ -7,7 +7,6 @@ from . import pictures, views
 
 #: Constant ambient radiance of all pictures [W/(m2 sr)]: there is no other indirect light.
 AMBIENT = ("-av", ".02", ".02", ".02")
-MOVES = ("turn", "forward", "backward", "right")
 #: Views of the walks, as SCENE/FILE; the second word is the file's name in the scene's folder of views.
 CABIN_VIEWS = ("cabin/living", "cabin/interior", "cabin/ext.ne")
 LODGE_VIEWS = ("lodge/living",)
@@ -81,20 +80,6 @@ def frame(folder, number):
 
 def depths(folder, number, shape):
     return pictures.read_depths(folder / f"f{number:04d}.z", shape)
-
-
-def views_of_walk(place, move, frames, folder):
-    """The views of a walk, by the program itself. A walk backward goes where that forward went, from its end: behind
-    the views there are walls."""
-    folder.mkdir(parents=True, exist_ok=True)
-    forward = "forward" if move == "backward" else move
-    place.program.run([place.program.lightwalk, "animate", "--quiet", "-x", 16, "-y", 16, "-ps", 1, "-vf", place.file,
-                       "--walk", forward, "--frames", frames, "-o", folder / "v%04d.hdr", *place.program.scene.words],
-                      timeout=3600)
-    found = [views.parse(pictures.view_of(folder / f"v{i:04d}.hdr")) for i in range(1, frames + 1)]
-    for i in range(1, frames + 1):
-        (folder / f"v{i:04d}.hdr").unlink()
-    return found[::-1] if move == "backward" else found
 
 
 def traced_share(stats):

@@ -1,5 +1,5 @@
 """Walks against the same walks traced: how much is reused, how soon frames are there, how far they are off."""
-import dataclasses, statistics
+import dataclasses, json, statistics, sys
 
 import numpy
 
@@ -33,16 +33,38 @@ class TracedWalk:
     shape: tuple = ()  # height, width [pixels]
 
     def trace(self, reverse_of=None):
-        """Draw both; or take those of the walk that goes the other way, `reverse_of`."""
+        """Draw both; or take those of the walk that goes the other way, `reverse_of`; or those that an earlier run left
+        in the folder."""
         if reverse_of is not None:
             self.seconds, self.shape = reverse_of.seconds, reverse_of.shape
             self.link(reverse_of)
             return
+        if self.left_before():
+            return
+        (self.folder / "traced.json").unlink(missing_ok=True)
         stats = stage.animate(self.place, self.size, self.views, ["--reuse", "off"], self.folder / "truth", depths=True)
         self.shape = stats["picture"]["height"], stats["picture"]["width"]
         self.seconds = stats["seconds"]["render"] / len(self.views)
         moved = [views.shifted(view, 0.5 / self.shape[1], 0.5 / self.shape[0]) for view in self.views]
         stage.animate(self.place, self.size, moved, ["--reuse", "off"], self.folder / "moved")
+        (self.folder / "traced.json").write_text(json.dumps(self.made_from() | {"seconds": self.seconds,
+                                                                                "shape": self.shape}))
+
+    def made_from(self):
+        """What the traced pictures depend on."""
+        program = self.place.program.lightwalk.stat()
+        return {"views": views.lines(self.views), "program": [program.st_size, program.st_mtime_ns],
+                "size": [self.size.width, self.size.height]}
+
+    def left_before(self):
+        """Whether the folder holds these very pictures."""
+        path = self.folder / "traced.json"
+        found = json.loads(path.read_text()) if path.is_file() else {}
+        if not self.made_from().items() <= found.items():
+            return False
+        self.seconds, self.shape = found["seconds"], tuple(found["shape"])
+        print(f"{self.folder}: traced before; full s, and what follows from it, are of that time", file=sys.stderr)
+        return True
 
     def link(self, other):
         count = len(self.views)

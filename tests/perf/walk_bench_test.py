@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """What perf/walk_bench.py computes without drawing anything: differences of pictures, masks, views, key frames."""
-import pathlib, sys, tempfile, unittest
+import contextlib, io, json, pathlib, sys, tempfile, types, unittest
 
 try:
     import numpy
@@ -11,7 +11,7 @@ except ImportError:
 PERF = pathlib.Path(__file__).resolve().parents[2] / "perf"
 sys.path += [str(PERF), str(PERF / "scaling")]
 
-from walk import interpolated, pictures, regions, stage, truth, views, ways  # noqa: E402
+from walk import interpolated, moves, pictures, regions, stage, truth, views, ways  # noqa: E402
 
 
 def write_hdr(path, rows, head="#?RADIANCE\nVIEW= -vtv -vp 1 2 3\n\n"):
@@ -120,6 +120,16 @@ class Views(unittest.TestCase):
         numpy.testing.assert_allclose(moved[1:, :-1], along[:-1, 1:], atol=1e-12)
 
 
+class Moves(unittest.TestCase):
+    def test_a_walk_sideways_crosses_in_the_middle_where_it_can(self):
+        self.assertEqual(moves.crossing(50, 0.2, 100, 100), 25)
+        for left, right in ((100, 3), (3, 100), (5.5, 5.5), (7.8, 3)):
+            begin = moves.crossing(50, 0.2, left, right)
+            self.assertLessEqual(begin * 0.2 + 2 * 0.2, left + 1e-9, (left, right))
+            self.assertLessEqual((50 - begin) * 0.2 + 2 * 0.2, right + 1e-9, (left, right))
+        self.assertIsNone(moves.crossing(50, 0.2, 5, 5))
+
+
 class Masks(unittest.TestCase):
     def test_names_come_in_rows_and_are_chosen(self):
         names = regions.names_of("floor\nglass\t\n*\nglass_2\nglass\nfloor\n", (2, 3))
@@ -149,6 +159,28 @@ class Summaries(unittest.TestCase):
         errors = [truth.FrameError(0, 0, 0, 0, 0, 0, elsewhere=share) for share in (5, 60)]
         self.assertAlmostEqual(truth.passing(stats, errors), (85 + 0) / 2)
         self.assertAlmostEqual(stage.traced_share(stats), (200 + 30 + 110) / 200)
+
+    def test_traced_pictures_are_taken_only_by_the_walk_and_program_that_made_them(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            program = folder / "program"
+            program.write_text("1")
+            place = types.SimpleNamespace(program=types.SimpleNamespace(lightwalk=program))
+
+            def walk(text="-vp 1 2 3", width=64):
+                return truth.TracedWalk(place, stage.Size(1, width, 48, 0), [views.parse(text)], folder)
+
+            self.assertFalse(walk().left_before())
+            made = {"seconds": 1.5, "shape": [47, 64]}
+            (folder / "traced.json").write_text(json.dumps(walk().made_from() | made))
+            found = walk()
+            with contextlib.redirect_stderr(io.StringIO()):
+                self.assertTrue(found.left_before())
+            self.assertEqual((found.seconds, found.shape), (1.5, (47, 64)))
+            self.assertFalse(walk("-vp 1 2 4").left_before())
+            self.assertFalse(walk(width=65).left_before())
+            program.write_text("12")
+            self.assertFalse(walk().left_before())
 
     def test_rules_are_settings_of_options(self):
         found = ways.rules("near,drop")
