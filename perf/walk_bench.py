@@ -89,8 +89,8 @@ def parse_args():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", type=lambda text: pathlib.Path(text).resolve(), metavar="DIR")
     parser.add_argument("--lightwalk", default="build/release/lightwalk", metavar="PROGRAM")
-    parser.add_argument("--views", default=",".join(stage.CABIN_VIEWS + stage.LODGE_VIEWS),
-                        help="separated by commas, default %(default)s")
+    parser.add_argument("--views", help="separated by commas, default " + ",".join(stage.VIEWS) +
+                        "; with --regions those listed there")
     parser.add_argument("--walks", default=",".join(moves.MOVES), help="default %(default)s; right goes sideways")
     parser.add_argument("--frames", type=int, default=50, help="of a walk, default %(default)s")
     parser.add_argument("--moves", type=int, default=50,
@@ -114,14 +114,14 @@ def parse_args():
 def settle(args):
     """Names and numbers into what they stand for."""
     width, height = (int(word) for word in args.size.split("x"))
+    if args.regions and args.views and not set(args.views.split(",")) & {region.place for region in regions.REGIONS}:
+        sys.exit("--regions: none is in these views")
     args.size = stage.Size(args.moves + 1 if args.regions else args.frames, width, height, args.threads)
-    args.views, args.walks = args.views.split(","), args.walks.split(",")
+    args.regions = [r for r in regions.REGIONS if args.regions and (not args.views or r.place in args.views.split(","))]
+    args.views, args.walks = args.views.split(",") if args.views else stage.VIEWS, args.walks.split(",")
     args.ways = ways.given(args.reuse) if args.reuse else ways.rules(args.rules) if args.rules else ways.WAYS
-    if args.regions and not (args.reuse or args.rules):
+    if (args.regions or args.pinterp) and not (args.reuse or args.rules):
         args.ways = {"supersaturated": ways.WAYS["supersaturated"]}
-    if args.pinterp and not (args.reuse or args.rules):
-        args.ways = {"supersaturated": ways.WAYS["supersaturated"]}
-    args.regions = list(regions.REGIONS) if args.regions else []
     if args.pinterp:
         args.pinterp = interpolated.find(args.pinterp)
     if args.size.frames < 2:

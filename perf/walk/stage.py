@@ -8,8 +8,7 @@ from . import pictures, views
 #: Constant ambient radiance of all pictures [W/(m2 sr)]: there is no other indirect light.
 AMBIENT = ("-av", ".02", ".02", ".02")
 #: Views of the walks, as SCENE/FILE; the second word is the file's name in the scene's folder of views.
-CABIN_VIEWS = ("cabin/living", "cabin/interior", "cabin/ext.ne")
-LODGE_VIEWS = ("lodge/living",)
+VIEWS = ("cabin/living", "cabin/interior", "cabin/ext.ne", "lodge/living")
 
 
 def view_file(scene, name):
