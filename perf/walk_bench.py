@@ -22,9 +22,8 @@ a walk and way, tab-separated. Shares are percent of the pixels, means over the 
   error       mean difference of the luminance, percent of the mean luminance
 
 A walk backward goes where that forward went, from its end; one to the right crosses that forward in its middle: behind
-and beside the views there are walls. The paper reached 97 %
-reuse turning indoors, 94 % forward, 85 % in the forest, and 90 % with its first version, which dropped points that a
-frame did not use.
+and beside the views there are walls. The paper reached 97 % reuse turning indoors, 94 % forward, 85 % in the forest, and
+90 % with its first version, which dropped points that a frame did not use.
 """
 import argparse, json, pathlib, sys, tempfile
 
