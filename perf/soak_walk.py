@@ -5,8 +5,8 @@
 
 The eye wanders through the living room of the cabin in DIR, Radiance's sample models, or of the demo scene, along a
 smooth path through random views. Frames are deleted as they are written. Each second the memory in use is noted. The
-verdict: the program ends well after all frames; in the last tenth of the time it uses no more than --growth percent
-more memory than in the second tenth; the cloud has no more points than --cloud-limit times the pixels. Exit status: 0
+verdict: the program ends well after all frames; in the last tenth of them it uses no more than --growth percent more
+memory than in the second tenth; the cloud has no more points than --cloud-limit times the pixels. Exit status: 0
 all is well, 1 it is not.
 """
 import argparse, json, pathlib, sys, tempfile

@@ -18,13 +18,14 @@ def resident(process):
 
 
 def growth(samples):
-    """How much more memory was in use at most in the last tenth of the samples than in the second tenth, as a share.
+    """How much more memory was in use at most during the last tenth of the frames than during the second tenth, as a
+    share.
 
-    samples  (frames or seconds, bytes), in order: the first tenth is for what is fetched once
+    samples  (frames drawn, bytes), in order: the first tenth is for what is fetched once
     """
-    tenth = max(1, len(samples) // 10)
-    early = max(memory for _, memory in samples[tenth:2 * tenth] or samples)
-    late = max(memory for _, memory in samples[-tenth:])
+    last = samples[-1][0]
+    early = max((memory for drawn, memory in samples if 0.1 * last <= drawn <= 0.2 * last), default=samples[0][1])
+    late = max(memory for drawn, memory in samples if drawn >= 0.9 * last)
     return (late - early) / early
 
 

@@ -37,6 +37,11 @@ class Soak(unittest.TestCase):
         # What is fetched at the beginning does not count.
         self.assertEqual(soak.growth([(s, min(100, 20 * s + 10)) for s, _ in self.STILL]), 0)
 
+    def test_tenths_are_of_the_frames_and_not_of_the_time(self):
+        """A walk whose second half is drawn in a few seconds."""
+        slow, fast = [(n, 100 + n) for n in range(0, 50)], [(n, 100 + n) for n in range(50, 101, 10)]
+        self.assertAlmostEqual(soak.growth(slow + fast), (200 - 120) / 120)
+
     def test_a_leak_is_growth(self):
         self.assertGreater(soak.growth([(s, 100 + s) for s, _ in self.STILL]), 0.5)
         self.assertGreater(soak.growth([(s, 100 if s < 80 else 150) for s, _ in self.STILL]), 0.4)
