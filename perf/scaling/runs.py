@@ -82,9 +82,10 @@ class Program:
                 return folder / name
         sys.exit(f"{name} was not built beside {self.lightwalk}: build the target {name}")
 
-    def run(self, command, **options):
-        done = subprocess.run([str(word) for word in command], cwd=self.scene.folder, env=self.environment,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+    def run(self, command, input=b"", **options):
+        """What it writes to standard output."""
+        done = subprocess.run([str(word) for word in command], cwd=self.scene.folder, env=self.environment, input=input,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
         if done.returncode != 0:
             sys.exit(f"failed: {' '.join(map(str, command))}\n{done.stderr.decode(errors='replace')[-2000:]}")
         return done.stdout.decode()

@@ -1,9 +1,11 @@
 """Walks: what is reused from frame to frame, how much sooner frames are there, and how true they are."""
-import json, pathlib, shutil, statistics, struct, subprocess, sys, tempfile, zlib
+import json, pathlib, shutil, statistics, subprocess, sys, tempfile
 
 import svg_plot
 from experiments import print_table, save
 from runs import ROOT, about
+
+sys.path.append(str(ROOT / "perf"))  # the package walk; as it needs NumPy, it is imported where it is used
 
 MOVES = ("turn", "forward", "backward", "right")
 #: What is kept, and how it is looked up: ours, and as the paper did it.
@@ -18,24 +20,14 @@ def views_of(scene):
     return ("vf/living", "vf/interior", "vf/ext.ne") if scene.name == "cabin" else scene.views[:2]
 
 
-def start_of(program, options, view, move):
-    """Options of a walk's first view. Walks backward begin where those forward end: behind the views there are walls."""
-    if move != "backward":
-        return ["-vf", view]
-    with tempfile.TemporaryDirectory() as scratch:
-        program.run([program.lightwalk, "animate", "--quiet", "-vf", view, "--walk", "forward", "--frames", options.frames,
-                     "-x", 16, "-y", 16, "-o", pathlib.Path(scratch) / "f%d.hdr", *program.scene.words])
-        head = (pathlib.Path(scratch) / f"f{options.frames}.hdr").read_bytes().split(b"\n\n")[0].decode(errors="replace")
-    return [line for line in head.split("\n") if line.startswith("VIEW=")][-1].split()[1:]
-
-
-def animate(program, options, view, move, words, folder):
-    """--stats of a walk whose frames are f0001.hdr ... in the folder."""
-    stats = folder / "stats.json"
-    start = start_of(program, options, view, move)
-    program.run([program.lightwalk, "animate", "--quiet", "-n", options.cores, *start, "--walk", move, "--frames",
-                 options.frames, "-x", options.size, "-y", options.size * 3 // 4, "-ps", 1, "-av", ".02", ".02", ".02",
-                 *words, "--stats", stats, "-o", folder / "f%04d.hdr", *program.scene.words], timeout=7200)
+def animate(program, options, views, words, folder):
+    """--stats of a walk whose frames are f0001.hdr ... in the folder. views: as of views_of_walk."""
+    from walk.views import lines
+    stats, path = folder / "stats.json", folder / "walk.vf"
+    path.write_text(lines(views))
+    program.run([program.lightwalk, "animate", "--quiet", "-n", options.cores, "--path", path, "-x", options.size, "-y",
+                 options.size * 3 // 4, "-ps", 1, "-av", ".02", ".02", ".02", *words, "--stats", stats, "-o",
+                 folder / "f%04d.hdr", *program.scene.words], timeout=7200)
     return json.loads(stats.read_text())
 
 
@@ -46,21 +38,24 @@ def frame_seconds(stats):
 
 def table2(program, options):
     """Share of reused pixels and speed-up over traced frames, for each walk and way, beside the paper's Table 2."""
+    from walk.moves import views_of_walk
     rows = []
     for view in views_of(program.scene):
         for move in MOVES:
             with tempfile.TemporaryDirectory() as scratch:
-                full = animate(program, options, view, move, ("--reuse", "off"), pathlib.Path(scratch))
+                views = views_of_walk(program, view, move, options.frames, pathlib.Path(scratch))
+                full = animate(program, options, views, ("--reuse", "off"), pathlib.Path(scratch))
                 traced = full["seconds"]["render"] / options.frames
                 for mode, words in MODES.items():
-                    stats = animate(program, options, view, move, words, pathlib.Path(scratch))
+                    stats = animate(program, options, views, words, pathlib.Path(scratch))
                     seconds = frame_seconds(stats)
                     rows.append({"view": view, "walk": move, "mode": mode, "reused": stats["reuse"]["reused"],
                                  "paper": PAPER.get(move, "-"), "traced_s": traced, "frame_s": seconds,
                                  "speedup": traced / seconds})
                     print(f"{view} {move} {mode}: {stats['reuse']['reused']:.1%}", file=sys.stderr, flush=True)
     print_table(rows)
-    save(options.out, "table2", about(program.scene, options.size), frames=options.frames, cores=options.cores, rows=rows)
+    save(options.out, "table2", about(program.scene, options.size), frames=options.frames, cores=options.cores,
+         rows=rows)
     series = {mode: [statistics.mean(r["reused"] for r in rows if r["walk"] == move and r["mode"] == mode)
                      for move in MOVES] for mode in MODES}
     series["SC'99"] = [PAPER.get(move) for move in MOVES]
@@ -68,65 +63,62 @@ def table2(program, options):
                         "share of the pixels", MOVES, series)
 
 
-def write_png(path, pixels):
-    """8-bit r, g, b: an array height x width x 3."""
-    height, width, _ = pixels.shape
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, 6)) +
-                     chunk(b"IEND", b""))
-
-
-def film_of(path, frames):
-    """An .mp4 where ffmpeg is installed, else a .png of at most eight frames, one below the other."""
+def film_of(folder, name, frames):
+    """NAME.mp4 where ffmpeg is installed, else NAME.png: at most eight of the frames, one below the other. Returns its
+    path."""
     import numpy
+    from walk import pictures
     if shutil.which("ffmpeg"):
+        path = folder / f"{name}.mp4"
         height, width, _ = frames[0].shape
         subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
                         f"{width}x{height}", "-framerate", "12", "-i", "pipe:0", "-vf",
-                        "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", str(path.with_suffix(".mp4"))],
+                        "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", str(path)],
                        input=b"".join(frame.tobytes() for frame in frames), check=True)
-        return path.with_suffix(".mp4")
-    step = max(1, len(frames) // 8)
-    write_png(path.with_suffix(".png"), numpy.concatenate(frames[::step][:8]))
-    return path.with_suffix(".png")
+        return path
+    path = folder / f"{name}.png"
+    count = min(8, len(frames))
+    chosen = [frames[k * (len(frames) - 1) // max(count - 1, 1)] for k in range(count)]
+    pictures.write_png(path, numpy.concatenate(chosen))
+    return path
+
+
+def film_frames(folders, count):
+    """Pictures of a film: what is shown, and beside it how far it is off (see error_image); and for each the share of
+    the pixels that are off by more than a tenth."""
+    import numpy
+    from walk import pictures
+    scale, frames, off = None, [], []
+    for i in range(1, count + 1):
+        truth, reused = (pictures.read_hdr(folders[name] / f"f{i:04d}.hdr") for name in ("truth", "reused"))
+        is_, should = pictures.luminance(reused), pictures.luminance(truth)
+        off.append(float(numpy.mean(pictures.off(is_, should))))
+        scale = scale or pictures.exposure(truth)  # all frames as the first one
+        beside = pictures.error_image(is_, should)
+        frames.append((255 * numpy.concatenate([pictures.shown(reused, scale), beside], axis=1)).astype(numpy.uint8))
+    return frames, off
 
 
 def walkfilm(program, options):
-    """Each walk as a film: what is shown, and beside it in red how far it is off (white: half or more)."""
-    sys.path.insert(0, str(ROOT / "perf"))
-    import numpy
-    import walk_bench
+    """Each walk as a film: what is shown, and beside it how far it is off."""
+    from walk.moves import views_of_walk
     rows, lines = [], {}
     for view in views_of(program.scene):
+        name = pathlib.Path(view).stem if view.endswith(".vf") else pathlib.Path(view).name
         for move in MOVES:
             with tempfile.TemporaryDirectory() as scratch:
-                folders = {name: pathlib.Path(scratch) / name for name in ("truth", "reused")}
+                folders = {kind: pathlib.Path(scratch) / kind for kind in ("truth", "reused")}
                 for folder in folders.values():
                     folder.mkdir()
-                animate(program, options, view, move, ("--reuse", "off"), folders["truth"])
-                animate(program, options, view, move, MODES["supersaturated"], folders["reused"])
-                frames, off = [], []
-                for i in range(1, options.frames + 1):
-                    truth, reused = (walk_bench.read_hdr(folders[name] / f"f{i:04d}.hdr") for name in ("truth", "reused"))
-                    should = walk_bench.luminance(truth)
-                    error = numpy.abs(walk_bench.luminance(reused) - should) / numpy.maximum(should, 1e-9)
-                    off.append(float(numpy.mean(error > 0.1)))
-                    if i == 1:
-                        scale = 0.18 / float(numpy.exp(numpy.mean(numpy.log(should[should > 0]))))
-                    picture = walk_bench.shown(reused, scale)
-                    beside = numpy.stack([numpy.minimum(error * 4, 1), numpy.clip(error * 4 - 1, 0, 1),
-                                          numpy.clip(error * 4 - 1, 0, 1)], axis=2)
-                    frames.append((255 * numpy.concatenate([picture, beside], axis=1)).astype(numpy.uint8))
-            name = f"walkfilm-{pathlib.Path(view).stem if view.endswith('.vf') else pathlib.Path(view).name}-{move}"
-            film = film_of(options.out / f"{name}.film", frames)
-            rows.append({"view": view, "walk": move, "film": film.name, "off": statistics.mean(off), "most_off": max(off)})
-            lines[f"{pathlib.Path(view).name} {move}"] = [(i + 1, 100 * share) for i, share in enumerate(off)]
+                views = views_of_walk(program, view, move, options.frames, folders["truth"])
+                animate(program, options, views, ("--reuse", "off"), folders["truth"])
+                animate(program, options, views, MODES["supersaturated"], folders["reused"])
+                frames, off = film_frames(folders, options.frames)
+            film = film_of(options.out, f"walkfilm-{name}-{move}", frames)
+            rows.append({"view": view, "walk": move, "film": film.name, "off": statistics.mean(off),
+                         "most_off": max(off)})
+            lines[f"{name} {move}"] = [(i + 1, 100 * share) for i, share in enumerate(off)]
     print_table(rows)
     save(options.out, "walkfilm", about(program.scene, options.size), frames=options.frames, rows=rows)
-    svg_plot.write_lines(options.out / "walkfilm.svg", f"Pixels off by more than a tenth, {program.scene.name}", "frame",
-                         "percent", lines, x_log=0)
+    svg_plot.write_lines(options.out / "walkfilm.svg", f"Pixels off by more than a tenth, {program.scene.name}",
+                         "frame", "percent", lines, x_log=0)
