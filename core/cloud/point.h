@@ -19,6 +19,7 @@ enum class PointKind : std::uint8_t {
     glossy,    ///< from a surface that looks different from other sides
     gone,      ///< no point any more: its place in the cloud waits for another one
 };
+inline constexpr std::uint8_t kPointKinds = 5;
 
 /// Of light that takes no part in reuse: its colour holds from the traced direction alone.
 inline constexpr float kAnyTurn = HUGE_VALF;
