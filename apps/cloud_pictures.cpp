@@ -11,7 +11,7 @@ std::optional<Frame> CloudPictures::take() {
     const FrameOptions& options = request->options;
     const bool anew = !frames_ || width_ != options.width || height_ != options.height;
     if (anew) {
-        frames_.emplace(options.width, options.height, options_);
+        frames_.emplace(options.width, options.height, options_, frames_done_);
         width_ = options.width;
         height_ = options.height;
     }

@@ -139,6 +139,7 @@ rays wherever these are true.
                      it, and traced in later frames. Default 0: all are traced
   --refine PERCENT   when a frame has the view of the frame before, that share of its pixels is made better (10): those
                      filled, then those reused, oldest first, then, with further rays, those at steps of brightness
+  --projectors N     of many ranks so many at most keep points (32); the others trace what is missing
 )";
 
 constexpr const char* kTraceHelp =

@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "parallel/ranks/piece_codec.h"
 
 namespace lightwalk {
 namespace {
@@ -174,6 +175,23 @@ void RankLink::trace_rays(Executor& executor, AnswerChunk answer, const StopFlag
     tracer->run(executor, stop);
 }
 
+void RankLink::draw_walk(Executor& executor, const CloudOptions& cloud, int projectors,
+                         MakeWalkRays make, const StopFlag& stop) {
+    CloudTracerOptions options;
+    options.index = topology_.worker_index(rank()).value_or(0);
+    for (const Topology::Worker& worker : topology_.workers) options.workers.push_back(worker.rank);
+    options.owners = owners_of(options.workers.size(), projectors);
+    options.cloud = cloud;
+    options.encode = encode_piece;
+    const auto post = [this](Address to, Message message) {
+        loop_.post(Role::tracer, to, std::move(message));
+    };
+    const auto tracer =
+        std::make_shared<CloudTracer>(std::move(options), std::move(make), post, &timeline_);
+    open_tracer([tracer](Message message) { tracer->take(std::move(message)); });
+    tracer->run(executor, stop);
+}
+
 void RankLink::open_tracer(std::function<void(Message)> take) {
     const std::lock_guard lock(mutex_);
     tracer_ = std::move(take);
@@ -243,6 +261,17 @@ RankLink::RayNews RankLink::ray_news(bool wait, const StopFlag& stop) {
     return std::exchange(ray_news_, {});
 }
 
+void RankLink::submit(CloudOrder order) {
+    loop_.post(Role::program, {0, Role::master}, std::move(order));
+}
+
+std::optional<FinishedFrame> RankLink::wait_for_frame(const StopFlag& stop) {
+    std::unique_lock lock(mutex_);
+    while (!frame_ && !stop.requested()) changed_.wait_for(lock, kPatience);
+    if (stop.requested()) return std::nullopt;
+    return std::exchange(frame_, std::nullopt);
+}
+
 std::map<int, std::string> RankLink::finish(const StopFlag& stop) {
     for (int rank = 0; rank < ranks(); ++rank)
         loop_.post(Role::program, {rank, Role::program}, Finish{});
@@ -279,6 +308,8 @@ void RankLink::take(Envelope envelope) {
         ray_news_.rays = ask->rays;
     } else if (auto* answer = std::get_if<ChunkAnswer>(&message)) {
         ray_news_.answers.push_back(std::move(*answer));
+    } else if (auto* frame = std::get_if<FinishedFrame>(&message)) {
+        frame_ = std::move(*frame);
     } else if (auto* report = std::get_if<Report>(&message)) {
         reports_[envelope.from.rank] = std::move(report->payload);
     } else {

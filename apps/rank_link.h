@@ -12,6 +12,7 @@
 #include "core/math/function_ref.h"
 #include "parallel/block_keeper.h"
 #include "parallel/ranks/chunk_tracer.h"
+#include "parallel/ranks/cloud_tracer.h"
 #include "parallel/ranks/exchanging_cache.h"
 #include "parallel/ranks/rank_loop.h"
 #include "parallel/ranks/rank_tracer.h"
@@ -71,6 +72,10 @@ class RankLink final : private LocalEnd {
     void trace(Executor& executor, MakeRenderer make, const StopFlag& stop);
     /// The same for rays.
     void trace_rays(Executor& executor, AnswerChunk answer, const StopFlag& stop);
+    /// The same for the frames of a walk.
+    /// @param projectors  ranks that own a part of the frames, at most
+    void draw_walk(Executor& executor, const CloudOptions& cloud, int projectors, MakeWalkRays make,
+                   const StopFlag& stop);
     /// On ranks that do not trace.
     void wait_for_end(const StopFlag& stop);
     /// What this rank did, for rank 0.
@@ -95,6 +100,9 @@ class RankLink final : private LocalEnd {
     };
     /// @param wait  until there is some, or `stop` is requested
     [[nodiscard]] RayNews ray_news(bool wait, const StopFlag& stop);
+    void submit(CloudOrder order);
+    /// The frame that was submitted, when all its parts are there; nothing: stopped.
+    [[nodiscard]] std::optional<FinishedFrame> wait_for_frame(const StopFlag& stop);
     /// No more work comes: what the other ranks report, by rank.
     [[nodiscard]] std::map<int, std::string> finish(const StopFlag& stop);
 
@@ -151,6 +159,7 @@ class RankLink final : private LocalEnd {
     std::map<JobId, std::shared_ptr<BlockKeeper>> keepers_;
     std::map<int, std::string> reports_;
     RayNews ray_news_;
+    std::optional<FinishedFrame> frame_;
     bool finished_ = false;
 };
 

@@ -107,6 +107,11 @@ std::optional<Frame> LeadPictures::take() {
     return assemble(*picture, options.width, options.height);
 }
 
+void RankPictures::serve(Executor& executor) {
+    link_.trace(
+        executor, [&](const JobStart& job) { return make(job); }, stop_);
+}
+
 std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
     const PictureOrder order = decode_order(job.payload);
     FrameOptions options = options_;
@@ -127,7 +132,7 @@ void RankPictures::fill(const Camera& camera, const FrameOptions& options) {
     const auto executor = make_executor(ExecutorKind::threads, contexts.size());
     const OvertureResult played = fill_ambient_cache(
         tracer_, camera, options, Overture::deterministic, *cache_, *executor, contexts, stop_,
-        [](const FrameProgress&) {}, &exchange_);
+        [](const FrameProgress&) {}, &link_.rounds());
     overture_rays_ += played.rays;
     overture_ambient_ += played.ambient;
 }

@@ -9,6 +9,7 @@
 #include "apps/picture_maker.h"
 #include "apps/progress.h"
 #include "apps/rank_link.h"
+#include "apps/rank_work.h"
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"
 #include "parallel/freezable_cache.h"
@@ -64,36 +65,34 @@ class LeadPictures final : public PictureMaker {
 };
 
 /// Renders the blocks of orders, on every rank that traces.
-class RankPictures {
+class RankPictures final : public RankWork {
   public:
     /// @param options  of all pictures, but for what an order says
     /// @param cache     null without ambient values
-    /// @param exchange  among all ranks that trace
-    RankPictures(const Tracer& tracer, const FrameOptions& options, FreezableCache* cache,
-                 WorkerContexts& contexts, RoundExchange& exchange, WarningSink& warnings,
+    RankPictures(RankLink& link, const Tracer& tracer, const FrameOptions& options,
+                 FreezableCache* cache, WorkerContexts& contexts, WarningSink& warnings,
                  const StopFlag& stop)
-        : tracer_(tracer),
+        : link_(link),
+          tracer_(tracer),
           options_(options),
           cache_(cache),
           contexts_(contexts),
-          exchange_(exchange),
           warnings_(warnings),
           stop_(stop) {}
 
-    /// For RankLink::trace.
-    [[nodiscard]] std::shared_ptr<const BlockRenderer> make(const JobStart& job);
-
-    [[nodiscard]] RayCounters rays() const;
-    [[nodiscard]] AmbientCounters ambient() const;
+    void serve(Executor& executor) override;
+    [[nodiscard]] RayCounters rays() const override;
+    [[nodiscard]] AmbientCounters ambient() const override;
 
   private:
+    [[nodiscard]] std::shared_ptr<const BlockRenderer> make(const JobStart& job);
     void fill(const Camera& camera, const FrameOptions& options);
 
+    RankLink& link_;
     const Tracer& tracer_;
     FrameOptions options_;
     FreezableCache* cache_;
     WorkerContexts& contexts_;
-    RoundExchange& exchange_;
     WarningSink& warnings_;
     const StopFlag& stop_;
     RayCounters overture_rays_;

@@ -31,8 +31,9 @@ std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& option
     settings.ambient_batch = ambient ? static_cast<std::size_t>(wanted.ambient_batch) : 0;
     settings.encode = encode_piece;
     settings.rays = work.rays;
-    // Chunks of rays are few: one master deals them out.
-    const int masters = work.rays ? 1 : wanted.masters;
+    settings.projectors = work.projectors;
+    // Chunks of rays are few, and so are the holes of a walk's frames: one master deals them out.
+    const int masters = work.rays || work.projectors > 0 ? 1 : wanted.masters;
     return std::make_unique<RankLink>(*transport,
                                       make_topology(variant, transport->size(), ambient, masters),
                                       settings, work.program, !wanted.timeline.empty());

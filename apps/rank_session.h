@@ -15,6 +15,7 @@ struct SharedWork {
     std::string program;          ///< how messages name the command
     bool ambient_values = false;  ///< ranks gain from each other's
     bool rays = false;            ///< chunks of rays, not blocks of pictures
+    int projectors = 0;           ///< frames of a walk, drawn from points: see RankSettings
 };
 
 /// Understands the command line: rank 0 first, by the files, environment and standard input it has;

@@ -17,6 +17,7 @@
 #include "apps/rank_pictures.h"
 #include "apps/rank_report.h"
 #include "apps/rank_session.h"
+#include "apps/rank_walk.h"
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
@@ -74,7 +75,7 @@ class RenderRun {
     }
 
     std::unique_ptr<PictureMaker> local_pictures() {
-        if (command_.walk && command_.walk->reuse)
+        if (reuses())
             return std::make_unique<CloudPictures>(
                 *session_, overture(), command_.walk->cloud, walk_length(*command_.walk),
                 *executor_, *contexts_, progress_options(), warnings_, statistics_);
@@ -149,7 +150,8 @@ class RenderRun {
         // A deterministic run exchanges values in rounds, among all who trace.
         const bool ambient =
             caches_ambient_values(command_.settings.light) && !command_.deterministic;
-        link_ = link_ranks(transport_, command_.common, {program_, ambient, false});
+        const int projectors = reuses() ? command_.walk->projectors : 0;
+        link_ = link_ranks(transport_, command_.common, {program_, ambient, false, projectors});
         if (link_) statistics_.ranks = link_->ranks();
         return link_ != nullptr;
     }
@@ -163,43 +165,55 @@ class RenderRun {
         make_threads();
     }
 
-    /// What rank 0 orders, until it says that no more comes.
-    void trace_orders(RankPictures& pictures) {
-        link_->trace(
-            *executor_, [&](const JobStart& job) { return pictures.make(job); }, interrupt_flag());
+    /// Whether points of frames before serve the next ones.
+    [[nodiscard]] bool reuses() const { return command_.walk && command_.walk->reuse; }
+
+    std::unique_ptr<RankWork> rank_work() {
+        const FrameOptions options = frame_options(command_, {});
+        if (reuses())
+            return std::make_unique<RankWalk>(*link_, *session_, overture(), options,
+                                              command_.walk->cloud, command_.walk->projectors,
+                                              *contexts_, warnings_, interrupt_flag());
+        return std::make_unique<RankPictures>(*link_, session_->tracer(), options,
+                                              session_->freezable.get(), *contexts_, warnings_,
+                                              interrupt_flag());
+    }
+
+    std::unique_ptr<PictureMaker> lead_pictures() {
+        if (reuses())
+            return std::make_unique<LeadWalk>(*link_, session_->tracer(), command_.walk->cloud,
+                                              walk_length(*command_.walk), progress_options(),
+                                              warnings_, statistics_);
+        return std::make_unique<LeadPictures>(*link_, session_->tracer(), overture(), *contexts_,
+                                              progress_options());
     }
 
     int follow() {
         prepare();
-        RankPictures pictures(session_->tracer(), frame_options(command_, {}),
-                              session_->freezable.get(), *contexts_, link_->rounds(), warnings_,
-                              interrupt_flag());
+        const std::unique_ptr<RankWork> work = rank_work();
         if (link_->traces())
-            trace_orders(pictures);
+            work->serve(*executor_);
         else
             link_->wait_for_end(interrupt_flag());
-        link_->report(report(pictures));
+        link_->report(report(*work));
         return kSuccessStatus;
     }
 
     int lead() {
         prepare();
         session_->warn_of_darkness();
-        RankPictures pictures(session_->tracer(), frame_options(command_, {}),
-                              session_->freezable.get(), *contexts_, link_->rounds(), warnings_,
-                              interrupt_flag());
+        const std::unique_ptr<RankWork> rays = rank_work();
         bool whole = false;
         lead_ranks(
-            *link_, [&] { trace_orders(pictures); },
+            *link_, [&] { rays->serve(*executor_); },
             [&] {
-                LeadPictures all(*link_, session_->tracer(), overture(), *contexts_,
-                                 progress_options());
+                const std::unique_ptr<PictureMaker> all = lead_pictures();
                 open_checkpoint();
-                whole = render_all(all);
+                whole = render_all(*all);
                 statistics_.reports = link_->finish(interrupt_flag());
             });
         if (!whole) return kInterruptedStatus;
-        statistics_.reports[0] = report(pictures);
+        statistics_.reports[0] = report(*rays);
         for (const auto& [rank, text] : statistics_.reports)
             add_report(text, statistics_.rays, statistics_.ambient);
         save_statistics();
@@ -209,8 +223,8 @@ class RenderRun {
         return kSuccessStatus;
     }
 
-    [[nodiscard]] std::string report(const RankPictures& pictures) const {
-        return rank_report(*link_, executor_->concurrency(), pictures.rays(), pictures.ambient());
+    [[nodiscard]] std::string report(const RankWork& work) const {
+        return rank_report(*link_, executor_->concurrency(), work.rays(), work.ambient());
     }
 
     // Pictures.
@@ -290,9 +304,6 @@ int run_pictures(const std::string& name, const std::vector<std::string>& words,
     std::unique_ptr<RenderRun> run;
     parse_on_ranks(ranks, "lightwalk " + name, [&](const std::shared_ptr<FileSource>& files) {
         RenderCommand command = parse_render_command(name, words, files);
-        if (command.walk && command.walk->reuse && ranks != nullptr)
-            throw UsageError(
-                "points are kept by one process: start it without mpirun, or say --reuse off");
         const bool writes = ranks == nullptr || ranks->rank() == 0;
         if (command.walk && !command.show_defaults && writes && is_film(command.output))
             (void)film_encoder();  // before anything is drawn

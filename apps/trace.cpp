@@ -48,7 +48,7 @@ class TraceRun {
         // 0 has all the work, the others wait.
         const bool ambient =
             options_.shade && caches_ambient_values(command_.settings.light) && !tree_;
-        link_ = link_ranks(transport_, command_.common, {kProgram, ambient, true});
+        link_ = link_ranks(transport_, command_.common, {kProgram, ambient, true, 0});
         if (!link_) return trace_alone();
         const auto body = [this] {
             if (tree_) return link_->leads() ? lead_trees() : wait();

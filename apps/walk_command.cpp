@@ -12,6 +12,7 @@ namespace lightwalk {
 namespace {
 
 constexpr int kMostFrames = 1'000'000;
+constexpr int kMostProjectors = 4096;
 
 template <class Value, std::size_t kCount>
 Value named_value(OptionWords& words,
@@ -160,6 +161,8 @@ bool parse_walk_option(OptionWords& words, WalkCommand& walk) {
         walk.cloud.check = named_value(words, std::array{std::pair{"all", CloudCheck::all},
                                                          std::pair{"edges", CloudCheck::edges},
                                                          std::pair{"none", CloudCheck::none}});
+    else if (word == "--projectors")
+        walk.projectors = count(words, 1, kMostProjectors);
     else if (word == "--specular-tolerance")
         walk.cloud.tolerance = share(words, 100);
     else
@@ -172,7 +175,8 @@ std::vector<std::string> walk_option_names() {
             "--frames",      "--fps",         "--reuse",    "--cloud-age",
             "--cloud-limit", "--check",       "--drop",     "--look",
             "--near",        "--reach",       "--contrast", "--specular-tolerance",
-            "--audit",       "--audit-limit", "--budget",   "--refine"};
+            "--audit",       "--audit-limit", "--budget",   "--refine",
+            "--projectors"};
 }
 
 void settle_walk(WalkCommand& walk, const View& view, FileSource& files) {

@@ -25,6 +25,7 @@ struct WalkCommand {
     int frames = 0;                     ///< --frames; 0: one for each view of the path
     double rate = 25;                   ///< --fps: of a film's frames [1/s]
     bool reuse = true;                  ///< --reuse off: every frame is traced
+    int projectors = 32;                ///< --projectors: ranks that keep points, at most
     /// The other values of --reuse, and what goes with it.
     CloudOptions cloud{.audit = 0.01, .audit_limit = 0.05, .refine = 0.1};
 };

@@ -1,8 +1,22 @@
 #include "core/cloud/ageing.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lightwalk {
+
+namespace {
+
+/// Of `all` points so many at least draw lots below it. Their number is spread by the root of what
+/// is expected: seven times that, and some for small numbers, and it never comes out too low.
+std::uint32_t share_for(std::size_t least, std::size_t all) {
+    constexpr double kSpreads = 7, kFew = 24, kLots = 4294967296.0, kMost = kLots - 1;
+    const auto wanted = static_cast<double>(least);
+    const double expected = wanted + kSpreads * std::sqrt(wanted) + kFew;
+    return static_cast<std::uint32_t>(std::min(kMost, kLots * expected / static_cast<double>(all)));
+}
+
+}  // namespace
 
 AgeCounts age_points(std::span<CloudPoint> points, std::span<const std::uint8_t> used,
                      std::span<const ImagePlace> places, const CloudLife& life,
@@ -30,7 +44,8 @@ AgeCounts age_points(std::span<CloudPoint> points, std::span<const std::uint8_t>
 AgeLimit age_limit(const AgeCounts& counts, std::size_t most) {
     std::size_t kept = 0;
     for (std::size_t age = 0; age < counts.size(); ++age) {
-        if (kept + counts[age] > most) return {static_cast<int>(age), kept + counts[age] - most};
+        if (kept + counts[age] > most)
+            return {static_cast<int>(age), share_for(kept + counts[age] - most, counts[age])};
         kept += counts[age];
     }
     return {};

@@ -33,11 +33,14 @@ using AgeCounts = std::array<std::size_t, kOldestAge + 1>;
                                    std::span<const ImagePlace> places, const CloudLife& life,
                                    std::span<std::uint8_t> keep);
 
-/// What has to go for want of room: the longest unused points, and of one age the first ones.
+/// What has to go for want of room: the longest unused points, and of one age those that draw the
+/// lowest lots (see lot). So it does not matter who keeps which of them.
 struct AgeLimit {
-    int age = kOldestAge;      ///< older ones go
-    std::size_t at_limit = 0;  ///< and so many of just that age, the first ones of the cloud
+    int age = kOldestAge;     ///< older ones go
+    std::uint32_t share = 0;  ///< and of just that age those whose lots lie below
+    friend bool operator==(const AgeLimit&, const AgeLimit&) = default;
 };
+/// For so many points to stay at most: as lots are drawn, a few less do.
 [[nodiscard]] AgeLimit age_limit(const AgeCounts& counts, std::size_t most);
 
 }  // namespace lightwalk

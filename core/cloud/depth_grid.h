@@ -4,40 +4,48 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+
+#include "core/view/pixels.h"
 
 namespace lightwalk {
 
 inline constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 
 /// One cell a pixel. Of the points offered to a cell it keeps the nearest one; of those about
-/// equally near (within 0.8 %) the one closest to the pixel's centre; of those the one with the
-/// lowest index. So it does not matter who offers first, and many threads may at once.
+/// equally near (within 0.8 %) the one closest to the pixel's centre; of those the first by an
+/// order that the caller gives. So it does not matter who offers first, and many threads may at
+/// once.
 class DepthGrid {
   public:
     /// All cells are empty.
-    DepthGrid(int width, int height)
-        : width_(width),
-          cells_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+    explicit DepthGrid(const PixelRectangle& area)
+        : area_(area),
+          cells_(area.pixels()),
           keys_(std::make_unique<std::atomic<std::uint64_t>[]>(cells_)) {
         clear(0, cells_);
     }
 
     [[nodiscard]] std::size_t size() const { return cells_; }
+    [[nodiscard]] const PixelRectangle& area() const { return area_; }
     /// Empty the cells first ... last - 1, row by row from the bottom.
     void clear(std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             keys_[i].store(kEmpty, std::memory_order_relaxed);
     }
 
-    /// @param x,y       the pixel, inside the picture
+    /// @param x,y       the pixel, inside the area
     /// @param distance  > 0 [m]
     /// @param apart     from the pixel's centre, 0 ... 1 [pixels]
-    void offer(int x, int y, float distance, float apart, std::uint32_t index) {
+    /// @param first     of two indices: whether the one is to be preferred to the other
+    template <class First = std::less<std::uint32_t>>
+    void offer(int x, int y, float distance, float apart, std::uint32_t index, First first = {}) {
         const std::uint64_t key = pack(distance, apart, index);
         std::atomic<std::uint64_t>& cell = keys_[at(x, y)];
         std::uint64_t kept = cell.load(std::memory_order_relaxed);
-        while (key < kept && !cell.compare_exchange_weak(kept, key, std::memory_order_relaxed)) {
+        while (wins(key, kept, first) &&
+               !cell.compare_exchange_weak(kept, key, std::memory_order_relaxed)) {
         }
     }
 
@@ -48,6 +56,11 @@ class DepthGrid {
 
   private:
     static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
+    template <class First>
+    [[nodiscard]] static bool wins(std::uint64_t key, std::uint64_t kept, First first) {
+        if (key >> 32 != kept >> 32) return key < kept;
+        return first(static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(kept));
+    }
     [[nodiscard]] static std::uint64_t pack(float distance, float apart, std::uint32_t index) {
         // Floats that are not negative are ordered as their bits are: 8 of exponent, 7 of mantissa.
         const std::uint64_t depth = std::bit_cast<std::uint32_t>(distance) >> 16;
@@ -55,11 +68,11 @@ class DepthGrid {
         return depth << 48 | off << 32 | index;
     }
     [[nodiscard]] std::size_t at(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-               static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y - area_.y0) * static_cast<std::size_t>(area_.width()) +
+               static_cast<std::size_t>(x - area_.x0);
     }
 
-    int width_;
+    PixelRectangle area_;
     std::size_t cells_;
     std::unique_ptr<std::atomic<std::uint64_t>[]> keys_;
 };
@@ -67,7 +80,7 @@ class DepthGrid {
 /// The grids of what lies ahead and of what is mirrored: a mirror's images lie behind it, and
 /// would lose against it.
 struct CloudGrids {
-    CloudGrids(int width, int height) : ahead(width, height), mirrored(width, height) {}
+    explicit CloudGrids(const PixelRectangle& area) : ahead(area), mirrored(area) {}
     DepthGrid ahead, mirrored;
 };
 

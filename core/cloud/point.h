@@ -17,8 +17,9 @@ enum class PointKind : std::uint8_t {
                ///< mirror
     through,   ///< through panes
     glossy,    ///< from a surface that looks different from other sides
-    gone,      ///< no point any more: its place in the cloud waits for another one
+    gone,      ///< no point any more: the cloud drops it when the frame is done
 };
+inline constexpr std::uint8_t kPointKinds = 5;
 
 /// Of light that takes no part in reuse: its colour holds from the traced direction alone.
 inline constexpr float kAnyTurn = HUGE_VALF;

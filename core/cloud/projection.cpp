@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloud/point_order.h"
+
 namespace lightwalk {
 
 PointProjector::PointProjector(const Camera& camera, int width, int height)
@@ -50,14 +52,15 @@ void project_points(const PointProjector& projector, std::span<const CloudPoint>
             point.kind == PointKind::gone ? ImagePlace{} : projector(point.place());
         places[i] = place;
         if (!(place.distance > 0)) continue;
-        // In single precision the right edge may round up to the width.
-        const int x = std::min(static_cast<int>(place.x), projector.width() - 1);
-        const int y = std::min(static_cast<int>(place.y), projector.height() - 1);
-        const float dx = place.x - (static_cast<float>(x) + 0.5f);
-        const float dy = place.y - (static_cast<float>(y) + 0.5f);
+        const PixelPlace pixel = pixel_of(place, projector.width(), projector.height());
+        if (!grids.ahead.area().contains(pixel)) continue;
+        const float dx = place.x - (static_cast<float>(pixel.x) + 0.5f);
+        const float dy = place.y - (static_cast<float>(pixel.y) + 0.5f);
         const float apart = std::min(std::sqrt(dx * dx + dy * dy), 1.0f);
         DepthGrid& grid = point.kind == PointKind::mirrored ? grids.mirrored : grids.ahead;
-        grid.offer(x, y, place.distance, apart, static_cast<std::uint32_t>(i));
+        grid.offer(
+            pixel.x, pixel.y, place.distance, apart, static_cast<std::uint32_t>(i),
+            [&](std::uint32_t a, std::uint32_t b) { return precedes(points[a], points[b]); });
     }
 }
 

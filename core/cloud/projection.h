@@ -1,11 +1,13 @@
 #pragma once
 // Where the points of the cloud appear in a view.
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "core/cloud/depth_grid.h"
 #include "core/cloud/point.h"
+#include "core/view/pixels.h"
 #include "core/view/view.h"
 
 namespace lightwalk {
@@ -15,6 +17,13 @@ struct ImagePlace {
     float x = -1, y = -1;  ///< from the lower left [pixels]
     float distance = 0;  ///< from where the pixel's ray begins [m]; 0: the picture doesn't show it
 };
+
+/// The pixel of a place that the picture shows.
+[[nodiscard]] inline PixelPlace pixel_of(const ImagePlace& place, int width, int height) {
+    // In single precision the right edge may round up to the width.
+    return {std::min(static_cast<int>(place.x), width - 1),
+            std::min(static_cast<int>(place.y), height - 1)};
+}
 
 /// From points to places in a picture of width x height pixels; any view type.
 class PointProjector {
@@ -39,8 +48,8 @@ class PointProjector {
     double shift_ = 0, lift_ = 0;
 };
 
-/// Project points first ... last - 1 into the grids, which hold the winners of all ranges when all
-/// are done.
+/// Project points first ... last - 1 into the grids, as far as these reach. They hold the winners
+/// of all ranges when all are done: whatever the points' order.
 /// @param places  one for each point of the cloud; those of the range are set
 void project_points(const PointProjector& projector, std::span<const CloudPoint> points,
                     std::size_t first, std::size_t last, CloudGrids& grids,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloud/point_order.h"
+
 namespace lightwalk {
 namespace {
 
@@ -56,8 +58,10 @@ void PointFinder::look_at(std::uint32_t index, const PixelSights& sights, const 
     found.brightest = std::max(found.brightest, light);
     const float dx = place.x - sights.x, dy = place.y - sights.y;
     const float squared = dx * dx + dy * dy;
-    // Of equally near ones the older point: whatever the order.
-    if (squared > found.squared || (squared == found.squared && index > found.best)) return;
+    // Of equally near ones always the same: whatever the order, and whoever keeps them.
+    if (squared > found.squared ||
+        (squared == found.squared && !precedes(point, points_[found.best])))
+        return;
     found.squared = squared;
     found.best = index;
 }

@@ -11,7 +11,7 @@ namespace lightwalk {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
-constexpr char kVersion = 1;
+constexpr char kVersion = 2;
 constexpr std::size_t kHeadBytes = 4;
 
 // Each kind of message lists its fields once, for writing, reading and counting alike.
@@ -73,7 +73,12 @@ void fields(Archive& archive, PicturePiece& m) {
 /// left cannot be.
 template <class T>
 constexpr std::size_t least_bytes() {
-    return std::is_same_v<T, AmbientRecord> ? 68 : std::is_same_v<T, PixelValue> ? 16 : 8;
+    if (std::is_same_v<T, AmbientRecord>) return 68;
+    if (std::is_same_v<T, CloudPoint>) return 40;
+    if (std::is_same_v<T, TracedHole>) return 17;
+    if (std::is_same_v<T, PixelValue>) return 16;
+    if (std::is_same_v<T, PixelOrigin>) return 6;
+    return std::is_same_v<T, float> ? 4 : 8;
 }
 template <class Archive, class T>
 void fields(Archive& archive, std::vector<T>& list) {
@@ -134,6 +139,93 @@ void fields(Archive& archive, RayChunk& m) {
 template <class Archive>
 void fields(Archive& archive, ChunkAnswer& m) {
     archive(m.number, m.rays, m.seconds, m.bytes);
+}
+
+// Of walks.
+template <class Archive, std::size_t kCount>
+void fields(Archive& archive, std::array<std::size_t, kCount>& list) {
+    for (std::size_t& number : list) archive(number);
+}
+/// Of an enumeration with so many values.
+template <class Archive, class T>
+void enumerator(Archive& archive, T& value, std::uint8_t count) {
+    auto byte = static_cast<std::uint8_t>(value);
+    archive(byte);
+    if (byte >= count) throw InputError("a message between ranks holds what cannot be");
+    value = static_cast<T>(byte);
+}
+template <class Archive>
+void fields(Archive& archive, PixelPlace& place) {
+    archive(place.x, place.y);
+}
+template <class Archive>
+void fields(Archive& archive, CloudPoint& p) {
+    archive(p.position[0], p.position[1], p.position[2], p.radiance, p.surface, p.direction,
+            p.turn);
+    enumerator(archive, p.kind, kPointKinds);
+    archive(p.age, p.old, p.paired);
+}
+template <class Archive>
+void fields(Archive& archive, TracedHole& hole) {
+    auto count = static_cast<std::uint8_t>(hole.points.count);
+    archive(hole.value, count);
+    if (count > hole.points.points.size())
+        throw InputError("a message between ranks holds what cannot be");
+    hole.points.count = count;
+    for (std::size_t i = 0; i < count; ++i) fields(archive, hole.points.points[i]);
+}
+template <class Archive>
+void fields(Archive& archive, CloudOrder& m) {
+    CloudRules& rules = m.rules;
+    archive(m.width, m.height, rules.frame, rules.empty, rules.tightness, rules.room.age,
+            rules.room.share, m.payload, m.rest_follows, m.rests, m.sample, m.refined);
+}
+template <class Archive>
+void fields(Archive& archive, CloudPoints& m) {
+    archive(m.frame, m.points);
+}
+template <class Archive>
+void fields(Archive& archive, CloudUsed& m) {
+    archive(m.frame, m.used.ahead, m.used.mirrored);
+}
+template <class Archive>
+void fields(Archive& archive, CloudHoles& m) {
+    archive(m.frame, m.twins, m.places);
+}
+template <class Archive>
+void fields(Archive& archive, AskHoles& m) {
+    archive(m.count);
+}
+template <class Archive>
+void fields(Archive& archive, GiveHoles& m) {
+    archive(m.frame, m.owner, m.first, m.twins, m.at_once, m.places);
+}
+template <class Archive>
+void fields(Archive& archive, TracedHoles& m) {
+    archive(m.frame, m.first, m.count, m.traced);
+}
+template <class Archive>
+void fields(Archive& archive, CloudStage& m) {
+    archive(m.frame);
+    enumerator(archive, m.kind, 2);
+}
+template <class Archive>
+void fields(Archive& archive, CloudReport& r) {
+    archive(r.pixels, r.reused, r.filled, r.holes, r.points, r.project_seconds, r.check_seconds,
+            r.trace_seconds, r.keep_seconds, r.tightness, r.audit_errors, r.audit_floors);
+}
+template <class Archive>
+void fields(Archive& archive, PixelOrigin& origin) {
+    enumerator(archive, origin.kind, 3);
+    archive(origin.samples, origin.order);
+}
+template <class Archive>
+void fields(Archive& archive, CloudPart& m) {
+    archive(m.frame, m.area, m.pixels, m.report, m.ages, m.origins, m.refined);
+}
+template <class Archive>
+void fields(Archive& archive, FinishedFrame& m) {
+    archive(m.frame, m.parts);
 }
 
 class Writer {
@@ -208,9 +300,12 @@ Message default_message(std::size_t kind) {
 
 const char* kind_name(std::size_t kind) {
     static constexpr std::array<const char*, kMessageKinds> kNames{
-        "JobStart",        "AskBlocks",     "GiveBlocks", "Pixels",     "BlockDone", "PicturePiece",
-        "FinishedPicture", "AmbientValues", "Failure",    "Finish",     "Report",    "Gather",
-        "Progress",        "AskChunks",     "RayChunk",   "ChunkAnswer"};
+        "JobStart",     "AskBlocks",       "GiveBlocks",    "Pixels",     "BlockDone",
+        "PicturePiece", "FinishedPicture", "AmbientValues", "Failure",    "Finish",
+        "Report",       "Gather",          "Progress",      "AskChunks",  "RayChunk",
+        "ChunkAnswer",  "CloudOrder",      "CloudPoints",   "CloudUsed",  "CloudHoles",
+        "AskHoles",     "GiveHoles",       "TracedHoles",   "CloudStage", "CloudPart",
+        "FinishedFrame"};
     return kNames[kind];
 }
 

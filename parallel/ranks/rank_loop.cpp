@@ -6,6 +6,7 @@ namespace lightwalk {
 namespace {
 
 using std::chrono::microseconds;
+constexpr microseconds kWalkPatience{400};
 constexpr std::uint32_t kAmongTracers = 0x80000000;  ///< bit of the rounds of these alone
 constexpr std::uint32_t kLastValues = 0xfffffffe,
                         kGoodbye = 0xffffffff;  ///< the last rounds of all
@@ -39,6 +40,8 @@ RankLoop::RankLoop(Transport& transport, const Topology& topology, const RankSet
     const int rank = transport.rank();
     if (settings.rays)
         make_chunk_roles(settings);
+    else if (settings.projectors > 0)
+        make_cloud_roles(settings);
     else
         make_block_roles(settings);
     if (topology.ambient_master && settings.ambient_batch > 0) {
@@ -95,6 +98,24 @@ void RankLoop::make_chunk_roles(const RankSettings& settings) {
     }
 }
 
+void RankLoop::make_cloud_roles(const RankSettings& settings) {
+    const int rank = transport_.rank();
+    const auto workers = worker_ranks(topology_);
+    const std::size_t owners = owners_of(workers->size(), settings.projectors);
+    if (rank == 0) {
+        cloud_master_.emplace(Address{0, Role::master}, *workers, owners,
+                              tracing_threads(topology_, settings));
+    }
+    if (const auto index = topology_.worker_index(rank)) {
+        cloud_worker_.emplace(CloudWorkerOptions{{rank, Role::worker},
+                                                 {0, Role::master},
+                                                 *index,
+                                                 owners,
+                                                 settings.slots,
+                                                 settings.ahead});
+    }
+}
+
 void RankLoop::post(Role from, Address to, Message message) {
     {
         const std::lock_guard lock(mutex_);
@@ -148,7 +169,10 @@ void RankLoop::end() {
 
 bool RankLoop::run(const StopFlag& stop) {
     begin();
-    const Patience patience = patience_of(topology_);
+    Patience patience = patience_of(topology_);
+    // A frame of a walk is a chain of short steps, each of which waits for messages of the last.
+    if (cloud_master_ || cloud_worker_)
+        patience.longest = std::min(patience.longest, kWalkPatience);
     microseconds wait = patience.shortest;
     while (farewell_ != Farewell::over && !stop.requested()) {
         serve_broadcast();
@@ -237,6 +261,7 @@ void RankLoop::begin() {
     if (worker_) worker_->begin(out);
     if (chunk_master_) chunk_master_->begin(out);
     if (chunk_worker_) chunk_worker_->begin(out);
+    if (cloud_worker_) cloud_worker_->begin(out);
     for (Envelope& envelope : out) dispatch(std::move(envelope));
 }
 
@@ -284,6 +309,9 @@ void RankLoop::dispatch(Envelope first) {
 Activity RankLoop::activity_of(const Message& message) {
     if (std::holds_alternative<Pixels>(message) || std::holds_alternative<BlockDone>(message))
         return Activity::send;
+    if (std::holds_alternative<TracedHoles>(message) ||
+        std::holds_alternative<CloudPoints>(message))
+        return Activity::send;
     return std::holds_alternative<AmbientValues>(message) ? Activity::exchange : Activity::serve;
 }
 
@@ -302,12 +330,16 @@ void RankLoop::deliver(Envelope envelope, Outbox& out) {
                 master_->handle(std::move(envelope), out);
             else if (chunk_master_)
                 chunk_master_->handle(std::move(envelope), out);
+            else if (cloud_master_)
+                cloud_master_->handle(std::move(envelope), out);
             return;
         case Role::worker:
             if (worker_)
                 worker_->handle(std::move(envelope), out);
             else if (chunk_worker_)
                 chunk_worker_->handle(std::move(envelope), out);
+            else if (cloud_worker_)
+                cloud_worker_->handle(std::move(envelope), out);
             return;
         case Role::ambient_master:
             if (ambient_master_) ambient_master_->handle(std::move(envelope), out);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "parallel/ranks/chunk_roles.h"
+#include "parallel/ranks/cloud_roles.h"
 #include "parallel/ranks/local_end.h"
 #include "parallel/ranks/message_counts.h"
 #include "parallel/ranks/roles.h"
@@ -28,6 +29,9 @@ struct RankSettings {
     std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
     EncodePiece encode;
     bool rays = false;  ///< chunks of rays are traced, and no pictures; one master for all
+    /// Frames of a walk are drawn from points, whose parts so many of the workers own at most; one
+    /// master for all. 0: pictures are traced
+    int projectors = 0;
 };
 
 /// How soon a rank's loop looks again after a message has come (soon there will be more), and how
@@ -81,6 +85,7 @@ class RankLoop {
   private:
     void make_block_roles(const RankSettings& settings);
     void make_chunk_roles(const RankSettings& settings);
+    void make_cloud_roles(const RankSettings& settings);
     void begin();
     void say_goodbye();
     void exchange_values_in_time();
@@ -104,6 +109,8 @@ class RankLoop {
     std::optional<WorkerRole> worker_;
     std::optional<ChunkMasterRole> chunk_master_;  ///< where rays are traced
     std::optional<ChunkWorkerRole> chunk_worker_;
+    std::optional<CloudMasterRole> cloud_master_;  ///< where walks are drawn
+    std::optional<CloudWorkerRole> cloud_worker_;
     std::optional<AmbientMasterRole> ambient_master_;
     std::optional<AmbientClientRole> ambient_client_;
     mutable std::mutex counts_mutex_;

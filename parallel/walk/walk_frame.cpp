@@ -7,9 +7,7 @@
 #include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
-namespace {
 
-/// Rows from the top.
 Frame turned_over(CloudFrame& drawn, int width, int height) {
     Frame frame;
     frame.width = width;
@@ -27,7 +25,6 @@ Frame turned_over(CloudFrame& drawn, int width, int height) {
     return frame;
 }
 
-/// They are no part of the points: a source covers more or less of a pixel from frame to frame.
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
                         Executor& executor, WorkerContexts& contexts, Frame& frame) {
     if (options.pixels.samples > 1) return;
@@ -44,8 +41,6 @@ void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameO
         });
     });
 }
-
-}  // namespace
 
 WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer, const SceneSights& sights,
                           const Camera& camera, const FrameOptions& options, Executor& executor,

@@ -26,4 +26,12 @@ struct WalkFrame {
                                         const FrameOptions& options, Executor& executor,
                                         WorkerContexts& contexts, const StopFlag& stop);
 
+/// The picture of a drawn frame, with its rows from the top; takes its pixels.
+[[nodiscard]] Frame turned_over(CloudFrame& drawn, int width, int height);
+
+/// Draw light sources that are too small for the pixel grid into a frame, with their coverage: they
+/// are no part of the points, for they cover more or less of a pixel from frame to frame.
+void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                        Executor& executor, WorkerContexts& contexts, Frame& frame);
+
 }  // namespace lightwalk

@@ -2,7 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <vector>
+
+#include "core/cloud/point_order.h"
+#include "core/math/random.h"
 
 using namespace lightwalk;
 
@@ -50,15 +54,34 @@ TEST_CASE(
 
 TEST_CASE("cloud: for want of room the longest unused points go") {
     AgeCounts counts{};
-    counts[0] = 10;
-    counts[3] = 5;
-    counts[9] = 5;
-    CHECK(age_limit(counts, 20).age == kOldestAge);
-    CHECK(age_limit(counts, 20).at_limit == 0);
-    CHECK(age_limit(counts, 12).age == 3);
-    CHECK(age_limit(counts, 12).at_limit == 3);
-    CHECK(age_limit(counts, 15).age == 9);
-    CHECK(age_limit(counts, 15).at_limit == 5);
+    counts[0] = 10000;
+    counts[3] = 5000;
+    counts[9] = 5000;
+    CHECK(age_limit(counts, 20000) == AgeLimit{});
+    CHECK(age_limit(counts, 12000).age == 3);
+    CHECK(age_limit(counts, 15000).age == 9);
     CHECK(age_limit(counts, 0).age == 0);
-    CHECK(age_limit(counts, 0).at_limit == 10);
+    // All of an age that must go whole do.
+    constexpr std::uint32_t kAll = ~std::uint32_t{0};
+    CHECK(age_limit(counts, 15000).share == kAll);
+    CHECK(age_limit(counts, 0).share == kAll);
+    // Of others no fewer than must, and hardly more; others each frame.
+    RandomStream random(3);
+    std::vector<CloudPoint> points(5000);
+    for (CloudPoint& point : points) point.position[0] = static_cast<float>(random.next());
+    const AgeLimit limit = age_limit(counts, 12000);
+    std::vector<std::size_t> gone;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (lot(points[i], frame) >= limit.share) continue;
+            ++count;
+            if (frame < 2) gone.push_back(i);
+        }
+        CHECK(count >= 3000);
+        CHECK(count < 4000);
+    }
+    std::sort(gone.begin(), gone.end());
+    const auto last = std::unique(gone.begin(), gone.end());
+    CHECK(last - gone.begin() > 4000);
 }

@@ -72,7 +72,7 @@ TEST_CASE(
 }
 
 TEST_CASE("cloud: a cell keeps the nearest point, whoever comes first") {
-    DepthGrid grid(4, 2);
+    DepthGrid grid(PixelRectangle{0, 0, 4, 2});
     CHECK(grid.winner(3, 1) == kNoPoint);
     grid.offer(3, 1, 2.0f, 0.1f, 5);
     grid.offer(3, 1, 1.0f, 0.4f, 9);
@@ -102,7 +102,8 @@ TEST_CASE("cloud: the winners do not depend on how the points are divided") {
                                   i % 3 == 0 ? PointKind::mirrored : PointKind::plain));
     }
     std::vector<ImagePlace> places(points.size());
-    CloudGrids whole(kWidth, kHeight), parts(kWidth, kHeight);
+    const PixelRectangle all{0, 0, kWidth, kHeight};
+    CloudGrids whole(all), parts(all);
     project_points(project, points, 0, points.size(), whole, places);
     for (std::size_t last = points.size(); last > 0;) {  // backwards
         const std::size_t first = last > 700 ? last - 700 : 0;

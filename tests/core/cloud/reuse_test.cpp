@@ -23,7 +23,7 @@ View wall_view() {
 struct Wall {
     Camera camera{wall_view()};
     PointProjector projector{camera, kSide, kSide};
-    CloudGrids grids{kSide, kSide};
+    CloudGrids grids{PixelRectangle{0, 0, kSide, kSide}};
     std::vector<CloudPoint> points;
     std::vector<ImagePlace> places;
     ReuseRules rules;

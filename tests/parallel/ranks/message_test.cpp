@@ -25,11 +25,34 @@ AmbientRecord some_record(float x) {
     return record;
 }
 
+CloudPoint some_point() {
+    CloudPoint point;
+    point.position = {1, -2, 1e10F};
+    point.radiance = {.1F, 1.0F / 3, 7e20F};
+    point.surface = 0x80000001;
+    point.direction = 77;
+    point.kind = PointKind::mirrored;
+    point.age = 255;
+    point.paired = true;
+    return point;
+}
+
 std::vector<Message> some_messages() {
     const JobBlock work{7, {8, 16, 24, 20}};
     std::vector<PixelValue> values(64);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = {{static_cast<float>(i), 1.0F / static_cast<float>(i + 1), -0.0F}, 1e10F};
+    const TracedHole one{values[1], {{some_point()}, 1}};
+    const TracedHole two{values[2], {{some_point(), some_point()}, 2}};
+    CloudPart part;
+    part.frame = 3;
+    part.area = work.block;
+    part.pixels = "pixels";
+    part.report.holes[2] = 5;
+    part.report.audit_errors = {.5F, 1e-9F, 0};
+    part.ages[25] = 77;
+    part.origins = {{PixelOrigin::Kind::traced, 3, 0}, {PixelOrigin::Kind::reused, 0, 255}};
+    part.refined = {values[3]};
     return {JobStart{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true},
             AskBlocks{2, {{work, .125}, {{7, {0, 0, 1, 1}}, 1e-9}}},
             GiveBlocks{{work, {8, {-4, 0, 4, 1}}}},
@@ -45,7 +68,17 @@ std::vector<Message> some_messages() {
             Progress{7, .5},
             AskChunks{3, 4096},
             RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
-            ChunkAnswer{5, 1, .25, std::string("\0\xff", 2)}};
+            ChunkAnswer{5, 1, .25, std::string("\0\xff", 2)},
+            CloudOrder{640, 480, {3, false, .5, {25, 1000}}, "a view", true, true, 2, {{1, 2}}},
+            CloudPoints{3, {some_point(), {}}},
+            CloudUsed{3, {{{1, 2}, {3, 4}}, {{5, 6}}}},
+            CloudHoles{3, 1, {{1, 2}, {1, 2}}},
+            AskHoles{2},
+            GiveHoles{3, 1, 7, true, false, {{1, 2}}},
+            TracedHoles{3, 7, 3, {{values[0], {}}, one, two}},
+            CloudStage{3, CloudStage::Kind::pixels},
+            part,
+            FinishedFrame{3, {part, part}}};
 }
 
 }  // namespace
@@ -86,6 +119,16 @@ TEST_CASE("an ambient record takes 68 bytes and arrives to the bit") {
     CHECK(record.weight == expected.weight);
     CHECK(record.corral == expected.corral);
     CHECK(record.level == expected.level);
+}
+
+TEST_CASE("a point takes 40 bytes and arrives to the bit, and its kind is checked") {
+    const Envelope sent{{1, Role::tracer}, {2, Role::worker}, CloudPoints{9, {some_point()}}};
+    std::string bytes = encode_message(sent);
+    CHECK(bytes.size() == 4 + 8 + 8 + 40);
+    const Envelope got = decode_message(bytes, 1, 2);
+    CHECK(std::get<CloudPoints>(got.message).points.at(0) == some_point());
+    bytes[bytes.size() - 4] = static_cast<char>(kPointKinds);
+    CHECK_THROWS_AS((void)decode_message(bytes, 1, 2), InputError);
 }
 
 TEST_CASE("bytes that are no message are refused, whatever they are") {

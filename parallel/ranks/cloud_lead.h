@@ -1,0 +1,67 @@
+#pragma once
+// What rank 0 decides from frame to frame of a walk that ranks draw together, and what it makes of
+// their parts.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/cloud/audit.h"
+#include "core/cloud/resting.h"
+#include "core/view/view.h"
+#include "parallel/ranks/cloud_messages.h"
+#include "parallel/walk/cloud_frame.h"
+
+namespace lightwalk {
+
+class CloudLead {
+  public:
+    /// @param first  number of the first frame
+    CloudLead(int width, int height, const CloudOptions& options, WalkFrameId first);
+
+    /// Of the next frame.
+    /// @param next     view of the one after it; null: nobody knows
+    /// @param payload  see CloudOrder
+    [[nodiscard]] CloudOrder order(const View& view, const View* next, std::string payload);
+
+    /// The frame that was ordered: that of one process. In its report seconds are those of the
+    /// slowest rank in each step; the points are those that there is room for, of which a few less
+    /// are kept where there was too little (see age_limit). It says of no pixel why it was traced.
+    /// Throws InputError for parts that do not make the frame.
+    [[nodiscard]] CloudFrame take(const FinishedFrame& finished);
+
+  private:
+    [[nodiscard]] std::vector<const CloudPart*> sorted_parts(const FinishedFrame& finished) const;
+    void add_up(std::span<const CloudPart* const> parts, CloudReport& report);
+    void put_together(std::span<const CloudPart* const> parts, CloudFrame& frame) const;
+    void remember(std::span<const CloudPart* const> parts, const CloudFrame& frame);
+    void refine(std::span<const CloudPart* const> parts, CloudFrame& frame);
+    /// Calls visit(index of the pixel in the picture, index in the part).
+    template <class Visit>
+    void for_pixels(const PixelRectangle& area, Visit visit) const {
+        std::size_t in_part = 0;
+        for (int y = area.y0; y < area.y1; ++y)
+            for (int x = area.x0; x < area.x1; ++x, ++in_part)
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                          static_cast<std::size_t>(x),
+                      in_part);
+    }
+
+    int width_, height_;
+    CloudOptions options_;
+    AuditGuard guard_;
+    WalkFrameId frame_;
+    bool empty_ = true;
+    AgeLimit room_;
+    // The frame that was ordered.
+    std::optional<View> view_;
+    bool rests_ = false, rest_follows_ = false;
+    RestingWork work_;
+    // Of a view that rests.
+    std::optional<View> resting_view_;
+    RestingPicture resting_;
+    std::vector<float> distance_;
+};
+
+}  // namespace lightwalk

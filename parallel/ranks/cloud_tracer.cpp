@@ -1,0 +1,285 @@
+#include "parallel/ranks/cloud_tracer.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/error.h"
+#include "parallel/ranks/cloud_roles.h"
+
+namespace lightwalk {
+namespace {
+
+// A signal's handler cannot notify: look for its request now and then.
+constexpr std::chrono::milliseconds kSignalPatience{20};
+
+}  // namespace
+
+void CloudTracer::take(Message message) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (auto* order = std::get_if<CloudOrder>(&message)) {
+            orders_.push_back(std::move(*order));
+        } else if (auto* holes = std::get_if<GiveHoles>(&message)) {
+            if (holes->places.empty())
+                frames_dealt_out_ = holes->frame + 1;
+            else
+                holes_.push_back(std::move(*holes));
+        } else if (auto* points = std::get_if<CloudPoints>(&message)) {
+            points_.push_back(std::move(*points));
+        } else if (auto* used = std::get_if<CloudUsed>(&message)) {
+            used_.push_back(std::move(*used));
+        } else if (auto* traced = std::get_if<TracedHoles>(&message)) {
+            traced_.push_back(std::move(*traced));
+        } else if (const auto* stage = std::get_if<CloudStage>(&message)) {
+            (stage->kind == CloudStage::Kind::points ? points_there_ : pixels_there_) = true;
+        } else {
+            finished_ = true;
+        }
+    }
+    changed_.notify_all();
+}
+
+std::optional<CloudOrder> CloudTracer::next_order(const StopFlag& stop) {
+    const TimedActivity waiting(timeline_, 0, Activity::wait);
+    std::unique_lock lock(mutex_);
+    while (orders_.empty() && !finished_ && !stop.requested())
+        changed_.wait_for(lock, kSignalPatience);
+    if (orders_.empty() || stop.requested()) return std::nullopt;
+    CloudOrder order = std::move(orders_.front());
+    orders_.pop_front();
+    return order;
+}
+
+/// False: stopped.
+bool CloudTracer::wait_for(CloudStage::Kind stage, const StopFlag& stop) {
+    const TimedActivity waiting(timeline_, 0, Activity::wait);
+    bool& there = stage == CloudStage::Kind::points ? points_there_ : pixels_there_;
+    std::unique_lock lock(mutex_);
+    while (!there && !finished_ && !stop.requested()) changed_.wait_for(lock, kSignalPatience);
+    return std::exchange(there, false) && !stop.requested();
+}
+
+/// Those of the next frame may be there already: where this one was none of the rank's business.
+std::optional<GiveHoles> CloudTracer::next_holes(WalkFrameId frame, int worker,
+                                                 const StopFlag& stop) {
+    const TimedActivity waiting(timeline_, worker, Activity::wait);
+    std::unique_lock lock(mutex_);
+    const auto here = [&] { return !holes_.empty() && holes_.front().frame == frame; };
+    while (!here() && frames_dealt_out_ <= frame && !finished_ && !stop.requested())
+        changed_.wait_for(lock, kSignalPatience);
+    if (!here() || stop.requested()) return std::nullopt;
+    GiveHoles holes = std::move(holes_.front());
+    holes_.pop_front();
+    return holes;
+}
+
+void CloudTracer::run(Executor& executor, const StopFlag& stop) {
+    while (const std::optional<CloudOrder> order = next_order(stop)) draw(*order, executor, stop);
+}
+
+void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFlag& stop) {
+    const double budget = options_.cloud.budget;
+    const HoleTracer::Clock::time_point deadline = budget > 0
+                                                       ? deadline_of(budget - last_keep_seconds_)
+                                                       : HoleTracer::Clock::time_point::max();
+    const std::unique_ptr<WalkRays> rays = make_(order);
+    const auto look = [&](std::span<const PixelPlace> places, std::span<PixelSights> sights,
+                          int worker) { rays->look(places, sights, worker); };
+    const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
+                           int sample, int worker) { rays->trace(places, pixels, sample, worker); };
+    const PixelCaster caster{look, trace};
+    const HoleTracer tracer(caster, options_.cloud.tolerance, deadline);
+    const Frame frame{order, caster, tracer, executor, stop};
+    const bool owns = options_.index < options_.owners;
+    if (owns) {
+        const double keeping = begin(order);
+        region_->begin(rays->camera(), order.rules);
+        region_->frame().report.keep_seconds = keeping;
+        if (order.rests)
+            refine(order);
+        else if (!answer(frame))
+            return;
+    }
+    const auto traces = HoleTracer::Clock::now();
+    serve(frame);
+    if (!owns) return;
+    region_->frame().report.trace_seconds =
+        std::chrono::duration<double>(HoleTracer::Clock::now() - traces).count();
+    if (!finish(frame)) return;
+    last_keep_seconds_ = region_->frame().report.keep_seconds;
+}
+
+/// The points of the last frame, as far as there is room for them. The seconds that it took.
+double CloudTracer::begin(const CloudOrder& order) {
+    constexpr int kMostPixels = 1 << 16;  // in a row or column
+    if (order.width < 1 || order.width > kMostPixels || order.height < 1 ||
+        order.height > kMostPixels)
+        throw InputError("a frame of a walk is ordered in a size that cannot be");
+    const bool same = region_ && width_ == order.width && height_ == order.height;
+    width_ = order.width;
+    height_ = order.height;
+    parts_ = SubImages({0, 0, width_, height_}, options_.owners);
+    if (!same || order.rules.empty) {
+        region_.emplace(parts_[options_.index], width_, height_, options_.cloud);
+        return 0;
+    }
+    double& seconds = region_->frame().report.keep_seconds;
+    seconds = 0;
+    region_->keep(order.rules.room);
+    return seconds;
+}
+
+/// False: stopped.
+bool CloudTracer::answer(const Frame& frame) {
+    const WalkFrameId id = frame.order.rules.frame;
+    region_->project(frame.executor);
+    send_points(id);
+    if (!wait_for(CloudStage::Kind::points, frame.stop)) return false;
+    std::vector<CloudPoints> points;
+    {
+        const std::lock_guard lock(mutex_);
+        points.swap(points_);
+    }
+    for (const CloudPoints& others : points) region_->add(others.points);
+    region_->answer(frame.caster, frame.executor, frame.stop);
+    if (frame.stop.requested()) return false;
+    send_used(id);
+    send_holes(id);
+    return true;
+}
+
+void CloudTracer::send_points(WalkFrameId frame) {
+    std::vector<CloudPoints> out(options_.owners);
+    region_->leaving([&](const CloudPoint& point, const PixelPlace& place) {
+        const PixelRectangle near =
+            widened({place.x, place.y, place.x + 1, place.y + 1}, 1, width_, height_);
+        for (const std::size_t owner : parts_.overlapping(near)) out[owner].points.push_back(point);
+    });
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (i == options_.index) continue;
+        out[i].frame = frame;
+        post_(worker(i), std::move(out[i]));
+    }
+}
+
+void CloudTracer::send_used(WalkFrameId frame) {
+    const UsedPixels used = region_->used_beside();
+    for (const std::size_t i : owners_beside(parts_, options_.index, width_, height_))
+        post_(worker(i), CloudUsed{frame, used});
+}
+
+void CloudTracer::send_holes(WalkFrameId frame) {
+    CloudHoles message{frame, static_cast<std::uint32_t>(region_->twins().size()), {}};
+    for (const CloudHole& hole : region_->holes()) message.places.push_back(hole.place);
+    for (const std::uint32_t hole : region_->twins())
+        message.places.push_back(region_->holes()[hole].place);
+    post_(worker(options_.index), std::move(message));
+}
+
+/// All threads trace what comes, until no more does.
+void CloudTracer::serve(const Frame& frame) {
+    const auto task = [&](std::size_t, int worker) {
+        try {
+            while (const std::optional<GiveHoles> holes =
+                       next_holes(frame.order.rules.frame, worker, frame.stop))
+                trace(*holes, frame, worker);
+        } catch (...) {
+            take(Finish{});  // for the other threads
+            throw;
+        }
+    };
+    frame.executor.for_each(static_cast<std::size_t>(frame.executor.concurrency()), task,
+                            frame.stop);
+}
+
+void CloudTracer::trace(const GiveHoles& holes, const Frame& frame, int worker) {
+    if (holes.owner >= options_.owners) throw InputError("pixels of a part that nobody owns");
+    const auto count = static_cast<std::uint32_t>(holes.places.size());
+    TracedHoles result{holes.frame, holes.first, count, {}};
+    if (holes.at_once || !frame.tracer.is_late()) {
+        const TimedActivity tracing(timeline_, worker, Activity::trace);
+        result.traced.resize(count);
+        const auto keep = [&](std::size_t first, std::span<const TracedHole> traced) {
+            std::copy(traced.begin(), traced.end(),
+                      result.traced.begin() + static_cast<std::ptrdiff_t>(first));
+        };
+        frame.tracer.trace_part(holes.places, holes.twins ? 1 : frame.order.sample, worker, keep);
+    }
+    post_(this->worker(holes.owner), std::move(result));
+    post_({0, Role::master}, AskHoles{1});
+}
+
+/// The own part of the frame, when all its pixels are there. False: stopped.
+bool CloudTracer::finish(const Frame& frame) {
+    if (!wait_for(CloudStage::Kind::pixels, frame.stop)) return false;
+    take_traced();
+    CloudPart part = part_of(frame.order);
+    part.ages =
+        frame.order.rests ? region_->rest(frame.order.sample == 0) : region_->age(frame.executor);
+    part.report = region_->frame().report;
+    post_(worker(options_.index), std::move(part));
+    return true;
+}
+
+/// What it shows.
+CloudPart CloudTracer::part_of(const CloudOrder& order) {
+    CloudPart part;
+    part.frame = order.rules.frame;
+    part.area = region_->area();
+    if (order.rests) {
+        for (std::size_t i = 0; i < region_->holes().size(); ++i)
+            part.refined.push_back(region_->is_traced(i) ? region_->traced(i).value
+                                                         : PixelValue{{}, -1});
+        return part;
+    }
+    region_->show();
+    part.pixels = encoded();
+    if (order.rest_follows)
+        part.origins.assign(region_->origins().begin(), region_->origins().end());
+    return part;
+}
+
+/// The view stands still: the order says what is to be traced.
+void CloudTracer::refine(const CloudOrder& order) {
+    std::vector<PixelPlace> own;
+    for (const PixelPlace& place : order.refined)
+        if (region_->area().contains(place)) own.push_back(place);
+    region_->refine(own);
+    send_holes(order.rules.frame);
+}
+
+void CloudTracer::take_traced() {
+    std::vector<CloudUsed> used;
+    std::vector<TracedHoles> all;
+    {
+        const std::lock_guard lock(mutex_);
+        used.swap(used_);
+        all.swap(traced_);
+    }
+    for (const CloudUsed& others : used) region_->mark_used(others.used);
+    const std::size_t holes = region_->holes().size();
+    for (const TracedHoles& some : all) {
+        // What is dealt out together is either of the one kind or of the other.
+        if (some.first >= holes)
+            region_->take_twins(some.first - holes, some.traced);
+        else if (some.first + some.traced.size() <= holes)
+            region_->take(some.first, some.traced);
+        else
+            throw InputError("a rank has traced pixels together that do not belong together");
+    }
+}
+
+std::string CloudTracer::encoded() {
+    const CloudFrame& frame = region_->frame();
+    std::vector<PixelValue> values(frame.radiance.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = {frame.radiance[i], frame.distance[i]};
+    if (frame.report.filled > 0) {
+        const std::vector<std::uint8_t> known = region_->known();
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (known[i] == 0) values[i].distance = -1;
+    }
+    return options_.encode(region_->area(), std::move(values));
+}
+
+}  // namespace lightwalk

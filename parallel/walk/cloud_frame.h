@@ -1,0 +1,72 @@
+#pragma once
+// A frame drawn from points: what it is to be, what it took, what it is.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/cloud/ageing.h"
+#include "core/cloud/reuse.h"
+#include "core/math/rgb.h"
+
+namespace lightwalk {
+
+/// Of which pixels a ray verifies what the points say.
+enum class CloudCheck {
+    none,   ///< of none: only the points' own depths tell what is hidden
+    edges,  ///< where new things may come into view
+    all,
+};
+
+struct CloudOptions {
+    bool supersaturated = true;  ///< keep points that a frame does not use
+    CloudCheck check = CloudCheck::all;
+    ReuseRules rules{};
+    int age = 25;            ///< frames that a point outlives without use
+    double limit = 4;        ///< most points, as a multiple of the pixels
+    double tolerance = 0.2;  ///< how far a view-dependent colour may be off, as a share
+    double audit = 0;        ///< share of the reused pixels that are traced all the same
+    double audit_limit = 0;  ///< see AuditGuard
+    double budget = 0;       ///< of a frame: what does not fit is filled from around; 0: none [s]
+    double refine = 0;       ///< share of the pixels that are refined in a frame whose view is
+                             ///< that of the frame before
+    std::uint64_t seed = 0;  ///< of the audit's choice
+
+    /// Most points of a picture's cloud.
+    [[nodiscard]] std::size_t most_points(int width, int height) const {
+        return static_cast<std::size_t>(limit * static_cast<double>(width) *
+                                        static_cast<double>(height));
+    }
+};
+
+/// What a frame took, or a part of it.
+struct CloudReport {
+    std::size_t pixels = 0;  ///< all of the picture
+    std::size_t reused = 0;  ///< answered by points, audited and refined ones included
+    std::size_t filled = 0;  ///< from their neighbours: there was no time for them
+    std::array<std::size_t, kHoleCauses> holes{};  ///< traced pixels, by cause (HoleCause)
+    std::size_t points = 0;                        ///< in the cloud after the frame
+    double project_seconds = 0, check_seconds = 0, trace_seconds = 0, keep_seconds = 0;
+    double tightness = 1;             ///< of reuse (AuditGuard)
+    std::vector<float> audit_errors;  ///< of audited pixels: relative error of their luminance
+    std::vector<float> audit_floors;  ///< of some of these: difference of two rays of the pixel
+};
+
+/// A drawn frame, or a part of it, row by row from the bottom.
+struct CloudFrame {
+    std::vector<Rgb> radiance;      ///< [W/(m² sr)]
+    std::vector<float> distance;    ///< along the pixels' rays; 0 where there is no ray [m]
+    std::vector<HoleCause> causes;  ///< why each pixel was traced or filled; none: it was not
+    CloudReport report;
+    bool complete = false;  ///< false: stopped early
+};
+
+/// The rules of a frame, which all who draw parts of it must know.
+struct CloudRules {
+    std::uint64_t frame = 0;  ///< its number
+    bool empty = true;        ///< no frame has left points yet
+    double tightness = 1;     ///< of reuse (AuditGuard)
+    AgeLimit room{};          ///< points for which there is no room any more after the last frame
+};
+
+}  // namespace lightwalk

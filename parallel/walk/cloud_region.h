@@ -1,0 +1,149 @@
+#pragma once
+// A rectangle of a picture, and the points that lie in it: the steps of a frame of a walk. One
+// process has one that is the whole picture; of many each has its own, and they give each other the
+// points that leave one for another.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/cloud/resting.h"
+#include "core/cloud/sight.h"
+#include "core/math/random.h"
+#include "core/view/pixels.h"
+#include "parallel/executor.h"
+#include "parallel/stop_flag.h"
+#include "parallel/walk/cloud_frame.h"
+
+namespace lightwalk {
+
+/// A pixel that is to be traced.
+struct CloudHole {
+    PixelPlace place;
+    HoleCause cause = HoleCause::uncovered;
+    bool guessed = false;  ///< it shows something meanwhile that is better than its neighbours
+};
+
+/// A pixel that was traced: what it shows, and the points that it leaves.
+struct TracedHole {
+    PixelValue value;
+    PixelPoints points;
+};
+
+/// Pixels whose points were used.
+struct UsedPixels {
+    std::vector<PixelPlace> ahead, mirrored;  ///< by the grid that the points are in (CloudGrids)
+};
+
+/// A rectangle with `by` more pixels on each side, inside a picture; empty where it is.
+[[nodiscard]] PixelRectangle widened(const PixelRectangle& area, int by, int width, int height);
+
+/// The steps of a frame, in this order: begin, project, [leaving, add,] answer, [used_beside,
+/// mark_used,] take for each traced hole, show, age, keep. Those in brackets are for regions that
+/// have others beside them. What comes of it depends on no order: neither of points nor of calls of
+/// add, mark_used and take.
+class CloudRegion {
+  public:
+    /// @param area  of a picture of width x height pixels
+    CloudRegion(const PixelRectangle& area, int width, int height, const CloudOptions& options);
+
+    /// A new frame. The camera must outlive it.
+    void begin(const Camera& camera, const CloudRules& rules);
+
+    /// Find the places of all points.
+    void project(Executor& executor);
+    /// Points that the picture shows outside the region, or at its edge: others need them. Calls
+    /// take(point, pixel).
+    template <class Take>
+    void leaving(Take take) const {
+        const PixelRectangle inner = inside_of_area();
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (!(places_[i].distance > 0)) continue;
+            const PixelPlace place = pixel_of(places_[i], width_, height_);
+            if (!inner.contains(place)) take(points_[i], place);
+        }
+    }
+    /// Points of other regions that lie in this one, or a pixel beside it.
+    void add(std::span<const CloudPoint> points);
+
+    /// Find points for all pixels. What none answers is a hole. The caster's `look` is called.
+    void answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop);
+    [[nodiscard]] std::span<const CloudHole> holes() const { return holes_; }
+    /// Of the holes those that are to be traced by a second ray, too, to tell how much two differ.
+    [[nodiscard]] std::span<const std::uint32_t> twins() const { return twins_; }
+    /// Pixels beside the region whose points answered pixels of it.
+    [[nodiscard]] UsedPixels used_beside() const;
+    /// What others' used_beside() says of this one.
+    void mark_used(const UsedPixels& used);
+
+    /// Holes `first` ... are traced. For different holes from many threads at once.
+    void take(std::size_t first, std::span<const TracedHole> traced);
+    /// The twins `first` ... are traced.
+    void take_twins(std::size_t first, std::span<const TracedHole> traced);
+    [[nodiscard]] bool is_traced(std::size_t hole) const { return done_[hole] != 0; }
+
+    /// Put what was traced into the frame.
+    void show();
+    /// For each pixel: not 0 where something is known of it.
+    [[nodiscard]] std::vector<std::uint8_t> known() const;
+
+    /// Points grow older; what was traced leaves new ones. All that are kept, by age.
+    [[nodiscard]] AgeCounts age(Executor& executor);
+    /// The points of the next frame.
+    void keep(const AgeLimit& room);
+
+    [[nodiscard]] const PixelRectangle& area() const { return area_; }
+    [[nodiscard]] CloudFrame& frame() { return frame_; }
+    [[nodiscard]] std::span<const PixelOrigin> origins() const { return origins_; }
+    [[nodiscard]] std::span<const CloudPoint> points() const { return points_; }
+    [[nodiscard]] std::size_t pixel(const PixelPlace& place) const {
+        return static_cast<std::size_t>(place.y - area_.y0) *
+                   static_cast<std::size_t>(area_.width()) +
+               static_cast<std::size_t>(place.x - area_.x0);
+    }
+
+    // A view that rests is not projected; instead of `answer` others say what is to be traced, and
+    // instead of `age` points stay as they are.
+    void refine(std::span<const PixelPlace> places);
+    [[nodiscard]] TracedHole& traced(std::size_t hole) { return traced_[hole]; }
+    /// @param leave  whether what was traced leaves points
+    [[nodiscard]] AgeCounts rest(bool leave);
+
+  private:
+    [[nodiscard]] PixelRectangle inside_of_area() const;
+    void answer_block(std::size_t block, const PixelCaster& caster, int worker);
+    void settle(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
+                std::vector<CloudHole>& holes);
+    void order_holes(const std::vector<std::vector<CloudHole>>& of_blocks);
+    void choose_twins();
+    void expect_holes();
+    void leave_points();
+    [[nodiscard]] RandomStream audit_stream(const PixelPlace& place) const;
+
+    PixelRectangle area_;
+    int width_, height_;
+    CloudOptions options_;
+    CloudGrids grids_;
+    std::vector<CloudPoint> points_;
+    std::vector<ImagePlace> places_;         ///< of the points in this frame
+    std::vector<std::uint8_t> used_, kept_;  ///< by point
+    std::vector<CloudPoint> fresh_;          ///< that this frame leaves
+
+    // This frame.
+    CloudRules rules_;
+    ReuseRules reuse_;
+    std::optional<PointProjector> projector_;
+    CloudFrame frame_;
+    std::vector<PixelOrigin> origins_;  ///< of each pixel; empty unless views that rest are refined
+    std::vector<PixelRectangle> blocks_;
+    std::vector<std::vector<CloudHole>> holes_of_;  ///< each block
+    std::vector<CloudHole> holes_;
+    std::vector<TracedHole> traced_;    ///< each hole
+    std::vector<std::uint8_t> done_;    ///< for each hole: not 0 where it was traced in time
+    std::vector<std::uint32_t> twins_;  ///< holes
+    std::vector<Rgb> twin_radiance_;
+    std::vector<std::uint8_t> twin_done_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,46 @@
+#include "parallel/walk/hole_tracer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kHolesATask = 32;
+
+}  // namespace
+
+std::chrono::steady_clock::time_point deadline_of(double seconds) {
+    const std::chrono::duration<double> span(seconds);
+    return HoleTracer::Clock::now() + std::chrono::duration_cast<HoleTracer::Clock::duration>(span);
+}
+
+void HoleTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
+                            Take take) const {
+    std::array<TracedPixel, kHolesATask> traced;
+    std::array<TracedHole, kHolesATask> holes;
+    for (std::size_t first = 0; first < places.size(); first += kHolesATask) {
+        const std::size_t count = std::min(kHolesATask, places.size() - first);
+        caster_.trace(places.subspan(first, count), {traced.data(), count}, sample, worker);
+        for (std::size_t i = 0; i < count; ++i)
+            holes[i] = {{traced[i].radiance, traced[i].distance}, points_of(traced[i], tolerance_)};
+        take(first, {holes.data(), count});
+    }
+}
+
+void HoleTracer::trace(std::span<const PixelPlace> places, int sample, Executor& executor,
+                       const StopFlag& stop, Take take) const {
+    executor.for_each((places.size() + kHolesATask - 1) / kHolesATask,
+                      [&](std::size_t task, int worker) {
+                          if (task > 0 && is_late()) return;
+                          const std::size_t begin = task * kHolesATask;
+                          const std::size_t count = std::min(kHolesATask, places.size() - begin);
+                          trace_part(places.subspan(begin, count), sample, worker,
+                                     [&](std::size_t first, std::span<const TracedHole> traced) {
+                                         take(begin + first, traced);
+                                     });
+                      },
+                      stop);
+}
+
+}  // namespace lightwalk

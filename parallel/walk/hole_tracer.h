@@ -1,0 +1,43 @@
+#pragma once
+// Pixels that no point answers, traced: by the threads of an executor, until a frame's time is
+// over.
+#include <chrono>
+#include <cstddef>
+#include <span>
+
+#include "core/cloud/sight.h"
+#include "core/math/function_ref.h"
+#include "parallel/executor.h"
+#include "parallel/stop_flag.h"
+#include "parallel/walk/cloud_region.h"
+
+namespace lightwalk {
+
+/// The moment when so many seconds will have passed.
+[[nodiscard]] std::chrono::steady_clock::time_point deadline_of(double seconds);
+
+class HoleTracer {
+  public:
+    using Clock = std::chrono::steady_clock;
+    /// Gets pixels `first` ... that were traced; called by many threads.
+    using Take = FunctionRef<void(std::size_t first, std::span<const TracedHole> traced)>;
+
+    /// @param tolerance  see points_of
+    /// The caster must outlive this.
+    HoleTracer(const PixelCaster& caster, double tolerance, Clock::time_point deadline)
+        : caster_(caster), tolerance_(tolerance), deadline_(deadline) {}
+
+    /// Trace pixels by all threads. After the deadline no more are begun, but some are at once.
+    void trace(std::span<const PixelPlace> places, int sample, Executor& executor,
+               const StopFlag& stop, Take take) const;
+    /// Trace pixels by one thread, some tens at a time, whatever the time is.
+    void trace_part(std::span<const PixelPlace> places, int sample, int worker, Take take) const;
+    [[nodiscard]] bool is_late() const { return Clock::now() > deadline_; }
+
+  private:
+    const PixelCaster& caster_;
+    double tolerance_;
+    Clock::time_point deadline_;
+};
+
+}  // namespace lightwalk

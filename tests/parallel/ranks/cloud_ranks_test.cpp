@@ -1,0 +1,376 @@
+// Frames of a walk drawn by ranks that are threads, over a wire that delays and reorders.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "parallel/ranks/cloud_lead.h"
+#include "parallel/ranks/cloud_tracer.h"
+#include "parallel/ranks/piece_codec.h"
+#include "parallel/ranks/rank_loop.h"
+#include "parallel/walk/cloud_frames.h"
+#include "parallel/walk/scene_caster.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using lightwalk::test::TestScene;
+
+namespace {
+
+const std::string kRoom = R"(
+void plastic grey 0 0 5 .5 .5 .5 0 0
+void plastic tiles 0 0 5 .4 .4 .5 .06 0
+void plastic satin 0 0 5 .3 .5 .3 .04 .1
+void mirror silver 0 0 3 .9 .9 .9
+void glass pane 0 0 3 .9 .9 .9
+void light lamp 0 0 3 40 40 40
+grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
+grey polygon left 0 0 12  -4 -6 0  -4 6 0  -4 6 3  -4 -6 3
+tiles polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+silver polygon mirror 0 0 12  -2 5.99 .5  1 5.99 .5  1 5.99 2.5  -2 5.99 2.5
+pane polygon window 0 0 12  1.5 3 0  3.5 3 0  3.5 3 2.5  1.5 3 2.5
+satin sphere ball 0 0 4 -1.5 2 .7 .7
+lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
+)";
+
+constexpr int kWidth = 61, kHeight = 47;
+
+FrameOptions frame_options() {
+    FrameOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    options.pixels.spacing = 1;
+    return options;
+}
+
+/// Forward, aside and round about: points cross all borders.
+std::vector<View> walk(int frames) {
+    std::vector<View> views;
+    for (int i = 0; i < frames; ++i) {
+        View view;
+        view.position = {0.04 * i, -4 + 0.05 * i, 1.5};
+        view.direction = {std::sin(0.03 * i), std::cos(0.03 * i), -0.05 + 0.01 * i};
+        view.horizontal = 60;
+        view.vertical = 46.8;
+        views.push_back(view);
+    }
+    return views;
+}
+
+/// Packets arrive late, and in another order, but for those of one sender.
+class DelayingTransport final : public Transport {
+  public:
+    DelayingTransport(std::unique_ptr<Transport> wire, std::uint64_t seed)
+        : wire_(std::move(wire)), random_(seed) {}
+    [[nodiscard]] int rank() const override { return wire_->rank(); }
+    [[nodiscard]] int size() const override { return wire_->size(); }
+    [[nodiscard]] std::string host() const override { return wire_->host(); }
+    void send(int to, std::string bytes) override { wire_->send(to, std::move(bytes)); }
+    [[nodiscard]] std::optional<Packet> receive() override {
+        while (std::optional<Packet> packet = wire_->receive())
+            held_[packet->from].push_back(std::move(*packet));
+        std::erase_if(held_, [](const auto& entry) { return entry.second.empty(); });
+        if (held_.empty() || random_() % 3 == 0) return std::nullopt;
+        auto sender = held_.begin();
+        std::advance(sender, static_cast<std::ptrdiff_t>(random_() % held_.size()));
+        Packet packet = std::move(sender->second.front());
+        sender->second.pop_front();
+        return packet;
+    }
+    void wait(std::chrono::microseconds) override { wire_->wait(std::chrono::microseconds{50}); }
+    void wake() override { wire_->wake(); }
+    [[nodiscard]] std::string broadcast(std::string bytes) override {
+        return wire_->broadcast(std::move(bytes));
+    }
+    void flush() override { wire_->flush(); }
+    [[noreturn]] void abort(int status) override {
+        wire_->abort(status);
+        std::terminate();
+    }
+
+  private:
+    std::unique_ptr<Transport> wire_;
+    std::mt19937_64 random_;
+    std::map<int, std::deque<Packet>> held_;  ///< by sender
+};
+
+struct Room {
+    TestScene scene{kRoom};
+    SceneSights sights{scene.tracer};
+    StopFlag stop;
+};
+
+class RoomRays final : public WalkRays {
+  public:
+    RoomRays(Room& room, const View& view, WorkerContexts& contexts)
+        : camera_(view),
+          caster_(room.scene.tracer, room.sights, camera_, frame_options(), contexts, room.stop) {}
+    [[nodiscard]] const Camera& camera() const override { return camera_; }
+    void look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
+              int worker) override {
+        caster_.look(places, sights, worker);
+    }
+    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
+               int worker) override {
+        caster_.trace(places, pixels, sample, worker);
+    }
+
+  private:
+    Camera camera_;
+    SceneCaster caster_;
+};
+
+/// What a frame of a walk shows, and what it took.
+struct Drawn {
+    std::vector<PixelValue> values;  ///< row by row from the bottom
+    CloudReport report;
+};
+
+Drawn to_drawn(const CloudFrame& frame) {
+    Drawn drawn;
+    drawn.report = frame.report;
+    for (std::size_t i = 0; i < frame.radiance.size(); ++i)
+        drawn.values.push_back({frame.radiance[i], frame.distance[i]});
+    return drawn;
+}
+
+std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
+                              const CloudOptions& options) {
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    WorkerContexts contexts(room.scene.tracer, room.scene.warnings, 1);
+    CloudFrames frames(kWidth, kHeight, options);
+    std::vector<Drawn> result;
+    for (const View& view : views) {
+        RoomRays rays(room, view, contexts);
+        const auto look = [&](auto places, auto seen, int w) { rays.look(places, seen, w); };
+        const auto trace = [&](auto places, auto pixels, int sample, int w) {
+            rays.trace(places, pixels, sample, w);
+        };
+        const CloudFrame frame = frames.draw(rays.camera(), {look, trace}, *executor, room.stop);
+        result.push_back(to_drawn(frame));
+    }
+    return result;
+}
+
+/// All that a rank has within.
+class End final : public LocalEnd {
+  public:
+    std::function<void(Message)> tell_tracer;  ///< none: the rank does not trace
+    RankLoop* loop = nullptr;
+
+    void take(Envelope envelope) override {
+        if (auto* frame = std::get_if<FinishedFrame>(&envelope.message)) {
+            const std::lock_guard lock(mutex_);
+            frames_.push_back(std::move(*frame));
+            changed_.notify_all();
+        } else if (tell_tracer) {
+            tell_tracer(std::move(envelope.message));
+        } else if (std::holds_alternative<Finish>(envelope.message)) {
+            loop->end();
+        }
+    }
+    FinishedFrame next_frame() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return !frames_.empty(); });
+        FinishedFrame frame = std::move(frames_.front());
+        frames_.pop_front();
+        return frame;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<FinishedFrame> frames_;
+};
+
+struct Company {
+    Variant variant = Variant::hybrid;
+    int ranks = 3, threads = 1, projectors = 32;
+};
+
+/// The program of rank 0.
+std::vector<Drawn> lead(RankLoop& loop, End& end, const std::vector<View>& views,
+                        const CloudOptions& options) {
+    std::vector<Drawn> result;
+    CloudLead rules(kWidth, kHeight, options, 0);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const View* next = i + 1 < views.size() ? &views[i + 1] : nullptr;
+        loop.post(Role::program, {0, Role::master}, rules.order(views[i], next, std::to_string(i)));
+        result.push_back(to_drawn(rules.take(end.next_frame())));
+    }
+    return result;
+}
+
+std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
+                                 const CloudOptions& options, const Company& company,
+                                 std::uint64_t seed) {
+    const Topology topology = make_topology(company.variant, company.ranks, false, 1);
+    auto wires = make_memory_transports(company.ranks);
+    std::vector<Drawn> result;
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < company.ranks; ++rank) {
+        threads.emplace_back([&, rank] {
+            DelayingTransport wire(std::move(wires[static_cast<std::size_t>(rank)]),
+                                   seed * 1000 + static_cast<std::uint64_t>(rank));
+            RankSettings settings;
+            settings.slots = company.threads;
+            settings.projectors = company.projectors;
+            End end;
+            RankLoop loop(wire, topology, settings, end);
+            end.loop = &loop;
+            const auto executor = make_executor(ExecutorKind::threads, company.threads);
+            WorkerContexts contexts(room.scene.tracer, room.scene.warnings, company.threads);
+            CloudTracerOptions own;
+            own.index = topology.worker_index(rank).value_or(0);
+            for (const Topology::Worker& worker : topology.workers)
+                own.workers.push_back(worker.rank);
+            own.owners = owners_of(own.workers.size(), company.projectors);
+            own.cloud = options;
+            own.encode = encode_piece;
+            CloudTracer tracer(
+                own,
+                [&](const CloudOrder& order) {
+                    return std::make_unique<RoomRays>(
+                        room, views.at(static_cast<std::size_t>(std::stoi(order.payload))),
+                        contexts);
+                },
+                [&](Address to, Message message) {
+                    loop.post(Role::tracer, to, std::move(message));
+                });
+            std::thread drawing;
+            if (topology.traces(rank)) {
+                end.tell_tracer = [&](Message message) { tracer.take(std::move(message)); };
+                drawing = std::thread([&] {
+                    tracer.run(*executor, room.stop);
+                    loop.end();
+                });
+            }
+            std::thread program;
+            if (rank == 0) {
+                program = std::thread([&] {
+                    result = lead(loop, end, views, options);
+                    for (int to = 0; to < company.ranks; ++to)
+                        loop.post(Role::program, {to, Role::program}, Finish{});
+                });
+            }
+            CHECK(loop.run(room.stop));
+            if (drawing.joinable()) drawing.join();
+            if (program.joinable()) program.join();
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    return result;
+}
+
+void check_same(const std::vector<Drawn>& alone, const std::vector<Drawn>& together) {
+    REQUIRE(alone.size() == together.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        CAPTURE(i);
+        CHECK(together[i].values == alone[i].values);
+        const CloudReport &a = alone[i].report, &b = together[i].report;
+        CHECK(b.reused == a.reused);
+        CHECK(b.holes == a.holes);
+        CHECK(b.points == a.points);
+        CHECK(b.tightness == a.tightness);
+        CHECK(quantile(b.audit_errors, 0.5) == quantile(a.audit_errors, 0.5));
+        CHECK(quantile(b.audit_floors, 0.9) == quantile(a.audit_floors, 0.9));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("ranks draw the frames of a walk that one process does, whatever the wire does") {
+    Room room;
+    const std::vector<View> views = walk(5);
+    CloudOptions options;
+    options.audit = 0.2;
+    options.audit_limit = 0.001;
+    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    CHECK(alone.back().report.reused > alone.back().report.pixels / 2);
+    std::uint64_t seed = 1;
+    for (const Company& company :
+         {Company{Variant::hybrid, 1, 2}, Company{Variant::hybrid, 2, 1},
+          Company{Variant::ranks, 3}, Company{Variant::ranks, 7}, Company{Variant::hybrid, 3, 2}}) {
+        CAPTURE(company.ranks);
+        check_same(alone, draw_together(room, views, options, company, ++seed));
+    }
+}
+
+TEST_CASE("a walk is the same where only some ranks keep points, and where most own nothing") {
+    Room room;
+    const std::vector<View> views = walk(4);
+    const CloudOptions options;
+    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    check_same(alone,
+               draw_together(room, views, options, {Variant::hybrid, 5, 1, /*projectors=*/2}, 3));
+    check_same(alone, draw_together(room, views, options, {Variant::ranks, 4, 1, 1}, 4));
+}
+
+TEST_CASE("a walk by ranks is the same in every mode") {
+    Room room;
+    const std::vector<View> views = walk(4);
+    for (const CloudCheck check : {CloudCheck::edges, CloudCheck::none}) {
+        CloudOptions options;
+        options.check = check;
+        options.supersaturated = check == CloudCheck::none;
+        options.rules.look_back = check == CloudCheck::edges;
+        check_same(draw_alone(room, views, options),
+                   draw_together(room, views, options, {Variant::hybrid, 4}, 5));
+    }
+}
+
+TEST_CASE("a walk by ranks keeps no more points than one process does for want of room") {
+    Room room;
+    const std::vector<View> views = walk(8);
+    CloudOptions options;
+    options.limit = 1.4;
+    options.audit = 0.5;
+    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    const std::vector<Drawn> together =
+        draw_together(room, views, options, {Variant::hybrid, 3}, 6);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        CHECK(together[i].values == alone[i].values);
+        CHECK(alone[i].report.points <= options.most_points(kWidth, kHeight));
+    }
+}
+
+TEST_CASE("a walk by ranks with a budget misses no pixel") {
+    Room room;
+    const std::vector<View> views = walk(3);
+    CloudOptions options;
+    options.budget = 1e-9;
+    for (const Drawn& drawn : draw_together(room, views, options, {Variant::hybrid, 3, 2}, 7)) {
+        const CloudReport& report = drawn.report;
+        std::size_t traced = 0;
+        for (const std::size_t count : report.holes) traced += count;
+        CHECK(report.pixels == drawn.values.size());
+        CHECK(report.reused + report.filled + traced == report.pixels);
+        CHECK(traced > 0);
+        CHECK(report.filled > 0);
+        for (const PixelValue& value : drawn.values) CHECK(value.distance >= 0);
+    }
+}
+
+TEST_CASE("a walk by ranks whose view stands still becomes ever better, as by one process") {
+    Room room;
+    std::vector<View> views = walk(3);
+    views.insert(views.end(), 4, views.back());
+    views.push_back(walk(4).back());
+    CloudOptions options;
+    options.refine = 0.4;
+    options.audit = 0.1;
+    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    CHECK(alone[6].report.holes[static_cast<std::size_t>(HoleCause::refined)] > 0);
+    check_same(alone, draw_together(room, views, options, {Variant::hybrid, 3}, 8));
+    check_same(alone, draw_together(room, views, options, {Variant::ranks, 5}, 9));
+}

@@ -1,0 +1,273 @@
+#include "parallel/ranks/cloud_roles.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <queue>
+#include <random>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+using namespace lightwalk;
+
+namespace {
+
+constexpr int kWidth = 40, kHeight = 30;
+
+struct WalkOptions {
+    int workers = 3, slots = 1, ahead = 1;
+    std::size_t owners = 3;
+    std::uint64_t frames = 3;
+    int most_holes = 200, most_twins = 5;
+};
+
+/// A walk through the roles in one thread: messages arrive after random delays, in order between
+/// any two ranks; all that ranks do takes random times.
+class Walk {
+  public:
+    Walk(const WalkOptions& options, std::uint64_t seed)
+        : options_(options),
+          random_(seed),
+          master_({0, Role::master}, ranks_of(options), options.owners,
+                  options.workers * options.slots) {
+        Outbox out;
+        for (int rank = 0; rank < options.workers; ++rank) {
+            const auto index = static_cast<std::size_t>(rank);
+            ranks_.push_back({CloudWorkerRole({{rank, Role::worker},
+                                               {0, Role::master},
+                                               index,
+                                               options.owners,
+                                               options.slots,
+                                               options.ahead}),
+                              {},
+                              options.slots,
+                              false});
+            ranks_.back().role.begin(out);
+        }
+        order(out);
+        send(out);
+        while (!events_.empty()) {
+            Event event = events_.top();
+            events_.pop();
+            now_ = event.time;
+            event.act();
+        }
+    }
+
+    /// Owner, frame, number of the pixel: how often it was traced.
+    std::map<std::tuple<std::size_t, std::uint64_t, std::size_t>, int> traced;
+    std::size_t expected = 0;  ///< pixels that should have been
+    std::uint64_t finished = 0;
+    std::size_t ends = 0;          ///< of frames, told to tracers
+    std::size_t pixel_stages = 0;  ///< told
+
+  private:
+    struct Event {
+        double time = 0;
+        std::uint64_t number = 0;
+        std::function<void()> act;
+        bool operator<(const Event& other) const {
+            return std::tie(time, number) > std::tie(other.time, other.number);
+        }
+    };
+    struct Rank {
+        CloudWorkerRole role;
+        std::deque<GiveHoles> holes;
+        int free_slots = 1;
+        bool points_there = false;
+    };
+
+    static std::vector<int> ranks_of(const WalkOptions& options) {
+        std::vector<int> ranks(static_cast<std::size_t>(options.workers));
+        for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = static_cast<int>(i);
+        return ranks;
+    }
+    static CloudPart part_of(std::uint64_t frame) {
+        CloudPart part;
+        part.frame = frame;
+        return part;
+    }
+    double uniform(double most) { return std::uniform_real_distribution<double>(0, most)(random_); }
+    void at_time(double time, std::function<void()> act) {
+        events_.push({time, next_event_++, std::move(act)});
+    }
+    void order(Outbox& out) {
+        CloudOrder order;
+        order.width = kWidth;
+        order.height = kHeight;
+        order.rules.frame = finished;
+        out.push_back({{0, Role::program}, {0, Role::master}, std::move(order)});
+    }
+
+    void send(Outbox& out) {
+        for (Envelope& envelope : out) {
+            const bool local = envelope.from.rank == envelope.to.rank;
+            double& last = last_[{envelope.from.rank, envelope.to.rank}];
+            last = std::max(last, now_ + (local ? 0 : uniform(1)));
+            at_time(last, [this, carried = std::make_shared<Envelope>(std::move(envelope))] {
+                deliver(std::move(*carried));
+            });
+        }
+        out.clear();
+    }
+
+    void deliver(Envelope envelope) {
+        Outbox out;
+        const int rank = envelope.to.rank;
+        if (envelope.to.role == Role::master) {
+            master_.handle(std::move(envelope), out);
+        } else if (envelope.to.role == Role::program) {
+            CHECK(std::get<FinishedFrame>(envelope.message).parts.size() == options_.owners);
+            ++finished;
+            if (finished < options_.frames) order(out);
+        } else if (envelope.to.role == Role::worker) {
+            ranks_[static_cast<std::size_t>(rank)].role.handle(std::move(envelope), out);
+        } else {
+            tell_tracer(rank, std::move(envelope.message));
+        }
+        send(out);
+    }
+
+    void post(int rank, double delay, Address to, Message message) {
+        auto out = std::make_shared<Outbox>();
+        out->push_back({{rank, Role::tracer}, to, std::move(message)});
+        at_time(now_ + delay, [this, out] { send(*out); });
+    }
+
+    void tell_tracer(int rank, Message message) {
+        const auto index = static_cast<std::size_t>(rank);
+        if (const auto* order = std::get_if<CloudOrder>(&message)) {
+            if (index >= options_.owners) return;
+            for (std::size_t i = 0; i < options_.owners; ++i) {
+                if (i != index)
+                    post(rank, uniform(1), {static_cast<int>(i), Role::worker},
+                         CloudPoints{order->rules.frame, {}});
+            }
+        } else if (const auto* stage = std::get_if<CloudStage>(&message)) {
+            if (stage->kind == CloudStage::Kind::points) return find_holes(rank, stage->frame);
+            ++pixel_stages;
+            post(rank, uniform(1), {rank, Role::worker}, part_of(stage->frame));
+        } else if (auto* holes = std::get_if<GiveHoles>(&message)) {
+            if (holes->places.empty())
+                ++ends;
+            else
+                ranks_[index].holes.push_back(std::move(*holes));
+            trace(rank);
+        }
+    }
+
+    void find_holes(int rank, std::uint64_t frame) {
+        const auto index = static_cast<std::size_t>(rank);
+        const double answered = uniform(1);
+        const SubImages parts({0, 0, kWidth, kHeight}, options_.owners);
+        for (const std::size_t i : owners_beside(parts, index, kWidth, kHeight))
+            post(rank, answered, {static_cast<int>(i), Role::worker}, CloudUsed{frame, {}});
+        CloudHoles holes{frame, 0, {}};
+        const int count = static_cast<int>(uniform(options_.most_holes));
+        holes.twins = static_cast<std::uint32_t>(uniform(std::min(count, options_.most_twins)));
+        holes.places.resize(static_cast<std::size_t>(count));
+        expected += holes.places.size();
+        post(rank, answered, {rank, Role::worker}, std::move(holes));
+    }
+
+    void trace(int number) {
+        Rank& rank = ranks_[static_cast<std::size_t>(number)];
+        while (rank.free_slots > 0 && !rank.holes.empty()) {
+            --rank.free_slots;
+            const GiveHoles holes = std::move(rank.holes.front());
+            rank.holes.pop_front();
+            const auto count = static_cast<std::uint32_t>(holes.places.size());
+            for (std::size_t i = 0; i < count; ++i)
+                ++traced[{holes.owner, holes.frame, holes.first + i}];
+            at_time(now_ + uniform(1), [this, number, holes, count] {
+                Outbox out;
+                out.push_back({{number, Role::tracer},
+                               {static_cast<int>(holes.owner), Role::worker},
+                               TracedHoles{holes.frame, holes.first, count, {}}});
+                out.push_back({{number, Role::tracer}, {0, Role::master}, AskHoles{1}});
+                send(out);
+                ++ranks_[static_cast<std::size_t>(number)].free_slots;
+                trace(number);
+            });
+        }
+    }
+
+    WalkOptions options_;
+    std::mt19937_64 random_;
+    CloudMasterRole master_;
+    std::vector<Rank> ranks_;
+    std::priority_queue<Event> events_;
+    std::map<std::pair<int, int>, double> last_;
+    double now_ = 0;
+    std::uint64_t next_event_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("a walk over ranks: each hole is traced once, and each frame ends, in 1000 schedules") {
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        CAPTURE(seed);
+        WalkOptions options;
+        options.workers = 1 + static_cast<int>(seed % 7);
+        options.owners = 1 + seed % static_cast<std::uint64_t>(options.workers);
+        options.slots = 1 + static_cast<int>(seed % 3);
+        options.most_holes = seed % 5 == 0 ? 3 : 300;
+        const Walk walk(options, seed);
+        REQUIRE(walk.finished == options.frames);
+        CHECK(walk.traced.size() == walk.expected);
+        const bool once = std::all_of(walk.traced.begin(), walk.traced.end(),
+                                      [](const auto& entry) { return entry.second == 1; });
+        CHECK(once);
+        CHECK(walk.ends == options.frames * static_cast<std::uint64_t>(options.workers));
+        CHECK(walk.pixel_stages == options.frames * options.owners);
+    }
+}
+
+TEST_CASE("a walk over ranks: what nobody asked for is refused") {
+    const auto worker = [](Outbox& out) {
+        CloudWorkerRole role({{1, Role::worker}, {0, Role::master}, 0, 2, 1, 1});
+        role.begin(out);
+        CloudOrder order;
+        order.width = kWidth;
+        order.height = kHeight;
+        role.handle({{0, Role::master}, {1, Role::worker}, order}, out);
+        return role;
+    };
+    const auto from = [](Message message) {
+        return Envelope{{2, Role::tracer}, {1, Role::worker}, std::move(message)};
+    };
+    Outbox out;
+    CloudWorkerRole role = worker(out);
+    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 0, 1, {}}), out), InputError);
+    role = worker(out);
+    role.handle(from(CloudPoints{0, {}}), out);
+    CHECK_THROWS_AS(role.handle(from(CloudPoints{0, {}}), out), InputError);
+    role = worker(out);
+    role.handle({{1, Role::tracer}, {1, Role::worker}, CloudHoles{0, 0, {{1, 1}, {2, 1}}}}, out);
+    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 1, 2, {}}), out), InputError);
+    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 0, 1, {{}, {}}}), out), InputError);
+    role.handle(from(TracedHoles{0, 1, 1, {}}), out);
+    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 1, 1, {}}), out), InputError);
+    CloudMasterRole master({0, Role::master}, {1, 2}, 2, 2);
+    CHECK_THROWS_AS(
+        master.handle({{1, Role::worker}, {0, Role::master}, CloudHoles{0, 0, {}}}, out),
+        InputError);
+    CHECK_THROWS_AS(master.handle({{1, Role::worker}, {0, Role::master}, CloudPart{}}, out),
+                    InputError);
+}
+
+TEST_CASE("a walk over ranks: parts that touch, also at a corner, are beside each other") {
+    const SubImages parts({0, 0, 40, 40}, 4);  // two by two
+    for (std::size_t i = 0; i < 4; ++i) CHECK(owners_beside(parts, i, 40, 40).size() == 3);
+    const SubImages few({0, 0, 1, 2}, 4);  // two own nothing
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < 4; ++i) pairs += owners_beside(few, i, 1, 2).size();
+    CHECK(pairs == 2);
+}
