@@ -23,7 +23,7 @@ std::optional<Frame> CloudPictures::take() {
     statistics_.rays += drawn.frame.rays;
     statistics_.ambient += drawn.frame.ambient;
     if (drawn.frame.complete) {
-        statistics_.walk.push_back(std::move(drawn.report));
+        statistics_.walk.add(std::move(drawn.report));
         ++frames_done_;
         meter_->update(0, {static_cast<double>(frames_done_) / static_cast<double>(frames_wanted_),
                            statistics_.rays.total(), statistics_.ambient.computed});

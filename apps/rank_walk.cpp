@@ -77,7 +77,7 @@ std::optional<Frame> LeadWalk::take() {
     Frame frame = turned_over(drawn, options.width, options.height);
     draw_small_sources(tracer_, request->camera, options, *executor_, contexts_, frame);
     frame.complete = true;
-    statistics_.walk.push_back(std::move(drawn.report));
+    statistics_.walk.add(std::move(drawn.report));
     return frame;
 }
 

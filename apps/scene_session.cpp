@@ -21,54 +21,6 @@ std::int64_t now_ns() {
     return duration_cast<nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-constexpr std::array<const char*, kHoleCauses> kCauseNames{
-    "none", "uncovered", "hidden", "unsteady", "turned", "uneven", "audited", "refined"};
-
-nlohmann::ordered_json audit_statistics(const std::vector<float>& errors,
-                                        const std::vector<float>& floors) {
-    return {{"pixels", errors.size()},
-            {"median_error", quantile(errors, 0.5)},
-            {"error_95", quantile(errors, 0.95)},
-            {"median_floor", quantile(floors, 0.5)},
-            {"floor_95", quantile(floors, 0.95)}};
-}
-
-nlohmann::ordered_json frame_statistics(const CloudReport& frame) {
-    nlohmann::ordered_json holes;
-    for (std::size_t cause = 1; cause < kHoleCauses; ++cause)
-        holes[kCauseNames[cause]] = frame.holes[cause];
-    nlohmann::ordered_json json{{"reused", frame.reused},
-                                {"traced", holes},
-                                {"filled", frame.filled},
-                                {"points", frame.points},
-                                {"tightness", frame.tightness},
-                                {"seconds",
-                                 {{"project", frame.project_seconds},
-                                  {"check", frame.check_seconds},
-                                  {"trace", frame.trace_seconds},
-                                  {"keep", frame.keep_seconds}}}};
-    if (!frame.audit_errors.empty())
-        json["audit"] = audit_statistics(frame.audit_errors, frame.audit_floors);
-    return json;
-}
-
-/// The frames of a walk; the first one, which has nothing to reuse, does not count in the mean.
-nlohmann::ordered_json reuse_statistics(const std::vector<CloudReport>& walk) {
-    nlohmann::ordered_json json;
-    double reused = 0, pixels = 0;
-    std::vector<float> errors, floors;
-    for (std::size_t i = 1; i < walk.size(); ++i) {
-        reused += static_cast<double>(walk[i].reused);
-        pixels += static_cast<double>(walk[i].pixels);
-        errors.insert(errors.end(), walk[i].audit_errors.begin(), walk[i].audit_errors.end());
-        floors.insert(floors.end(), walk[i].audit_floors.begin(), walk[i].audit_floors.end());
-    }
-    json["reused"] = pixels > 0 ? reused / pixels : 0;
-    if (!errors.empty()) json["audit"] = audit_statistics(errors, floors);
-    for (const CloudReport& frame : walk) json["frames"].push_back(frame_statistics(frame));
-    return json;
-}
-
 }  // namespace
 
 Stopwatch::Stopwatch() : start_ns_(now_ns()) {}
@@ -154,7 +106,7 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
             {"duplicates", s.ambient.duplicates},     {"cached", s.ambient_values},
             {"cache_bytes", s.ambient_bytes}};
     }
-    if (!s.walk.empty()) json["reuse"] = reuse_statistics(s.walk);
+    if (!s.walk.empty()) json["reuse"] = s.walk.json();
     json["rays_per_second"] =
         static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);
     json["peak_memory_bytes"] = peak_memory_bytes();

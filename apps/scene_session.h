@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/common_options.h"
+#include "apps/walk_report.h"
 #include "core/problem_list.h"
 #include "core/scene/scene.h"
 #include "core/transport/tracer.h"
@@ -82,7 +83,7 @@ struct RunStatistics {
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;
     int ranks = 1;
-    std::vector<CloudReport> walk;       ///< of each frame that reused others' points
+    WalkReport walk;                     ///< frames that reused others' points
     std::map<int, std::string> reports;  ///< of each rank (see rank_report); empty for one process
 };
 /// Write as JSON, whole or not at all. Throws InputError.

@@ -15,6 +15,9 @@ constexpr float kSameDepth = 0.05f;
 /// Depths that differ by more jump.
 constexpr float kDepthJump = 0.1f;
 
+/// Points around a pixel that differ by this share of the brightest belong to lines and edges.
+constexpr float kSteepContrast = 0.6f;
+
 /// So few points do not tell whether a neighbourhood is even.
 constexpr int kFewPoints = 3;
 
@@ -29,6 +32,16 @@ Vec3 toward(const CloudPoint& point, const PixelSights& sights, const Sight& sig
 }
 
 }  // namespace
+
+/// How far a pixel's points may lie from its ray, squared [pixels²], where those around it differ
+/// by a share `contrast` of their light: the grain of a wall may shift by a pixel, a line may not.
+float PointFinder::squared_reach(float contrast) const {
+    const float steep = std::max(kSteepContrast, rules_.contrast);
+    const float share =
+        std::clamp((steep - contrast) / (steep - rules_.contrast + 1e-6f), 0.0f, 1.0f);
+    const float reach = rules_.near + (std::max(rules_.reach, rules_.near) - rules_.near) * share;
+    return reach * reach;
+}
 
 /// The points around a pixel, as far as they show what its ray sees.
 struct PointFinder::Search {
@@ -74,7 +87,9 @@ HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
     const float near = rules_.near * rules_.near;
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
     if (own != kNoPoint) look_at(own, sights, sight, found);
-    if (rules_.look_back && !(found.squared <= near)) {
+    // What lies on the pixel itself is as good a sample of it as its ray's.
+    const bool inside_pixel = found.points > 0;
+    if (rules_.look_back && !inside_pixel) {
         for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
             for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
                 if (!inside(x, y) || (x == pixel.x && y == pixel.y)) continue;
@@ -89,11 +104,11 @@ HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
         return found.turned ? HoleCause::turned
                : found.any  ? HoleCause::hidden
                             : HoleCause::uncovered;
-    if (!rules_.look_back || found.squared <= near) return HoleCause::none;
-    const bool even = found.points >= kFewPoints &&
-                      found.brightest - found.darkest <= rules_.contrast * (found.brightest + base);
-    return even && found.squared <= rules_.reach * rules_.reach ? HoleCause::none
-                                                                : HoleCause::uneven;
+    if (!rules_.look_back || inside_pixel || found.squared <= near) return HoleCause::none;
+    if (found.points < kFewPoints) return HoleCause::uneven;
+    const float contrast =
+        (found.brightest - found.darkest) / std::max(found.brightest + base, 1e-30f);
+    return found.squared <= squared_reach(contrast) ? HoleCause::none : HoleCause::uneven;
 }
 
 PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sights) const {

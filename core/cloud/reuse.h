@@ -30,7 +30,8 @@ struct ReuseRules {
     /// that fell onto the pixel counts (forward projection alone).
     bool look_back = true;
     float near = 0.7f;      ///< a point as near as this to the ray is as good as its own [pixels]
-    float reach = 1.5f;     ///< and where the points around agree, one as near as this [pixels]
+    float reach = 1.5f;     ///< and where the points around agree, one as near as this [pixels];
+                            ///< in between, the less they agree the nearer it has to be
     float contrast = 0.1f;  ///< they agree when they differ by no more, as a share of the brightest
     double tightness = 1;   ///< factor of how far view directions may turn, 0 ... 1
     // Where no ray says what is there:
@@ -77,6 +78,7 @@ class PointFinder {
                                    std::uint32_t& best, float& apart) const;
     void look_at(std::uint32_t index, const PixelSights& sights, const Sight& sight,
                  Search& found) const;
+    [[nodiscard]] float squared_reach(float contrast) const;
     [[nodiscard]] bool contradicts(const PixelPlace& pixel, const DepthGrid& grid) const;
     [[nodiscard]] std::array<float, 9> depths(const PixelPlace& pixel, const DepthGrid& grid) const;
     [[nodiscard]] bool inside(int x, int y) const {

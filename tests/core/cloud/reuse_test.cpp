@@ -99,6 +99,33 @@ TEST_CASE("cloud: a pixel between points is answered where these agree, and trac
 }
 
 TEST_CASE(
+    "cloud: the less the points around a pixel differ, the farther they may lie from its ray") {
+    Wall wall;
+    wall.rules.reach = 1.5f;
+    wall.rules.contrast = 0.1f;
+    const auto answered = [&](double distance, float light) {
+        wall.points.clear();
+        for (const double x : {-1.0, 0.0, 1.0}) wall.add(5.5 + x, 5.5 + distance, 1, 1);
+        wall.points.back().radiance = Rgb::grey(light);
+        return wall.project().checked({5, 5}, wall.sights(5.5, 5.5, 1)).found();
+    };
+    CHECK(answered(1.4, 1));
+    CHECK(answered(0.9, 0.7f));
+    CHECK_FALSE(answered(1.4, 0.7f));
+    CHECK(answered(0.69, 0.1f));
+    CHECK_FALSE(answered(0.9, 0.1f));
+}
+
+TEST_CASE("cloud: a point on the pixel itself answers it wherever its ray goes through it") {
+    Wall wall;
+    wall.add(5.05, 5.05, 1, 3);
+    wall.add(6.1, 5.95, 1, 1);  // nearer to the ray, but of the pixel beside it
+    const PixelAnswer answer = wall.project().checked({5, 5}, wall.sights(5.95, 5.95, 1));
+    REQUIRE(answer.found());
+    CHECK(answer.ahead == 0);
+}
+
+TEST_CASE(
     "cloud: a view-dependent point holds until the view has turned as far as its slope allows") {
     Wall wall;
     TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(1), {}, 4};
