@@ -129,7 +129,7 @@ rays wherever these are true.
   --near PIXELS      back: a point so near is as good as a ray (.7)
   --reach PIXELS     back: where the points around agree, one so near will do (1.5, which is the most)
   --contrast PERCENT back: they agree when the darkest and the brightest differ by no more (10)
-  --specular-tolerance PERCENT  how far a colour that depends on the view may be off before it is traced anew (20; few
+  --specular-tolerance PERCENT  how far a colour that depends on the view may be off before it is traced anew (10; few
                      colours come near this bound)
   --audit PERCENT    of the reused pixels are traced all the same, a quarter of these twice; --stats has the errors, and
                      how much two rays of a pixel differ. Default 1

@@ -24,7 +24,7 @@ struct CloudOptions {
     ReuseRules rules{};
     int age = 25;            ///< frames that a point outlives without use
     double limit = 4;        ///< most points, as a multiple of the pixels
-    double tolerance = 0.2;  ///< how far a view-dependent colour may be off, as a share
+    double tolerance = 0.1;  ///< how far a view-dependent colour may be off, as a share
     double audit = 0;        ///< share of the reused pixels that are traced all the same
     double audit_limit = 0;  ///< see AuditGuard
     double budget = 0;       ///< of a frame: what does not fit is filled from around; 0: none [s]

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/apps/walk_words.h"
 
 using namespace lightwalk::test;
 
@@ -25,18 +26,6 @@ pane polygon window 0 0 12  -3 -2 0  -1 -2 0  -1 -2 3  -3 -2 3
 lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
 lamp sphere star 0 0 4  -2 2 3 .01
 )";
-
-std::vector<std::string> line(const std::vector<std::string>& more) {
-    std::vector<std::string> words{"animate", "-vp", "0",  "-6", "2",   "-vd", "0",   "1", "-.2",
-                                   "-x",      "64",  "-y", "48", "-vh", "45",  "-vv", "35"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-std::string pixels_of(const std::string& path) {
-    const std::string bytes = read_whole(path);
-    return bytes.substr(bytes.find("\n\n"));
-}
 
 bool have_mpi() {
     if (mpirun(1)) return true;

@@ -11,6 +11,7 @@
 
 #include "io/picture/picture.h"
 #include "tests/apps/program.h"
+#include "tests/apps/walk_words.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
@@ -27,18 +28,6 @@ satin sphere ball 0 0 4 0 0 1 1
 silver polygon glass 0 0 12  2 3 0  5 3 0  5 3 3  2 3 3
 lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
 )";
-
-std::vector<std::string> line(const std::vector<std::string>& more) {
-    std::vector<std::string> words{"animate", "-vp", "0",  "-6", "2",   "-vd", "0",   "1", "-.2",
-                                   "-x",      "64",  "-y", "48", "-vh", "45",  "-vv", "35"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-std::string pixels_of(const std::string& path) {
-    const std::string bytes = read_whole(path);
-    return bytes.substr(bytes.find("\n\n"));
-}
 
 double brightness_difference(const Picture& a, const Picture& b) {
     std::size_t off = 0;
