@@ -1,10 +1,10 @@
 #!/bin/sh
 # Install what is needed, build, and render the demo scene's views by day and in the evening.
-# Usage: demo.sh [WIDTH] [FOLDER]   (default: 800 pixels wide, pictures in out/demo)
+# Usage: demo.sh [WIDTH] [FOLDER]   (default: 720 pixels wide, pictures in out/demo)
 set -eu
 cd "$(dirname "$0")/.."
 root=$(pwd)
-width="${1:-800}"
+width="${1:-720}"
 out="${2:-$root/out/demo}"
 sh apps/install_packages.sh
 cmake --preset release
