@@ -13,22 +13,23 @@ mkdir -p "$out"
 cd apps/scenes/lodge
 rm -f "$out/day.amb" "$out/night.amb"
 # All views of one light share its ambient file. -dj with several samples a pixel: soft shadows without steps.
+# Indirect values reach at least -aa/-ar of the scene's size, here 800 m with its hills: half a metre indoors, less
+# than that under the eaves.
 render() { # LIGHT VIEW OPTIONS...
     light="$1" view="$2"
     shift 2
     echo "$light-$view"
     "$root/build/release/lightwalk" render -vf "views/$view.vf" -x "$width" -y "$((width * 3 / 4))" --samples 6 \
-        -ab 2 -aa .15 -ad 512 -as 128 -ar 64 -dj .7 -af "$out/$light.amb" "$@" \
+        -ab 2 -aa .25 -ad 256 -as 64 -ar 384 -dj .7 -af "$out/$light.amb" "$@" \
         -o "$out/$light-$view.png" lodge.rad "$light.rad"
 }
 for view in living window dining; do
     render day "$view" -av .2 .2 .19 -ds .3
 done
-# The sunlit terrace lights the shaded wall above it: finer than indoors, so in a file of its own.
-rm -f "$out/day.amb"
-render day terrace -av .2 .2 .19 -ds .3 -aa .1 -ar 128
-for view in living fireplace terrace; do
-    render night "$view" -av .004 .003 .002
+render day terrace -av .2 .2 .19 -ds .3 -ar 1024 -ad 512
+for view in living fireplace; do
+    render night "$view" -av .004 .003 .002 -ds .08
 done
+render night terrace -av .004 .003 .002 -ds .08 -ar 1024
 rm -f "$out/day.amb" "$out/night.amb"
 echo "The pictures are in $out"
