@@ -66,8 +66,12 @@ class MpiTransport final : public Transport {
         int here = 0;
         MPI_Message message = MPI_MESSAGE_NULL;
         MPI_Status status{};
-        check(MPI_Improbe(MPI_ANY_SOURCE, kTag, MPI_COMM_WORLD, &here, &message, &status),
-              "MPI_Improbe");
+        // Open MPI first looks among what has been read from the network, and reads on only where
+        // it finds nothing: what has come since the last look is found by the second question.
+        for (int i = 0; i < 2 && here == 0; ++i) {
+            check(MPI_Improbe(MPI_ANY_SOURCE, kTag, MPI_COMM_WORLD, &here, &message, &status),
+                  "MPI_Improbe");
+        }
         if (here == 0) return std::nullopt;
         int size = 0;
         check(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count");
