@@ -1,8 +1,8 @@
 #!/bin/sh
 # Measure how Lightwalk scales over ranks and threads, and what walks reuse. Writes JSON and SVG into a folder.
 # Usage: perf/run.sh NAME [--scenes DIR] [--lightwalk PROGRAM] [--out DIR] [--size N] [--runs N] [--cores N] [--frames N]
-# NAME: table1, splits, stride, ambient-exchange, model, same-bytes, kills, many-ranks, table2, walkfilm; README.md beside
-# this file tells what they are.
+# NAME: table1, splits, speedup, stride, ambient-exchange, accuracy, model, same-bytes, kills, many-ranks, table2, walkfilm;
+# README.md beside this file tells what they are.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 # As root mpirun wants to be told twice that this is meant.

@@ -209,8 +209,13 @@ bool PointFinder::is_guess(const PixelAnswer& answer) const {
 }
 
 float PointFinder::distance(const PixelAnswer& answer) const {
-    if (answer.ahead != kNoPoint) return places_[answer.ahead].distance;
-    return answer.mirrored != kNoPoint ? places_[answer.mirrored].distance : 0;
+    if (answer.ahead == kNoPoint)
+        return answer.mirrored != kNoPoint ? places_[answer.mirrored].distance : 0;
+    // As traced rays tell it, see Ray::effective_distance().
+    const bool mirror =
+        answer.mirrored != kNoPoint &&
+        brightness(points_[answer.mirrored].radiance) > 0.5f * brightness(radiance(answer));
+    return places_[mirror ? answer.mirrored : answer.ahead].distance;
 }
 
 }  // namespace lightwalk

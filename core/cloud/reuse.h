@@ -68,7 +68,7 @@ class PointFinder {
     /// Whether an answer that was not found still has all points that its pixel is made of, though
     /// not near enough: the best guess until it is traced.
     [[nodiscard]] bool is_guess(const PixelAnswer& answer) const;
-    /// Along the ray: of what lies ahead, unless a mirror is all there is [m].
+    /// Along the ray: of what lies ahead, or of what is mirrored where that dominates [m].
     [[nodiscard]] float distance(const PixelAnswer& answer) const;
 
   private:

@@ -5,12 +5,14 @@ import argparse, os, pathlib, sys
 import checks
 import experiments
 import model
+import variants
 import walks
 from runs import ROOT, Program, find_scene
 
 NAMES = {"table1": experiments.table1, "splits": experiments.splits, "stride": experiments.stride,
          "ambient-exchange": experiments.ambient_exchange, "model": model.run, "table2": walks.table2, "walkfilm": walks.walkfilm,
-         "same-bytes": checks.same_bytes, "kills": checks.kills, "many-ranks": checks.many_ranks}
+         "speedup": variants.speedup, "accuracy": variants.accuracy, "same-bytes": checks.same_bytes, "kills": checks.kills,
+         "many-ranks": checks.many_ranks}
 
 
 def main():
@@ -24,11 +26,13 @@ def main():
     parser.add_argument("--runs", type=int, default=5, metavar="N", help="of each, of which the median counts")
     parser.add_argument("--cores", type=int, default=os.cpu_count() or 1, metavar="N")
     parser.add_argument("--frames", type=int, default=50, metavar="N", help="table2, walkfilm: of a walk")
+    parser.add_argument("--truth", type=int, default=256, metavar="N",
+                        help="accuracy: ambient rays a point of the picture that the others are held against")
     parser.add_argument("--predict-only", action="store_true",
                         help="model: with the cost maps and figures that an earlier run left in the folder")
     options = parser.parse_args()
-    if options.size < 16 or options.runs < 1 or options.cores < 1 or options.frames < 2:
-        parser.error("--size is at least 16, --frames 2, --runs and --cores 1")
+    if options.size < 16 or min(options.runs, options.cores, options.truth) < 1 or options.frames < 2:
+        parser.error("--size is at least 16, --frames 2, --runs, --cores and --truth 1")
     if not pathlib.Path(options.lightwalk).is_file():
         parser.error(f"there is no program {options.lightwalk}")
     options.out = options.out.resolve()

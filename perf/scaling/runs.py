@@ -90,10 +90,11 @@ class Program:
             sys.exit(f"failed: {' '.join(map(str, command))}\n{done.stderr.decode(errors='replace')[-2000:]}")
         return done.stdout.decode()
 
-    def render(self, split, options):
-        """--stats of one run; "others": what other programs took meanwhile, as a share of the cores."""
+    def render(self, split, options, picture=None):
+        """--stats of one run; "others": what other programs took meanwhile, as a share of the cores. The picture is
+        dropped where none is named."""
         with tempfile.TemporaryDirectory() as scratch:
-            stats, picture = os.path.join(scratch, "stats.json"), os.path.join(scratch, "picture.hdr")
+            stats, picture = os.path.join(scratch, "stats.json"), picture or os.path.join(scratch, "picture.hdr")
             command = [self.lightwalk, "render", "--variant", split.variant, "-n", split.threads, "--quiet", "--stats",
                        stats, "-o", picture, *options, *self.scene.words]
             if split.variant != "threads":

@@ -165,10 +165,16 @@ TEST_CASE(
         const PixelAnswer answer = finder.checked({8, 8}, pixel.sights);
         REQUIRE(answer.found());
         CHECK(finder.radiance(answer).g == 3);
+        CHECK(finder.distance(answer) == doctest::Approx(4));
         CHECK(finder.unchecked({8, 8}).found());
         PixelSights moved = pixel.sights;
         moved.mirrored.surface = 78;  // something else is in the mirror
         CHECK(finder.checked({8, 8}, moved).cause == HoleCause::hidden);
+    }
+    {
+        wall.points[1].radiance = Rgb::grey(5);  // it shows the reflection more than the surface
+        const PointFinder finder = wall.project();
+        CHECK(finder.distance(finder.checked({8, 8}, pixel.sights)) == doctest::Approx(9));
     }
     pixel.sights.mirrored.slope = kUnsteady;
     CHECK(points_of(pixel, 0.05).count == 0);

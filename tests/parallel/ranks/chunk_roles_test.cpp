@@ -3,15 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <functional>
-#include <memory>
-#include <queue>
-#include <random>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "tests/parallel/ranks/random_schedule.h"
+
 using namespace lightwalk;
+using lightwalk::test::RandomSchedule;
 
 namespace {
 
@@ -24,12 +23,11 @@ struct StreamOptions {
     double longest_pause = 0;  ///< of the program, between two chunks that it reads
 };
 
-/// A stream of rays through the roles in one thread: messages arrive after random delays, in order
-/// between any two ranks; tracing takes random times.
+/// A stream of rays through the roles in one thread: tracing takes random times.
 class Stream {
   public:
     Stream(const StreamOptions& options, std::uint64_t seed)
-        : options_(options), random_(seed), master_({0, Role::master}, options.window) {
+        : options_(options), schedule_(seed), master_({0, Role::master}, options.window) {
         Outbox out;
         master_.begin(out);
         for (int rank = 0; rank < options.workers; ++rank) {
@@ -42,14 +40,7 @@ class Stream {
         send(out);
     }
 
-    void run() {
-        while (!events_.empty()) {
-            Event event = events_.top();
-            events_.pop();
-            now_ = event.time;
-            event.act();
-        }
-    }
+    void run() { schedule_.run(); }
 
     std::string output;            ///< what the program got, in the order it came
     std::uint64_t most_open = 0;   ///< chunks that the program had no answer for, at most
@@ -57,35 +48,15 @@ class Stream {
     std::uint64_t given = 0, answered = 0;
 
   private:
-    struct Event {
-        double time = 0;
-        std::uint64_t number = 0;
-        std::function<void()> act;
-        bool operator<(const Event& other) const {
-            return std::tie(time, number) > std::tie(other.time, other.number);
-        }
-    };
     struct Worker {
         ChunkWorkerRole role;
         std::deque<RayChunk> chunks;
         int free_slots = 0;
     };
 
-    double uniform(double most) { return std::uniform_real_distribution<double>(0, most)(random_); }
-    void at_time(double time, std::function<void()> act) {
-        events_.push({time, next_event_++, std::move(act)});
-    }
-
     void send(Outbox& out) {
-        for (Envelope& envelope : out) {
-            const bool local = envelope.from.rank == envelope.to.rank;
-            double& last = last_[{envelope.from.rank, envelope.to.rank}];
-            last = std::max(last, now_ + (local ? 0 : uniform(options_.longest_delay)));
-            at_time(last, [this, carried = std::make_shared<Envelope>(std::move(envelope))] {
-                deliver(std::move(*carried));
-            });
-        }
-        out.clear();
+        schedule_.carry(out, options_.longest_delay,
+                        [this](Envelope envelope) { deliver(std::move(envelope)); });
     }
 
     void deliver(Envelope envelope) {
@@ -121,14 +92,15 @@ class Stream {
     void read() {
         if (wanted_ == 0 || read_ == options_.rays) return;
         const std::uint64_t count =
-            std::min(1 + random_() % options_.most_rays, options_.rays - read_);
+            std::min(1 + schedule_.number() % options_.most_rays, options_.rays - read_);
         RayChunk chunk{given++, read_, std::vector<double>(6 * count)};
         read_ += count;
         --wanted_;
         most_open = std::max(most_open, given - answered);
         Outbox out{{{0, Role::program}, {0, Role::master}, std::move(chunk)}};
         send(out);
-        if (wanted_ > 0) at_time(now_ + uniform(options_.longest_pause), [this] { read(); });
+        if (wanted_ > 0)
+            schedule_.after(schedule_.uniform(options_.longest_pause), [this] { read(); });
     }
 
     void trace(int rank) {
@@ -137,12 +109,12 @@ class Stream {
             --worker.free_slots;
             ChunkAnswer answer{worker.chunks.front().number,
                                static_cast<std::uint32_t>(worker.chunks.front().rays()),
-                               uniform(options_.longest_chunk),
+                               schedule_.uniform(options_.longest_chunk),
                                {}};
             for (std::uint64_t i = 0; i < answer.rays; ++i)
                 answer.bytes += std::to_string(worker.chunks.front().first + i) + ' ';
             worker.chunks.pop_front();
-            at_time(now_ + answer.seconds, [this, rank, answer] {
+            schedule_.after(answer.seconds, [this, rank, answer] {
                 ++workers_[static_cast<std::size_t>(rank)].free_slots;
                 Outbox out{{{rank, Role::tracer}, {rank, Role::worker}, answer}};
                 send(out);
@@ -152,13 +124,10 @@ class Stream {
     }
 
     StreamOptions options_;
-    std::mt19937_64 random_;
+    RandomSchedule schedule_;
     ChunkMasterRole master_;
     std::vector<Worker> workers_;
-    std::priority_queue<Event> events_;
-    std::map<std::pair<int, int>, double> last_;
-    double now_ = 0;
-    std::uint64_t next_event_ = 0, read_ = 0;
+    std::uint64_t read_ = 0;
     std::uint32_t wanted_ = 0;
 };
 

@@ -3,19 +3,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
-#include <memory>
-#include <queue>
-#include <random>
 #include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "tests/parallel/ranks/random_schedule.h"
 
 using namespace lightwalk;
+using lightwalk::test::RandomSchedule;
 
 namespace {
 
@@ -28,13 +26,12 @@ struct WalkOptions {
     int most_holes = 200, most_twins = 5;
 };
 
-/// A walk through the roles in one thread: messages arrive after random delays, in order between
-/// any two ranks; all that ranks do takes random times.
+/// A walk through the roles in one thread: all that ranks do takes random times.
 class Walk {
   public:
     Walk(const WalkOptions& options, std::uint64_t seed)
         : options_(options),
-          random_(seed),
+          schedule_(seed),
           master_({0, Role::master}, ranks_of(options), options.owners,
                   options.workers * options.slots) {
         Outbox out;
@@ -53,12 +50,7 @@ class Walk {
         }
         order(out);
         send(out);
-        while (!events_.empty()) {
-            Event event = events_.top();
-            events_.pop();
-            now_ = event.time;
-            event.act();
-        }
+        schedule_.run();
     }
 
     /// Owner, frame, number of the pixel: how often it was traced.
@@ -69,14 +61,6 @@ class Walk {
     std::size_t pixel_stages = 0;  ///< told
 
   private:
-    struct Event {
-        double time = 0;
-        std::uint64_t number = 0;
-        std::function<void()> act;
-        bool operator<(const Event& other) const {
-            return std::tie(time, number) > std::tie(other.time, other.number);
-        }
-    };
     struct Rank {
         CloudWorkerRole role;
         std::deque<GiveHoles> holes;
@@ -94,10 +78,6 @@ class Walk {
         part.frame = frame;
         return part;
     }
-    double uniform(double most) { return std::uniform_real_distribution<double>(0, most)(random_); }
-    void at_time(double time, std::function<void()> act) {
-        events_.push({time, next_event_++, std::move(act)});
-    }
     void order(Outbox& out) {
         CloudOrder order;
         order.width = kWidth;
@@ -107,15 +87,7 @@ class Walk {
     }
 
     void send(Outbox& out) {
-        for (Envelope& envelope : out) {
-            const bool local = envelope.from.rank == envelope.to.rank;
-            double& last = last_[{envelope.from.rank, envelope.to.rank}];
-            last = std::max(last, now_ + (local ? 0 : uniform(1)));
-            at_time(last, [this, carried = std::make_shared<Envelope>(std::move(envelope))] {
-                deliver(std::move(*carried));
-            });
-        }
-        out.clear();
+        schedule_.carry(out, 1, [this](Envelope envelope) { deliver(std::move(envelope)); });
     }
 
     void deliver(Envelope envelope) {
@@ -138,7 +110,7 @@ class Walk {
     void post(int rank, double delay, Address to, Message message) {
         auto out = std::make_shared<Outbox>();
         out->push_back({{rank, Role::tracer}, to, std::move(message)});
-        at_time(now_ + delay, [this, out] { send(*out); });
+        schedule_.after(delay, [this, out] { send(*out); });
     }
 
     void tell_tracer(int rank, Message message) {
@@ -147,13 +119,13 @@ class Walk {
             if (index >= options_.owners) return;
             for (std::size_t i = 0; i < options_.owners; ++i) {
                 if (i != index)
-                    post(rank, uniform(1), {static_cast<int>(i), Role::worker},
+                    post(rank, schedule_.uniform(1), {static_cast<int>(i), Role::worker},
                          CloudPoints{order->rules.frame, {}});
             }
         } else if (const auto* stage = std::get_if<CloudStage>(&message)) {
             if (stage->kind == CloudStage::Kind::points) return find_holes(rank, stage->frame);
             ++pixel_stages;
-            post(rank, uniform(1), {rank, Role::worker}, part_of(stage->frame));
+            post(rank, schedule_.uniform(1), {rank, Role::worker}, part_of(stage->frame));
         } else if (auto* holes = std::get_if<GiveHoles>(&message)) {
             if (holes->places.empty())
                 ++ends;
@@ -165,13 +137,14 @@ class Walk {
 
     void find_holes(int rank, std::uint64_t frame) {
         const auto index = static_cast<std::size_t>(rank);
-        const double answered = uniform(1);
+        const double answered = schedule_.uniform(1);
         const SubImages parts({0, 0, kWidth, kHeight}, options_.owners);
         for (const std::size_t i : owners_beside(parts, index, kWidth, kHeight))
             post(rank, answered, {static_cast<int>(i), Role::worker}, CloudUsed{frame, {}});
         CloudHoles holes{frame, 0, {}};
-        const int count = static_cast<int>(uniform(options_.most_holes));
-        holes.twins = static_cast<std::uint32_t>(uniform(std::min(count, options_.most_twins)));
+        const int count = static_cast<int>(schedule_.uniform(options_.most_holes));
+        holes.twins =
+            static_cast<std::uint32_t>(schedule_.uniform(std::min(count, options_.most_twins)));
         holes.places.resize(static_cast<std::size_t>(count));
         expected += holes.places.size();
         post(rank, answered, {rank, Role::worker}, std::move(holes));
@@ -186,7 +159,7 @@ class Walk {
             const auto count = static_cast<std::uint32_t>(holes.places.size());
             for (std::size_t i = 0; i < count; ++i)
                 ++traced[{holes.owner, holes.frame, holes.first + i}];
-            at_time(now_ + uniform(1), [this, number, holes, count] {
+            schedule_.after(schedule_.uniform(1), [this, number, holes, count] {
                 Outbox out;
                 out.push_back({{number, Role::tracer},
                                {static_cast<int>(holes.owner), Role::worker},
@@ -200,13 +173,9 @@ class Walk {
     }
 
     WalkOptions options_;
-    std::mt19937_64 random_;
+    RandomSchedule schedule_;
     CloudMasterRole master_;
     std::vector<Rank> ranks_;
-    std::priority_queue<Event> events_;
-    std::map<std::pair<int, int>, double> last_;
-    double now_ = 0;
-    std::uint64_t next_event_ = 0;
 };
 
 }  // namespace

@@ -1,18 +1,14 @@
 #pragma once
-// All ranks' roles in one thread: messages arrive after random delays, in order between any two
-// roles, in any order otherwise. Tracing takes random times.
-#include <algorithm>
+// All ranks' roles in one thread, on a random schedule. Tracing takes random times.
 #include <cstring>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <queue>
-#include <random>
 #include <tuple>
 #include <vector>
 
 #include "parallel/ranks/roles.h"
+#include "tests/parallel/ranks/random_schedule.h"
 
 namespace lightwalk::test {
 
@@ -39,7 +35,7 @@ class RoleNetwork {
         : options_(options),
           topology_(
               make_topology(options.variant, options.ranks, options.batch > 0, options.masters)),
-          random_(seed) {
+          schedule_(seed) {
         std::vector<int> workers;
         for (const Topology::Worker& worker : topology_.workers) workers.push_back(worker.rank);
         ranks_.resize(static_cast<std::size_t>(options.ranks));
@@ -85,14 +81,7 @@ class RoleNetwork {
     }
 
     /// Until no message is on its way and nobody traces.
-    void run() {
-        while (!events_.empty()) {
-            Event event = events_.top();
-            events_.pop();
-            now_ = event.time;
-            event.act();
-        }
-    }
+    void run() { schedule_.run(); }
 
     /// Every rank tells what it has not told, and then asks for what it does not know.
     void exchange_all() {
@@ -133,33 +122,12 @@ class RoleNetwork {
     }
 
   private:
-    struct Event {
-        double time = 0;
-        std::uint64_t number = 0;
-        std::function<void()> act;
-        bool operator<(const Event& other) const {
-            return std::tie(time, number) > std::tie(other.time, other.number);
-        }
-    };
-
-    double uniform(double most) { return std::uniform_real_distribution<double>(0, most)(random_); }
-    void at_time(double time, std::function<void()> act) {
-        events_.push({time, next_event_++, std::move(act)});
-    }
-
     void send(Outbox& out) {
-        for (Envelope& envelope : out) {
-            const bool local = envelope.from.rank == envelope.to.rank;
-            double& last = last_[{envelope.from.rank, envelope.to.rank}];
-            const double arrives =
-                std::max(last, now_ + (local ? 0 : uniform(options_.longest_delay)));
-            last = arrives;
-            if (envelope.to == Address{0, Role::master} && !local) ++messages_to_master;
-            at_time(arrives, [this, carried = std::make_shared<Envelope>(std::move(envelope))] {
-                deliver(std::move(*carried));
-            });
-        }
-        out.clear();
+        for (const Envelope& envelope : out)
+            if (envelope.to == Address{0, Role::master} && envelope.from.rank != 0)
+                ++messages_to_master;
+        schedule_.carry(out, options_.longest_delay,
+                        [this](Envelope envelope) { deliver(std::move(envelope)); });
     }
 
     void deliver(Envelope envelope) {
@@ -209,9 +177,9 @@ class RoleNetwork {
             --rank.free_slots;
             const JobBlock work = rank.blocks.front();
             rank.blocks.pop_front();
-            const double seconds = uniform(options_.longest_block);
-            at_time(now_ + seconds,
-                    [this, number, work, seconds] { finish(number, work, seconds); });
+            const double seconds = schedule_.uniform(options_.longest_block);
+            schedule_.after(seconds,
+                            [this, number, work, seconds] { finish(number, work, seconds); });
         }
     }
 
@@ -228,7 +196,7 @@ class RoleNetwork {
         }
         Outbox out;
         out.push_back({{number, Role::tracer}, {number, Role::worker}, std::move(done)});
-        if (rank.ambient_client && uniform(1) < options_.values_a_block) {
+        if (rank.ambient_client && schedule_.uniform(1) < options_.values_a_block) {
             AmbientRecord record;
             record.normal = values_made++;
             rank.values.push_back(record.normal);
@@ -241,12 +209,8 @@ class RoleNetwork {
 
     NetworkOptions options_;
     Topology topology_;
-    std::mt19937_64 random_;
+    RandomSchedule schedule_;
     std::vector<Rank> ranks_;
-    std::priority_queue<Event> events_;
-    std::map<std::pair<int, int>, double> last_;  ///< arrivals between two ranks are in order
-    double now_ = 0;
-    std::uint64_t next_event_ = 0;
 };
 
 }  // namespace lightwalk::test
