@@ -1,7 +1,7 @@
 #!/bin/sh
 # Measure how Lightwalk scales over ranks and threads, and what walks reuse. Writes JSON and SVG into a folder.
 # Usage: perf/run.sh NAME [--scenes DIR] [--lightwalk PROGRAM] [--out DIR] [--size N] [--runs N] [--cores N] [--frames N]
-# NAME: table1, splits, speedup, stride, ambient-exchange, accuracy, model, same-bytes, kills, many-ranks, table2, walkfilm;
+# NAME: table1, splits, speedup, stride, ambient-exchange, accuracy, model, same-bytes, kills, many-ranks, walk-model, table2, walkfilm;
 # README.md beside this file tells what they are.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -13,7 +13,7 @@ case " $* " in
 *" --lightwalk "* | *" --lightwalk="* | *" --help "* | *" -h "*) ;;
 *)
     cmake --preset release -S "$root" >/dev/null
-    cmake --build "$root/build/release" --target lightwalk lightwalk_mpi scaling_model cost_map message_bench
+    cmake --build "$root/build/release" --target lightwalk lightwalk_mpi scaling_model walk_model cost_map message_bench
     ;;
 esac
 # The system's Python, whatever else stands first on the PATH.

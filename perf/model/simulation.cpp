@@ -231,9 +231,25 @@ double Simulation::next_look(const Rank& rank) const {
     return look;
 }
 
+/// Processor time of the looks of a loop that has been idle until now, beyond those of one that has
+/// been idle for long: it looks the more often, the less long ago it found something.
+double Simulation::eager_looks(const Rank& rank) const {
+    if (!machine_.sleeps || now_ <= rank.idle_from) return 0;
+    const double each = longest_wait_ + machine_.oversleep;
+    double look = rank.idle_from, wait = shortest_wait_, looks = 0;
+    while (wait < longest_wait_ && look < now_) {
+        look += wait + machine_.oversleep;
+        wait = std::min(longest_wait_, 2 * wait);
+        ++looks;
+    }
+    const double expected = (std::min(look, now_) - rank.idle_from) / each;
+    return std::max(0.0, looks - expected) * machine_.look * machine_.slowness;
+}
+
 void Simulation::serve(std::size_t number) {
     Rank& rank = ranks_[number];
     rank.looks_at = kNever;
+    nodes_[node_of(number)].take_away(now_, eager_looks(rank));
     std::vector<Envelope> inbox = std::exchange(rank.inbox, {});
     double clock = now_;
     for (Envelope& envelope : inbox) {

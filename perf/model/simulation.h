@@ -75,6 +75,7 @@ class Simulation {
     void post(std::size_t rank, Envelope envelope);
     void put_in(std::size_t rank, Envelope envelope, double look);
     [[nodiscard]] double next_look(const Rank& rank) const;
+    [[nodiscard]] double eager_looks(const Rank& rank) const;
     void serve(std::size_t rank);
     void dispatch(std::size_t rank, Envelope first, double& clock);
     void deliver(Envelope envelope, Outbox& out, double& clock);

@@ -6,13 +6,14 @@ import checks
 import experiments
 import model
 import variants
+import walk_model
 import walks
 from runs import ROOT, Program, find_scene
 
-NAMES = {"table1": experiments.table1, "splits": experiments.splits, "stride": experiments.stride,
-         "ambient-exchange": experiments.ambient_exchange, "model": model.run, "table2": walks.table2, "walkfilm": walks.walkfilm,
-         "speedup": variants.speedup, "accuracy": variants.accuracy, "same-bytes": checks.same_bytes, "kills": checks.kills,
-         "many-ranks": checks.many_ranks}
+NAMES = {"table1": experiments.table1, "splits": experiments.splits, "speedup": variants.speedup, "stride": experiments.stride,
+         "ambient-exchange": experiments.ambient_exchange, "accuracy": variants.accuracy, "model": model.run,
+         "walk-model": walk_model.run, "table2": walks.table2, "walkfilm": walks.walkfilm, "same-bytes": checks.same_bytes,
+         "kills": checks.kills, "many-ranks": checks.many_ranks}
 
 
 def main():

@@ -2,7 +2,6 @@
 import dataclasses, json, os, pathlib, platform, resource, statistics, subprocess, sys, tempfile, time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PERF_PROGRAMS = ("scaling_model", "cost_map", "message_bench")
 #: Runs during which other programs took more of the cores than this count only where there are no better ones.
 QUIET = 0.05
 
