@@ -1,10 +1,10 @@
 #!/bin/sh
 # Install what is needed, build, and render the demo scene's views by day and in the evening.
-# Usage: demo.sh [WIDTH] [FOLDER]   (default: 720 pixels wide, pictures in out/demo)
+# Usage: demo.sh [WIDTH] [FOLDER]   (default: 640 pixels wide, pictures in out/demo)
 set -eu
 cd "$(dirname "$0")/.."
 root=$(pwd)
-width="${1:-720}"
+width="${1:-640}"
 out="${2:-$root/out/demo}"
 sh apps/install_packages.sh
 cmake --preset release
@@ -26,7 +26,7 @@ render() { # LIGHT VIEW OPTIONS...
 for view in living window dining; do
     render day "$view" -av .2 .2 .19 -ds .3
 done
-render day terrace -av .2 .2 .19 -ds .3 -ar 1024 -ad 512
+render day terrace -av .2 .2 .19 -ds .3 -ar 1024
 for view in living fireplace; do
     render night "$view" -av .004 .003 .002 -ds .08
 done
