@@ -85,16 +85,13 @@ SurfaceLook SceneSights::look_at(const Hit& hit) const {
     return look;
 }
 
-/// Go on from a hit, straight or mirrored.
-Hit SceneSights::next(Walk& walk, const Hit& hit, bool reflect) const {
-    walk.length += hit.t;
-    walk.segment.origin = hit.position;
-    walk.segment.t_max = walk.segment.t_max < kHuge ? walk.segment.t_max - hit.t : kHuge;
-    if (reflect) {
-        walk.segment.direction = normalize(walk.segment.direction + hit.normal * (2 * hit.cos_out));
-        walk.segment.t_max = kHuge;
-    }
-    return tracer_.scene().geometry().intersect(walk.segment);
+void SceneSights::Walk::pass(const Hit& hit, bool reflect) {
+    length += hit.t;
+    segment.origin = hit.position;
+    segment.t_max = segment.t_max < kHuge ? segment.t_max - hit.t : kHuge;
+    if (!reflect) return;
+    segment.direction = normalize(segment.direction + hit.normal * (2 * hit.cos_out));
+    segment.t_max = kHuge;
 }
 
 bool SceneSights::reflects_flat(const Hit& hit, const SurfaceLook& look) const {
@@ -117,11 +114,11 @@ float SceneSights::glossy_slope(const Walk& walk, const Hit& hit, const SurfaceL
 }
 
 /// The walk ends at `hit`, or at infinity.
-void SceneSights::end(const RaySegment& ray, const Walk& walk, const Hit& hit,
-                      const SurfaceLook& look, Sight& sight) const {
+void SceneSights::end(const Walk& walk, const Hit& hit, const SurfaceLook& look) const {
+    Sight& sight = *walk.sight;
     sight.seen = true;
     const double length = hit.exists() ? walk.length + hit.t : kHuge;
-    sight.position = ray.origin + ray.direction * length;
+    sight.position = walk.pixel->origin + walk.pixel->direction * length;
     sight.distance = static_cast<float>(length);
     sight.surface = walk.met;
     float slope = 0;
@@ -138,65 +135,90 @@ void SceneSights::end(const RaySegment& ray, const Walk& walk, const Hit& hit,
     if (sight.kind == PointKind::plain && sight.slope > 0) sight.kind = PointKind::glossy;
 }
 
-/// Walk on until the light's origin is found.
-void SceneSights::follow(const RaySegment& ray, Walk walk, Hit hit, Sight& sight) const {
-    for (int i = 0; i < kMostSurfaces; ++i) {
-        if (!hit.exists()) return end(ray, walk, hit, {}, sight);
-        const SurfaceLook look = look_at(hit);
-        walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
-        const bool mirror = look.appearance == Appearance::mirror && reflects_flat(hit, look);
-        const bool pane = look.appearance == Appearance::pane && !look.textured;
-        if (mirror) {
-            hit = next(walk, hit, true);
-        } else if (pane) {
-            sight.slope += static_cast<float>(slopes_of(hit, look).left);
-            if (sight.kind == PointKind::plain) sight.kind = PointKind::through;
-            hit = next(walk, hit, false);
-        } else if (look.appearance == Appearance::absent) {
-            hit = next(walk, hit, false);
-        } else {
-            return end(ray, walk, hit, look, sight);
-        }
+/// The next surface on the way. False: the light comes from there; true: from farther on.
+bool SceneSights::goes_on(Walk& walk, const Hit& hit) const {
+    if (!hit.exists() || walk.surfaces++ == kMostSurfaces) {
+        end(walk, hit, {});
+        return false;
     }
-    end(ray, walk, hit, {}, sight);
+    const SurfaceLook look = look_at(hit);
+    walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
+    const bool mirror = look.appearance == Appearance::mirror && reflects_flat(hit, look);
+    const bool pane = look.appearance == Appearance::pane && !look.textured;
+    if (!mirror && !pane && look.appearance != Appearance::absent) {
+        end(walk, hit, look);
+        return false;
+    }
+    if (pane) {
+        walk.sight->slope += static_cast<float>(slopes_of(hit, look).left);
+        if (walk.sight->kind == PointKind::plain) walk.sight->kind = PointKind::through;
+    }
+    walk.pass(hit, mirror);
+    return true;
 }
 
-void SceneSights::find(const RaySegment& ray, const Hit& first, bool slopes,
-                       PixelSights& sights) const {
-    sights.ray = true;
-    sights.direction = ray.direction;
-    sights.ahead = {};
-    sights.mirrored = {};
-    Walk walk{ray, slopes, 0, 0};
-    Hit hit = first;
-    for (int i = 0; i < kMostSurfaces && hit.exists(); ++i) {  // to the first surface that counts
-        const SurfaceLook look = look_at(hit);
-        if (look.appearance != Appearance::absent) break;
-        walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
-        hit = next(walk, hit, false);
-    }
-    if (!hit.exists()) return follow(ray, walk, hit, sights.ahead);
+/// The same up to the first surface that counts, which may mirror something: another walk.
+bool SceneSights::begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const {
+    if (!hit.exists()) return goes_on(walk, hit);
     const SurfaceLook look = look_at(hit);
-    const bool reflects = look.appearance == Appearance::mirror ||
-                          look.appearance == Appearance::pane ||
-                          look.appearance == Appearance::polished;
-    if (reflects) {
-        sights.mirrored.kind = PointKind::mirrored;
-        sights.mirrored.slope = static_cast<float>(slopes_of(hit, look).reflected);
-        if (reflects_flat(hit, look)) {
-            Walk mirrored = walk;
-            mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
-            const Hit image = next(mirrored, hit, true);
-            follow(ray, mirrored, image, sights.mirrored);
-        } else {
-            Walk mirrored = walk;
-            mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
-            end(ray, mirrored, hit, {Appearance::constant, 0, 0, 0, false, false}, sights.mirrored);
-            sights.mirrored.slope = kSharp;
-        }
-        if (look.appearance == Appearance::mirror) return;
+    if (look.appearance == Appearance::absent && walk.surfaces < kMostSurfaces) {
+        ++walk.surfaces;
+        walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
+        walk.pass(hit, false);
+        return true;
     }
-    follow(ray, walk, hit, sights.ahead);
+    Sight* const image = walk.image;
+    walk.image = nullptr;
+    walk.surfaces = 0;
+    const bool mirror = look.appearance == Appearance::mirror;
+    if (mirror || look.appearance == Appearance::pane || look.appearance == Appearance::polished) {
+        image->kind = PointKind::mirrored;
+        image->slope = static_cast<float>(slopes_of(hit, look).reflected);
+        Walk mirrored = walk;
+        mirrored.sight = image;
+        mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
+        if (reflects_flat(hit, look)) {
+            mirrored.pass(hit, true);
+            images.push_back(mirrored);
+        } else {
+            end(mirrored, hit, {Appearance::constant, 0, 0, 0, false, false});
+            image->slope = kSharp;
+        }
+    }
+    return !mirror && goes_on(walk, hit);
+}
+
+/// To the ends of all walks, whose rays are cast together: neighbours go similar ways.
+void SceneSights::follow(std::vector<Walk>& walks, Scratch& scratch) const {
+    while (!walks.empty()) {
+        scratch.segments.clear();
+        for (const Walk& walk : walks) scratch.segments.push_back(walk.segment);
+        scratch.hits.resize(walks.size());
+        tracer_.scene().geometry().intersect(scratch.segments, scratch.hits);
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < walks.size(); ++i) {
+            Walk& walk = walks[i];
+            const Hit& hit = scratch.hits[i];
+            if (walk.image ? begins(walk, hit, scratch.images) : goes_on(walk, hit))
+                walks[left++] = walk;
+        }
+        walks.resize(left);
+    }
+}
+
+void SceneSights::find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
+                       std::span<PixelSights> sights, Scratch& scratch) const {
+    scratch.ahead.clear();
+    scratch.images.clear();
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!sights[i].ray) continue;
+        sights[i].direction = rays[i].direction;
+        sights[i].ahead = sights[i].mirrored = {};
+        Walk walk{&rays[i], &sights[i].ahead, &sights[i].mirrored, rays[i], slopes};
+        if (begins(walk, first[i], scratch.images)) scratch.ahead.push_back(walk);
+    }
+    follow(scratch.ahead, scratch);
+    follow(scratch.images, scratch);
 }
 
 }  // namespace lightwalk

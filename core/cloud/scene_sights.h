@@ -28,36 +28,57 @@ class SceneSights {
     /// The tracer must outlive this.
     explicit SceneSights(const Tracer& tracer);
 
-    /// @param ray    the pixel's ray
-    /// @param first  what it meets
+    /// Memory of searches, for the next ones. Each thread has its own.
+    class Scratch;
+
+    /// @param rays    the pixels'
+    /// @param first   what each meets
     /// @param slopes  tell how steadily colours hold; else the slopes are only right where they are
     ///                kUnsteady, which is cheaper
-    /// Sets all of `sights` but x and y.
-    void find(const RaySegment& ray, const Hit& first, bool slopes, PixelSights& sights) const;
+    /// @param sights  of each ray; all but x and y are set, where `ray` says that there is one
+    void find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
+              std::span<PixelSights> sights, Scratch& scratch) const;
 
   private:
-    /// A ray on its way.
-    struct Walk {
-        RaySegment segment;
-        bool slopes = true;     ///< are asked for
-        double length = 0;      ///< all the way so far [m]
-        std::uint32_t met = 0;  ///< see Sight::surface
-    };
+    struct Walk;
     [[nodiscard]] SurfaceLook look_of(ModifierId modifier) const;
     [[nodiscard]] SurfaceLook look_at(const Hit& hit) const;
-    [[nodiscard]] Hit next(Walk& walk, const Hit& hit, bool reflect) const;
     [[nodiscard]] bool reflects_flat(const Hit& hit, const SurfaceLook& look) const;
-    void end(const RaySegment& ray, const Walk& walk, const Hit& hit, const SurfaceLook& look,
-             Sight& sight) const;
+    void end(const Walk& walk, const Hit& hit, const SurfaceLook& look) const;
     [[nodiscard]] float glossy_slope(const Walk& walk, const Hit& hit,
                                      const SurfaceLook& look) const;
-    void follow(const RaySegment& ray, Walk walk, Hit hit, Sight& sight) const;
+    [[nodiscard]] bool goes_on(Walk& walk, const Hit& hit) const;
+    [[nodiscard]] bool begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const;
+    void follow(std::vector<Walk>& walks, Scratch& scratch) const;
     [[nodiscard]] std::uint32_t background(const Walk& walk) const;
 
     const Tracer& tracer_;
     Highlights highlights_;
     std::vector<SurfaceLook> looks_;  ///< by modifier
     bool unsteady_ = false;           ///< all of the scene
+};
+
+/// A ray on its way.
+struct SceneSights::Walk {
+    const RaySegment* pixel = nullptr;  ///< the ray it began as
+    Sight* sight = nullptr;             ///< that it ends in
+    Sight* image = nullptr;             ///< of what the first surface that counts mirrors; null
+                                        ///< from there on
+    RaySegment segment;                 ///< the way on
+    bool slopes = true;                 ///< are asked for
+    int surfaces = 0;                   ///< met, before that one or after
+    double length = 0;                  ///< of the way so far [m]
+    std::uint32_t met = 0;              ///< see Sight::surface
+
+    /// Goes on from a hit, straight or mirrored.
+    void pass(const Hit& hit, bool reflect);
+};
+
+class SceneSights::Scratch {
+    friend class SceneSights;
+    std::vector<Walk> ahead, images;  ///< on their ways
+    std::vector<RaySegment> segments;
+    std::vector<Hit> hits;
 };
 
 }  // namespace lightwalk

@@ -36,23 +36,20 @@ void SceneCaster::look(std::span<const PixelPlace> places, std::span<PixelSights
 
 void SceneCaster::look_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
                              std::span<PixelSights> sights, Scratch& s) const {
-    s.segments.clear();
-    s.targets.clear();
+    s.segments.assign(places.size(), RaySegment{{}, {}, 0});
     for (std::size_t i = 0; i < places.size(); ++i) {
         sights[i] = {};
         const PixelRay pixel = rays(places[i].x, places[i].y);
+        sights[i].ray = pixel.ray.has_value();
         if (!pixel.ray) continue;
         const double limit = pixel.ray->limit;
-        s.segments.push_back(
-            {pixel.ray->origin, pixel.ray->direction, limit > kEpsilon ? limit : kHuge});
-        s.targets.push_back(i);
+        s.segments[i] = {pixel.ray->origin, pixel.ray->direction, limit > kEpsilon ? limit : kHuge};
         sights[i].x = static_cast<float>(pixel.h * options_.width);
         sights[i].y = static_cast<float>(pixel.v * options_.height);
     }
-    s.hits.assign(s.segments.size(), Hit{});
+    s.hits.resize(s.segments.size());
     tracer_.scene().geometry().intersect(s.segments, s.hits);
-    for (std::size_t k = 0; k < s.segments.size(); ++k)
-        sights_.find(s.segments[k], s.hits[k], slopes, sights[s.targets[k]]);
+    sights_.find(s.segments, s.hits, slopes, sights, s.ways);
 }
 
 void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,

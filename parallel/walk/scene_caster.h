@@ -31,7 +31,7 @@ class SceneCaster {
     struct Scratch {
         std::vector<RaySegment> segments;
         std::vector<Hit> hits;
-        std::vector<std::size_t> targets;  ///< into the places
+        SceneSights::Scratch ways;
         std::vector<PixelSights> sights;
         std::vector<PixelValue> values;
         std::vector<PixelHit> pixel_hits;
