@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/cloud/point.h"
 #include "core/view/pixels.h"
 
 namespace lightwalk {
@@ -49,6 +50,9 @@ class DepthGrid {
         }
     }
 
+    /// Fetch a cell into the cache, for an offer soon.
+    void prefetch(int x, int y) const { __builtin_prefetch(&keys_[at(x, y)], 1); }
+
     /// kNoPoint where there is none.
     [[nodiscard]] std::uint32_t winner(int x, int y) const {
         return static_cast<std::uint32_t>(keys_[at(x, y)].load(std::memory_order_relaxed));
@@ -81,6 +85,11 @@ class DepthGrid {
 /// would lose against it.
 struct CloudGrids {
     explicit CloudGrids(const PixelRectangle& area) : ahead(area), mirrored(area) {}
+    /// The one that points of a kind are in.
+    [[nodiscard]] DepthGrid& of(PointKind kind) {
+        return kind == PointKind::mirrored ? mirrored : ahead;
+    }
+
     DepthGrid ahead, mirrored;
 };
 

@@ -1,11 +1,18 @@
 #include "core/cloud/projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/cloud/point_order.h"
 
 namespace lightwalk {
+namespace {
+
+/// Points are projected by so many at a time: as many cells of the grids are fetched together.
+constexpr std::size_t kAtOnce = 64;
+
+}  // namespace
 
 PointProjector::PointProjector(const Camera& camera, int width, int height)
     : camera_(camera), width_(width), height_(height), perspective_(camera.view().type == 'v') {
@@ -20,19 +27,22 @@ PointProjector::PointProjector(const Camera& camera, int width, int height)
     forward_ = camera.forward();
     shift_ = centre.h * width;
     lift_ = centre.v * height;
+    eye_ = camera.view().position;
+    fore_ = camera.view().fore;
+    nearest_ = std::max(fore_, kEpsilon);
+    if (camera.view().aft > kEpsilon) farthest_ = camera.view().aft;
 }
 
-ImagePlace PointProjector::in_perspective(const Vec3& point) const {
-    const View& view = camera_.view();
-    const Vec3 w = point - view.position;
-    const double depth = dot(w, forward_);
-    if (!(depth > std::max(view.fore, kEpsilon))) return {};
-    if (view.aft > kEpsilon && depth >= view.aft) return {};
-    const double scale = 1 / depth;
+/// Without branches: compilers then take several points at a time.
+inline ImagePlace PointProjector::in_perspective(const Vec3& point) const {
+    const Vec3 w = point - eye_;
+    const double depth = dot(w, forward_), scale = 1 / depth;
     const double x = dot(w, across_) * scale + shift_, y = dot(w, upward_) * scale + lift_;
-    if (!(x >= 0 && x < width_ && y >= 0 && y < height_)) return {};
-    return {static_cast<float>(x), static_cast<float>(y),
-            static_cast<float>(length(w) * (1 - view.fore * scale))};
+    const double distance = length(w) * (1 - fore_ * scale);
+    const bool shown = (depth > nearest_) & (depth < farthest_) & (x >= 0) & (x < width_) &
+                       (y >= 0) & (y < height_);
+    return {shown ? static_cast<float>(x) : -1.0f, shown ? static_cast<float>(y) : -1.0f,
+            shown ? static_cast<float>(distance) : 0.0f};
 }
 
 ImagePlace PointProjector::operator()(const Vec3& point) const {
@@ -43,24 +53,65 @@ ImagePlace PointProjector::operator()(const Vec3& point) const {
             static_cast<float>(at.distance)};
 }
 
+void PointProjector::operator()(std::span<const CloudPoint> points,
+                                std::span<ImagePlace> places) const {
+    if (!perspective_) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            places[i] =
+                points[i].kind == PointKind::gone ? ImagePlace{} : (*this)(points[i].place());
+        return;
+    }
+    std::array<double, kAtOnce> x, y, z;
+    std::array<float, kAtOnce> across, up, distance;
+    for (std::size_t first = 0; first < points.size(); first += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, points.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 place = points[first + i].place();
+            x[i] = place.x;
+            y[i] = place.y;
+            z[i] = place.z;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const ImagePlace place = in_perspective({x[i], y[i], z[i]});
+            across[i] = place.x;
+            up[i] = place.y;
+            distance[i] = place.distance;
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            places[first + i] = points[first + i].kind == PointKind::gone
+                                    ? ImagePlace{}
+                                    : ImagePlace{across[i], up[i], distance[i]};
+    }
+}
+
 void project_points(const PointProjector& projector, std::span<const CloudPoint> points,
                     std::size_t first, std::size_t last, CloudGrids& grids,
                     std::span<ImagePlace> places) {
-    for (std::size_t i = first; i < last; ++i) {
-        const CloudPoint& point = points[i];
-        const ImagePlace place =
-            point.kind == PointKind::gone ? ImagePlace{} : projector(point.place());
-        places[i] = place;
-        if (!(place.distance > 0)) continue;
-        const PixelPlace pixel = pixel_of(place, projector.width(), projector.height());
-        if (!grids.ahead.area().contains(pixel)) continue;
-        const float dx = place.x - (static_cast<float>(pixel.x) + 0.5f);
-        const float dy = place.y - (static_cast<float>(pixel.y) + 0.5f);
-        const float apart = std::min(std::sqrt(dx * dx + dy * dy), 1.0f);
-        DepthGrid& grid = point.kind == PointKind::mirrored ? grids.mirrored : grids.ahead;
-        grid.offer(
-            pixel.x, pixel.y, place.distance, apart, static_cast<std::uint32_t>(i),
-            [&](std::uint32_t a, std::uint32_t b) { return precedes(points[a], points[b]); });
+    const auto earlier = [&](std::uint32_t a, std::uint32_t b) {
+        return precedes(points[a], points[b]);
+    };
+    std::array<std::uint32_t, kAtOnce> shown;
+    std::array<PixelPlace, kAtOnce> pixels;
+    for (std::size_t begin = first; begin < last; begin += kAtOnce) {
+        const std::size_t end = std::min(begin + kAtOnce, last);
+        projector(points.subspan(begin, end - begin), places.subspan(begin, end - begin));
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const PixelPlace pixel = pixel_of(places[i], projector.width(), projector.height());
+            if (!(places[i].distance > 0) || !grids.ahead.area().contains(pixel)) continue;
+            grids.of(points[i].kind).prefetch(pixel.x, pixel.y);
+            pixels[count] = pixel;
+            shown[count++] = static_cast<std::uint32_t>(i);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const PixelPlace& pixel = pixels[k];
+            const ImagePlace& place = places[shown[k]];
+            const float dx = place.x - (static_cast<float>(pixel.x) + 0.5f);
+            const float dy = place.y - (static_cast<float>(pixel.y) + 0.5f);
+            const float apart = std::min(std::sqrt(dx * dx + dy * dy), 1.0f);
+            grids.of(points[shown[k]].kind)
+                .offer(pixel.x, pixel.y, place.distance, apart, shown[k], earlier);
+        }
     }
 }
 

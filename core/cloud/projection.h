@@ -1,6 +1,7 @@
 #pragma once
 // Where the points of the cloud appear in a view.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -33,6 +34,8 @@ class PointProjector {
 
     /// The place of a point, but for what hides it.
     [[nodiscard]] ImagePlace operator()(const Vec3& point) const;
+    /// The places of many; what is gone has none.
+    void operator()(std::span<const CloudPoint> points, std::span<ImagePlace> places) const;
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -46,6 +49,8 @@ class PointProjector {
     // Of perspectives: image coordinates times depth [pixels m], and depth [m].
     Vec3 across_, upward_, forward_;
     double shift_ = 0, lift_ = 0;
+    Vec3 eye_;
+    double fore_ = 0, nearest_ = 0, farthest_ = HUGE_VAL;  ///< along the axis [m]
 };
 
 /// Project points first ... last - 1 into the grids, as far as these reach. They hold the winners

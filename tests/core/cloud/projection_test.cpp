@@ -71,6 +71,38 @@ TEST_CASE(
     CHECK(project(eye + camera.forward() + camera.right() * 9).distance == 0);
 }
 
+TEST_CASE("cloud: many points are projected to the places of each, what is gone to none") {
+    for (const char type : std::string("vl")) {
+        for (const double aft : {0.0, 4.0}) {
+            CAPTURE(type);
+            CAPTURE(aft);
+            View view = view_of_type(type);
+            view.aft = aft;
+            const Camera camera(view);
+            const PointProjector project(camera, kWidth, kHeight);
+            RandomStream random(5);
+            std::vector<CloudPoint> points(333);  // no multiple of what is taken at a time
+            for (CloudPoint& point : points) {
+                const Vec3 off{random.next() - 0.5, random.next() - 0.5, random.next() - 0.5};
+                point = point_at(view.position + camera.forward() * 2.0 + off * 6.0);
+            }
+            points[7].kind = PointKind::gone;
+            std::vector<ImagePlace> places(points.size());
+            project(points, places);
+            std::ptrdiff_t shown = 0;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const ImagePlace one = i == 7 ? ImagePlace{} : project(points[i].place());
+                CHECK(places[i].x == one.x);
+                CHECK(places[i].y == one.y);
+                CHECK(places[i].distance == one.distance);
+                shown += one.distance > 0;
+            }
+            CHECK(shown > 20);
+            CHECK(shown < std::ssize(points) - 20);
+        }
+    }
+}
+
 TEST_CASE("cloud: a cell keeps the nearest point, whoever comes first") {
     DepthGrid grid(PixelRectangle{0, 0, 4, 2});
     CHECK(grid.winner(3, 1) == kNoPoint);
