@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/cloud/point.h"
+#include "core/math/prefetch.h"
 #include "core/view/pixels.h"
 
 namespace lightwalk {
@@ -51,7 +52,9 @@ class DepthGrid {
     }
 
     /// Fetch a cell into the cache, for an offer soon.
-    void prefetch(int x, int y) const { __builtin_prefetch(&keys_[at(x, y)], 1); }
+    [[gnu::always_inline]] void prefetch(int x, int y) const {
+        lightwalk::prefetch(&keys_[at(x, y)]);
+    }
 
     /// kNoPoint where there is none.
     [[nodiscard]] std::uint32_t winner(int x, int y) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/cloud/point_order.h"
+#include "core/math/prefetch.h"
 
 namespace lightwalk {
 namespace {
@@ -53,13 +54,19 @@ struct PointFinder::Search {
     bool turned = false;  ///< some were seen from elsewhere
 };
 
-void PointFinder::look_at(std::uint32_t index, const PixelSights& sights, const Sight& sight,
-                          Search& found) const {
+inline float PointFinder::squared_distance(std::uint32_t index, const PixelSights& sights) const {
+    const float dx = places_[index].x - sights.x, dy = places_[index].y - sights.y;
+    return dx * dx + dy * dy;
+}
+
+/// @param squared  the point's squared_distance()
+inline void PointFinder::look_at(std::uint32_t index, float squared, const PixelSights& sights,
+                                 const Sight& sight, Search& found) const {
     found.any = true;
     const CloudPoint& point = points_[index];
     if (point.surface != sight.surface) return;
-    const ImagePlace& place = places_[index];
-    if (std::abs(place.distance - sight.distance) > kSameDepth * sight.distance) return;
+    const float distance = places_[index].distance;
+    if (std::abs(distance - sight.distance) > kSameDepth * sight.distance) return;
     if (point.turn != kAnyTurn &&
         !holds_from(point, toward(point, sights, sight), rules_.tightness)) {
         found.turned = true;
@@ -69,14 +76,39 @@ void PointFinder::look_at(std::uint32_t index, const PixelSights& sights, const 
     const float light = brightness(point.radiance);
     found.darkest = std::min(found.darkest, light);
     found.brightest = std::max(found.brightest, light);
-    const float dx = place.x - sights.x, dy = place.y - sights.y;
-    const float squared = dx * dx + dy * dy;
     // Of equally near ones always the same: whatever the order, and whoever keeps them.
     if (squared > found.squared ||
         (squared == found.squared && !precedes(point, points_[found.best])))
         return;
     found.squared = squared;
     found.best = index;
+}
+
+/// Look at the points around a pixel: at those that are not near only where no near one shows what
+/// the ray sees, for else they change nothing.
+/// @param near  squared [pixels²]
+void PointFinder::look_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
+                              const PixelSights& sights, const Sight& sight, Search& found) const {
+    std::array<std::uint32_t, 8> far;
+    std::array<float, 8> far_squared;
+    std::size_t count = 0;
+    const int x1 = std::min(pixel.x + 1, projector_.width() - 1);
+    const int y1 = std::min(pixel.y + 1, projector_.height() - 1);
+    for (int y = std::max(pixel.y - 1, 0); y <= y1; ++y) {
+        for (int x = std::max(pixel.x - 1, 0); x <= x1; ++x) {
+            const std::uint32_t index = grid.winner(x, y);
+            if (index == kNoPoint || (x == pixel.x && y == pixel.y)) continue;
+            const float squared = squared_distance(index, sights);
+            if (squared <= near) {
+                look_at(index, squared, sights, sight, found);
+            } else {
+                far[count] = index;
+                far_squared[count++] = squared;
+            }
+        }
+    }
+    if (found.points > 0) return;
+    for (std::size_t i = 0; i < count; ++i) look_at(far[i], far_squared[i], sights, sight, found);
 }
 
 /// @param base  what the pixel shows besides: points may differ by a share of the sum
@@ -86,18 +118,10 @@ HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
     Search found;
     const float near = rules_.near * rules_.near;
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
-    if (own != kNoPoint) look_at(own, sights, sight, found);
+    if (own != kNoPoint) look_at(own, squared_distance(own, sights), sights, sight, found);
     // What lies on the pixel itself is as good a sample of it as its ray's.
     const bool inside_pixel = found.points > 0;
-    if (rules_.look_back && !inside_pixel) {
-        for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
-            for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
-                if (!inside(x, y) || (x == pixel.x && y == pixel.y)) continue;
-                const std::uint32_t index = grid.winner(x, y);
-                if (index != kNoPoint) look_at(index, sights, sight, found);
-            }
-        }
-    }
+    if (rules_.look_back && !inside_pixel) look_around(grid, pixel, near, sights, sight, found);
     best = found.best;
     apart = std::max(apart, std::sqrt(found.squared));
     if (found.points == 0)
@@ -111,23 +135,41 @@ HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
     return found.squared <= squared_reach(contrast) ? HoleCause::none : HoleCause::uneven;
 }
 
-PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sights) const {
-    PixelAnswer answer{HoleCause::none, kNoPoint, kNoPoint, 0};
+inline void PointFinder::check(const PixelPlace& pixel, const PixelSights& sights,
+                               PixelAnswer& answer) const {
+    answer = {HoleCause::none, kNoPoint, kNoPoint, 0};
     if ((sights.ahead.seen && sights.ahead.slope == kUnsteady) ||
         (sights.mirrored.seen && sights.mirrored.slope == kUnsteady)) {
         answer.cause = HoleCause::unsteady;
-        return answer;
+        return;
     }
     float base = 0;
     if (sights.ahead.seen) {
         answer.cause =
             search(grids_.ahead, pixel, sights, sights.ahead, base, answer.ahead, answer.apart);
-        if (!answer.found()) return answer;
+        if (!answer.found() || !sights.mirrored.seen) return;
         base = brightness(points_[answer.ahead].radiance);
     }
     if (sights.mirrored.seen)
         answer.cause = search(grids_.mirrored, pixel, sights, sights.mirrored, base,
                               answer.mirrored, answer.apart);
+}
+
+void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
+                          std::span<PixelAnswer> answers) const {
+    for (const PixelPlace& pixel : pixels) {
+        const std::uint32_t index = grids_.ahead.winner(pixel.x, pixel.y);
+        if (index == kNoPoint) continue;
+        prefetch(&points_[index]);
+        prefetch(&points_[index].paired);  // the last member: it may lie in the next line
+        prefetch(&places_[index]);
+    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) check(pixels[i], sights[i], answers[i]);
+}
+
+PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sights) const {
+    PixelAnswer answer;
+    checked({&pixel, 1}, {&sights, 1}, {&answer, 1});
     return answer;
 }
 
@@ -194,13 +236,6 @@ bool PointFinder::is_edge(const PixelPlace& pixel) const {
     const std::array<float, 9> around = depths(pixel, grids_.ahead);
     const auto [least, most] = std::minmax_element(around.begin(), around.end());
     return !(*least > 0) || depths_jump(*least, *most);
-}
-
-Rgb PointFinder::radiance(const PixelAnswer& answer) const {
-    Rgb sum;
-    if (answer.ahead != kNoPoint) sum += points_[answer.ahead].radiance;
-    if (answer.mirrored != kNoPoint) sum += points_[answer.mirrored].radiance;
-    return sum;
 }
 
 bool PointFinder::is_guess(const PixelAnswer& answer) const {

@@ -55,8 +55,15 @@ class PointFinder {
                 const ReuseRules& rules)
         : projector_(projector), points_(points), grids_(grids), places_(places), rules_(rules) {}
 
+    /// A pixel will be checked soon: fetch its cell into the cache.
+    [[gnu::always_inline]] void expect(const PixelPlace& pixel) const {
+        grids_.ahead.prefetch(pixel.x, pixel.y);
+    }
     /// For a pixel of which a ray has told what it sees.
     [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel, const PixelSights& sights) const;
+    /// For many of them, which is faster: what they need is fetched into the cache together.
+    void checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
+                 std::span<PixelAnswer> answers) const;
     /// For a pixel of which nothing is known: the point that fell onto it.
     [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
     /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
@@ -64,7 +71,12 @@ class PointFinder {
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
 
     /// The sum of an answer's points.
-    [[nodiscard]] Rgb radiance(const PixelAnswer& answer) const;
+    [[nodiscard]] Rgb radiance(const PixelAnswer& answer) const {
+        Rgb sum;
+        if (answer.ahead != kNoPoint) sum += points_[answer.ahead].radiance;
+        if (answer.mirrored != kNoPoint) sum += points_[answer.mirrored].radiance;
+        return sum;
+    }
     /// Whether an answer that was not found still has all points that its pixel is made of, though
     /// not near enough: the best guess until it is traced.
     [[nodiscard]] bool is_guess(const PixelAnswer& answer) const;
@@ -73,11 +85,15 @@ class PointFinder {
 
   private:
     struct Search;
+    void check(const PixelPlace& pixel, const PixelSights& sights, PixelAnswer& answer) const;
     [[nodiscard]] HoleCause search(const DepthGrid& grid, const PixelPlace& pixel,
                                    const PixelSights& sights, const Sight& sight, float base,
                                    std::uint32_t& best, float& apart) const;
-    void look_at(std::uint32_t index, const PixelSights& sights, const Sight& sight,
+    void look_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
+                     const PixelSights& sights, const Sight& sight, Search& found) const;
+    void look_at(std::uint32_t index, float squared, const PixelSights& sights, const Sight& sight,
                  Search& found) const;
+    [[nodiscard]] float squared_distance(std::uint32_t index, const PixelSights& sights) const;
     [[nodiscard]] float squared_reach(float contrast) const;
     [[nodiscard]] bool contradicts(const PixelPlace& pixel, const DepthGrid& grid) const;
     [[nodiscard]] std::array<float, 9> depths(const PixelPlace& pixel, const DepthGrid& grid) const;

@@ -7,6 +7,7 @@
 
 #include "core/cloud/audit.h"
 #include "core/cloud/point_order.h"
+#include "core/math/prefetch.h"
 #include "parallel/blocks.h"
 #include "parallel/walk/step_timer.h"
 
@@ -16,7 +17,8 @@ namespace {
 constexpr std::size_t kPointsATask = 16384;
 constexpr int kBlockSide = 64;  ///< of the pixels that a task answers
 constexpr int kPacketSide = 8;  ///< of those that are looked at together
-constexpr int kHalo = 1;        ///< pixels around the region whose points may answer its own
+constexpr std::size_t kPacket = std::size_t{kPacketSide} * kPacketSide;
+constexpr int kHalo = 1;  ///< pixels around the region whose points may answer its own
 
 /// Of the audited pixels a second ray tells how much two rays differ.
 constexpr double kFloorShare = 0.25;
@@ -186,35 +188,49 @@ void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
         holes.push_back({place, HoleCause::audited, true});
 }
 
+/// What is read and written afterwards is fetched into the cache while rays are cast: writes are
+/// done in order, so that one that misses holds up all after it.
+void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
+                                const PixelCaster& caster, int worker,
+                                std::vector<CloudHole>& holes) {
+    std::array<PixelSights, kPacket> sights;
+    std::array<PixelAnswer, kPacket> answers;
+    for (const PixelPlace& place : places) {
+        const std::size_t at = pixel(place);
+        finder.expect(place);
+        prefetch(&frame_.radiance[at]);
+        prefetch(&frame_.distance[at]);
+        if (!origins_.empty()) prefetch(&origins_[at]);
+    }
+    caster.look(places, {sights.data(), places.size()}, worker);
+    finder.checked(places, {sights.data(), places.size()}, answers);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (answers[i].ahead != kNoPoint) prefetch(&used_[answers[i].ahead]);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (sights[i].ray) settle(places[i], finder, answers[i], holes);
+}
+
 void CloudRegion::answer_block(std::size_t block, const PixelCaster& caster, int worker) {
     const PointFinder finder(*projector_, points_, grids_, places_, reuse_);
     const PixelRectangle& area = blocks_[block];
     std::vector<CloudHole>& holes = holes_of_[block];
-    constexpr std::size_t kPacket = std::size_t{kPacketSide} * kPacketSide;
     std::array<PixelPlace, kPacket> checked;
-    std::array<PixelSights, kPacket> sights;
     for (int y0 = area.y0; y0 < area.y1; y0 += kPacketSide) {
         for (int x0 = area.x0; x0 < area.x1; x0 += kPacketSide) {
             std::size_t count = 0;
             for (int y = y0; y < std::min(y0 + kPacketSide, area.y1); ++y) {
                 for (int x = x0; x < std::min(x0 + kPacketSide, area.x1); ++x) {
-                    const PixelPlace place{x, y};
                     const bool check =
                         !rules_.empty &&
                         (options_.check == CloudCheck::all ||
-                         (options_.check == CloudCheck::edges && finder.is_edge(place)));
+                         (options_.check == CloudCheck::edges && finder.is_edge({x, y})));
                     if (check)
-                        checked[count++] = place;
+                        checked[count++] = {x, y};
                     else
-                        settle(place, finder, finder.unchecked(place), holes);
+                        settle({x, y}, finder, finder.unchecked({x, y}), holes);
                 }
             }
-            if (count == 0) continue;
-            caster.look({checked.data(), count}, {sights.data(), count}, worker);
-            for (std::size_t i = 0; i < count; ++i) {
-                if (sights[i].ray)
-                    settle(checked[i], finder, finder.checked(checked[i], sights[i]), holes);
-            }
+            if (count > 0) answer_packet({checked.data(), count}, finder, caster, worker, holes);
         }
     }
 }

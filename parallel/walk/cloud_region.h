@@ -113,6 +113,8 @@ class CloudRegion {
   private:
     [[nodiscard]] PixelRectangle inside_of_area() const;
     void answer_block(std::size_t block, const PixelCaster& caster, int worker);
+    void answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
+                       const PixelCaster& caster, int worker, std::vector<CloudHole>& holes);
     void settle(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
                 std::vector<CloudHole>& holes);
     void order_holes(const std::vector<std::vector<CloudHole>>& of_blocks);

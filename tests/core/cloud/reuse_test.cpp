@@ -70,6 +70,32 @@ TEST_CASE("cloud: a point of the pixel's own surface and place answers it") {
     CHECK(static_cast<double>(answer.apart) == doctest::Approx(std::hypot(0.1, 0.1)).epsilon(1e-4));
 }
 
+TEST_CASE("reuse: pixels checked together get the answers that each gets alone") {
+    Wall wall;
+    RandomStream random(11);
+    for (int i = 0; i < 200; ++i)
+        wall.add(kSide * random.next(), kSide * random.next(), 1 + (i % 3 == 0), 1.0f);
+    const PointFinder finder = wall.project();
+    std::vector<PixelPlace> pixels;
+    std::vector<PixelSights> sights;
+    for (int i = 0; i < 100; ++i) {
+        pixels.push_back({i % kSide, i / kSide});
+        sights.push_back(wall.sights(pixels.back().x + 0.5, pixels.back().y + 0.5, 1));
+    }
+    std::vector<PixelAnswer> answers(pixels.size());
+    finder.checked(pixels, sights, answers);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const PixelAnswer one = finder.checked(pixels[i], sights[i]);
+        CHECK(answers[i].cause == one.cause);
+        CHECK(answers[i].ahead == one.ahead);
+        CHECK(answers[i].apart == one.apart);
+        found += one.found();
+    }
+    CHECK(found > 10);
+    CHECK(found < 90);
+}
+
 TEST_CASE("cloud: no point of another surface, or of another depth, shows through") {
     Wall wall;
     wall.add(5.5, 5.5, 1, 3);
