@@ -1,68 +1,146 @@
 #include "core/cloud/highlights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
+#include "core/light/partition.h"
 #include "core/material/lobes.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr double kChange = 0.05;     ///< of the colour
-constexpr double kTurnMargin = 0.5;  ///< for the lobe's height, which changes with the cosines, too
-constexpr double kLeastCosines = 0.1;
-constexpr double kMostTurn = 0.8, kLeastTurn = 0.003;
+constexpr double kChange = 0.1;       ///< of the colour
+constexpr double kLeastCosine = 0.1;  ///< views nearer to the surface do not count
+constexpr double kLeastTurn = 0.003, kFirstTurn = 0.0125, kMostTurn = 0.8;
 
-/// A light from a point.
-struct SeenLight {
+/// A part of a light as the surface sees it.
+struct LitPart {
     Vec3 direction;
-    double omega = 0;   ///< [sr]
-    double radius = 0;  ///< of a cone about it [rad]
+    double distance = kHuge;  ///< [m]
+    double lit = 0;           ///< solid angle times cosine [sr]
+    double alpha2 = 0;        ///< of the lobe, widened by the part's size
 };
 
-SeenLight seen_from(const LightSource& light, const Vec3& point) {
-    const double size = static_cast<double>(light.size);
-    if (light.distant) return {light.center, size, std::sqrt(size / kPi)};
-    const Vec3 way = light.center - point;
-    const double squared = std::max(length_squared(way), kEpsilon);
-    const double distance = std::sqrt(squared);
-    const double half =
-        std::sqrt(length_squared(light.u) + length_squared(light.v) + length_squared(light.w));
-    return {way * (1 / distance), std::min(size / squared, 2 * kPi), std::atan(half / distance)};
+/// A point of a glossy surface, and the eye that sees it.
+struct SeenPoint {
+    Vec3 position, normal;
+    Vec3 wo;  ///< where the eye is
+};
+
+/// The lobe's share of what a light brings to a glossy surface.
+class LightOnSurface {
+  public:
+    LightOnSurface(const LightSource& light, const SeenPoint& at, const GlossyLobe& lobe,
+                   double size_over_distance);
+
+    /// Leave out the parts that opaque surfaces hide.
+    void drop_hidden(const Geometry& geometry);
+    /// How far the eye may turn before the colour changes by kChange [rad].
+    [[nodiscard]] double steady_turn(double most) const;
+
+  private:
+    [[nodiscard]] double shine(const Vec3& wo) const;
+    [[nodiscard]] double change(double turn, double here) const;
+    [[nodiscard]] std::array<Vec3, 2> axes() const;
+
+    const LightSource& light_;
+    SeenPoint at_;
+    double ratio_;  ///< of the lobe's reflectance to the diffuse one
+    std::array<LitPart, kMaxParts> parts_;
+    std::size_t count_ = 0;
+};
+
+/// The parts that the renderer samples.
+LightOnSurface::LightOnSurface(const LightSource& light, const SeenPoint& at,
+                               const GlossyLobe& lobe, double size_over_distance)
+    : light_(light), at_(at), ratio_(lobe.rho / std::max(lobe.diffuse, kEpsilon)) {
+    if (out_of_reach(light, at.position) || is_behind(light, at.position, at.normal)) return;
+    SourceParts parts;
+    partition(light, at.position, size_over_distance, parts);
+    RandomStream random;
+    for (int i = 0; i < parts.count; ++i) {
+        const auto sample = sample_part(light, parts.part[static_cast<std::size_t>(i)], parts.count,
+                                        at.position, 0, random);
+        if (!sample) continue;
+        const double cosine = dot(sample->direction, at.normal);
+        if (cosine <= 0) continue;
+        parts_[count_++] = {sample->direction, sample->distance, sample->solid_angle * cosine,
+                            lobe.alpha * lobe.alpha + light_widening(sample->solid_angle, 0)};
+    }
+}
+
+void LightOnSurface::drop_hidden(const Geometry& geometry) {
+    const auto hidden = [&](const LitPart& part) {
+        RaySegment ray{at_.position, part.direction, part.distance};
+        if (light_.is_virtual) ray.t_max = geometry.intersect_surface(light_.object, ray).t;
+        return geometry.visibility(ray, light_.object) == Visibility::blocked;
+    };
+    const auto end = parts_.begin() + static_cast<std::ptrdiff_t>(count_);
+    count_ = static_cast<std::size_t>(std::remove_if(parts_.begin(), end, hidden) - parts_.begin());
+}
+
+/// Of the light's parts together: what the lobe sends to `wo` over what is diffuse.
+double LightOnSurface::shine(const Vec3& wo) const {
+    double lobe = 0, diffuse = 0;
+    for (const LitPart& part : std::span(parts_.data(), count_)) {
+        lobe += part.lit * ward_reflection(part.direction + wo, at_.normal, part.alpha2);
+        diffuse += part.lit / kPi;
+    }
+    return diffuse > 0 ? ratio_ * lobe / diffuse : 0;
+}
+
+/// Toward the light's mirrored image, and across.
+std::array<Vec3, 2> LightOnSurface::axes() const {
+    const Vec3& l = parts_[count_ / 2].direction;
+    const Vec3 image = at_.normal * (2 * dot(l, at_.normal)) - l;
+    const Vec3 across = cross(at_.wo, image);
+    const double size = length(across);
+    const Vec3 second = size > kEpsilon ? across / size : perpendicular(at_.wo);
+    return {cross(second, at_.wo), second};
+}
+
+/// The largest change of the lobe's share when the eye turns so far.
+double LightOnSurface::change(double turn, double here) const {
+    double most = 0;
+    for (const Vec3& axis : axes()) {
+        for (const double side : {-1.0, 1.0}) {
+            const Vec3 wo = at_.wo * std::cos(turn) + axis * (side * std::sin(turn));
+            if (dot(wo, at_.normal) < kLeastCosine) continue;
+            most = std::max(most, std::abs(shine(wo) - here));
+        }
+    }
+    return most;
+}
+
+double LightOnSurface::steady_turn(double most) const {
+    if (count_ == 0) return most;
+    const double here = shine(at_.wo), allowed = kChange * (1 + here);
+    double turn = 0, changed = 0;
+    for (double next = kFirstTurn; turn < most; next *= 2) {
+        const double then = change(next, here);
+        if (then > allowed)
+            return std::min(most, turn + (next - turn) * (allowed - changed) / (then - changed));
+        turn = next;
+        changed = then;
+    }
+    return most;
 }
 
 }  // namespace
 
-double steady_turn(double off, double alpha2, double peak) {
-    const auto lobe = [&](double angle) { return peak * std::exp(-angle * angle / alpha2); };
-    const double most = kTurnMargin * kChange * (1 + lobe(off));
-    double turn = kMostTurn;
-    while (turn > kLeastTurn && lobe(std::max(off - turn / 2, 0.0)) - lobe(off + turn / 2) > most)
-        turn /= 2;
-    return std::max(turn, kLeastTurn);
-}
-
 double Highlights::slope(const Hit& hit, const Vec3& direction, const GlossyLobe& lobe) const {
-    const Vec3 normal = hit.cos_out >= 0 ? hit.normal : -hit.normal;
-    const double alpha2 = lobe.alpha * lobe.alpha;
-    const double piece = options_.source_subdivision * options_.source_subdivision;
+    const SeenPoint at{hit.position, hit.cos_out >= 0 ? hit.normal : -hit.normal, -direction};
+    const double part_size = partition_size(options_.source_subdivision, 1);
     double turn = kMostTurn;
     for (const std::int32_t i : lights_.sampled()) {
-        const SeenLight light = seen_from(lights_[i], hit.position);
-        if (dot(light.direction, normal) + std::sin(std::min(light.radius, kPi / 2)) <= 0) continue;
-        const Vec3 half = light.direction - direction;
-        const double cosine = dot(half, normal) / std::max(length(half), kEpsilon);
-        const double off = std::acos(std::clamp(cosine, -1.0, 1.0)) - light.radius / 2;
-        const double omega = piece > 0 ? std::min(light.omega, piece) : light.omega;
-        const double widened = alpha2 + light_widening(omega, options_.source_jitter);
-        // Ward's lobe at δ = 0 is ρ/(πα²) over the square of the sum of both cosines (see
-        // ward_reflection).
-        const double cosines = std::max(dot(half, normal), kLeastCosines);
-        const double peak =
-            lobe.rho / std::max(lobe.diffuse * widened * cosines * cosines, kEpsilon);
-        turn = std::min(turn, steady_turn(std::max(off, 0.0), widened, peak));
+        LightOnSurface light(lights_[i], at, lobe, part_size);
+        if (light.steady_turn(turn) >= turn) continue;
+        light.drop_hidden(geometry_);  // dear, and most lights do not come so far
+        turn = light.steady_turn(turn);
     }
-    return turn < kMostTurn ? kChange / turn : 0;
+    return turn < kMostTurn ? kChange / std::max(turn, kLeastTurn) : 0;
 }
 
 }  // namespace lightwalk

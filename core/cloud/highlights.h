@@ -12,28 +12,21 @@ struct GlossyLobe {
     double alpha = 0;    ///< rms slope of the facets
 };
 
-/// How far the eye's ray may turn about a point that is lit by a light whose mirrored image it
-/// misses, before the lobe's share of the colour has changed by a twentieth of it: by the Ward
-/// lobe's exp(-δ²/α²), δ changing half as fast as the ray turns.
-/// @param off     least angle between the normal and the half vectors of ray and light [rad]
-/// @param alpha2  squared rms slope, widened by the light's size
-/// @param peak    what the lobe brings where it is brightest, over what is diffuse
-/// @return        0.003 ... 0.8 [rad]
-[[nodiscard]] double steady_turn(double off, double alpha2, double peak);
-
 /// The lights of a scene, as glossy surfaces see them. Immutable.
 class Highlights {
   public:
-    /// Both must outlive this.
-    Highlights(const LightSources& lights, const RenderOptions& options)
-        : lights_(lights), options_(options) {}
+    /// All must outlive this.
+    Highlights(const LightSources& lights, const Geometry& geometry, const RenderOptions& options)
+        : lights_(lights), geometry_(geometry), options_(options) {}
 
-    /// The least steady_turn() of all lights at a hit, as a relative change of the colour per turn
-    /// [1/rad]. Shadows do not count.
+    /// How fast the colour at a hit changes as the ray turns about it: a tenth of it over the
+    /// largest turn that changes what each light brings by no more [1/rad]. 0: it may turn as far
+    /// as it likes. Light from elsewhere does not count: it makes colours steadier.
     [[nodiscard]] double slope(const Hit& hit, const Vec3& direction, const GlossyLobe& lobe) const;
 
   private:
     const LightSources& lights_;
+    const Geometry& geometry_;
     const RenderOptions& options_;
 };
 

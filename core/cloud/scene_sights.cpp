@@ -39,7 +39,7 @@ FresnelSlopes slopes_of(const Hit& hit, const SurfaceLook& look) {
 }  // namespace
 
 SceneSights::SceneSights(const Tracer& tracer)
-    : tracer_(tracer), highlights_(tracer.lights(), tracer.options()) {
+    : tracer_(tracer), highlights_(tracer.lights(), tracer.scene().geometry(), tracer.options()) {
     const Scene& scene = tracer.scene();
     looks_.resize(scene.modifier_count());
     for (std::size_t i = 0; i < looks_.size(); ++i)
