@@ -126,15 +126,14 @@ rays wherever these are true.
                      far from all around them; both (default), none
   --look WHERE       back (default): a pixel takes the nearest point of what its ray meets; forward: only a point that
                      falls onto it
-  --near PIXELS      back: a point so near is as good as a ray (.7)
+  --near PIXELS      back: a point so near will do (1)
   --reach PIXELS     back: where the points around agree, one so near will do (1.5, which is the most)
   --contrast PERCENT back: they agree when the darkest and the brightest differ by no more (10)
-  --specular-tolerance PERCENT  how far a colour that depends on the view may be off before it is traced anew (10; few
-                     colours come near this bound)
+  --specular-tolerance PERCENT  how far a colour that depends on the view may be off before it is traced anew (10)
   --audit PERCENT    of the reused pixels are traced all the same, a quarter of these twice; --stats has the errors, and
                      how much two rays of a pixel differ. Default 1
   --audit-limit PERCENT  when so many more of them are off by a tenth than two rays differ by as much, reuse is
-                     tightened (ages, angles, distances) until it holds, then slowly loosened. Default 5, 0: never
+                     tightened (ages, angles, distances) until it holds, then slowly loosened. Default 10, 0: never
   --budget MS        milliseconds a frame: the worst holes are traced first, what does not fit is filled from around
                      it, and traced in later frames. Default 0: all are traced
   --refine PERCENT   when a frame has the view of the frame before, that share of its pixels is made better (10): those

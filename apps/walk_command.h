@@ -27,7 +27,7 @@ struct WalkCommand {
     bool reuse = true;                  ///< --reuse off: every frame is traced
     int projectors = 32;                ///< --projectors: ranks that keep points, at most
     /// The other values of --reuse, and what goes with it.
-    CloudOptions cloud{.audit = 0.01, .audit_limit = 0.05, .refine = 0.1};
+    CloudOptions cloud{.audit = 0.01, .audit_limit = 0.1, .refine = 0.1};
 };
 
 /// Take an option of animate's own; false when the word is another one. Throws UsageError.

@@ -19,6 +19,13 @@ constexpr float kDepthJump = 0.1f;
 /// Points around a pixel that differ by this share of the brightest belong to lines and edges.
 constexpr float kSteepContrast = 0.6f;
 
+/// A point on the pixel, or no farther from its ray, shows the pixel as it is; of farther ones what
+/// lies between them is truer than any of them [pixels²].
+constexpr float kSharp2 = 0.49f;
+
+/// What is mirrored may be anything where it brings no more than this share of the rest.
+constexpr float kFaint = 0.05f;
+
 /// So few points do not tell whether a neighbourhood is even.
 constexpr int kFewPoints = 3;
 
@@ -46,8 +53,11 @@ float PointFinder::squared_reach(float contrast) const {
 
 /// The points around a pixel, as far as they show what its ray sees.
 struct PointFinder::Search {
+    float faint = -1;  ///< so little light does not matter, whatever it comes from
     std::uint32_t best = kNoPoint;
     float squared = HUGE_VALF;  ///< distance of the best one [pixels²]
+    Rgb sum;                    ///< of those that are not sharp, weighted
+    float weight = 0;
     float darkest = HUGE_VALF, brightest = 0;
     int points = 0;       ///< usable ones
     bool any = false;     ///< there is a point at all
@@ -64,18 +74,25 @@ inline void PointFinder::look_at(std::uint32_t index, float squared, const Pixel
                                  const Sight& sight, Search& found) const {
     found.any = true;
     const CloudPoint& point = points_[index];
-    if (point.surface != sight.surface) return;
-    const float distance = places_[index].distance;
-    if (std::abs(distance - sight.distance) > kSameDepth * sight.distance) return;
-    if (point.turn != kAnyTurn &&
-        !holds_from(point, toward(point, sights, sight), rules_.tightness)) {
-        found.turned = true;
-        return;
+    const float light = brightness(point.radiance);
+    if (light > found.faint) {
+        if (point.surface != sight.surface) return;
+        const float distance = places_[index].distance;
+        if (std::abs(distance - sight.distance) > kSameDepth * sight.distance) return;
+        if (point.turn != kAnyTurn &&
+            !holds_from(point, toward(point, sights, sight), rules_.tightness)) {
+            found.turned = true;
+            return;
+        }
     }
     ++found.points;
-    const float light = brightness(point.radiance);
     found.darkest = std::min(found.darkest, light);
     found.brightest = std::max(found.brightest, light);
+    if (squared > kSharp2) {
+        const float weight = 1 / (squared * squared);
+        found.sum += point.radiance * weight;
+        found.weight += weight;
+    }
     // Of equally near ones always the same: whatever the order, and whoever keeps them.
     if (squared > found.squared ||
         (squared == found.squared && !precedes(point, points_[found.best])))
@@ -86,7 +103,7 @@ inline void PointFinder::look_at(std::uint32_t index, float squared, const Pixel
 
 /// Look at the points around a pixel: at those that are not near only where no near one shows what
 /// the ray sees, for else they change nothing.
-/// @param near  squared [pixels²]
+/// @param near  squared, at most kSharp2 [pixels²]
 void PointFinder::look_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
                               const PixelSights& sights, const Sight& sight, Search& found) const {
     std::array<std::uint32_t, 8> far;
@@ -111,24 +128,32 @@ void PointFinder::look_around(const DepthGrid& grid, const PixelPlace& pixel, fl
     for (std::size_t i = 0; i < count; ++i) look_at(far[i], far_squared[i], sights, sight, found);
 }
 
-/// @param base  what the pixel shows besides: points may differ by a share of the sum
+/// Adds to the answer. What it shows already counts: points may differ by a share of the sum. What
+/// lies between points is their mean by the fourth power of the distance (Shepard, "A
+/// two-dimensional interpolation function for irregularly-spaced data", ACM 1968).
 HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
-                              const PixelSights& sights, const Sight& sight, float base,
-                              std::uint32_t& best, float& apart) const {
+                              const PixelSights& sights, const Sight& sight, std::uint32_t& best,
+                              PixelAnswer& answer) const {
     Search found;
+    const float base = brightness(answer.radiance);
+    if (base > 0) found.faint = kFaint * base;
     const float near = rules_.near * rules_.near;
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
     if (own != kNoPoint) look_at(own, squared_distance(own, sights), sights, sight, found);
     // What lies on the pixel itself is as good a sample of it as its ray's.
     const bool inside_pixel = found.points > 0;
-    if (rules_.look_back && !inside_pixel) look_around(grid, pixel, near, sights, sight, found);
+    if (rules_.look_back && !inside_pixel)
+        look_around(grid, pixel, std::min(near, kSharp2), sights, sight, found);
     best = found.best;
-    apart = std::max(apart, std::sqrt(found.squared));
+    answer.apart = std::max(answer.apart, std::sqrt(found.squared));
     if (found.points == 0)
         return found.turned ? HoleCause::turned
                : found.any  ? HoleCause::hidden
                             : HoleCause::uncovered;
+    const bool sharp = inside_pixel || found.squared <= kSharp2;
+    answer.radiance += sharp ? points_[best].radiance : found.sum * (1 / found.weight);
     if (!rules_.look_back || inside_pixel || found.squared <= near) return HoleCause::none;
+    if (found.brightest <= found.faint) return HoleCause::none;
     if (found.points < kFewPoints) return HoleCause::uneven;
     const float contrast =
         (found.brightest - found.darkest) / std::max(found.brightest + base, 1e-30f);
@@ -137,22 +162,19 @@ HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
 
 inline void PointFinder::check(const PixelPlace& pixel, const PixelSights& sights,
                                PixelAnswer& answer) const {
-    answer = {HoleCause::none, kNoPoint, kNoPoint, 0};
+    answer = {HoleCause::none, kNoPoint, kNoPoint, 0, {}};
     if ((sights.ahead.seen && sights.ahead.slope == kUnsteady) ||
         (sights.mirrored.seen && sights.mirrored.slope == kUnsteady)) {
         answer.cause = HoleCause::unsteady;
         return;
     }
-    float base = 0;
     if (sights.ahead.seen) {
-        answer.cause =
-            search(grids_.ahead, pixel, sights, sights.ahead, base, answer.ahead, answer.apart);
-        if (!answer.found() || !sights.mirrored.seen) return;
-        base = brightness(points_[answer.ahead].radiance);
+        answer.cause = search(grids_.ahead, pixel, sights, sights.ahead, answer.ahead, answer);
+        if (!answer.found()) return;
     }
     if (sights.mirrored.seen)
-        answer.cause = search(grids_.mirrored, pixel, sights, sights.mirrored, base,
-                              answer.mirrored, answer.apart);
+        answer.cause =
+            search(grids_.mirrored, pixel, sights, sights.mirrored, answer.mirrored, answer);
 }
 
 void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
@@ -188,7 +210,9 @@ PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
         if (mirrored == kNoPoint) answer.cause = HoleCause::uncovered;
     }
     for (const std::uint32_t index : {answer.ahead, answer.mirrored}) {
-        if (index == kNoPoint || !answer.found()) continue;
+        if (index == kNoPoint) continue;
+        answer.radiance += points_[index].radiance;
+        if (!answer.found()) continue;
         const Camera& camera = projector_.camera();
         const auto ray =
             camera.ray((pixel.x + 0.5) / projector_.width(), (pixel.y + 0.5) / projector_.height());
@@ -249,7 +273,7 @@ float PointFinder::distance(const PixelAnswer& answer) const {
     // As traced rays tell it, see Ray::effective_distance().
     const bool mirror =
         answer.mirrored != kNoPoint &&
-        brightness(points_[answer.mirrored].radiance) > 0.5f * brightness(radiance(answer));
+        brightness(points_[answer.mirrored].radiance) > 0.5f * brightness(answer.radiance);
     return places_[mirror ? answer.mirrored : answer.ahead].distance;
 }
 

@@ -29,7 +29,7 @@ struct ReuseRules {
     /// Look around the pixel for the nearest point of what its ray meets; false: only the point
     /// that fell onto the pixel counts (forward projection alone).
     bool look_back = true;
-    float near = 0.7f;      ///< a point as near as this to the ray is as good as its own [pixels]
+    float near = 1;         ///< a point as near as this to the ray is as good as its own [pixels]
     float reach = 1.5f;     ///< and where the points around agree, one as near as this [pixels];
                             ///< in between, the less they agree the nearer it has to be
     float contrast = 0.1f;  ///< they agree when they differ by no more, as a share of the brightest
@@ -44,6 +44,7 @@ struct PixelAnswer {
     HoleCause cause = HoleCause::uncovered;
     std::uint32_t ahead = kNoPoint, mirrored = kNoPoint;
     float apart = 0;  ///< of the farther one from the pixel's ray [pixels]
+    Rgb radiance;     ///< theirs; where none is near, of what lies around [W/(m² sr)]
     [[nodiscard]] bool found() const { return cause == HoleCause::none; }
 };
 
@@ -70,13 +71,6 @@ class PointFinder {
     /// without a point, where depths jump.
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
 
-    /// The sum of an answer's points.
-    [[nodiscard]] Rgb radiance(const PixelAnswer& answer) const {
-        Rgb sum;
-        if (answer.ahead != kNoPoint) sum += points_[answer.ahead].radiance;
-        if (answer.mirrored != kNoPoint) sum += points_[answer.mirrored].radiance;
-        return sum;
-    }
     /// Whether an answer that was not found still has all points that its pixel is made of, though
     /// not near enough: the best guess until it is traced.
     [[nodiscard]] bool is_guess(const PixelAnswer& answer) const;
@@ -87,8 +81,8 @@ class PointFinder {
     struct Search;
     void check(const PixelPlace& pixel, const PixelSights& sights, PixelAnswer& answer) const;
     [[nodiscard]] HoleCause search(const DepthGrid& grid, const PixelPlace& pixel,
-                                   const PixelSights& sights, const Sight& sight, float base,
-                                   std::uint32_t& best, float& apart) const;
+                                   const PixelSights& sights, const Sight& sight,
+                                   std::uint32_t& best, PixelAnswer& answer) const;
     void look_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
                      const PixelSights& sights, const Sight& sight, Search& found) const;
     void look_at(std::uint32_t index, float squared, const PixelSights& sights, const Sight& sight,

@@ -170,7 +170,7 @@ void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
     const bool reused = answer.found();
     const bool guessed = !reused && options_.budget > 0 && finder.is_guess(answer);
     if (reused || guessed) {
-        frame_.radiance[at] = finder.radiance(answer);
+        frame_.radiance[at] = answer.radiance;
         frame_.distance[at] = finder.distance(answer);
     }
     if (!reused) {

@@ -11,11 +11,11 @@ WAYS = {"supersaturated": "--reuse supersaturated", "cloud": "--reuse cloud",
 RULES = {"check": (("none", "edges", "all"), ""),
          "drop": (("none", "hidden", "lonely", "both"), "--check none"),
          "look": (("forward", "back"), ""),
-         "near": (("1.5", "1.25", ".7", ".35", "0"), ""),
+         "near": (("1.5", "1.25", "1", ".7", ".35", "0"), ""),
          "reach": (("1.5", "1", "0"), ""),
          "contrast": (("100", "10", "0"), ""),
          "specular-tolerance": (("100", "20", "10", "5"), ""),
-         "audit-limit": (("0", "5"), "")}
+         "audit-limit": (("0", "10", "5"), "")}
 
 
 def rules(names):

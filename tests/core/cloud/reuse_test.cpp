@@ -65,7 +65,7 @@ TEST_CASE("cloud: a point of the pixel's own surface and place answers it") {
     const PointFinder finder = wall.project();
     const PixelAnswer answer = finder.checked({5, 5}, wall.sights(5.5, 5.5, 1));
     REQUIRE(answer.found());
-    CHECK(finder.radiance(answer).g == 3);
+    CHECK(answer.radiance.g == 3);
     CHECK(finder.distance(answer) == doctest::Approx(4));
     CHECK(static_cast<double>(answer.apart) == doctest::Approx(std::hypot(0.1, 0.1)).epsilon(1e-4));
 }
@@ -136,10 +136,43 @@ TEST_CASE(
         return wall.project().checked({5, 5}, wall.sights(5.5, 5.5, 1)).found();
     };
     CHECK(answered(1.4, 1));
-    CHECK(answered(0.9, 0.7f));
+    CHECK(answered(1.1, 0.7f));
     CHECK_FALSE(answered(1.4, 0.7f));
-    CHECK(answered(0.69, 0.1f));
-    CHECK_FALSE(answered(0.9, 0.1f));
+    CHECK(answered(0.99, 0.1f));
+    CHECK_FALSE(answered(1.1, 0.1f));
+}
+
+TEST_CASE("cloud: between points that lie around a pixel it shows what lies between them") {
+    Wall wall;
+    const auto between = [&](double left, double right) {
+        wall.points.clear();
+        wall.add(5.5 - left, 5.5, 1, 1);
+        wall.add(5.5 + right, 5.5, 1, 2);
+        const PixelAnswer answer = wall.project().checked({5, 5}, wall.sights(5.5, 5.5, 1));
+        REQUIRE(answer.found());
+        return static_cast<double>(answer.radiance.g);
+    };
+    CHECK(between(0.8, 0.8) == doctest::Approx(1.5).epsilon(1e-5));
+    CHECK(between(0.8, 1.2) < 1.3);
+    CHECK(between(0.8, 1.2) > 1);
+    CHECK(between(0.6, 0.8) == 1);  // so near a point shows the pixel as it is
+}
+
+TEST_CASE("cloud: a reflection that brings next to nothing may be of anything") {
+    for (const float light : {0.04f, 0.2f}) {
+        CAPTURE(light);
+        Wall wall;
+        TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(1 + light), Rgb::grey(light), 4};
+        pixel.sights.mirrored = pixel.sights.ahead;
+        pixel.sights.mirrored.kind = PointKind::mirrored;
+        const PixelPoints left = points_of(pixel, 0.05);
+        wall.points.assign(left.points.begin(), left.points.end());
+        PixelSights moved = pixel.sights;
+        moved.mirrored.surface = 78;
+        CHECK(wall.project().checked({8, 8}, moved).found() == (light < 0.05f));
+        moved.ahead.surface = 78;  // what lies ahead is never faint
+        CHECK(!wall.project().checked({8, 8}, moved).found());
+    }
 }
 
 TEST_CASE("cloud: a point on the pixel itself answers it wherever its ray goes through it") {
@@ -190,7 +223,7 @@ TEST_CASE(
         const PointFinder finder = wall.project();
         const PixelAnswer answer = finder.checked({8, 8}, pixel.sights);
         REQUIRE(answer.found());
-        CHECK(finder.radiance(answer).g == 3);
+        CHECK(answer.radiance.g == 3);
         CHECK(finder.distance(answer) == doctest::Approx(4));
         CHECK(finder.unchecked({8, 8}).found());
         PixelSights moved = pixel.sights;
