@@ -33,29 +33,14 @@ bool PixelRays::pinhole() const {
     return options_.aperture <= kEpsilon && (previous_ == nullptr || options_.motion <= kEpsilon);
 }
 
-PixelOffset PixelRays::offset(int x, int y, int sample, RandomStream& random) const {
-    if (options_.samples > 1)
-        return pixel_sample(seed_, x, y, sample, options_.samples, random.next());
-    PixelOffset offset;
-    if (options_.jitter > 0) {
-        offset.x = options_.jitter * (0.5 - random.next());
-        offset.y = options_.jitter * (0.5 - random.next());
-    }
-    return offset;
+PixelOffset PixelRays::filter_offset(int x, int y, int sample, RandomStream& random) const {
+    return pixel_sample(seed_, x, y, sample, options_.samples, random.next());
 }
 
 PixelRay PixelRays::operator()(int x, int y, int sample) const {
-    x = std::min(x * step_ + step_ / 2, width_ - 1);
-    y = std::min(y * step_ + step_ / 2, height_ - 1);
-    PixelRay pixel{std::nullopt, RandomStream::of_pixel(seed_, static_cast<std::uint32_t>(x),
-                                                        static_cast<std::uint32_t>(y),
-                                                        static_cast<std::uint32_t>(sample))};
-    const PixelOffset off = offset(x, y, sample, pixel.random);
-    const double h = (x + (0.5 + off.x)) / width_;
-    const double v = (y + (0.5 + off.y)) / height_;
-    pixel.ray = camera_.ray(h, v);
-    pixel.h = h;
-    pixel.v = v;
+    const Place at = place(x, y, sample);
+    const double h = at.h, v = at.v;
+    PixelRay pixel{camera_.ray(h, v), at.random, h, v};
     if (!pixel.ray) return pixel;
     if (previous_ != nullptr && options_.motion > kEpsilon)
         pixel.ray = blur_motion(*pixel.ray, h, v, pixel.random);

@@ -1,5 +1,6 @@
 #pragma once
 // From a pixel to its primary ray: jitter, aperture and motion blur.
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -43,6 +44,14 @@ class PixelRays {
     /// @param sample  0 ... samples - 1; sample 0 is nearest to the pixel's centre
     [[nodiscard]] PixelRay operator()(int x, int y, int sample = 0) const;
 
+    /// Where in the picture that ray goes through, as Camera::ray has it, and the random numbers
+    /// that are left.
+    struct Place {
+        double h = 0, v = 0;
+        RandomStream random;
+    };
+    [[nodiscard]] Place place(int x, int y, int sample = 0) const;
+
     [[nodiscard]] int samples() const { return options_.samples; }  ///< rays a pixel
 
     /// Whether rays start in one point or plane and go through their pixel's place exactly when not
@@ -51,6 +60,7 @@ class PixelRays {
 
   private:
     [[nodiscard]] PixelOffset offset(int x, int y, int sample, RandomStream& random) const;
+    [[nodiscard]] PixelOffset filter_offset(int x, int y, int sample, RandomStream& random) const;
     [[nodiscard]] Camera::ViewRay blur_motion(const Camera::ViewRay& now, double h, double v,
                                               RandomStream& random) const;
     [[nodiscard]] Camera::ViewRay through_lens(const Camera::ViewRay& ray,
@@ -63,5 +73,28 @@ class PixelRays {
     std::uint64_t seed_;
     int step_;
 };
+
+inline PixelOffset PixelRays::offset(int x, int y, int sample, RandomStream& random) const {
+    if (options_.samples > 1) return filter_offset(x, y, sample, random);
+    PixelOffset offset;
+    if (options_.jitter > 0) {
+        offset.x = options_.jitter * (0.5 - random.next());
+        offset.y = options_.jitter * (0.5 - random.next());
+    }
+    return offset;
+}
+
+inline PixelRays::Place PixelRays::place(int x, int y, int sample) const {
+    x = std::min(x * step_ + step_ / 2, width_ - 1);
+    y = std::min(y * step_ + step_ / 2, height_ - 1);
+    Place place{
+        0, 0,
+        RandomStream::of_pixel(seed_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                               static_cast<std::uint32_t>(sample))};
+    const PixelOffset off = offset(x, y, sample, place.random);
+    place.h = (x + (0.5 + off.x)) / width_;
+    place.v = (y + (0.5 + off.y)) / height_;
+    return place;
+}
 
 }  // namespace lightwalk

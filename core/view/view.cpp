@@ -143,12 +143,11 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
     const double x = (h - 0.5 + view_.shift) * width_;
     const double y = (v - 0.5 + view_.lift) * height_;
     const Vec3 across = x * right_ + y * upward_;
-    const bool clipped = view_.aft > kEpsilon;
     Vec3 q;
     switch (view_.type) {
         case 'l':
             return ViewRay{view_.position + view_.fore * forward_ + across, forward_,
-                           clipped ? view_.aft - view_.fore : 0};
+                           view_.aft > kEpsilon ? view_.aft - view_.fore : 0};
         case 'h': {
             const double z2 = 1 - x * x - y * y;
             if (!(z2 >= 0)) return std::nullopt;
@@ -170,15 +169,10 @@ std::optional<Camera::ViewRay> Camera::ray(double h, double v) const {
             q = z * forward_ + (1 + z) * across;
             break;
         }
-        default:  // fused, and scaled axes first: to the bit what released builds of Radiance
-                  // compute
-            q = fused_advance(fused_advance(forward_, right_ * width_, h + (view_.shift - 0.5)),
-                              upward_ * height_, v + (view_.lift - 0.5));
-            break;
+        default:
+            return perspective_ray(h, v);
     }
-    const double stretch = std::sqrt(fused_dot(q, q));
-    return ViewRay{view_.position + view_.fore * q, q * (1 / stretch),
-                   clipped ? (view_.aft - view_.fore) * stretch : 0};
+    return ray_through(q);
 }
 
 Camera::ImagePosition Camera::locate(const Vec3& point) const {

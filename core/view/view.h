@@ -1,5 +1,6 @@
 #pragma once
 // Views: image position <-> ray for Radiance's six view types. See the manual page rpict(1), "-vt".
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,8 @@ class Camera {
     };
     /// Nothing outside the view's domain (black pixels).
     [[nodiscard]] std::optional<ViewRay> ray(double h, double v) const;
+    /// The same of perspective views (type v), which every place has.
+    [[nodiscard]] ViewRay perspective_ray(double h, double v) const;
 
     /// Where a point appears. A point without an image (the view point itself, a point in a
     /// perspective's view plane, the axis of a cylinder, the pole of a stereographic view) has
@@ -62,10 +65,26 @@ class Camera {
     [[nodiscard]] Vec3 upward() const { return upward_; }    ///< unit, perpendicular to both
 
   private:
+    /// @param q  from the view point to the place at unit distance
+    [[nodiscard]] ViewRay ray_through(const Vec3& q) const;
+
     View view_;
     Vec3 forward_, right_, upward_;
     double width_ = 0, height_ = 0;  ///< of the image at unit distance, on the type's image surface
 };
+
+// Fused, and scaled axes first: to the bit what released builds of Radiance compute.
+inline Camera::ViewRay Camera::perspective_ray(double h, double v) const {
+    const Vec3 q = fused_advance(fused_advance(forward_, right_ * width_, h + (view_.shift - 0.5)),
+                                 upward_ * height_, v + (view_.lift - 0.5));
+    return ray_through(q);
+}
+
+inline Camera::ViewRay Camera::ray_through(const Vec3& q) const {
+    const double stretch = std::sqrt(fused_dot(q, q));
+    return {view_.position + view_.fore * q, q * (1 / stretch),
+            view_.aft > kEpsilon ? (view_.aft - view_.fore) * stretch : 0};
+}
 
 /// The part [h0, h1] x [v0, v1] of a view, as a view of the same type. Nothing when the part is
 /// empty or would need a hemispherical view beyond 180 degrees.

@@ -34,20 +34,55 @@ void SceneCaster::look(std::span<const PixelPlace> places, std::span<PixelSights
     look_along(rays_, false, places, sights, scratch_[static_cast<std::size_t>(worker)]);
 }
 
+namespace {
+
+/// A ray and where it goes through its pixel.
+void set_out(const Camera::ViewRay& ray, double x, double y, RaySegment& segment,
+             PixelSights& sights) {
+    segment.origin = ray.origin;
+    segment.direction = ray.direction;
+    segment.t_max = ray.limit > kEpsilon ? ray.limit : kHuge;
+    sights.ray = true;
+    sights.x = static_cast<float>(x);
+    sights.y = static_cast<float>(y);
+}
+
+}  // namespace
+
+void SceneCaster::set_out_plainly(const PixelRays& rays, std::span<const PixelPlace> places,
+                                  std::span<RaySegment> segments,
+                                  std::span<PixelSights> sights) const {
+    const Camera camera = camera_;  // copies: nothing that is written can change them
+    const PixelRays from = rays;
+    const double width = options_.width, height = options_.height;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const PixelRays::Place at = from.place(places[i].x, places[i].y);
+        set_out(camera.perspective_ray(at.h, at.v), at.h * width, at.v * height, segments[i],
+                sights[i]);
+    }
+}
+
+void SceneCaster::set_out_anyhow(const PixelRays& rays, std::span<const PixelPlace> places,
+                                 std::span<RaySegment> segments,
+                                 std::span<PixelSights> sights) const {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const PixelRay pixel = rays(places[i].x, places[i].y);
+        sights[i] = {};
+        segments[i] = {{}, {}, 0};
+        if (pixel.ray)
+            set_out(*pixel.ray, pixel.h * options_.width, pixel.v * options_.height, segments[i],
+                    sights[i]);
+    }
+}
+
 void SceneCaster::look_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
                              std::span<PixelSights> sights, Scratch& s) const {
-    s.segments.assign(places.size(), RaySegment{{}, {}, 0});
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        sights[i] = {};
-        const PixelRay pixel = rays(places[i].x, places[i].y);
-        sights[i].ray = pixel.ray.has_value();
-        if (!pixel.ray) continue;
-        const double limit = pixel.ray->limit;
-        s.segments[i] = {pixel.ray->origin, pixel.ray->direction, limit > kEpsilon ? limit : kHuge};
-        sights[i].x = static_cast<float>(pixel.h * options_.width);
-        sights[i].y = static_cast<float>(pixel.v * options_.height);
-    }
-    s.hits.resize(s.segments.size());
+    s.segments.resize(places.size());
+    s.hits.resize(places.size());
+    if (camera_.view().type == 'v' && rays.pinhole())
+        set_out_plainly(rays, places, s.segments, sights);
+    else
+        set_out_anyhow(rays, places, s.segments, sights);
     tracer_.scene().geometry().intersect(s.segments, s.hits);
     sights_.find(s.segments, s.hits, slopes, sights, s.ways);
 }

@@ -38,6 +38,11 @@ class SceneCaster {
     };
 
     [[nodiscard]] PixelRays rays_of(int sample) const;
+    /// The rays of pixels: of perspective views that nothing blurs, which is faster, and of all.
+    void set_out_plainly(const PixelRays& rays, std::span<const PixelPlace> places,
+                         std::span<RaySegment> segments, std::span<PixelSights> sights) const;
+    void set_out_anyhow(const PixelRays& rays, std::span<const PixelPlace> places,
+                        std::span<RaySegment> segments, std::span<PixelSights> sights) const;
     void look_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
                     std::span<PixelSights> sights, Scratch& scratch) const;
 
