@@ -1,0 +1,152 @@
+#include "core/glare/glare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "core/error.h"
+#include "core/glare/dgp.h"
+#include "core/glare/direction_groups.h"
+#include "core/glare/outline.h"
+
+namespace lightwalk {
+namespace {
+
+/// The pixels of a source, as places in VisualField::pixels.
+using SourcePixels = std::vector<std::uint32_t>;
+
+void check(const GlareParams& params) {
+    const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+    if (!positive(params.threshold) || !positive(params.peak) || !positive(params.merge_angle) ||
+        params.merge_angle > kPi / 2)
+        throw InputError(
+            "glare: threshold, peak and merge angle must be positive, the angle at most 90 "
+            "degrees");
+    if (params.outline_points < 4) throw InputError("glare: an outline needs at least 4 points");
+}
+
+/// The pixels brighter than a limit.
+template <class Pixels>
+SourcePixels brighter(const VisualField& field, const Pixels& among, double limit) {
+    SourcePixels bright;
+    for (const std::uint32_t i : among) {
+        if (field.pixels[i].luminance > limit) bright.push_back(i);
+    }
+    return bright;
+}
+
+/// Pixels that hang together by steps of at most an angle.
+std::vector<SourcePixels> merged(const VisualField& field, const SourcePixels& pixels,
+                                 double angle) {
+    std::vector<Vec3> directions;
+    for (const std::uint32_t i : pixels) directions.push_back(field.pixels[i].direction);
+    const std::vector<std::uint32_t> groups = group_directions(directions, angle);
+    std::vector<SourcePixels> sources;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        if (groups[k] == sources.size()) sources.emplace_back();
+        sources[groups[k]].push_back(pixels[k]);
+    }
+    return sources;
+}
+
+/// What a picture and its camera are for the sources in it.
+struct SourceView {
+    const VisualField& field;
+    const Camera& camera;
+    int width = 0, height = 0;
+};
+
+/// The mean place of the light of some pixels, as a direction: the weighted mean of their places in
+/// the picture, as in the reference evaluation, rather than of their directions.
+Vec3 mean_direction(const SourceView& of, const SourcePixels& pixels) {
+    double x = 0, y = 0, sum = 0;
+    for (const std::uint32_t i : pixels) {
+        const FieldPixel& pixel = of.field.pixels[i];
+        const double weight = pixel.luminance * pixel.solid_angle;
+        x += weight * (pixel.place.x + 0.5);
+        y += weight * (pixel.place.y + 0.5);
+        sum += weight;
+    }
+    return field_direction(of.camera, x / sum / of.width, y / sum / of.height);
+}
+
+GlareSource source_of(const SourceView& of, const SourcePixels& pixels, const GlareParams& params,
+                      bool peak) {
+    GlareSource source;
+    source.pixels = pixels.size();
+    source.peak = peak;
+    std::vector<PixelPlace> places;
+    for (const std::uint32_t i : pixels) {
+        const FieldPixel& pixel = of.field.pixels[i];
+        source.luminance += pixel.luminance * pixel.solid_angle;
+        source.solid_angle += pixel.solid_angle;
+        places.push_back(pixel.place);
+    }
+    source.luminance /= source.solid_angle;
+    source.direction = mean_direction(of, pixels);
+    source.position_index = position_index(source.direction, of.camera);
+    source.glare = source.luminance * source.luminance * source.solid_angle /
+                   (source.position_index * source.position_index);
+    source.outline = outline_of(places, of.camera, of.width, of.height, params.outline_points);
+    return source;
+}
+
+std::vector<GlareSource> sources_in(const SourceView& of, const GlareParams& params) {
+    SourcePixels all(of.field.pixels.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    const SourcePixels bright = brighter(of.field, all, params.threshold);
+    std::vector<GlareSource> sources;
+    for (SourcePixels& pixels : merged(of.field, bright, params.merge_angle)) {
+        std::erase_if(pixels,
+                      [&](std::uint32_t i) { return of.field.pixels[i].luminance > params.peak; });
+        if (!pixels.empty()) sources.push_back(source_of(of, pixels, params, false));
+    }
+    const SourcePixels peaks = brighter(of.field, bright, params.peak);
+    for (const SourcePixels& pixels : merged(of.field, peaks, params.merge_angle))
+        sources.push_back(source_of(of, pixels, params, true));
+    std::stable_sort(sources.begin(), sources.end(),
+                     [](const GlareSource& a, const GlareSource& b) { return a.glare > b.glare; });
+    return sources;
+}
+
+}  // namespace
+
+std::vector<GlareSource> find_glare_sources(const FieldPicture& picture, const Camera& camera,
+                                            const GlareParams& params) {
+    check(params);
+    const VisualField field = visual_field(picture, camera);
+    return sources_in({field, camera, picture.width, picture.height}, params);
+}
+
+GlareReport analyse_glare(const FieldPicture& picture, const View& view,
+                          const GlareParams& params) {
+    check(params);
+    if (!is_whole_fisheye(view)) {
+        throw InputError(std::string("glare: daylight glare probability needs a fisheye, -vta or "
+                                     "-vth -vh 180 -vv 180, not a view of type '") +
+                         view.type + "', " + std::to_string(view.horizontal) + " by " +
+                         std::to_string(view.vertical) + " degrees");
+    }
+    const Camera camera(view);
+    const VisualField field = visual_field(picture, camera);
+    GlareReport report;
+    double flux = 0, solid_angle = 0, glare = 0;
+    for (const FieldPixel& pixel : field.pixels) {
+        flux += pixel.luminance * pixel.solid_angle;
+        solid_angle += pixel.solid_angle;
+        report.vertical_illuminance +=
+            pixel.luminance * pixel.solid_angle * dot(pixel.direction, camera.forward());
+    }
+    report.average_luminance = solid_angle > 0 ? flux / solid_angle : 0;
+    report.dropped = field.dropped;
+    report.sources = sources_in({field, camera, picture.width, picture.height}, params);
+    for (const GlareSource& source : report.sources) glare += source.glare;
+    const double ev = report.vertical_illuminance;
+    report.dgp = daylight_glare_probability(ev, glare);
+    report.low_light_correction = low_light_correction(ev);
+    report.within_assessments = within_assessments(report.dgp, ev);
+    return report;
+}
+
+}  // namespace lightwalk
