@@ -76,6 +76,13 @@ double typical_step(const std::vector<Vec3>& loop) {
     return sum / static_cast<double>(loop.size() - 1);
 }
 
+/// How far an outline may run beside a contour of so many steps [steps]: enough to make a straight
+/// line of the stairs along a window's edge, which are up to sqrt(2) steps high; less for small
+/// sources, whose shape would be lost.
+double smoothing(std::size_t steps) {
+    return std::clamp(static_cast<double>(steps) / 200, 0.75, 1.6);
+}
+
 /// The part of a closed polygon for which dot(direction, axis) >= least: Sutherland & Hodgman,
 /// "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 std::vector<Vec3> clipped(std::span<const Vec3> polygon, const Vec3& axis, double least) {
@@ -127,9 +134,9 @@ std::vector<Vec3> outline_of(std::span<const PixelPlace> places, const Camera& c
     loop.push_back(loop.front());
 
     const double step = typical_step(loop);
-    std::vector<Vec3> outline = simplified(loop, step);  // smooths the stairs of the pixels
-    for (double tolerance = 1.25 * step; outline.size() > limit; tolerance *= 1.25)
-        outline = simplified(loop, tolerance);
+    double tolerance = smoothing(loop.size()) * step;
+    std::vector<Vec3> outline = simplified(loop, tolerance);
+    while (outline.size() > limit) outline = simplified(loop, tolerance *= 1.25);
     return outline;
 }
 

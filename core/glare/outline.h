@@ -17,7 +17,7 @@ namespace lightwalk {
 /// @param places  distinct, inside the picture
 /// @param camera  of a visual_field() of width x height pixels
 /// @param limit   of points, at least 4
-/// @return        4 to `limit` unit vectors, within about a pixel of the pixels' edges, farther
+/// @return        4 to `limit` unit vectors, within two pixels of the pixels' edges, farther
 ///                where that takes more points; nothing for no pixels
 [[nodiscard]] std::vector<Vec3> outline_of(std::span<const PixelPlace> places, const Camera& camera,
                                            int width, int height, std::size_t limit = 64);

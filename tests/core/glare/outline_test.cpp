@@ -61,9 +61,9 @@ TEST_CASE("outline: of a disc runs along its edge, wherever it is seen") {
             CHECK(length(p) == test::rounded(1));
             CHECK(std::abs(angle_between(p, centre) - radius) < kPixel);
         }
-        // An edge that is off by half a pixel all around.
+        // An edge that is off by a pixel all around.
         CHECK(solid_angle_in(outline, centre) ==
-              within(kPixel / radius, 2 * kPi * (1 - std::cos(radius))));
+              within(2 * kPixel / radius, 2 * kPi * (1 - std::cos(radius))));
         Vec3 turn;  // counterclockwise as the eye sees it: clockwise about the line of sight
         for (std::size_t i = 0; i < outline.size(); ++i)
             turn += cross(outline[i], outline[(i + 1) % outline.size()]);
@@ -81,18 +81,19 @@ TEST_CASE("outline: of a window has few corners, whose edges are straight in a p
                                     camera, kSize, kSize);
     CHECK(outline.size() >= 4);
     CHECK(outline.size() <= 12);  // 4, and what the stairs of the pixels leave at the corners
-    // Each corner of the window has a point of the outline, about a pixel off.
+    // Each corner of the window has a point of the outline: the smoothing's 1.6 pixels and the
+    // pixel's own size off at most.
     for (const double x : {0.5, 2.}) {
         for (const double z : {0.2, 1.5}) {
             double nearest = kPi;
             for (const Vec3& p : outline)
                 nearest = std::min(nearest, angle_between(p, normalize({x, 1, z})));
-            CHECK(nearest < 2 * kPixel);
+            CHECK(nearest < 3 * kPixel);
         }
     }
 }
 
-TEST_CASE("outline: of a pixel is its corners; a source in pieces has one outline") {
+TEST_CASE("outline: of a pixel is its corners, and pieces of one source have one") {
     const Camera camera(fisheye_view('a'));
     const std::vector<PixelPlace> one{{200, 200}};
     CHECK(outline_of(one, camera, kSize, kSize).size() == 4);
