@@ -1,0 +1,55 @@
+#include "io/picture/jpeg.h"
+
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include "core/error.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kLargestSide = 65535;  // of the format
+
+[[noreturn]] void fail(const std::string& why) {
+    throw InputError("cannot encode jpeg: " + why);
+}
+
+}  // namespace
+
+void JpegCompressor::Release::operator()(void* handle) const noexcept {
+    (void)tjDestroy(handle);
+}
+
+JpegCompressor::JpegCompressor() : handle_(tjInitCompress()) {
+    if (!handle_) fail(tjGetErrorStr2(nullptr));
+}
+JpegCompressor::~JpegCompressor() = default;
+JpegCompressor::JpegCompressor(JpegCompressor&&) noexcept = default;
+JpegCompressor& JpegCompressor::operator=(JpegCompressor&&) noexcept = default;
+
+std::span<const std::uint8_t> JpegCompressor::compress(const RgbRows& rows, int quality) {
+    assert(quality >= 1 && quality <= 100);
+    if (rows.width < 1 || rows.height < 1 || std::max(rows.width, rows.height) > kLargestSide) {
+        fail("picture of " + std::to_string(rows.width) + " x " + std::to_string(rows.height) +
+             " pixels");
+    }
+    assert(rows.stride >= 3 * static_cast<std::size_t>(rows.width));
+    const bool full = quality >= kJpegFullColour;
+    const int sampling = full ? TJSAMP_444 : TJSAMP_420;
+    // The fast cosine transform is off by a grey level or two, which shows at high quality alone.
+    const int flags = TJFLAG_NOREALLOC | (full ? TJFLAG_ACCURATEDCT : TJFLAG_FASTDCT);
+    const std::size_t most = tjBufSize(rows.width, rows.height, sampling);
+    if (bytes_.size() < most) bytes_.resize(most);
+    unsigned char* to = bytes_.data();
+    unsigned long size = bytes_.size();
+    if (tjCompress2(handle_.get(), rows.first, rows.width, static_cast<int>(rows.stride),
+                    rows.height, TJPF_RGB, &to, &size, sampling, quality, flags) != 0) {
+        fail(tjGetErrorStr2(handle_.get()));
+    }
+    return std::span(bytes_).first(size);
+}
+
+}  // namespace lightwalk
