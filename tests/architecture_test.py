@@ -18,7 +18,7 @@ FORBIDDEN_HEADERS = {
 # "." are the files that lie in no subfolder; None: not held yet.
 ORDER = {
     "core": [".", "math", "model", "view", "glare", "function", "geometry", "scene", "transport", "texture", "light", "relay", "material", "ambient", "trace", "cloud"],
-    "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "generators", "scene"],
+    "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "generators", "scene", "net"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 

@@ -101,5 +101,8 @@ TEST_CASE("mutated pictures are read or refused") {
 TEST_CASE("mutated data files, fonts and meshes are read or refused") {
     endure(kFuzzTargets[4]);
 }
+TEST_CASE("mutated messages of browsers are read or refused") {
+    endure(kFuzzTargets[5]);
+}
 
 }  // namespace lightwalk::test

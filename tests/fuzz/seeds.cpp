@@ -49,6 +49,17 @@ f(x,y) = g(x) + g(y); g(x) = 1/(1 + x*x) - Exp(-x) + atan2(x, 1);
 const std::string kData1 = "# comment\n2\n0 1 3\n0 0 4 1 2 4 8\n1 2 3 4\n5 6 7 8\n9 10 11 12\n";
 const std::string kFont = "32 0\n65 4 40 30 200 30 200 220 40 220\n66 3 20 20 240 20 130 240\n";
 
+const std::string kViewRequest =
+    R"({"type":"view","id":7,"view":{"type":"v","position":[1,2,1.6],"direction":[0,1,0],)"
+    R"("up":[0,0,1],"horizontal":60,"vertical":40.5,"fore":0.1,"aft":9,"shift":0.25,"lift":-0.5},)"
+    R"("width":640,"height":480,"moving":true,"walk":false})";
+const std::string kDisplayRequest =
+    R"({"type":"display","mode":"tone","exposure":{"auto":false,"ev":-2.5},"human":true,)"
+    R"("scale":{"low":0.1,"high":3000,"log":true}})";
+const std::string kProbesRequest =
+    R"({"type":"probes","probes":[{"id":1,"position":[1,2,3],"normal":[0,0,2]},)"
+    R"({"id":2,"position":[-1,0,0],"normal":[1,0,0]}]})";
+
 /// Big-endian integer of n bytes.
 std::string integer(std::int64_t value, int n) {
     std::string bytes;
@@ -125,7 +136,9 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_scene_text) return scenes;
     if (target == read_octree) return octrees;
     if (target == read_function_file) return functions;
+    static const std::vector<std::string> requests{kViewRequest, kDisplayRequest, kProbesRequest};
     if (target == read_picture) return pictures;
+    if (target == read_walk_request) return requests;
     return data;
 }
 

@@ -8,6 +8,7 @@
 #include "core/texture/interpolate.h"
 #include "core/transport/tracer.h"
 #include "io/formats/decode.h"
+#include "io/net/walk_request.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/scene/binary_models.h"
@@ -101,6 +102,13 @@ bool read_data_file(std::string_view bytes) {
     const bool font = accepts([&] { (void)decode_font(bytes, "mutant.fnt"); });
     const bool mesh = accepts([&] { (void)decode_mesh(bytes, "mutant.rtm"); });
     return data || font || mesh;
+}
+
+bool read_walk_request(std::string_view bytes) {
+    return accepts([&] {
+        const WalkRequest request = parse_walk_request(bytes);
+        if (const auto* view = std::get_if<ViewRequest>(&request)) (void)Camera(view->view);
+    });
 }
 
 }  // namespace lightwalk::test

@@ -17,6 +17,7 @@ bool read_octree(std::string_view bytes);         ///< the same for an octree
 bool read_function_file(std::string_view bytes);  ///< load, compile and evaluate its variables
 bool read_picture(std::string_view bytes);        ///< as a pattern and as a picture
 bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
+bool read_walk_request(std::string_view bytes);   ///< a browser's message
 
 /// Sound inputs of each target; made here, so that the tests need no other files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
@@ -25,10 +26,8 @@ struct NamedTarget {
     std::string_view name;
     FuzzTarget run;
 };
-inline constexpr NamedTarget kFuzzTargets[] = {{"scene", read_scene_text},
-                                               {"octree", read_octree},
-                                               {"function", read_function_file},
-                                               {"picture", read_picture},
-                                               {"data", read_data_file}};
+inline constexpr NamedTarget kFuzzTargets[] = {
+    {"scene", read_scene_text}, {"octree", read_octree},  {"function", read_function_file},
+    {"picture", read_picture},  {"data", read_data_file}, {"request", read_walk_request}};
 
 }  // namespace lightwalk::test

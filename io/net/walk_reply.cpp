@@ -1,0 +1,182 @@
+#include "io/net/walk_reply.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lightwalk {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string text_of(const Json& object) {
+    return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json to_json(const Vec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Json to_json(const View& view) {
+    return {{"type", std::string(1, view.type)},
+            {"position", to_json(view.position)},
+            {"direction", to_json(view.direction)},
+            {"up", to_json(view.up)},
+            {"horizontal", view.horizontal},
+            {"vertical", view.vertical},
+            {"fore", view.fore},
+            {"aft", view.aft},
+            {"shift", view.shift},
+            {"lift", view.lift}};
+}
+
+Json to_json(const std::vector<NamedView>& views) {
+    Json list = Json::array();
+    for (const NamedView& named : views) {
+        list.push_back({{"name", named.name}, {"view", to_json(named.view)}});
+    }
+    return list;
+}
+
+Json to_json(const DisplayRequest& display) {
+    return {
+        {"mode", display.false_colour ? "false" : "tone"},
+        {"exposure", {{"auto", display.automatic}, {"ev", display.ev}}},
+        {"human", display.human},
+        {"scale", {{"low", display.low}, {"high", display.high}, {"log", display.logarithmic}}}};
+}
+
+const char* word(WalkAmbient ambient) {
+    switch (ambient) {
+        case WalkAmbient::always:
+            return "always";
+        case WalkAmbient::off:
+            return "off";
+        default:
+            return "rest";
+    }
+}
+
+const char* word(WalkPhase phase) {
+    switch (phase) {
+        case WalkPhase::filling:
+            return "filling";
+        case WalkPhase::refining:
+            return "refining";
+        case WalkPhase::ambient:
+            return "ambient";
+        case WalkPhase::done:
+            return "done";
+        default:
+            return "moving";
+    }
+}
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+    return value ? Json(*value) : Json();
+}
+
+}  // namespace
+
+std::string walk_text(const WelcomeReply& reply) {
+    return text_of({{"type", "welcome"},
+                    {"version", reply.version},
+                    {"you", reply.you},
+                    {"driver", reply.driver},
+                    {"scene", reply.scene},
+                    {"max_size", Json::array({reply.max_size.width, reply.max_size.height})},
+                    {"fps", reply.fps},
+                    {"views", to_json(reply.views)},
+                    {"view", reply.view ? to_json(*reply.view) : Json()},
+                    {"display", to_json(reply.display)},
+                    {"settings", {{"ambient", word(reply.settings.ambient)}}}});
+}
+
+std::string walk_text(const LoadingReply& reply) {
+    return text_of({{"type", "loading"}, {"text", reply.text}, {"share", reply.share}});
+}
+
+std::string walk_text(const FailedReply& reply) {
+    return text_of({{"type", "failed"}, {"messages", reply.messages}});
+}
+
+std::string walk_text(const LoadedReply& reply) {
+    return text_of(
+        {{"type", "loaded"}, {"views", to_json(reply.views)}, {"eye_height", reply.eye_height}});
+}
+
+std::string walk_text(const RoleReply& reply) {
+    return text_of({{"type", "role"},
+                    {"driver", reply.driver},
+                    {"driver_id", or_null(reply.driver_id)},
+                    {"clients", reply.clients}});
+}
+
+std::string walk_text(const PickedReply& reply) {
+    return text_of({{"type", "picked"},
+                    {"id", reply.id},
+                    {"hit", reply.hit},
+                    {"luminance", reply.luminance},
+                    {"illuminance", reply.illuminance},
+                    {"distance", reply.distance},
+                    {"position", to_json(reply.position)},
+                    {"normal", to_json(reply.normal)},
+                    {"material", reply.material},
+                    {"surface", reply.surface}});
+}
+
+std::string walk_text(const MeanReply& reply) {
+    return text_of({{"type", "mean"},
+                    {"id", reply.id},
+                    {"luminance", reply.luminance},
+                    {"pixels", reply.pixels}});
+}
+
+std::string walk_text(const ProbesReply& reply) {
+    Json list = Json::array();
+    for (const ProbeValue& probe : reply.probes) {
+        list.push_back(
+            {{"id", probe.id}, {"illuminance", probe.illuminance}, {"luminance", probe.luminance}});
+    }
+    return text_of({{"type", "probes"}, {"probes", list}, {"settled", reply.settled}});
+}
+
+std::string walk_text(const GlareReply& reply) {
+    Json list = Json::array();
+    for (const GlareOutline& source : reply.sources) {
+        Json outline = Json::array();
+        for (const auto& [x, y] : source.outline) outline.push_back(Json::array({x, y}));
+        list.push_back({{"outline", outline},
+                        {"luminance", source.luminance},
+                        {"solid_angle", source.solid_angle},
+                        {"position_index", source.position_index}});
+    }
+    return text_of({{"type", "glare"},
+                    {"id", reply.id},
+                    {"done", reply.done},
+                    {"dgp", reply.dgp},
+                    {"sources", list}});
+}
+
+std::string walk_text(const StateReply& reply) {
+    return text_of({{"type", "state"},
+                    {"fps", reply.fps},
+                    {"reuse", reply.reuse},
+                    {"rays_per_second", reply.rays_per_second},
+                    {"phase", word(reply.phase)},
+                    {"share", reply.share},
+                    {"ranks", reply.ranks},
+                    {"threads", reply.threads},
+                    {"points", reply.points}});
+}
+
+std::string walk_text(const RefusedReply& reply) {
+    Json object{{"type", "refused"}, {"text", reply.text}};
+    if (reply.id) object["id"] = *reply.id;
+    return text_of(object);
+}
+
+std::string walk_text(const ByeReply& reply) {
+    return text_of({{"type", "bye"}, {"reason", reply.reason}});
+}
+
+}  // namespace lightwalk

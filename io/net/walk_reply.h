@@ -1,0 +1,119 @@
+#pragma once
+// What a walk tells its browsers: values, and the texts they become. The format is in README.md
+// beside this. Numbers that are not finite are written as null, bytes that are no UTF-8 (names in
+// scenes may be anything) as U+FFFD.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/net/walk_request.h"
+
+namespace lightwalk {
+
+struct NamedView {
+    std::string name;
+    View view;
+};
+/// The first reply, to a hello.
+struct WelcomeReply {
+    std::string version;
+    std::uint32_t you = 0;
+    bool driver = false;
+    std::string scene;
+    WalkSizeLimit max_size;
+    double fps = 30;
+    std::vector<NamedView> views;
+    std::optional<View> view;  ///< where this client stands
+    DisplayRequest display;
+    SettingsRequest settings;
+};
+/// The scene is being read.
+struct LoadingReply {
+    std::string text;
+    double share = 0;
+};
+/// The scene cannot be read.
+struct FailedReply {
+    std::vector<std::string> messages;  ///< "file:line: ..."
+};
+struct LoadedReply {
+    std::vector<NamedView> views;
+    double eye_height = 1.6;  ///< [m]
+};
+struct RoleReply {
+    bool driver = false;
+    std::optional<std::uint32_t> driver_id;
+    std::vector<std::uint32_t> clients;
+};
+struct PickedReply {
+    std::uint32_t id = 0;
+    bool hit = false;
+    double luminance = 0;    ///< [cd/m²]
+    double illuminance = 0;  ///< [lx]
+    double distance = 0;     ///< [m]
+    Vec3 position, normal;
+    std::string material, surface;
+};
+struct MeanReply {
+    std::uint32_t id = 0;
+    double luminance = 0;  ///< [cd/m²]
+    std::uint64_t pixels = 0;
+};
+struct ProbeValue {
+    std::uint32_t id = 0;
+    double illuminance = 0;  ///< [lx]
+    double luminance = 0;    ///< [cd/m²]
+};
+struct ProbesReply {
+    std::vector<ProbeValue> probes;
+    double settled = 0;  ///< share
+};
+struct GlareOutline {
+    std::vector<std::pair<double, double>> outline;  ///< 0 to 1 of the picture
+    double luminance = 0;                            ///< [cd/m²]
+    double solid_angle = 0;                          ///< [sr]
+    double position_index = 1;
+};
+struct GlareReply {
+    std::uint32_t id = 0;
+    double done = 0;  ///< share
+    double dgp = 0;
+    std::vector<GlareOutline> sources;
+};
+enum class WalkPhase { moving, filling, refining, ambient, done };
+struct StateReply {
+    double fps = 0;
+    double reuse = 0;  ///< share of the pixels
+    double rays_per_second = 0;
+    WalkPhase phase = WalkPhase::moving;
+    double share = 0;  ///< of the phase that is done
+    int ranks = 1, threads = 1;
+    std::uint64_t points = 0;
+};
+/// A request that cannot be done.
+struct RefusedReply {
+    std::string text;
+    std::optional<std::uint32_t> id;
+};
+/// Before the server closes.
+struct ByeReply {
+    std::string reason;
+};
+
+[[nodiscard]] std::string walk_text(const WelcomeReply& reply);
+[[nodiscard]] std::string walk_text(const LoadingReply& reply);
+[[nodiscard]] std::string walk_text(const FailedReply& reply);
+[[nodiscard]] std::string walk_text(const LoadedReply& reply);
+[[nodiscard]] std::string walk_text(const RoleReply& reply);
+[[nodiscard]] std::string walk_text(const PickedReply& reply);
+[[nodiscard]] std::string walk_text(const MeanReply& reply);
+[[nodiscard]] std::string walk_text(const ProbesReply& reply);
+[[nodiscard]] std::string walk_text(const GlareReply& reply);
+[[nodiscard]] std::string walk_text(const StateReply& reply);
+[[nodiscard]] std::string walk_text(const RefusedReply& reply);
+[[nodiscard]] std::string walk_text(const ByeReply& reply);
+
+}  // namespace lightwalk

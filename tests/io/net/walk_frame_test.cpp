@@ -1,0 +1,60 @@
+#include "io/net/walk_frame.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using namespace lightwalk;
+
+namespace {
+
+std::string bytes_of(const std::vector<int>& values) {
+    std::string bytes;
+    for (const int value : values) bytes += static_cast<char>(value);
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("walk frame: the header is 48 bytes, little-endian, each where it belongs") {
+    WalkFrameHeader header;
+    header.frame = 0x04030201;
+    header.view = 0x08070605;
+    header.width = 0x0a09;
+    header.height = 0x0c0b;
+    header.whole = true;
+    header.exposure = 0.15625f;  // 0x3e200000
+    header.eye = {1, -2, 0.1};   // 0x3ff0..., 0xc000..., 0x3fb999999999999a
+    const std::string expected = bytes_of(
+        {'L', 'W', 'F', '1', 1, 2, 3,    4,    5,    6,    7,    8,    9,    10,   11,   12,
+         1,   0,   0,   0,   0, 0, 0x20, 0x3e, 0,    0,    0,    0,    0,    0,    0xf0, 0x3f,
+         0,   0,   0,   0,   0, 0, 0,    0xc0, 0x9a, 0x99, 0x99, 0x99, 0x99, 0x99, 0xb9, 0x3f});
+    CHECK(expected.size() == 48);
+    CHECK(encode_walk_frame(header, {}) == expected);
+}
+
+TEST_CASE("walk frame: each flag is a bit of its own") {
+    WalkFrameHeader header;
+    CHECK(encode_walk_frame(header, {})[16] == 0);
+    header.at_rest = true;
+    CHECK(encode_walk_frame(header, {})[16] == 2);
+    header.finished = true;
+    CHECK(encode_walk_frame(header, {})[16] == 6);
+    header.whole = true;
+    CHECK(encode_walk_frame(header, {})[16] == 7);
+}
+
+TEST_CASE("walk frame: pieces follow the header, each with its place, codec, length and bytes") {
+    const std::string large(0x10203, 'x');
+    const std::vector<WalkFramePiece> pieces{{1, 2, 3, 4, PieceCodec::jpeg, "abc"},
+                                             {0x1234, 0xfffe, 256, 1, PieceCodec::png, large},
+                                             {}};
+    const std::string frame = encode_walk_frame({}, pieces);
+    CHECK(frame.substr(18, 2) == bytes_of({3, 0}));
+    const std::string first =
+        bytes_of({1, 0, 2, 0, 3, 0, 4, 0, 1, 0, 0, 0, 3, 0, 0, 0, 'a', 'b', 'c'});
+    const std::string second =
+        bytes_of({0x34, 0x12, 0xfe, 0xff, 0, 1, 1, 0, 2, 0, 0, 0, 3, 2, 1, 0}) + large;
+    const std::string third = bytes_of({0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
+    CHECK(frame.substr(48) == first + second + third);
+}

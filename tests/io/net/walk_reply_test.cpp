@@ -1,0 +1,99 @@
+#include "io/net/walk_reply.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+using namespace lightwalk;
+using nlohmann::json;
+
+namespace {
+
+const View kView{'v', {1, 2, 1.6}, {0, 1, 0}, {0, 0, 1}, 60, 40, 0.1, 0, 0, 0.5};
+const json kViewJson = json::parse(R"({"type": "v", "position": [1.0, 2.0, 1.6],
+    "direction": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0], "horizontal": 60.0, "vertical": 40.0,
+    "fore": 0.1, "aft": 0.0, "shift": 0.0, "lift": 0.5})");
+
+}  // namespace
+
+TEST_CASE("walk reply: a welcome tells all that a page starts from") {
+    WelcomeReply reply{"0.1.0",           3,     true, "cabin.rad", {1280, 720}, 30,
+                       {{"door", kView}}, kView, {},   {}};
+    reply.display.false_colour = true;
+    reply.settings.ambient = WalkAmbient::always;
+    json expected = json::parse(R"({"type": "welcome", "version": "0.1.0", "you": 3,
+        "driver": true, "scene": "cabin.rad", "max_size": [1280, 720], "fps": 30.0,
+        "display": {"mode": "false", "exposure": {"auto": true, "ev": 0.0}, "human": false,
+                    "scale": {"low": 1.0, "high": 10000.0, "log": true}},
+        "settings": {"ambient": "always"}})");
+    expected["view"] = kViewJson;
+    expected["views"] = json::array({{{"name", "door"}, {"view", kViewJson}}});
+    CHECK(json::parse(walk_text(reply)) == expected);
+    reply.view.reset();
+    CHECK(json::parse(walk_text(reply))["view"].is_null());
+}
+
+TEST_CASE("walk reply: views and settings come back as the same requests") {
+    WelcomeReply reply;
+    reply.view = kView;
+    reply.display = {true, false, -1.5, true, 0.25, 2000, false};
+    for (const WalkAmbient ambient : {WalkAmbient::rest, WalkAmbient::always, WalkAmbient::off}) {
+        reply.settings.ambient = ambient;
+        const json told = json::parse(walk_text(reply));
+        json display = told["display"], settings = told["settings"];
+        display["type"] = "display";
+        settings["type"] = "settings";
+        const json view{{"type", "view"}, {"id", 1},         {"view", told["view"]}, {"width", 8},
+                        {"height", 8},    {"moving", false}, {"walk", false}};
+        CHECK(std::get<ViewRequest>(parse_walk_request(view.dump())).view == kView);
+        CHECK(std::get<DisplayRequest>(parse_walk_request(display.dump())) == reply.display);
+        CHECK(std::get<SettingsRequest>(parse_walk_request(settings.dump())) == reply.settings);
+    }
+}
+
+TEST_CASE("walk reply: each is the text that the format has for it") {
+    const auto same = [](const std::string& text, const char* expected) {
+        CHECK(json::parse(text) == json::parse(expected));
+    };
+    same(walk_text(LoadingReply{"octree", 0.5}),
+         R"({"type": "loading", "text": "octree", "share": 0.5})");
+    same(walk_text(FailedReply{{"a.rad:1: x", "b"}}),
+         R"({"type": "failed", "messages": ["a.rad:1: x", "b"]})");
+    same(walk_text(FailedReply{}), R"({"type": "failed", "messages": []})");
+    same(walk_text(LoadedReply{{}, 1.5}), R"({"type": "loaded", "views": [], "eye_height": 1.5})");
+    same(walk_text(RoleReply{true, 4, {4, 5}}),
+         R"({"type": "role", "driver": true, "driver_id": 4, "clients": [4, 5]})");
+    same(walk_text(RoleReply{}),
+         R"({"type": "role", "driver": false, "driver_id": null, "clients": []})");
+    same(walk_text(PickedReply{7, true, 100.5, 30, 2.5, {1, 2, 3}, {0, 0, 1}, "oak", "table.1"}),
+         R"({"type": "picked", "id": 7, "hit": true, "luminance": 100.5, "illuminance": 30.0,
+             "distance": 2.5, "position": [1.0, 2.0, 3.0], "normal": [0.0, 0.0, 1.0],
+             "material": "oak", "surface": "table.1"})");
+    same(walk_text(MeanReply{8, 12.5, 640}),
+         R"({"type": "mean", "id": 8, "luminance": 12.5, "pixels": 640})");
+    same(walk_text(ProbesReply{{{1, 500, 80}}, 0.25}),
+         R"({"type": "probes", "probes": [{"id": 1, "illuminance": 500.0, "luminance": 80.0}],
+             "settled": 0.25})");
+    same(walk_text(GlareReply{9, 1, 0.5, {{{{0, 0.5}, {1, 1}}, 2000, 0.125, 1.5}}}),
+         R"({"type": "glare", "id": 9, "done": 1.0, "dgp": 0.5, "sources": [
+             {"outline": [[0.0, 0.5], [1.0, 1.0]], "luminance": 2000.0, "solid_angle": 0.125,
+              "position_index": 1.5}]})");
+    same(walk_text(StateReply{30, 0.97, 1e6, WalkPhase::refining, 0.5, 2, 8, 300000}),
+         R"({"type": "state", "fps": 30.0, "reuse": 0.97, "rays_per_second": 1000000.0,
+             "phase": "refining", "share": 0.5, "ranks": 2, "threads": 8, "points": 300000})");
+    same(walk_text(RefusedReply{"no", 3}), R"({"type": "refused", "text": "no", "id": 3})");
+    same(walk_text(RefusedReply{"no", {}}), R"({"type": "refused", "text": "no"})");
+    same(walk_text(ByeReply{"end"}), R"({"type": "bye", "reason": "end"})");
+}
+
+TEST_CASE("walk reply: names that are no UTF-8 and numbers that are none are still JSON") {
+    PickedReply reply;
+    reply.material = "wei\xdf \"quoted\"\n";
+    reply.luminance = std::numeric_limits<double>::quiet_NaN();
+    reply.distance = std::numeric_limits<double>::infinity();
+    const json told = json::parse(walk_text(reply));
+    CHECK(told["material"] == "wei\xef\xbf\xbd \"quoted\"\n");
+    CHECK(told["luminance"].is_null());
+    CHECK(told["distance"].is_null());
+}
