@@ -1,0 +1,17 @@
+#pragma once
+// Boost.Asio and Boost.Beast, compiled once: in beast.cpp. Whoever speaks to sockets includes them
+// from here, so that all agree on that.
+#ifndef BOOST_ASIO_SEPARATE_COMPILATION
+#define BOOST_ASIO_SEPARATE_COMPILATION
+#endif
+#ifndef BOOST_BEAST_SEPARATE_COMPILATION
+#define BOOST_BEAST_SEPARATE_COMPILATION
+#endif
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/host_name.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>

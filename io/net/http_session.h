@@ -1,0 +1,62 @@
+#pragma once
+// One HTTP connection of the web server: request by request, until it ends or becomes a WebSocket.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/net/client_session.h"
+
+namespace lightwalk {
+
+/// An asset, and the name of its contents by which browsers ask whether it changed.
+struct StoredAsset {
+    WebAsset asset;
+    std::string etag;
+};
+
+class HttpSession;
+
+/// Whom an HTTP connection asks.
+class HttpHost {
+  public:
+    virtual ~HttpHost() = default;
+    [[nodiscard]] virtual const std::string& token() const = 0;
+    [[nodiscard]] virtual const StoredAsset* asset(const std::string& path) const = 0;
+    [[nodiscard]] virtual bool room_for_client() const = 0;
+    virtual void upgrade(boost::beast::tcp_stream stream, const HttpRequest& request) = 0;
+    /// The session waits for answer(); keep it.
+    virtual void save(const std::string& path, std::shared_ptr<HttpSession> session) = 0;
+};
+
+/// All members are called on the server's thread.
+class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
+  public:
+    HttpSession(boost::asio::ip::tcp::socket socket, const WebLimits& limits, HttpHost& host,
+                List& list);
+
+    /// Wait for a request.
+    void read();
+    /// To the request that went to HttpHost::save().
+    void answer(WebAnswer answer);
+    void stop(const std::string& reason) override;
+
+  private:
+    using Response = boost::beast::http::response<boost::beast::http::string_body>;
+    void on_read(boost::beast::error_code error);
+    void decide();
+    void give(const StoredAsset& stored);
+    void refuse(unsigned status, std::string text);
+    void write(Response response);
+    void on_write(boost::beast::error_code error);
+    void drain();
+
+    boost::beast::tcp_stream stream_;
+    boost::beast::flat_buffer received_;
+    std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+    Response response_;
+    const WebLimits& limits_;
+    HttpHost& host_;
+    bool keep_alive_ = false;
+};
+
+}  // namespace lightwalk
