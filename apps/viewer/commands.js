@@ -1,0 +1,211 @@
+// What buttons and keys do, each named once.
+import { token_query } from "./connection.js";
+import { by_id } from "./dom.js";
+import { notice } from "./notices.js";
+import { close_panel, toggle_help, toggle_panel, toggle_status } from "./panels.js";
+import { download, download_text, file_name, full_picture, picture_blob } from "./save.js";
+import { listen_for_shortcuts } from "./shortcuts.js";
+import { measurement_table } from "./table.js";
+import { parse_views, path_text, view_line } from "./view_text.js";
+
+/** Whether the system asks for less motion: then jumps are jumps. */
+const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+class Commands {
+    /** @param page  its parts; home() and scene() tell what is so at the moment */
+    constructor(page) {
+        Object.assign(this, page);
+        this.area_wanted = false;
+        this.walk_shown_ = true;
+    }
+
+    // Places
+
+    go(view) {
+        if (!view || !this.session.driving) return;
+        this.navigator.jump(view, performance.now(), still() ? 0 : undefined);
+        this.show_back_();
+    }
+
+    back() {
+        if (!this.session.driving) return;
+        if (!this.navigator.undo(performance.now(), still() ? 0 : undefined)) notice("No jump to undo");
+        this.show_back_();
+    }
+
+    show_back_() {
+        by_id("go-back").disabled = !this.navigator.can_undo;
+    }
+
+    toggle_walk() {
+        if (!this.session.driving) return;
+        this.navigator.set_walk(!this.navigator.walk);
+        this.show_walk();
+    }
+
+    /** The button tells how the eye moves, which keys change, too. */
+    show_walk() {
+        const { walk } = this.navigator;
+        if (walk === this.walk_shown_) return;
+        this.walk_shown_ = walk;
+        const button = by_id("walk");
+        button.setAttribute("aria-pressed", String(walk));
+        button.querySelector("use").setAttribute("href", walk ? "#i-walk" : "#i-fly");
+        button.querySelector("span").textContent = walk ? "Walk" : "Fly";
+        notice(walk ? "Walking: the eye keeps its height" : "Flying: E and Q rise and sink");
+    }
+
+    /** The view as it is now, with the sizes of this window. */
+    present_view() {
+        return this.session.shown_id === this.session.view_id && this.session.shown || this.session.view;
+    }
+
+    save_view(naming) {
+        const view = this.present_view();
+        if (!view) return;
+        const name = this.views.save(view, undefined, naming);
+        if (!naming) notice(`Saved as ${name}`);
+    }
+
+    add_key() {
+        const view = this.present_view();
+        if (view) notice(`Key ${this.views.add_key(view)}`);
+    }
+
+    async open_views(file) {
+        try {
+            const views = parse_views(await file.text());
+            const name = file.name.replace(/\.[^.]*$/, "");
+            views.forEach((view, k) => this.views.save(view, views.length > 1 ? `${name} ${k + 1}` : name));
+            this.go(views[0]);
+        } catch (error) {
+            notice(`${file.name}: ${error.message}`, true);
+        }
+    }
+
+    // Light
+
+    want_area(wanted) {
+        this.area_wanted = wanted;
+        by_id("area").setAttribute("aria-pressed", String(wanted));
+        if (wanted) notice("Drag over the area");
+    }
+
+    end_area() {
+        this.want_area(false);
+    }
+
+    ask_glare() {
+        if (!this.session.view) return;
+        this.glare.view = this.present_view();
+        this.glare.asked(this.session.ask("glare"));
+    }
+
+    // Files
+
+    name_(kind) {
+        return file_name(this.scene(), kind);
+    }
+
+    async write_png() {
+        try {
+            download(await picture_blob(this.picture, this.light.display), this.name_("png"));
+        } catch (error) {
+            notice(`No picture: ${error.message}`, true);
+        }
+    }
+
+    async write_hdr() {
+        const button = by_id("write-hdr");
+        button.disabled = true;
+        notice("Drawing in full quality…");
+        try {
+            download(await full_picture(token_query(location.href)), this.name_("hdr"));
+            notice("Saved");
+        } catch (error) {
+            notice(`No picture: ${error.message}`, true);
+        } finally {
+            button.disabled = false;
+        }
+    }
+
+    write_view() {
+        const view = this.present_view();
+        if (view) download_text(view_line(view), this.name_("vf"));
+    }
+
+    write_path() {
+        download_text(path_text(this.views.keys), this.name_("path.vf"));
+    }
+
+    write_table() {
+        const { probes, areas } = this.measurements;
+        const settings = { ambient: this.light.settings.ambient, scene: this.scene() };
+        download_text(measurement_table(probes, areas, settings), this.name_("csv"));
+    }
+
+    /** Close what is open, the nearest first. */
+    escape() {
+        if (this.area_wanted) this.want_area(false);
+        else if (!this.reading.close() && !close_panel()) this.glare.clear();
+        this.picture.focus({ preventScroll: true });
+    }
+}
+
+/** Buttons by their names in the page. */
+function listen_for_buttons(commands) {
+    const { views, measurements, glare } = commands;
+    const buttons = {
+        "save-view": () => commands.save_view(true),
+        "go-home": () => commands.go(commands.home()),
+        "go-back": () => commands.back(),
+        "open-views": () => by_id("views-file").click(),
+        "write-view": () => commands.write_view(),
+        "write-view-too": () => commands.write_view(),
+        "add-key": () => commands.add_key(),
+        "write-path": () => commands.write_path(),
+        "write-path-too": () => commands.write_path(),
+        "clear-path": () => views.clear_keys(),
+        "write-table": () => commands.write_table(),
+        "write-table-too": () => commands.write_table(),
+        "clear-table": () => measurements.clear(),
+        "write-png": () => commands.write_png(),
+        "write-hdr": () => commands.write_hdr(),
+        "ask-glare": () => commands.ask_glare(),
+        "clear-glare": () => glare.clear(),
+        "area": () => commands.want_area(!commands.area_wanted),
+        "walk": () => commands.toggle_walk(),
+        "show-status": toggle_status,
+    };
+    for (const [id, act] of Object.entries(buttons)) by_id(id).addEventListener("click", () => act());
+    by_id("views-file").addEventListener("change", (event) => {
+        if (event.target.files[0]) commands.open_views(event.target.files[0]);
+        event.target.value = "";
+    });
+}
+
+function keys_of(commands) {
+    const { light, views, reading } = commands;
+    const drive = (act) => () => commands.session.driving && act();
+    const middle = () => commands.pick_at(0.5, 0.5);
+    const keys = {
+        "?": toggle_help, h: () => commands.go(commands.home()), g: () => commands.toggle_walk(),
+        Backspace: () => commands.back(), b: () => commands.save_view(false), k: () => commands.add_key(),
+        p: () => reading.pin(), r: () => commands.want_area(!commands.area_wanted),
+        f: drive(() => light.toggle_false()), x: drive(() => light.toggle_auto()),
+        "-": drive(() => light.step_exposure(-1)), "_": drive(() => light.step_exposure(-1)),
+        "+": drive(() => light.step_exposure(1)), "=": drive(() => light.step_exposure(1)),
+        l: () => toggle_panel("light"), v: () => toggle_panel("views"), m: () => toggle_panel("measure"),
+        i: toggle_status, Enter: middle, " ": middle, Escape: () => commands.escape(),
+    };
+    for (let k = 0; k < 9; ++k) keys[k + 1] = () => commands.go(views.at(k)?.view);
+    return keys;
+}
+
+/** Make buttons and keys work. */
+export function start_commands(page) {
+    const commands = new Commands(page);
+    listen_for_buttons(commands);
+    listen_for_shortcuts(keys_of(commands), page.picture);
+    return commands;
+}

@@ -1,0 +1,92 @@
+// The line to the server: one WebSocket, made again when it breaks.
+
+const kFirstWait = 250, kLongestWait = 5000;  // [ms]
+
+/** How long to wait before try number `attempt` (0, 1, ...) [ms]; twice as long each time. */
+export const wait_before = (attempt) => Math.min(kLongestWait, kFirstWait * 2 ** attempt);
+
+/** The WebSocket's address beside the page's: same host, same folder, same token. */
+export function socket_address(page) {
+    const address = new URL("walk", page);
+    address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+    address.search = token_query(page);
+    return address.href;
+}
+
+/** "?token=..." where the page was opened with one, else nothing. */
+export function token_query(page) {
+    const token = new URL(page).searchParams.get("token");
+    return token ? `?token=${encodeURIComponent(token)}` : "";
+}
+
+export class Connection {
+    /**
+     * @param address  of the WebSocket
+     * @param on  {open(), message(object), frame(buffer), lost(reason, wait)}: wait: until the next try [ms]
+     */
+    constructor(address, on) {
+        this.address_ = address;
+        this.on_ = on;
+        this.attempt_ = 0;
+        this.reason_ = "";
+        this.bytes = 0;
+        this.open_();
+    }
+
+    get connected() {
+        return this.socket_?.readyState === WebSocket.OPEN;
+    }
+
+    send(message) {
+        if (!this.connected) return false;
+        this.socket_.send(JSON.stringify(message));
+        return true;
+    }
+
+    /** Try now instead of waiting: the network is back, or the window is looked at again. */
+    hurry() {
+        if (this.timer_ === undefined) return;
+        clearTimeout(this.timer_);
+        this.open_();
+    }
+
+    open_() {
+        this.timer_ = undefined;
+        const socket = new WebSocket(this.address_);
+        socket.binaryType = "arraybuffer";
+        socket.onopen = () => {
+            this.reason_ = "";
+            this.on_.open();
+        };
+        socket.onmessage = (event) => this.receive_(event.data);
+        socket.onclose = (event) => this.lost_(event.reason);
+        this.socket_ = socket;
+    }
+
+    receive_(data) {
+        // Whoever opens and at once closes again is no reason to try at full speed.
+        this.attempt_ = 0;
+        if (typeof data !== "string") {
+            this.bytes += data.byteLength;
+            return this.on_.frame(data);
+        }
+        this.bytes += data.length;
+        let message;
+        try {
+            message = JSON.parse(data);
+        } catch {
+            return console.warn("lightwalk: the server sent what is no JSON");
+        }
+        if (message.type === "bye") {
+            this.reason_ = message.reason || "";
+            this.attempt_ = 3;
+        }
+        this.on_.message(message);
+    }
+
+    lost_(reason) {
+        const wait = wait_before(this.attempt_++);
+        this.timer_ = setTimeout(() => this.open_(), wait);
+        this.on_.lost(this.reason_ || reason || "", wait);
+    }
+}

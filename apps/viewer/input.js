@@ -1,0 +1,132 @@
+// Mouse, fingers, wheel and keys become motion.
+import { kKeys } from "./motion.js";
+import { angle_across } from "./view.js";
+
+const kClick = 5;          // a press that moves less is a click [CSS pixels]
+const kNotch = 100;        // of a wheel [pixels]
+const kLine = 33;          // of a wheel that counts lines [pixels]
+
+/** Whether a key belongs to a control that has the focus. */
+function typing(target) {
+    return target instanceof HTMLElement &&
+        (target.matches("select, textarea, input:not([type=checkbox], [type=radio])") || target.closest("dialog"));
+}
+
+export class Input {
+    /**
+     * @param surface    what is dragged and clicked
+     * @param navigator
+     * @param on  {click(x, y), area_begin(x, y), area_move(x, y), area_end(x, y), speed(speed),
+     *     area_wanted(): bool, may_drive(): bool}: x, y in CSS pixels
+     */
+    constructor(surface, navigator, on) {
+        this.surface_ = surface;
+        this.navigator_ = navigator;
+        this.on_ = on;
+        this.fingers_ = new Map();
+        this.area_ = false;
+        this.travelled_ = 0;
+        this.listen_();
+    }
+
+    listen_() {
+        const surface = this.surface_;
+        surface.addEventListener("pointerdown", (event) => this.down_(event));
+        surface.addEventListener("pointermove", (event) => this.move_(event));
+        surface.addEventListener("pointerup", (event) => this.up_(event, true));
+        surface.addEventListener("pointercancel", (event) => this.up_(event, false));
+        surface.addEventListener("wheel", (event) => this.wheel_(event), { passive: false });
+        surface.addEventListener("contextmenu", (event) => event.preventDefault());
+        addEventListener("keydown", (event) => this.key_down_(event));
+        addEventListener("keyup", (event) => this.key_up_(event));
+        addEventListener("blur", () => this.navigator_.release_all());
+    }
+
+    down_(event) {
+        if (event.button !== 0) return;
+        this.surface_.setPointerCapture(event.pointerId);
+        this.surface_.focus({ preventScroll: true });
+        this.fingers_.set(event.pointerId, [event.clientX, event.clientY]);
+        if (this.fingers_.size > 1) return this.end_area_(event);
+        this.travelled_ = 0;
+        this.area_ = event.shiftKey || this.on_.area_wanted();
+        if (this.area_) this.on_.area_begin(event.clientX, event.clientY);
+    }
+
+    move_(event) {
+        const before = this.fingers_.get(event.pointerId);
+        if (!before) return;
+        const now = [event.clientX, event.clientY];
+        if (this.fingers_.size === 1) this.drag_(before, now, event);
+        else this.two_fingers_(event.pointerId, before, now, event.timeStamp);
+        if (this.fingers_.size > 1 || this.travelled_ >= kClick || this.area_)
+            this.fingers_.set(event.pointerId, now);
+    }
+
+    /** The picture is held: what is under the pointer stays there, nearly. */
+    drag_(before, now, event) {
+        const step = [now[0] - before[0], now[1] - before[1]];
+        this.travelled_ = Math.max(this.travelled_, Math.hypot(...step));
+        if (this.area_) return this.on_.area_move(...now);
+        if (this.travelled_ < kClick || !this.on_.may_drive()) return;
+        this.navigator_.dragging = true;
+        this.surface_.classList.add("looking");
+        const angle = angle_across(this.navigator_.view) / this.surface_.clientWidth;
+        this.navigator_.look(-step[0] * angle, step[1] * angle, event.timeStamp);
+    }
+
+    /** Two fingers push the picture: up is forward, their distance is the lens. */
+    two_fingers_(id, before, now, time) {
+        this.travelled_ = kClick;
+        if (!this.on_.may_drive()) return;
+        const other = [...this.fingers_].find(([key]) => key !== id)[1];
+        const apart = (p) => Math.max(20, Math.hypot(p[0] - other[0], p[1] - other[1]));
+        const metres = (2.5 * this.navigator_.speed) / this.surface_.clientHeight;
+        this.navigator_.dragging = true;
+        this.navigator_.shift(-(now[0] - before[0]) * metres, -(now[1] - before[1]) * metres, time);
+        this.navigator_.zoom(apart(before) / apart(now), time);
+    }
+
+    up_(event, meant) {
+        if (!this.fingers_.delete(event.pointerId)) return;
+        if (this.fingers_.size > 0) return;
+        this.surface_.classList.remove("looking");
+        this.navigator_.dragging = false;
+        if (this.area_) this.end_area_(event, meant);
+        else if (meant && this.travelled_ < kClick) this.on_.click(event.clientX, event.clientY);
+    }
+
+    end_area_(event, meant = false) {
+        if (this.area_) this.on_.area_end(event.clientX, event.clientY, meant && this.travelled_ >= kClick);
+        this.area_ = false;
+    }
+
+    wheel_(event) {
+        event.preventDefault();
+        if (!this.on_.may_drive()) return;
+        const pixels = event.deltaMode === 0 ? event.deltaY : event.deltaY * kLine;
+        // Browsers report a trackpad's pinch as a wheel with Ctrl.
+        if (event.ctrlKey) this.navigator_.zoom(Math.exp(pixels / 300), event.timeStamp);
+        else this.on_.speed(this.navigator_.change_speed(-pixels / kNotch));
+    }
+
+    key_down_(event) {
+        this.modify_(event);
+        if (typing(event.target) || event.metaKey || !kKeys[event.code]) return;
+        // Ctrl with letters is the browser's; a list that has the focus scrolls by its keys.
+        if (event.ctrlKey && event.code.startsWith("Key")) return;
+        if (event.target instanceof HTMLInputElement && event.code.startsWith("Arrow")) return;
+        event.preventDefault();
+        if (!event.repeat && this.on_.may_drive()) this.navigator_.press(event.code, event.timeStamp);
+    }
+
+    key_up_(event) {
+        this.modify_(event);
+        if (this.navigator_.keys.has(event.code)) this.navigator_.release(event.code, event.timeStamp);
+    }
+
+    modify_(event) {
+        const slower = event.altKey || event.ctrlKey;
+        this.navigator_.modifier = slower ? "slower" : event.shiftKey ? "faster" : "none";
+    }
+}

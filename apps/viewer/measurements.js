@@ -1,0 +1,94 @@
+// What was measured and stays: pins on surfaces and means over areas. No document in here.
+import { same_picture } from "./view.js";
+
+const kMostProbes = 64;       // that the server keeps up to date
+const kAskAgain = 1000;       // for a mean while the light settles [ms]
+
+const next_name = (letter, list) =>
+    letter + (1 + Math.max(0, ...list.map(({ name }) => Number(name.slice(1)) || 0)));
+const next_id = (lists) => 1 + Math.max(0, ...lists.flat().map(({ id }) => id));
+
+export class Measurements {
+    /** @param changed  called after each change, with whether pins came or went */
+    constructor(changed) {
+        this.changed_ = changed;
+        this.probes = [];   ///< {id, name, position, normal, material, surface, illuminance, luminance, settled, time}
+        this.areas = [];    ///< {id, name, rect, view, luminance, pixels, settled, time}
+    }
+
+    get count() {
+        return this.probes.length + this.areas.length;
+    }
+
+    /** What was kept from an earlier visit; anything that does not look right is left out. */
+    restore({ probes = [], areas = [] }) {
+        const triple = (v) => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
+        this.probes = probes.filter((p) => triple(p.position) && triple(p.normal)).slice(0, kMostProbes);
+        this.areas = areas.filter((a) => Array.isArray(a.rect) && triple(a.view?.position));
+        this.changed_(true);
+    }
+
+    /** A pin where a pick hit; its new probe, or nothing when there are too many. */
+    pin(pick, time) {
+        if (this.probes.length >= kMostProbes) return null;
+        const { position, normal, material, surface, illuminance, luminance } = pick;
+        const probe = {
+            id: next_id([this.probes, this.areas]), name: next_name("P", this.probes),
+            position, normal, material, surface, illuminance, luminance, settled: 0, time,
+        };
+        this.probes.push(probe);
+        this.changed_(true);
+        return probe;
+    }
+
+    /** An area of a view whose mean is asked for: its number is the request's. */
+    add_area(rect, view) {
+        const id = next_id([this.probes, this.areas]);
+        const area = { id, name: next_name("A", this.areas), rect, view, luminance: null, pixels: 0, settled: 0, time: "" };
+        this.areas.push(area);
+        this.changed_(false);
+        return area;
+    }
+
+    remove(id) {
+        const pins = this.probes.length;
+        this.probes = this.probes.filter((probe) => probe.id !== id);
+        this.areas = this.areas.filter((area) => area.id !== id);
+        this.changed_(this.probes.length !== pins);
+    }
+
+    clear() {
+        this.probes = [];
+        this.areas = [];
+        this.changed_(true);
+    }
+
+    /** The server's newest values of all pins. */
+    update_probes({ probes, settled }, time) {
+        for (const { id, illuminance, luminance } of probes) {
+            const probe = this.probes.find((p) => p.id === id);
+            if (probe) Object.assign(probe, { illuminance, luminance, settled, time });
+        }
+        this.changed_(false);
+    }
+
+    /** The server's answer for an area; false when it is not one of these. */
+    update_area({ id, luminance, pixels }, settled, time) {
+        const area = this.areas.find((a) => a.id === id);
+        if (!area) return false;
+        Object.assign(area, { luminance, pixels, settled, time });
+        this.changed_(false);
+        return true;
+    }
+
+    /** The areas of the present picture whose means are to be asked for again. */
+    areas_to_ask(view, share, now) {
+        return this.areas.filter((area) => {
+            if (area.settled >= 1 || !same_picture(area.view, view)) return false;
+            if (share < 1 && now - (area.asked || 0) < kAskAgain) return false;
+            if (share >= 1 && now - (area.asked || 0) < kAskAgain / 4) return false;
+            area.asked = now;
+            return true;
+        });
+    }
+}

@@ -1,0 +1,63 @@
+// Who drives and who watches.
+import { by_id, element } from "./dom.js";
+
+export class Roles {
+    /** @param on  {take(), hand(id), changed(driving)} */
+    constructor(on) {
+        this.on_ = on;
+        this.you = null;
+        this.driving = false;
+        this.returning_ = false;
+        this.others_ = [];
+        by_id("take").addEventListener("click", () => on.take());
+        by_id("hand-to").addEventListener("change", (event) => {
+            const other = this.others_[event.target.selectedIndex - 1];
+            if (other !== undefined) on.hand(other);
+            event.target.selectedIndex = 0;
+        });
+    }
+
+    welcome({ you, driver }) {
+        this.you = you;
+        this.set_(driver === true || (driver !== false && driver === you), driver, [you]);
+    }
+
+    /** {driver, driver_id, clients}: driver_id null: nobody drives. */
+    update({ driver, driver_id, clients }) {
+        const driving = driver_id === undefined ? driver === true : driver_id === this.you;
+        this.set_(driving, driver_id, clients || [this.you]);
+    }
+
+    /** The line broke: whoever drove takes over again when nobody else has. */
+    lost() {
+        this.returning_ = this.returning_ || this.driving;
+    }
+
+    set_(driving, driver_id, clients) {
+        const before = this.driving;
+        this.driving = driving;
+        this.others_ = clients.filter((id) => id !== this.you);
+        const vacant = !driving && driver_id === null;
+        if (driving || !vacant) this.returning_ = false;
+        if (this.returning_) this.on_.take();
+        this.show_(vacant);
+        if (before !== driving) this.on_.changed(driving);
+    }
+
+    show_(vacant) {
+        const count = this.others_.length;
+        const hidden = this.driving && count === 0;
+        by_id("role").hidden = hidden;
+        document.body.classList.toggle("has-role", !hidden);
+        by_id("role-text").textContent = this.driving
+            ? `${count} watching`
+            : vacant ? "Nobody drives" : "Watching";
+        by_id("take").hidden = this.driving;
+        by_id("take").disabled = !vacant;
+        by_id("take").title = vacant ? "" : "Free when the driver leaves or hands over";
+        by_id("hand-over").hidden = !this.driving || count === 0;
+        by_id("hand-to").replaceChildren(element("option", { textContent: "Hand over…" }),
+            ...this.others_.map((id) => element("option", { textContent: `Viewer ${id}` })));
+        by_id("picture").classList.toggle("watching", !this.driving);
+    }
+}

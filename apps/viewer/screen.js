@@ -1,0 +1,73 @@
+// Frames become pixels: pieces are decoded beside each other and drawn in the order of frames.
+import { parse_frame } from "./frame.js";
+
+export class Screen {
+    /**
+     * @param canvas
+     * @param on  {drawn(frame), skipped(frame), failed(error, frame)}: frame as parse_frame() gives it;
+     *     each is to be acknowledged
+     */
+    constructor(canvas, on) {
+        this.canvas = canvas;
+        this.on_ = on;
+        this.context_ = canvas.getContext("2d", { alpha: false });
+        this.context_.imageSmoothingQuality = "high";
+        this.queue_ = Promise.resolve();
+        this.newest_complete_ = null;
+    }
+
+    /** A frame's bytes came; it is drawn as soon as it is decoded and those before it are drawn. */
+    receive(buffer) {
+        let frame;
+        try {
+            frame = parse_frame(buffer);
+        } catch (error) {
+            return this.on_.failed(error, null);
+        }
+        if (frame.complete) this.newest_complete_ = frame;
+        const decoded = this.decode_(frame);
+        decoded.catch(() => {});  // told when its turn comes
+        this.queue_ = this.queue_.then(() => this.show_(frame, decoded));
+    }
+
+    /** Only a frame that holds all pieces makes those before it needless. */
+    superseded_(frame) {
+        const newest = this.newest_complete_;
+        return newest !== null && newest !== frame && newest.frame > frame.frame;
+    }
+
+    decode_(frame) {
+        return Promise.all(frame.pieces.map(({ bytes, type }) =>
+            createImageBitmap(new Blob([bytes], { type }))));
+    }
+
+    async show_(frame, decoded) {
+        try {
+            const bitmaps = await decoded;
+            if (this.superseded_(frame)) this.on_.skipped(frame);
+            else this.draw_(frame, bitmaps);
+            for (const bitmap of bitmaps) bitmap.close();
+        } catch (error) {
+            this.on_.failed(error, frame);
+        }
+    }
+
+    draw_(frame, bitmaps) {
+        const { canvas } = this;
+        // Setting a canvas's size clears it, so only when it changes.
+        if (canvas.width !== frame.width || canvas.height !== frame.height) {
+            canvas.width = frame.width;
+            canvas.height = frame.height;
+        }
+        frame.pieces.forEach(({ x, y, width, height }, k) =>
+            this.context_.drawImage(bitmaps[k], x, y, width, height));
+        this.on_.drawn(frame);
+    }
+}
+
+/** The picture's size [pixels] for a window: its own pixels, within what the server draws. */
+export function picture_size(width, height, ratio, [most_width, most_height]) {
+    const share = Math.min(1, most_width / (width * ratio), most_height / (height * ratio));
+    const pixels = (size) => Math.max(1, Math.round(size * ratio * share));
+    return { width: pixels(width), height: pixels(height) };
+}

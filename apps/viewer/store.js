@@ -1,0 +1,40 @@
+// What the browser keeps: in this tab who we are, and for each scene views, keys, pins.
+// A browser that keeps nothing (private windows, full disks) loses comfort, not the walk.
+
+function read(storage, key) {
+    try {
+        return JSON.parse(storage().getItem(key));
+    } catch {
+        return null;
+    }
+}
+
+function write(storage, key, value) {
+    try {
+        storage().setItem(key, JSON.stringify(value));
+        return true;
+    } catch {
+        return false;
+    }
+}
+
+const tab = () => sessionStorage;
+const kept = () => localStorage;
+
+/** 32 hex digits that stay while the tab does, so that the server knows who returns. */
+export function session_id() {
+    const known = read(tab, "lightwalk.session");
+    if (typeof known === "string" && /^[0-9a-f]{16,64}$/.test(known)) return known;
+    const bytes = crypto.getRandomValues(new Uint8Array(16));
+    const id = Array.from(bytes, (b) => b.toString(16).padStart(2, "0")).join("");
+    write(tab, "lightwalk.session", id);
+    return id;
+}
+
+/** What is kept for a scene under a name; `fallback` where there is nothing, or not its kind. */
+export function scene_item(scene, name, fallback) {
+    const value = read(kept, `lightwalk.${name}.${scene}`);
+    return Array.isArray(value) === Array.isArray(fallback) && value !== null ? value : fallback;
+}
+
+export const keep_scene_item = (scene, name, value) => write(kept, `lightwalk.${name}.${scene}`, value);

@@ -1,0 +1,51 @@
+// What was measured, as a table that spreadsheets read (CSV, RFC 4180).
+import { view_options } from "./view_text.js";
+
+const kColumns = [
+    "kind", "name", "illuminance_lx", "luminance_cd_m2", "x_m", "y_m", "z_m",
+    "normal_x", "normal_y", "normal_z", "material", "surface", "settled",
+    "left", "bottom", "right", "top", "pixels", "view", "ambient", "scene", "time",
+];
+
+/** A cell; text that a spreadsheet would take for a formula is kept text. */
+function cell(value) {
+    if (value === null || value === undefined) return "";
+    if (typeof value === "number") return Number.isFinite(value) ? String(value) : "";
+    const text = /^[=+\-@\t\r]/.test(value) ? `'${value}` : String(value);
+    return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+function probe_row(probe) {
+    const [x_m, y_m, z_m] = probe.position;
+    const [normal_x, normal_y, normal_z] = probe.normal;
+    return {
+        kind: "probe", name: probe.name, x_m, y_m, z_m, normal_x, normal_y, normal_z,
+        illuminance_lx: probe.illuminance, luminance_cd_m2: probe.luminance,
+        material: probe.material, surface: probe.surface, settled: probe.settled, time: probe.time,
+    };
+}
+
+function area_row(area) {
+    const [left, bottom, right, top] = area.rect;
+    const [x_m, y_m, z_m] = area.view.position;
+    return {
+        kind: "mean", name: area.name, x_m, y_m, z_m, luminance_cd_m2: area.luminance,
+        left, bottom, right, top, pixels: area.pixels, settled: area.settled, time: area.time,
+        // "VIEW= " keeps the leading minus of the options out of a spreadsheet's way.
+        view: `VIEW= ${view_options(area.view)}`,
+    };
+}
+
+/**
+ * The table of all probes and means.
+ * @param settings  {scene, ambient}: what holds for all rows
+ * Positions of means are those of the eye; their corners are shares of the picture.
+ */
+export function measurement_table(probes, areas, settings) {
+    const rows = [...probes.map(probe_row), ...areas.map(area_row)];
+    const lines = rows.map((row) => {
+        const full = { ...row, ...settings };
+        return kColumns.map((name) => cell(full[name])).join(",");
+    });
+    return [kColumns.join(","), ...lines].join("\r\n") + "\r\n";
+}

@@ -1,0 +1,139 @@
+// Radiance's views: where a point appears in the picture, and the angles that fit a window.
+// See the manual page rpict(1), "-vt".
+import { cross, dot, length, normalize, subtract } from "./vector.js";
+
+const radians = (degrees) => (degrees * Math.PI) / 180;
+const degrees = (angle) => (angle * 180) / Math.PI;
+
+/** No window makes a perspective taller than this [degrees]: what is beyond looks torn. */
+const kTallest = 80;
+
+/** Largest sizes of each type [degrees], as far as a picture can still be drawn. */
+const kLargest = {
+    v: [179, kTallest],
+    l: [Infinity, Infinity],
+    c: [360, 179],
+    h: [180, 180],
+    a: [360, 360],
+    s: [359, 359],
+};
+
+/** The picture's extent at unit distance of a horizontal or vertical size; `straight`: along a
+ * cylinder's axis. */
+function extent_of(type, size, straight) {
+    switch (type) {
+        case "v":
+            return 2 * Math.tan(radians(size) / 2);
+        case "h":
+            return 2 * Math.sin(radians(Math.min(size, 180)) / 2);
+        case "s":
+            return 2 * Math.tan(radians(size) / 4);
+        case "c":
+            return straight ? 2 * Math.tan(radians(size) / 2) : radians(size);
+        case "a":
+            return radians(size);
+        default:
+            return size;
+    }
+}
+
+/** The inverse of extent_of(); sizes beyond what the type can show become its largest. */
+function size_of(type, extent, straight) {
+    switch (type) {
+        case "v":
+            return degrees(2 * Math.atan(extent / 2));
+        case "h":
+            return degrees(2 * Math.asin(Math.min(extent / 2, 1)));
+        case "s":
+            return degrees(4 * Math.atan(extent / 2));
+        case "c":
+            return straight ? degrees(2 * Math.atan(extent / 2)) : degrees(extent);
+        case "a":
+            return degrees(extent);
+        default:
+            return extent;
+    }
+}
+
+/**
+ * The view whose picture fills width x height without distortion: its horizontal size stays and the
+ * vertical one follows; where that would grow too tall, the horizontal one gives way.
+ */
+export function fit_view(view, width, height) {
+    const [widest, tallest] = kLargest[view.type];
+    const aspect = height / width;
+    const horizontal = Math.min(view.horizontal, widest);
+    const wanted = extent_of(view.type, horizontal, false) * aspect;
+    const most = extent_of(view.type, tallest, true);
+    if (wanted <= most) return { ...view, horizontal, vertical: size_of(view.type, wanted, true) };
+    return { ...view, horizontal: size_of(view.type, most / aspect, false), vertical: tallest };
+}
+
+/** The view's axes as unit vectors: forward, right, and upward in the picture. */
+export function axes_of(view) {
+    const forward = normalize(view.direction);
+    const right = normalize(cross(forward, normalize(view.up)));
+    return { forward, right, upward: cross(right, forward) };
+}
+
+/** Where a direction lies on the type's image surface, before the extents are divided out. */
+function on_image(type, right, upward, forward) {
+    const distance = Math.hypot(right, upward, forward);
+    switch (type) {
+        case "l":
+            return { x: right, y: upward, in_front: forward > 0 };
+        case "c": {
+            const radius = Math.hypot(right, forward);
+            return { x: Math.atan2(right, forward), y: upward / radius, in_front: radius > 0 };
+        }
+        case "h":
+            return { x: right / distance, y: upward / distance, in_front: forward > 0 };
+        case "a": {
+            const sine = Math.hypot(right, upward);
+            const stretch = sine > 0 ? Math.atan2(sine, forward) / sine : 1 / distance;
+            return { x: right * stretch, y: upward * stretch, in_front: distance > 0 };
+        }
+        case "s": {
+            const across = distance + forward;
+            return { x: right / across, y: upward / across, in_front: across > 0 };
+        }
+        default:
+            return { x: right / forward, y: upward / forward, in_front: forward > 0 };
+    }
+}
+
+/**
+ * Where a point appears: x, y in 0..1 from the left and the bottom of the picture, its distance
+ * from the eye [m], and whether the picture shows it, but for what hides it.
+ */
+export function locate(view, point) {
+    const { forward, right, upward } = axes_of(view);
+    const d = subtract(point, view.position);
+    const image = on_image(view.type, dot(d, right), dot(d, upward), dot(d, forward));
+    const x = image.x / extent_of(view.type, view.horizontal, false) + 0.5 - (view.shift || 0);
+    const y = image.y / extent_of(view.type, view.vertical, true) + 0.5 - (view.lift || 0);
+    const visible = image.in_front && x > 0 && x < 1 && y > 0 && y < 1;
+    return { x, y, distance: length(d), visible };
+}
+
+/** How far a drag across the whole width of the picture turns the eye [rad]. */
+export function angle_across(view) {
+    return view.type === "l" ? 1 : radians(Math.min(view.horizontal, 120));
+}
+
+/** Whether two views show the same; sizes are left out: they follow the window. */
+export function same_place(a, b) {
+    const near = (p, q) => length(subtract(p, q)) < 1e-6 * (1 + length(p));
+    return (
+        a.type === b.type &&
+        near(a.position, b.position) &&
+        near(normalize(a.direction), normalize(b.direction)) &&
+        near(normalize(a.up), normalize(b.up))
+    );
+}
+
+/** Whether two views, sizes included, make the same picture. */
+export const same_picture = (a, b) =>
+    same_place(a, b) &&
+    Math.abs(a.horizontal - b.horizontal) < 1e-6 &&
+    Math.abs(a.vertical - b.vertical) < 1e-6;

@@ -1,0 +1,100 @@
+// Views as Radiance writes them: lines of view files, and paths of keys.
+
+/** A number with the digits that matter, without an exponent where it can be avoided. */
+function number_text(value, digits) {
+    return String(Number(value.toPrecision(digits)));
+}
+
+/** The view as options of Radiance's programs, e.g. "-vtv -vp 1 2 3 -vd 0 1 0 ...". */
+export function view_options(view) {
+    const vector = (name, v, digits) =>
+        `-v${name} ${v.map((x) => number_text(x, digits)).join(" ")}`;
+    const scalar = (name, x) => `-v${name} ${number_text(x || 0, 6)}`;
+    return [
+        `-vt${view.type}`,
+        vector("p", view.position, 8),
+        vector("d", view.direction, 8),
+        vector("u", view.up, 8),
+        scalar("h", view.horizontal),
+        scalar("v", view.vertical),
+        scalar("o", view.fore),
+        scalar("a", view.aft),
+        scalar("s", view.shift),
+        scalar("l", view.lift),
+    ].join(" ");
+}
+
+/** One line of a view file. */
+export const view_line = (view) => `VIEW= ${view_options(view)}\n`;
+
+/** Keys of a path as `lightwalk animate --path` reads them: a time [s] and a view a line. */
+export function path_text(keys) {
+    return keys.map((key) => `${number_text(key.time, 6)} ${view_line(key.view)}`).join("");
+}
+
+const kVectors = { p: "position", d: "direction", u: "up" };
+const kScalars = {
+    h: "horizontal", v: "vertical", o: "fore", a: "aft", s: "shift", l: "lift",
+};
+const kStart = {
+    type: "v", position: [0, 0, 0], direction: [0, 1, 0], up: [0, 0, 1],
+    horizontal: 45, vertical: 45, fore: 0, aft: 0, shift: 0, lift: 0,
+};
+// A time may stand before it, as in paths.
+const kViewLine =
+    /^\s*(?:[-+]?[\d.][-+\d.e]*\s+)?(?:VIEW=|(?:rvu|rview|rpict|rtrace|rpiece|pinterp)(?=\s))(.*)$/;
+
+/** The options of a view line, or nothing for any other line. */
+function options_of(line) {
+    const found = kViewLine.exec(line);
+    return found ? found[1] : null;
+}
+
+/** Numbers that follow word k, or nothing when there are fewer than `count`. */
+function numbers_after(words, k, count) {
+    const numbers = words.slice(k + 1, k + 1 + count).map(Number);
+    return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
+}
+
+/** The view with the options in `words` applied, and how many there were. */
+function apply_options(words, view) {
+    const changed = { ...view };
+    let applied = 0;
+    for (let k = 0; k < words.length; ++k) {
+        const option = /^-v(t?)([a-z])$/.exec(words[k]);
+        if (!option) continue;
+        const [, is_type, letter] = option;
+        const name = kVectors[letter] || kScalars[letter];
+        if (is_type) {
+            if (!"vlchas".includes(letter)) continue;
+            changed.type = letter;
+        } else {
+            if (!name) continue;
+            const numbers = numbers_after(words, k, kVectors[letter] ? 3 : 1);
+            if (!numbers) continue;
+            changed[name] = kVectors[letter] ? numbers : numbers[0];
+            k += numbers.length;
+        }
+        ++applied;
+    }
+    return { view: changed, applied };
+}
+
+/**
+ * The views of a view file or path, one for each view line; what a line does not mention it takes
+ * from the one before. Throws Error when there is none.
+ */
+export function parse_views(text) {
+    const views = [];
+    let view = kStart;
+    for (const line of text.split(/\r?\n/)) {
+        const options = options_of(line);
+        if (options === null) continue;
+        const result = apply_options(options.trim().split(/\s+/), view);
+        if (result.applied === 0) continue;
+        view = result.view;
+        views.push(view);
+    }
+    if (views.length === 0) throw new Error('no line like "VIEW= -vp x y z -vd x y z"');
+    return views;
+}

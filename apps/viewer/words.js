@@ -1,0 +1,38 @@
+// Numbers as people read them: three digits that matter, thousands set apart, units.
+
+const kThin = "\u202f";
+
+/** A positive quantity with about three significant digits: 0.0123, 4.56, 78.9, 1 230. */
+export function quantity(value) {
+    if (!Number.isFinite(value)) return "–";
+    const size = Math.abs(value);
+    if (size === 0) return "0";
+    if (size < 1e-3 || size >= 1e7) return value.toExponential(2).replace("e", "·10^").replace("^+", "^");
+    const decimals = Math.max(0, 2 - Math.floor(Math.log10(size) + 1e-9));
+    const [whole, part] = value.toFixed(decimals).split(".");
+    const apart = whole.replace(/\B(?=(\d{3})+$)/g, kThin);
+    return part ? `${apart}.${part}` : apart;
+}
+
+export const percent = (share) => `${Math.round(share * 100)}${kThin}%`;
+
+/** A rate of rays: 2.4 M, 310 k. */
+export function many(value) {
+    if (!Number.isFinite(value)) return "–";
+    if (value >= 1e6) return `${(value / 1e6).toFixed(value < 1e7 ? 2 : 1)}${kThin}M`;
+    if (value >= 1e3) return `${Math.round(value / 1e3)}${kThin}k`;
+    return String(Math.round(value));
+}
+
+export const place = (position) => position.map((x) => x.toFixed(2)).join(", ");
+
+/** An exposure in stops with its sign. */
+export const stops = (ev) => `${ev < 0 ? "−" : "+"}${Math.abs(ev).toFixed(1)}`;
+
+/** How a share of the daylight glare probability is felt (Wienold & Christoffersen 2006). */
+export function glare_word(dgp) {
+    if (dgp < 0.35) return "imperceptible";
+    if (dgp < 0.4) return "perceptible";
+    if (dgp < 0.45) return "disturbing";
+    return "intolerable";
+}

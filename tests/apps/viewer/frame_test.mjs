@@ -1,0 +1,70 @@
+// Frames: the binary layout, byte by byte, and everything that is no frame.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { parse_frame } from "../../../apps/viewer/frame.js";
+
+/** A frame written by offsets alone, as the protocol's table has them. */
+function frame({ flags = 5, pieces = [[0, 0, 4, 2, 1, [0xff, 0xd8]], [4, 2, 4, 4, 2, [1, 2, 3]]], width = 8, height = 6 } = {}) {
+    const bytes = new Uint8Array(48 + pieces.reduce((sum, p) => sum + 16 + p[5].length, 0));
+    const data = new DataView(bytes.buffer);
+    bytes.set([0x4c, 0x57, 0x46, 0x31]);
+    data.setUint32(4, 0xfffffffe, true);
+    data.setUint32(8, 77, true);
+    data.setUint16(12, width, true);
+    data.setUint16(14, height, true);
+    data.setUint8(16, flags);
+    data.setUint16(18, pieces.length, true);
+    data.setFloat32(20, 0.5, true);
+    [1.25, -2.5, 1e-7].forEach((x, k) => data.setFloat64(24 + 8 * k, x, true));
+    let at = 48;
+    for (const [x, y, w, h, codec, content] of pieces) {
+        [x, y, w, h].forEach((v, k) => data.setUint16(at + 2 * k, v, true));
+        data.setUint8(at + 8, codec);
+        data.setUint32(at + 12, content.length, true);
+        bytes.set(content, at + 16);
+        at += 16 + content.length;
+    }
+    return bytes.buffer;
+}
+
+test("the header's numbers stand where the protocol has them", () => {
+    const { pieces, ...head } = parse_frame(frame());
+    assert.deepEqual(head, { frame: 0xfffffffe, view_id: 77, width: 8, height: 6, complete: true, at_rest: false, final: true, exposure: 0.5, eye: [1.25, -2.5, 1e-7] });
+    assert.equal(pieces.length, 2);
+});
+
+test("each flag is one bit", () => {
+    for (const [flags, name] of [[1, "complete"], [2, "at_rest"], [4, "final"]]) {
+        const head = parse_frame(frame({ flags }));
+        for (const other of ["complete", "at_rest", "final"]) assert.equal(head[other], other === name);
+    }
+});
+
+test("pieces follow each other without padding", () => {
+    const { pieces } = parse_frame(frame());
+    assert.deepEqual(pieces.map(({ x, y, width, height, type }) => [x, y, width, height, type]),
+        [[0, 0, 4, 2, "image/jpeg"], [4, 2, 4, 4, "image/png"]]);
+    assert.deepEqual(pieces.map(({ bytes }) => [...bytes]), [[0xff, 0xd8], [1, 2, 3]]);
+});
+
+test("a frame without pieces is one: nothing has changed", () => {
+    assert.deepEqual(parse_frame(frame({ pieces: [] })).pieces, []);
+});
+
+test("a frame that is cut off anywhere is refused", () => {
+    const whole = frame();
+    for (let size = 0; size < whole.byteLength; ++size)
+        assert.throws(() => parse_frame(whole.slice(0, size)), /^Error: frame: /, `${size} bytes`);
+});
+
+test("what is too long, outside, of an unknown codec or no frame at all is refused", () => {
+    const longer = new Uint8Array(frame().byteLength + 1);
+    longer.set(new Uint8Array(frame()));
+    assert.throws(() => parse_frame(longer.buffer), /after the last piece/);
+    assert.throws(() => parse_frame(frame({ pieces: [[5, 0, 4, 2, 1, [1]]] })), /outside/);
+    assert.throws(() => parse_frame(frame({ pieces: [[0, 5, 4, 2, 1, [1]]] })), /outside/);
+    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 3, [1]]] })), /codec/);
+    const other = new Uint8Array(frame());
+    other[3] = 0x32;
+    assert.throws(() => parse_frame(other.buffer), /not a frame/);
+});

@@ -1,0 +1,176 @@
+// The page as a designer uses it, in headless Chromium, against a server that runs already:
+//
+//     node walk_page_test.mjs --address URL --npm FOLDER --pictures FOLDER --luminance L
+//         [--at X,Y] [--view N] [--chromium PROGRAM]
+//
+// Loads, waits for the first picture, turns, walks, clicks a surface of known luminance L [cd/m2] at
+// X,Y (0..1 from the left and the bottom, seen from view N of the scene) and reads it within 2 %,
+// switches false colour, saves a view, reloads and returns to it. A screenshot of each step goes to
+// --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
+import assert from "node:assert/strict";
+import { mkdir } from "node:fs/promises";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { parseArgs } from "node:util";
+
+const { values: args } = parseArgs({ options: {
+    address: { type: "string" }, npm: { type: "string" }, pictures: { type: "string", default: "pictures" },
+    luminance: { type: "string" }, at: { type: "string", default: "0.5,0.5" }, view: { type: "string", default: "1" },
+    chromium: { type: "string", default: "/usr/bin/chromium" }, width: { type: "string", default: "1280" }, height: { type: "string", default: "800" },
+    patience: { type: "string", default: "120" },
+} });
+
+const kPatience = Number(args.patience) * 1000;   // for a picture to settle [ms]
+const width = Number(args.width), height = Number(args.height);
+
+/** Values of window.lightwalk. */
+const counters = (page, ...names) =>
+    page.evaluate((wanted) => Object.fromEntries(wanted.map((name) => [name, window.lightwalk[name]])), names);
+
+/** Until the screen shows the newest view, whole; with `settled` until it gets no better. */
+const shown = (page, settled = false) => page.waitForFunction((wait) => {
+    const l = window.lightwalk;
+    return l.ready && !l.moving && l.frames > 0 && l.shown_view_id === l.view_id && (!wait || l.final);
+}, settled, { timeout: kPatience });
+
+/** A number that tells one picture from another. */
+const fingerprint = (page) => page.evaluate(() => {
+    const canvas = document.querySelector("#picture");
+    const small = Object.assign(document.createElement("canvas"), { width: 64, height: 40 });
+    const context = small.getContext("2d");
+    context.drawImage(canvas, 0, 0, 64, 40);
+    return Array.from(context.getImageData(0, 0, 64, 40).data);
+});
+
+/** Mean difference of two fingerprints [0..255]. */
+const difference = (a, b) => a.reduce((sum, x, k) => sum + Math.abs(x - b[k]), 0) / a.length;
+
+/** How far two views' axes differ [degrees]. */
+function turn_between(a, b) {
+    const dot = (p, q) => p.reduce((sum, x, k) => sum + x * q[k], 0);
+    const cosine = dot(a.direction, b.direction) / Math.sqrt(dot(a.direction, a.direction) * dot(b.direction, b.direction));
+    return (Math.acos(Math.min(1, cosine)) * 180) / Math.PI;
+}
+const distance_between = (a, b) => Math.hypot(...a.position.map((x, k) => x - b.position[k]));
+
+const steps = {
+    async "the first picture"(page) {
+        await page.goto(args.address);
+        await shown(page);
+        const { frames, connected, driving } = await counters(page, "frames", "connected", "driving");
+        assert.ok(frames > 0 && connected && driving);
+        assert.ok(await page.evaluate(() => document.querySelector("#cover").classList.contains("gone")));
+        const picture = await fingerprint(page);
+        assert.ok(Math.max(...picture.filter((_, k) => k % 4 !== 3)) > 30, "the picture is black");
+    },
+
+    async "turn"(page) {
+        const [before, view] = [await fingerprint(page), (await counters(page, "view")).view];
+        await page.mouse.move(width / 2, height / 2);
+        await page.mouse.down();
+        for (let k = 1; k <= 12; ++k) await page.mouse.move(width / 2 + 20 * k, height / 2 + 2 * k);
+        await page.mouse.up();
+        await shown(page);
+        const turned = (await counters(page, "view")).view;
+        assert.ok(turn_between(view, turned) > 5, "the drag did not turn");
+        assert.ok(distance_between(view, turned) < 0.05, "the drag moved the eye");
+        assert.ok(difference(before, await fingerprint(page)) > 1, "the picture did not follow");
+    },
+
+    async "walk"(page) {
+        const [before, view] = [await fingerprint(page), (await counters(page, "view")).view];
+        await page.focus("#picture");
+        await page.keyboard.down("w");
+        await page.waitForTimeout(700);
+        await page.keyboard.up("w");
+        await shown(page);
+        const { view: walked, latency } = await counters(page, "view", "latency");
+        assert.ok(distance_between(view, walked) > 0.2, "W did not walk");
+        assert.ok(turn_between(view, walked) < 0.01, "W turned the eye");
+        assert.ok(difference(before, await fingerprint(page)) > 1, "the picture did not follow");
+        assert.ok(latency.length > 5 && latency.every((ms) => ms >= 0));
+    },
+
+    async "read a known luminance"(page) {
+        await page.keyboard.press(args.view);
+        await page.waitForTimeout(300);
+        await shown(page, true);
+        const [x, y] = args.at.split(",").map(Number);
+        await page.mouse.click(x * width, (1 - y) * height);
+        await page.waitForFunction(() => window.lightwalk.last_pick, null, { timeout: 10000 });
+        const { last_pick: pick } = await counters(page, "last_pick");
+        const expected = Number(args.luminance);
+        assert.ok(pick.hit, "nothing there");
+        assert.ok(Math.abs(pick.luminance / expected - 1) < 0.02, `${pick.luminance} cd/m2 instead of ${expected}`);
+        const words = await page.textContent("#reading");
+        assert.match(words, /cd\/m²/);
+        assert.ok(words.includes(pick.material) && words.includes(pick.surface));
+    },
+
+    async "false colour"(page) {
+        const before = await fingerprint(page);
+        await page.keyboard.press("f");
+        await page.waitForFunction(() => !document.querySelector("#legend").hidden);
+        await page.waitForTimeout(500);
+        await shown(page, true);
+        assert.ok(difference(before, await fingerprint(page)) > 10, "the colours did not change");
+        assert.ok((await page.locator("#legend-bar text").count()) >= 2, "the scale has no numbers");
+    },
+
+    async "save a view"(page) {
+        await page.keyboard.press("ArrowRight", { delay: 300 });
+        await shown(page);
+        await page.keyboard.press("v");
+        await page.click("#save-view");
+        await page.keyboard.type("where I was");
+        await page.keyboard.press("Enter");
+        await page.waitForSelector("text=where I was");
+    },
+
+    async "reload and return"(page) {
+        const { view: saved } = await counters(page, "view");
+        await page.focus("#picture");
+        await page.keyboard.press("h");
+        await page.waitForTimeout(200);
+        await shown(page);
+        assert.ok(turn_between(saved, (await counters(page, "view")).view) > 2, "home is where we were");
+        await page.reload();
+        await shown(page);
+        await page.keyboard.press("v");
+        await page.click("text=where I was");
+        await page.waitForTimeout(200);
+        await shown(page, true);
+        const { view: back } = await counters(page, "view");
+        assert.ok(turn_between(saved, back) < 0.01 && distance_between(saved, back) < 0.01, "not where we were");
+    },
+};
+
+async function run() {
+    const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
+    await mkdir(args.pictures, { recursive: true });
+    const browser = await chromium.launch({ executablePath: args.chromium, args: ["--no-sandbox"] });
+    const page = await browser.newPage({ viewport: { width, height } });
+    const complaints = [];
+    page.on("pageerror", (error) => complaints.push(String(error)));
+    page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+    try {
+        for (const [k, [name, step]] of Object.entries(steps).entries()) {
+            const file = path.join(args.pictures, `${k + 1}-${name.replaceAll(" ", "-")}.png`);
+            try {
+                await step(page);
+            } catch (error) {
+                error.message = `${name}: ${error.message}`;
+                throw error;
+            } finally {
+                await page.screenshot({ path: file });
+            }
+            console.log(`ok: ${name}`);
+        }
+        assert.deepEqual(complaints, [], "the browser complained");
+    } finally {
+        await browser.close();
+    }
+}
+
+if (args.address) await run();
+else console.log("walk_page_test: no --address, nothing to test");
