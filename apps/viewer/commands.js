@@ -29,7 +29,8 @@ class Commands {
 
     back() {
         if (!this.session.driving) return;
-        if (!this.navigator.undo(performance.now(), still() ? 0 : undefined)) notice("No jump to undo");
+        if (!this.navigator.undo(performance.now(), still() ? 0 : undefined))
+            notice("No jump to undo");
         this.show_back_();
     }
 
@@ -57,7 +58,10 @@ class Commands {
 
     /** The view as it is now, with the sizes of this window. */
     present_view() {
-        return this.session.shown_id === this.session.view_id && this.session.shown || this.session.view;
+        return (
+            (this.session.shown_id === this.session.view_id && this.session.shown) ||
+            this.session.view
+        );
     }
 
     save_view(naming) {
@@ -76,7 +80,9 @@ class Commands {
         try {
             const views = parse_views(await file.text());
             const name = file.name.replace(/\.[^.]*$/, "");
-            views.forEach((view, k) => this.views.save(view, views.length > 1 ? `${name} ${k + 1}` : name));
+            views.forEach((view, k) =>
+                this.views.save(view, views.length > 1 ? `${name} ${k + 1}` : name),
+            );
             this.go(views[0]);
         } catch (error) {
             notice(`${file.name}: ${error.message}`, true);
@@ -89,10 +95,6 @@ class Commands {
         this.area_wanted = wanted;
         by_id("area").setAttribute("aria-pressed", String(wanted));
         if (wanted) notice("Drag over the area");
-    }
-
-    end_area() {
-        this.want_area(false);
     }
 
     ask_glare() {
@@ -139,7 +141,7 @@ class Commands {
     }
 
     write_table() {
-        const { probes, areas } = this.measurements;
+        const { probes, areas } = this.measuring.measurements;
         const settings = { ambient: this.light.settings.ambient, scene: this.scene() };
         download_text(measurement_table(probes, areas, settings), this.name_("csv"));
     }
@@ -147,14 +149,14 @@ class Commands {
     /** Close what is open, the nearest first. */
     escape() {
         if (this.area_wanted) this.want_area(false);
-        else if (!this.reading.close() && !close_panel()) this.glare.clear();
+        else if (!this.measuring.reading.close() && !close_panel()) this.glare.clear();
         this.picture.focus({ preventScroll: true });
     }
 }
 
 /** Buttons by their names in the page. */
 function listen_for_buttons(commands) {
-    const { views, measurements, glare } = commands;
+    const { views, measuring, glare } = commands;
     const buttons = {
         "save-view": () => commands.save_view(true),
         "go-home": () => commands.go(commands.home()),
@@ -168,16 +170,17 @@ function listen_for_buttons(commands) {
         "clear-path": () => views.clear_keys(),
         "write-table": () => commands.write_table(),
         "write-table-too": () => commands.write_table(),
-        "clear-table": () => measurements.clear(),
+        "clear-table": () => measuring.measurements.clear(),
         "write-png": () => commands.write_png(),
         "write-hdr": () => commands.write_hdr(),
         "ask-glare": () => commands.ask_glare(),
         "clear-glare": () => glare.clear(),
-        "area": () => commands.want_area(!commands.area_wanted),
-        "walk": () => commands.toggle_walk(),
+        area: () => commands.want_area(!commands.area_wanted),
+        walk: () => commands.toggle_walk(),
         "show-status": toggle_status,
     };
-    for (const [id, act] of Object.entries(buttons)) by_id(id).addEventListener("click", () => act());
+    for (const [id, act] of Object.entries(buttons))
+        by_id(id).addEventListener("click", () => act());
     by_id("views-file").addEventListener("change", (event) => {
         if (event.target.files[0]) commands.open_views(event.target.files[0]);
         event.target.value = "";
@@ -185,18 +188,31 @@ function listen_for_buttons(commands) {
 }
 
 function keys_of(commands) {
-    const { light, views, reading } = commands;
+    const { light, views, measuring } = commands;
     const drive = (act) => () => commands.session.driving && act();
-    const middle = () => commands.pick_at(0.5, 0.5);
+    const middle = () => measuring.pick_at(0.5, 0.5);
     const keys = {
-        "?": toggle_help, h: () => commands.go(commands.home()), g: () => commands.toggle_walk(),
-        Backspace: () => commands.back(), b: () => commands.save_view(false), k: () => commands.add_key(),
-        p: () => reading.pin(), r: () => commands.want_area(!commands.area_wanted),
-        f: drive(() => light.toggle_false()), x: drive(() => light.toggle_auto()),
-        "-": drive(() => light.step_exposure(-1)), "_": drive(() => light.step_exposure(-1)),
-        "+": drive(() => light.step_exposure(1)), "=": drive(() => light.step_exposure(1)),
-        l: () => toggle_panel("light"), v: () => toggle_panel("views"), m: () => toggle_panel("measure"),
-        i: toggle_status, Enter: middle, " ": middle, Escape: () => commands.escape(),
+        "?": toggle_help,
+        h: () => commands.go(commands.home()),
+        g: () => commands.toggle_walk(),
+        Backspace: () => commands.back(),
+        b: () => commands.save_view(false),
+        k: () => commands.add_key(),
+        p: () => measuring.reading.pin(),
+        r: () => commands.want_area(!commands.area_wanted),
+        f: drive(() => light.toggle_false()),
+        x: drive(() => light.toggle_auto()),
+        "-": drive(() => light.step_exposure(-1)),
+        _: drive(() => light.step_exposure(-1)),
+        "+": drive(() => light.step_exposure(1)),
+        "=": drive(() => light.step_exposure(1)),
+        l: () => toggle_panel("light"),
+        v: () => toggle_panel("views"),
+        m: () => toggle_panel("measure"),
+        i: toggle_status,
+        Enter: middle,
+        " ": middle,
+        Escape: () => commands.escape(),
     };
     for (let k = 0; k < 9; ++k) keys[k + 1] = () => commands.go(views.at(k)?.view);
     return keys;

@@ -1,6 +1,7 @@
 // The line to the server: one WebSocket, made again when it breaks.
 
-const kFirstWait = 250, kLongestWait = 5000;  // [ms]
+const kFirstWait = 250,
+    kLongestWait = 5000; // [ms]
 
 /** How long to wait before try number `attempt` (0, 1, ...) [ms]; twice as long each time. */
 export const wait_before = (attempt) => Math.min(kLongestWait, kFirstWait * 2 ** attempt);

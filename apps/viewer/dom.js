@@ -26,7 +26,11 @@ export function icon(name) {
 
 /** A small button that removes something. */
 export function remove_button(what, act) {
-    const button = element("button", { type: "button", className: "icon", onclick: act }, icon("close"));
+    const button = element(
+        "button",
+        { type: "button", className: "icon", onclick: act },
+        icon("close"),
+    );
     button.setAttribute("aria-label", `Remove ${what}`);
     return button;
 }

@@ -3,7 +3,7 @@
 // 16 u8 flags; 17 u8 0; 18 u16 pieces; 20 f32 exposure; 24 f64 x3 eye position [m];
 // 48 pieces, each: u16 x, y (from the top left), width, height; u8 codec; u8 x3 0; u32 bytes; bytes.
 
-const kMagic = 0x3146574c;  // "LWF1"
+const kMagic = 0x3146574c; // "LWF1"
 const kHeader = 48;
 const kPieceHeader = 16;
 const kTypes = { 1: "image/jpeg", 2: "image/png" };

@@ -6,8 +6,8 @@ export class Glare {
     /** @param on  {changed()} */
     constructor(on) {
         this.on_ = on;
-        this.id = 0;           ///< of the request under way or answered
-        this.sources = [];     ///< as the server sends them
+        this.id = 0; ///< of the request under way or answered
+        this.sources = []; ///< as the server sends them
         this.waiting_ = false;
     }
 
@@ -26,12 +26,21 @@ export class Glare {
         this.sources = sources || [];
         this.waiting_ = done < 1;
         const words = [];
-        if (Number.isFinite(dgp)) words.push(element("strong", { textContent: `DGP ${dgp.toFixed(2)}` }), glare_word(dgp));
-        if (this.sources.length > 0) words.push(` · ${this.sources.length} source${this.sources.length > 1 ? "s" : ""}`);
+        if (Number.isFinite(dgp))
+            words.push(
+                element("strong", { textContent: `DGP ${dgp.toFixed(2)}` }),
+                glare_word(dgp),
+            );
+        if (this.sources.length > 0)
+            words.push(` · ${this.sources.length} source${this.sources.length > 1 ? "s" : ""}`);
         if (done < 1) words.push(` · ${percent(done)}`);
         by_id("glare").replaceChildren(...words);
-        by_id("glare").title = this.sources.map((s) =>
-            `${quantity(s.luminance)} cd/m², ${quantity(s.solid_angle)} sr, position index ${quantity(s.position_index)}`).join("\n");
+        by_id("glare").title = this.sources
+            .map(
+                (s) =>
+                    `${quantity(s.luminance)} cd/m², ${quantity(s.solid_angle)} sr, position index ${quantity(s.position_index)}`,
+            )
+            .join("\n");
         this.on_.changed();
     }
 

@@ -2,14 +2,19 @@
 import { kKeys } from "./motion.js";
 import { angle_across } from "./view.js";
 
-const kClick = 5;          // a press that moves less is a click [CSS pixels]
-const kNotch = 100;        // of a wheel [pixels]
-const kLine = 33;          // of a wheel that counts lines [pixels]
+const kClick = 5; // a press that moves less is a click [CSS pixels]
+const kNotch = 100; // of a wheel [pixels]
+const kLine = 33; // of a wheel that counts lines [pixels]
 
 /** Whether a key belongs to a control that has the focus. */
 function typing(target) {
-    return target instanceof HTMLElement &&
-        (target.matches("select, textarea, input:not([type=checkbox], [type=radio])") || target.closest("dialog"));
+    return (
+        target instanceof HTMLElement &&
+        (target.matches(
+            "select, textarea, input:not([type=checkbox], [type=radio], [type=range])",
+        ) ||
+            target.closest("dialog"))
+    );
 }
 
 export class Input {
@@ -97,7 +102,8 @@ export class Input {
     }
 
     end_area_(event, meant = false) {
-        if (this.area_) this.on_.area_end(event.clientX, event.clientY, meant && this.travelled_ >= kClick);
+        if (this.area_)
+            this.on_.area_end(event.clientX, event.clientY, meant && this.travelled_ >= kClick);
         this.area_ = false;
     }
 
@@ -113,16 +119,18 @@ export class Input {
     key_down_(event) {
         this.modify_(event);
         if (typing(event.target) || event.metaKey || !kKeys[event.code]) return;
-        // Ctrl with letters is the browser's; a list that has the focus scrolls by its keys.
+        // Ctrl with letters is the browser's, arrows are those of a control that has the focus.
         if (event.ctrlKey && event.code.startsWith("Key")) return;
-        if (event.target instanceof HTMLInputElement && event.code.startsWith("Arrow")) return;
+        if (event.target instanceof HTMLInputElement && !event.code.startsWith("Key")) return;
         event.preventDefault();
-        if (!event.repeat && this.on_.may_drive()) this.navigator_.press(event.code, event.timeStamp);
+        if (!event.repeat && this.on_.may_drive())
+            this.navigator_.press(event.code, event.timeStamp);
     }
 
     key_up_(event) {
         this.modify_(event);
-        if (this.navigator_.keys.has(event.code)) this.navigator_.release(event.code, event.timeStamp);
+        if (this.navigator_.keys.has(event.code))
+            this.navigator_.release(event.code, event.timeStamp);
     }
 
     modify_(event) {

@@ -4,8 +4,8 @@ const kKept = 240;
 
 export class Latency {
     constructor() {
-        this.samples = [];    ///< [ms], the newest last
-        this.waiting_ = [];   ///< views sent and not yet shown, ids rising: {id, input}
+        this.samples = []; ///< [ms], the newest last
+        this.waiting_ = []; ///< views sent and not yet shown, ids rising: {id, input}
     }
 
     /** A view was sent; `input`: when the event came that made it [ms]. */

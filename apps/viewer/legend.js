@@ -3,16 +3,21 @@ import { by_id, shape } from "./dom.js";
 import { colour_text, palette_colour, scale_ticks, share_of } from "./scale.js";
 import { quantity } from "./words.js";
 
-const kSteps = 48;      // of colour in the gradient
-const kWidth = 14;      // of the bar [CSS pixels]
-const kPerTick = 34;    // a number for so many pixels of height
+const kSteps = 48; // of colour in the gradient
+const kWidth = 14; // of the bar [CSS pixels]
+const kPerTick = 34; // a number for so many pixels of height
 
 const ticks_for = (scale, height) => scale_ticks(scale, Math.max(2, Math.floor(height / kPerTick)));
 
 function gradient() {
     const made = shape("linearGradient", { id: "scale-colours", x1: 0, y1: 1, x2: 0, y2: 0 });
     for (let k = 0; k <= kSteps; ++k)
-        made.append(shape("stop", { offset: k / kSteps, "stop-color": colour_text(palette_colour(k / kSteps)) }));
+        made.append(
+            shape("stop", {
+                offset: k / kSteps,
+                "stop-color": colour_text(palette_colour(k / kSteps)),
+            }),
+        );
     return made;
 }
 
@@ -20,24 +25,36 @@ function gradient() {
 export function show_legend(display) {
     by_id("legend").hidden = display.mode !== "false";
     if (display.mode !== "false") return;
-    const svg = by_id("legend-bar"), { scale } = display;
+    const svg = by_id("legend-bar"),
+        { scale } = display;
     const height = svg.clientHeight || 200;
     const bar = { x: 0.5, y: 0.5, width: kWidth, height: height - 1, rx: 2 };
-    svg.replaceChildren(gradient(), shape("rect", { ...bar, fill: "url(#scale-colours)" }),
-        shape("rect", { ...bar, class: "frame" }));
+    svg.replaceChildren(
+        gradient(),
+        shape("rect", { ...bar, fill: "url(#scale-colours)" }),
+        shape("rect", { ...bar, class: "frame" }),
+    );
     for (const tick of ticks_for(scale, height)) {
         const y = height - share_of(scale, tick) * (height - 1) - 0.5;
-        svg.append(shape("line", { x1: kWidth, x2: kWidth + 5, y1: y, y2: y, class: "tick" }),
-            shape("text", { x: kWidth + 10, y, "dominant-baseline": "central" }, quantity(tick)));
+        svg.append(
+            shape("line", { x1: kWidth, x2: kWidth + 5, y1: y, y2: y, class: "tick" }),
+            shape("text", { x: kWidth + 10, y, "dominant-baseline": "central" }, quantity(tick)),
+        );
     }
     const steps = scale.log ? "logarithmic" : "linear";
-    svg.setAttribute("aria-label",
-        `${steps} scale from ${quantity(scale.low)} to ${quantity(scale.high)} candela per square metre`);
+    svg.setAttribute(
+        "aria-label",
+        `${steps} scale from ${quantity(scale.low)} to ${quantity(scale.high)} candela per square metre`,
+    );
 }
 
 /** Paint the scale into a picture of `height` pixels, as large as it is seen in the page. */
 export function paint_legend(context, scale, height, zoom) {
-    const bar = { left: 18 * zoom, width: kWidth * zoom, height: Math.min(380 * zoom, height * 0.6) };
+    const bar = {
+        left: 18 * zoom,
+        width: kWidth * zoom,
+        height: Math.min(380 * zoom, height * 0.6),
+    };
     const top = (height - bar.height) / 2;
     for (let y = 0; y < bar.height; ++y) {
         context.fillStyle = colour_text(palette_colour(1 - y / bar.height));

@@ -3,10 +3,12 @@ import { by_id, choose } from "./dom.js";
 import { scale_problem } from "./scale.js";
 import { stops } from "./words.js";
 
-const kStep = 0.5;  // of the keys [stops]
+const kStep = 0.5; // of the keys [stops]
 
 export const default_display = () => ({
-    mode: "tone", exposure: { auto: true, ev: 0 }, human: false,
+    mode: "tone",
+    exposure: { auto: true, ev: 0 },
+    human: false,
     scale: { low: 1, high: 10000, log: true },
 });
 
@@ -44,12 +46,16 @@ export class LightPanel {
 
     toggle_auto() {
         const { auto } = this.display.exposure;
-        this.change_({ exposure: { auto: !auto, ev: auto ? this.present_ev_() : this.display.exposure.ev } });
+        this.change_({
+            exposure: { auto: !auto, ev: auto ? this.present_ev_() : this.display.exposure.ev },
+        });
     }
 
     /** Brighter (1) or darker (-1) by half a stop; fixes the exposure. */
     step_exposure(direction) {
-        this.change_({ exposure: { auto: false, ev: this.limited_(this.present_ev_() + direction * kStep) } });
+        this.change_({
+            exposure: { auto: false, ev: this.limited_(this.present_ev_() + direction * kStep) },
+        });
     }
 
     present_ev_() {
@@ -72,8 +78,11 @@ export class LightPanel {
             input.addEventListener("change", () => this.change_({ mode: input.value }));
         by_id("auto").addEventListener("change", () => this.toggle_auto());
         by_id("ev").addEventListener("input", (event) =>
-            this.change_({ exposure: { auto: false, ev: Number(event.target.value) } }));
-        by_id("human").addEventListener("change", (event) => this.change_({ human: event.target.checked }));
+            this.change_({ exposure: { auto: false, ev: Number(event.target.value) } }),
+        );
+        by_id("human").addEventListener("change", (event) =>
+            this.change_({ human: event.target.checked }),
+        );
         for (const input of [by_id("low"), by_id("high"), ...document.getElementsByName("steps")])
             input.addEventListener("change", () => this.read_scale_());
         for (const input of document.getElementsByName("ambient"))
@@ -95,7 +104,8 @@ export class LightPanel {
     show_problem_(problem) {
         by_id("scale-problem").hidden = !problem;
         by_id("scale-problem").textContent = problem || "";
-        for (const id of ["low", "high"]) by_id(id).setAttribute("aria-invalid", String(Boolean(problem)));
+        for (const id of ["low", "high"])
+            by_id(id).setAttribute("aria-invalid", String(Boolean(problem)));
     }
 
     show_() {

@@ -3,11 +3,27 @@ import { by_id, element, remove_button } from "./dom.js";
 import { quantity } from "./words.js";
 
 function row(item, lux, remove) {
-    const words = item.rect ? "mean over an area" : [item.surface, item.material].filter(Boolean).join(", ");
-    const name = element("td", { textContent: item.name }, element("small", { textContent: words, title: words }));
+    const words = item.rect
+        ? "mean over an area"
+        : [item.surface, item.material].filter(Boolean).join(", ");
+    const name = element(
+        "td",
+        { textContent: item.name },
+        element("small", { textContent: words, title: words }),
+    );
     const value = (x) => element("td", { textContent: Number.isFinite(x) ? quantity(x) : "–" });
-    return element("tr", { className: item.settled < 1 ? "unsettled" : "" }, name, value(lux), value(item.luminance),
-        element("td", {}, remove_button(item.name, () => remove(item.id))));
+    return element(
+        "tr",
+        { className: item.settled < 1 ? "unsettled" : "" },
+        name,
+        value(lux),
+        value(item.luminance),
+        element(
+            "td",
+            {},
+            remove_button(item.name, () => remove(item.id)),
+        ),
+    );
 }
 
 /** Show what is measured; values that still change are shown grey. */

@@ -1,19 +1,19 @@
 // What was measured and stays: pins on surfaces and means over areas. No document in here.
 import { same_picture } from "./view.js";
 
-const kMostProbes = 64;       // that the server keeps up to date
-const kAskAgain = 1000;       // for a mean while the light settles [ms]
+const kMostProbes = 64; // that the server keeps up to date
+const kAskAgain = 1000; // for a mean while the light settles [ms]
 
 const next_name = (letter, list) =>
     letter + (1 + Math.max(0, ...list.map(({ name }) => Number(name.slice(1)) || 0)));
-const next_id = (lists) => 1 + Math.max(0, ...lists.flat().map(({ id }) => id));
 
 export class Measurements {
     /** @param changed  called after each change, with whether pins came or went */
     constructor(changed) {
         this.changed_ = changed;
-        this.probes = [];   ///< {id, name, position, normal, material, surface, illuminance, luminance, settled, time}
-        this.areas = [];    ///< {id, name, rect, view, luminance, pixels, settled, time}
+        this.probes = []; ///< {id, name, position, normal, material, surface, illuminance, luminance, settled, time}
+        this.last_id_ = 0; // never given twice: answers may still be under way
+        this.areas = []; ///< {id, name, rect, view, luminance, pixels, settled, time}
     }
 
     get count() {
@@ -23,8 +23,12 @@ export class Measurements {
     /** What was kept from an earlier visit; anything that does not look right is left out. */
     restore({ probes = [], areas = [] }) {
         const triple = (v) => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
-        this.probes = probes.filter((p) => triple(p.position) && triple(p.normal)).slice(0, kMostProbes);
+        this.probes = probes
+            .filter((p) => triple(p.position) && triple(p.normal))
+            .slice(0, kMostProbes);
         this.areas = areas.filter((a) => Array.isArray(a.rect) && triple(a.view?.position));
+        for (const area of this.areas) area.asked = 0;
+        this.last_id_ = Math.max(0, ...[...this.probes, ...this.areas].map(({ id }) => id || 0));
         this.changed_(true);
     }
 
@@ -33,8 +37,16 @@ export class Measurements {
         if (this.probes.length >= kMostProbes) return null;
         const { position, normal, material, surface, illuminance, luminance } = pick;
         const probe = {
-            id: next_id([this.probes, this.areas]), name: next_name("P", this.probes),
-            position, normal, material, surface, illuminance, luminance, settled: 0, time,
+            id: ++this.last_id_,
+            name: next_name("P", this.probes),
+            position,
+            normal,
+            material,
+            surface,
+            illuminance,
+            luminance,
+            settled: 0,
+            time,
         };
         this.probes.push(probe);
         this.changed_(true);
@@ -43,8 +55,16 @@ export class Measurements {
 
     /** An area of a view whose mean is asked for: its number is the request's. */
     add_area(rect, view) {
-        const id = next_id([this.probes, this.areas]);
-        const area = { id, name: next_name("A", this.areas), rect, view, luminance: null, pixels: 0, settled: 0, time: "" };
+        const area = {
+            id: ++this.last_id_,
+            name: next_name("A", this.areas),
+            rect,
+            view,
+            luminance: null,
+            pixels: 0,
+            settled: 0,
+            time: "",
+        };
         this.areas.push(area);
         this.changed_(false);
         return area;

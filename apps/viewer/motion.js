@@ -4,18 +4,24 @@ import { axes_of } from "./view.js";
 
 /** What a held key asks for: [right, forward, up, turn right, look up], each -1, 0 or 1. */
 export const kKeys = {
-    KeyW: [0, 1, 0, 0, 0], ArrowUp: [0, 1, 0, 0, 0],
-    KeyS: [0, -1, 0, 0, 0], ArrowDown: [0, -1, 0, 0, 0],
-    KeyA: [-1, 0, 0, 0, 0], KeyD: [1, 0, 0, 0, 0],
-    KeyE: [0, 0, 1, 0, 0], KeyQ: [0, 0, -1, 0, 0],
-    ArrowLeft: [0, 0, 0, -1, 0], ArrowRight: [0, 0, 0, 1, 0],
-    PageUp: [0, 0, 0, 0, 1], PageDown: [0, 0, 0, 0, -1],
+    KeyW: [0, 1, 0, 0, 0],
+    ArrowUp: [0, 1, 0, 0, 0],
+    KeyS: [0, -1, 0, 0, 0],
+    ArrowDown: [0, -1, 0, 0, 0],
+    KeyA: [-1, 0, 0, 0, 0],
+    KeyD: [1, 0, 0, 0, 0],
+    KeyE: [0, 0, 1, 0, 0],
+    KeyQ: [0, 0, -1, 0, 0],
+    ArrowLeft: [0, 0, 0, -1, 0],
+    ArrowRight: [0, 0, 0, 1, 0],
+    PageUp: [0, 0, 0, 0, 1],
+    PageDown: [0, 0, 0, 0, -1],
 };
 
-const kSettle = 0.05;                     // time constant of starting and stopping [s]
-const kTurnRate = 1.2;                    // by keys [rad/s]
-const kSteepest = (89 * Math.PI) / 180;   // of looking up and down
-const kStill = 1e-3;                      // share of full speed that counts as standing
+const kSettle = 0.05; // time constant of starting and stopping [s]
+const kTurnRate = 1.2; // by keys [rad/s]
+const kSteepest = (89 * Math.PI) / 180; // of looking up and down
+const kStill = 1e-3; // share of full speed that counts as standing
 
 /** The sum of what the held keys ask for; opposite keys cancel, and none counts twice. */
 export function wish_of(keys) {
@@ -60,7 +66,11 @@ export function advanced(view, rates, dt, speed, walk) {
     const [right, forward, up, yaw, pitch] = rates;
     const turning = yaw !== 0 || pitch !== 0;
     const looking = turning ? looked(view, yaw * kTurnRate * dt, pitch * kTurnRate * dt) : view;
-    return moved(looking, [right, forward, up].map((rate) => rate * speed * dt), walk);
+    return moved(
+        looking,
+        [right, forward, up].map((rate) => rate * speed * dt),
+        walk,
+    );
 }
 
 /** The view with the eye at the height of `eye`: what walking over steps does. */
@@ -72,13 +82,15 @@ export function at_height(view, eye) {
 
 /** A narrower (factor < 1) or wider lens, within what a walk can bear. */
 export function zoomed(view, factor) {
-    const [least, most] = view.type === "l" ? [1e-3, 1e6] : view.type === "v" ? [4, 130] : [10, 180];
+    const [least, most] =
+        view.type === "l" ? [1e-3, 1e6] : view.type === "v" ? [4, 130] : [10, 180];
     return { ...view, horizontal: Math.max(least, Math.min(most, view.horizontal * factor)) };
 }
 
 /** The direction `share` of the way from one to the other, along the shortest arc. */
 function swung(from, to, share) {
-    const a = normalize(from), b = normalize(to);
+    const a = normalize(from),
+        b = normalize(to);
     const angle = Math.acos(Math.max(-1, Math.min(1, dot(a, b))));
     if (angle < 1e-6) return b;
     let axis = cross(a, b);
@@ -87,15 +99,32 @@ function swung(from, to, share) {
     return turned(a, normalize(axis), angle * share);
 }
 
+/** From one direction to the other as a person turns: round the upward axis and up or down, never
+ * over the head. */
+function turned_between(from, to, up, share) {
+    const a = normalize(from),
+        b = normalize(to),
+        zenith = normalize(up);
+    const level = (v) => subtract(v, times(zenith, dot(v, zenith)));
+    const elevation = (v) => Math.asin(Math.max(-1, Math.min(1, dot(v, zenith))));
+    const start = level(a),
+        end = level(b);
+    const yaw = Math.atan2(dot(zenith, cross(start, end)), dot(start, end));
+    const ahead = normalize(turned(dot(start, start) > 1e-12 ? start : end, zenith, yaw * share));
+    const rise = elevation(a) + (elevation(b) - elevation(a)) * share;
+    return add(times(ahead, Math.cos(rise)), times(zenith, Math.sin(rise)));
+}
+
 /** The view on a smooth way between two of one type; share 0..1 of the time, slow at both ends. */
 export function between(from, to, share) {
     if (share >= 1 || from.type !== to.type) return to;
     const s = share * share * (3 - 2 * share);
+    const up = swung(from.up, to.up, s);
     return {
         ...to,
         position: mix(from.position, to.position, s),
-        direction: swung(from.direction, to.direction, s),
-        up: swung(from.up, to.up, s),
+        direction: turned_between(from.direction, to.direction, up, s),
+        up,
         horizontal: from.horizontal + (to.horizontal - from.horizontal) * s,
     };
 }

@@ -1,26 +1,37 @@
 // Where the eye stands and how it got there: held keys, drags, jumps and their undoing.
 // Knows no document: the page feeds it events and asks it for the next view, a frame at a time.
-import { advanced, at_height, between, looked, moved, next_rates, wish_of, zoomed } from "./motion.js";
-import { length, normalize, subtract, dot } from "./vector.js";
+import {
+    advanced,
+    at_height,
+    between,
+    looked,
+    moved,
+    next_rates,
+    wish_of,
+    zoomed,
+} from "./motion.js";
+import { dot, length, normalize, subtract } from "./vector.js";
+import { same_place } from "./view.js";
 
-const kLongestTick = 0.1;  // a page that hung does not leap [s]
+const kLongestTick = 0.1; // a page that hung does not leap [s]
 const kUndo = 50;
-const kFaster = 3, kSlower = 0.25;
+const kFaster = 3,
+    kSlower = 0.25;
 
 export class Navigator {
     constructor() {
         this.view = null;
         this.walk = true;
-        this.speed = 1.4;        ///< [m/s]
+        this.speed = 1.4; ///< [m/s]
         this.keys = new Set();
-        this.modifier = "none";  ///< none, faster, slower
+        this.modifier = "none"; ///< none, faster, slower
         this.dragging = false;
         this.rates_ = [0, 0, 0, 0, 0];
-        this.way_ = null;        ///< a transition under way: {from, to, begin, duration}
-        this.epoch = 0;          ///< rises when the eye is put elsewhere: older pictures tell nothing about it
+        this.way_ = null; ///< a transition under way: {from, to, begin, duration}
+        this.epoch = 0; ///< rises when the eye is put elsewhere: older pictures tell nothing about it
         this.past_ = [];
         this.changed_ = false;
-        this.input_ = null;      ///< when the oldest input came that no view has answered yet [ms]
+        this.input_ = null; ///< when the oldest input came that no view has answered yet [ms]
         this.last_ = null;
         this.was_moving_ = false;
     }
@@ -84,7 +95,8 @@ export class Navigator {
 
     /** Go to a view, smoothly unless `duration` [ms] is 0; undo() comes back. */
     jump(view, now, duration = this.duration_to(view)) {
-        if (this.view) {
+        // A second click on the same view is no second jump.
+        if (this.view && !same_place(this.way_?.to ?? this.view, view)) {
             this.past_.push(this.view);
             if (this.past_.length > kUndo) this.past_.shift();
         }
@@ -163,7 +175,8 @@ export class Navigator {
 
     /** Whether more will follow soon. */
     get moving() {
-        const going = this.rates_.some((rate) => rate !== 0) || wish_of(this.keys).some((x) => x !== 0);
+        const going =
+            this.rates_.some((rate) => rate !== 0) || wish_of(this.keys).some((x) => x !== 0);
         return this.dragging || going || this.way_ !== null;
     }
 

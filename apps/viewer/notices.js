@@ -1,7 +1,8 @@
 // Words to the user: short notices, what the page waits for, and a scene's errors.
 import { by_id, element } from "./dom.js";
 
-const kShown = 2600, kShownBad = 6000;  // [ms]
+const kShown = 2600,
+    kShownBad = 6000; // [ms]
 
 let timer;
 
@@ -15,7 +16,8 @@ export function notice(text, bad = false) {
 
 /** What the page waits for, over the whole picture; share 0..1 of it, if known. */
 export function cover(text, share) {
-    const box = by_id("cover"), bar = by_id("cover-share");
+    const box = by_id("cover"),
+        bar = by_id("cover-share");
     box.classList.remove("gone");
     if (by_id("cover-text").textContent !== text) by_id("cover-text").textContent = text;
     bar.hidden = share === undefined;
@@ -29,7 +31,8 @@ function failure_line(message) {
     const parts = /^(.+?:\d+(?::\d+)?:)\s*(.*)$/s.exec(message);
     const line = element("li");
     if (!parts) line.textContent = message;
-    else line.append(element("span", { className: "where", textContent: parts[1] }), ` ${parts[2]}`);
+    else
+        line.append(element("span", { className: "where", textContent: parts[1] }), ` ${parts[2]}`);
     return line;
 }
 

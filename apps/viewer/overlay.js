@@ -15,8 +15,7 @@ export class Overlay {
      *     drag: [x0, y0, x1, y1] in CSS pixels; sources: of glare, outlines in shares of the picture
      */
     draw(view, { probes, areas, reading, drag, sources }) {
-        const { clientWidth: width, clientHeight: height } = this.svg_;
-        this.pixels_ = (x, y) => [x * width, (1 - y) * height];
+        this.pixels_ = (x, y) => [x * innerWidth, (1 - y) * innerHeight];
         const shapes = sources.flatMap((source) => this.source_(source));
         if (view) {
             for (const area of areas)
@@ -25,14 +24,16 @@ export class Overlay {
             if (reading?.position) shapes.push(...this.mark_(view, reading.position));
         }
         if (drag) shapes.push(...this.box_(drag, ""));
-        this.svg_.replaceChildren(...shapes);
+        if (shapes.length > 0 || this.svg_.hasChildNodes()) this.svg_.replaceChildren(...shapes);
     }
 
     pin_(view, probe) {
         const at = locate(view, probe.position);
         if (!at.visible) return [];
         const [x, y] = this.pixels_(at.x, at.y);
-        const value = Number.isFinite(probe.illuminance) ? ` ${quantity(probe.illuminance)} lx` : "";
+        const value = Number.isFinite(probe.illuminance)
+            ? ` ${quantity(probe.illuminance)} lx`
+            : "";
         return [
             shape("circle", { cx: x, cy: y, r: 5, class: "pin" }),
             shape("text", { x: x + 10, y, "dominant-baseline": "central" }, probe.name + value),
@@ -55,7 +56,8 @@ export class Overlay {
     }
 
     box_([x0, y0, x1, y1], words) {
-        const x = Math.min(x0, x1), y = Math.min(y0, y1);
+        const x = Math.min(x0, x1),
+            y = Math.min(y0, y1);
         const size = { width: Math.abs(x1 - x0), height: Math.abs(y1 - y0) };
         const box = shape("rect", { x, y, ...size, class: "area" });
         // Above the box; inside where that would leave the window.
@@ -66,10 +68,15 @@ export class Overlay {
     source_({ outline, luminance }) {
         const points = outline.map(([x, y]) => this.pixels_(x, y));
         if (points.length === 0) return [];
-        const left = Math.min(...points.map((p) => p[0])), top = Math.min(...points.map((p) => p[1]));
+        const left = Math.min(...points.map((p) => p[0])),
+            top = Math.min(...points.map((p) => p[1]));
         return [
             shape("polygon", { points: points.map((p) => p.join(",")).join(" "), class: "source" }),
-            shape("text", { x: left, y: top > 24 ? top - 8 : top + 16 }, `${quantity(luminance)} cd/m²`),
+            shape(
+                "text",
+                { x: left, y: top > 24 ? top - 8 : top + 16 },
+                `${quantity(luminance)} cd/m²`,
+            ),
         ];
     }
 }

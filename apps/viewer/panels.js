@@ -1,8 +1,8 @@
 // What lies over the picture comes when it is asked for and goes when it is not used.
 import { by_id } from "./dom.js";
 
-const kIdle = 3500;        // [ms]
-const kIdleMoving = 700;   // while walking
+const kIdle = 3500; // [ms]
+const kIdleMoving = 700; // while walking
 
 /** The panel that is open, by its name in the page, or nothing. */
 let open = null;
@@ -40,7 +40,9 @@ function fade_when_idle() {
         timer = setTimeout(() => set(true), idle);
     };
     for (const name of ["pointermove", "pointerdown", "focusin"])
-        addEventListener(name, (event) => wake(event.buttons && event.target.id === "picture" ? kIdleMoving : kIdle));
+        addEventListener(name, (event) =>
+            wake(event.buttons && event.target.id === "picture" ? kIdleMoving : kIdle),
+        );
     addEventListener("keydown", (event) => {
         if (event.key === "Tab" || event.key === "Escape") wake(kIdle);
     });

@@ -3,8 +3,9 @@ import { by_id, element, remove_button } from "./dom.js";
 import { locate } from "./view.js";
 import { place, quantity } from "./words.js";
 
-const kApart = 18;     // of the card from the point [CSS pixels]
-const kTooNarrow = 560;  // windows where the card has a place of its own [CSS pixels]
+const kApart = 18; // of the card from the point [CSS pixels]
+const kDock = 72; // height that the dock takes [CSS pixels]
+const kTooNarrow = 560; // windows where the card has a place of its own [CSS pixels]
 
 const line = (name, value) =>
     element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }));
@@ -14,7 +15,7 @@ export class Reading {
     constructor(on) {
         this.card_ = by_id("reading");
         this.on_ = on;
-        this.pick = null;   ///< the server's answer, with at: [x, y] of the question
+        this.pick = null; ///< the server's answer, with at: [x, y] of the question
     }
 
     /** The answer to a pick: {hit, luminance, illuminance, distance, position, normal, ...}. */
@@ -22,19 +23,32 @@ export class Reading {
         this.pick = pick;
         const rows = pick.hit
             ? [
-                ["Illuminance", `${quantity(pick.illuminance)} lx`],
-                ["Distance", `${quantity(pick.distance)} m`],
-                ["Material", pick.material || "–"],
-                ["Surface", pick.surface || "–"],
-                ["At", place(pick.position)],
-            ]
+                  ["Illuminance", `${quantity(pick.illuminance)} lx`],
+                  ["Distance", `${quantity(pick.distance)} m`],
+                  ["Material", pick.material || "–"],
+                  ["Surface", pick.surface || "–"],
+                  ["At", place(pick.position)],
+              ]
             : [["", "No surface there: sky or void"]];
-        const value = element("p", { className: "value", textContent: quantity(pick.luminance) },
-            element("small", { textContent: "cd/m²" }));
-        const head = element("header", {}, value, remove_button("reading", () => this.close()));
+        const value = element(
+            "p",
+            { className: "value", textContent: quantity(pick.luminance) },
+            element("small", { textContent: "cd/m²" }),
+        );
+        const head = element(
+            "header",
+            {},
+            value,
+            remove_button("reading", () => this.close()),
+        );
         const card = [head, element("dl", {}, ...rows.map((row) => line(...row)))];
         if (pick.hit) {
-            const pin = element("button", { type: "button", textContent: "Pin", id: "pin", title: "P" });
+            const pin = element("button", {
+                type: "button",
+                textContent: "Pin",
+                id: "pin",
+                title: "P",
+            });
             pin.onclick = () => this.pin();
             card.push(element("div", { className: "row" }, pin));
         }
@@ -69,10 +83,11 @@ export class Reading {
     }
 
     corner_(x, y, width, height) {
-        const right = innerWidth - width - 8, bottom = innerHeight - height - 8;
+        const right = innerWidth - width - 8,
+            bottom = innerHeight - height - kDock;
         // A thumb and a card do not fit side by side: the card takes the half without the point.
         if (innerWidth < kTooNarrow)
-            return [(innerWidth - width) / 2, y > innerHeight / 2 ? 48 : bottom - 64];
+            return [(innerWidth - width) / 2, y > innerHeight / 2 ? 48 : bottom];
         const left = x + kApart > right ? x - kApart - width : x + kApart;
         return [Math.max(8, left), Math.max(8, Math.min(bottom, y - height / 2))];
     }

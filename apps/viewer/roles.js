@@ -1,13 +1,15 @@
 // Who drives and who watches.
 import { by_id, element } from "./dom.js";
 
+const kReturning = 30000; // [ms]
+
 export class Roles {
     /** @param on  {take(), hand(id), changed(driving)} */
     constructor(on) {
         this.on_ = on;
         this.you = null;
         this.driving = false;
-        this.returning_ = false;
+        this.returning_until_ = 0;
         this.others_ = [];
         by_id("take").addEventListener("click", () => on.take());
         by_id("hand-to").addEventListener("change", (event) => {
@@ -19,7 +21,8 @@ export class Roles {
 
     welcome({ you, driver }) {
         this.you = you;
-        this.set_(driver === true || (driver !== false && driver === you), driver, [you]);
+        // Whether somebody else drives, the role that follows tells.
+        this.set_(driver === true, undefined, [you]);
     }
 
     /** {driver, driver_id, clients}: driver_id null: nobody drives. */
@@ -28,9 +31,9 @@ export class Roles {
         this.set_(driving, driver_id, clients || [this.you]);
     }
 
-    /** The line broke: whoever drove takes over again when nobody else has. */
+    /** The line broke: whoever drove takes over again, unless somebody else does for long. */
     lost() {
-        this.returning_ = this.returning_ || this.driving;
+        if (this.driving) this.returning_until_ = performance.now() + kReturning;
     }
 
     set_(driving, driver_id, clients) {
@@ -38,8 +41,7 @@ export class Roles {
         this.driving = driving;
         this.others_ = clients.filter((id) => id !== this.you);
         const vacant = !driving && driver_id === null;
-        if (driving || !vacant) this.returning_ = false;
-        if (this.returning_) this.on_.take();
+        if (vacant && performance.now() < this.returning_until_) this.on_.take();
         this.show_(vacant);
         if (before !== driving) this.on_.changed(driving);
     }
@@ -51,13 +53,17 @@ export class Roles {
         document.body.classList.toggle("has-role", !hidden);
         by_id("role-text").textContent = this.driving
             ? `${count} watching`
-            : vacant ? "Nobody drives" : "Watching";
+            : vacant
+              ? "Nobody drives"
+              : "Watching";
         by_id("take").hidden = this.driving;
         by_id("take").disabled = !vacant;
         by_id("take").title = vacant ? "" : "Free when the driver leaves or hands over";
         by_id("hand-over").hidden = !this.driving || count === 0;
-        by_id("hand-to").replaceChildren(element("option", { textContent: "Hand over…" }),
-            ...this.others_.map((id) => element("option", { textContent: `Viewer ${id}` })));
+        by_id("hand-to").replaceChildren(
+            element("option", { textContent: "Hand over…" }),
+            ...this.others_.map((id) => element("option", { textContent: `Viewer ${id}` })),
+        );
         by_id("picture").classList.toggle("watching", !this.driving);
     }
 }

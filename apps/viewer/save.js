@@ -4,7 +4,11 @@ import { paint_legend } from "./legend.js";
 
 /** A file's name: scene, moment and kind, e.g. "lodge-20260131-154500.png". */
 export function file_name(scene, kind, now = new Date()) {
-    const base = (scene || "lightwalk").split(/[\\/]/).pop().replace(/\.[^.]*$/, "") || "lightwalk";
+    const base =
+        (scene || "lightwalk")
+            .split(/[\\/]/)
+            .pop()
+            .replace(/\.[^.]*$/, "") || "lightwalk";
     const two = (x) => String(x).padStart(2, "0");
     const day = `${now.getFullYear()}${two(now.getMonth() + 1)}${two(now.getDate())}`;
     const time = `${two(now.getHours())}${two(now.getMinutes())}${two(now.getSeconds())}`;
@@ -18,7 +22,8 @@ export function download(blob, name) {
     setTimeout(() => URL.revokeObjectURL(address), 60000);
 }
 
-export const download_text = (text, name) => download(new Blob([text], { type: "text/plain" }), name);
+export const download_text = (text, name) =>
+    download(new Blob([text], { type: "text/plain" }), name);
 
 /** The picture as it is seen; false colours with the scale that gives them a meaning. */
 export function picture_blob(canvas, display) {
@@ -30,7 +35,11 @@ export function picture_blob(canvas, display) {
         paint_legend(context, display.scale, canvas.height, canvas.width / canvas.clientWidth);
     }
     return new Promise((resolve, reject) =>
-        source.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no memory for the picture"))), "image/png"));
+        source.toBlob(
+            (blob) => (blob ? resolve(blob) : reject(new Error("no memory for the picture"))),
+            "image/png",
+        ),
+    );
 }
 
 /** The server's picture of the present view in full quality; throws Error when it has none. */

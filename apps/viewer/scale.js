@@ -61,5 +61,7 @@ function log_ticks(low, high, most) {
 
 /** Luminances to write beside the scale, about `most` of them, low first [cd/m2]. */
 export function scale_ticks(scale, most = 8) {
-    return scale.log ? log_ticks(scale.low, scale.high, most) : linear_ticks(scale.low, scale.high, most);
+    return scale.log
+        ? log_ticks(scale.low, scale.high, most)
+        : linear_ticks(scale.low, scale.high, most);
 }

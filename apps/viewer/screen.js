@@ -26,7 +26,7 @@ export class Screen {
         }
         if (frame.complete) this.newest_complete_ = frame;
         const decoded = this.decode_(frame);
-        decoded.catch(() => {});  // told when its turn comes
+        decoded.catch(() => {}); // told when its turn comes
         this.queue_ = this.queue_.then(() => this.show_(frame, decoded));
     }
 
@@ -37,8 +37,9 @@ export class Screen {
     }
 
     decode_(frame) {
-        return Promise.all(frame.pieces.map(({ bytes, type }) =>
-            createImageBitmap(new Blob([bytes], { type }))));
+        return Promise.all(
+            frame.pieces.map(({ bytes, type }) => createImageBitmap(new Blob([bytes], { type }))),
+        );
     }
 
     async show_(frame, decoded) {
@@ -60,7 +61,8 @@ export class Screen {
             canvas.height = frame.height;
         }
         frame.pieces.forEach(({ x, y, width, height }, k) =>
-            this.context_.drawImage(bitmaps[k], x, y, width, height));
+            this.context_.drawImage(bitmaps[k], x, y, width, height),
+        );
         this.on_.drawn(frame);
     }
 }

@@ -3,7 +3,7 @@ import { Connection, socket_address } from "./connection.js";
 import { Latency } from "./latency.js";
 import { fit_view } from "./view.js";
 
-const kRemembered = 600;  // views that a frame may still show
+const kRemembered = 600; // views that a frame may still show
 
 export class Session {
     /**
@@ -12,13 +12,13 @@ export class Session {
      */
     constructor(id, screen, on) {
         this.latency = new Latency();
-        this.view = null;        ///< the newest that was sent, fitted to the window
+        this.view = null; ///< the newest that was sent, fitted to the window
         this.view_id = 0;
         this.shown_id = 0;
-        this.shown = null;       ///< the view that the screen shows, as far as it is known
+        this.shown = null; ///< the view that the screen shows, as far as it is known
         this.driving = false;
         this.request_ = 0;
-        this.sent_ = new Map();  // by id: {view, walk, epoch}
+        this.sent_ = new Map(); // by id: {view, walk, epoch}
         this.connection = new Connection(socket_address(location.href), {
             open: () => {
                 this.send({ type: "hello", session: id });
@@ -52,7 +52,8 @@ export class Session {
     send_view({ view, moving, walk, input }, { width, height }, epoch) {
         const fitted = fit_view(view, width, height);
         const id = this.view_id + 1;
-        if (!this.send({ type: "view", id, view: fitted, width, height, moving, walk })) return false;
+        if (!this.send({ type: "view", id, view: fitted, width, height, moving, walk }))
+            return false;
         this.view_id = id;
         this.view = fitted;
         this.sent_.set(id, { view: fitted, walk, epoch });

@@ -2,9 +2,13 @@
 
 /** Whether a key press belongs to a control that takes text or to an open dialog. */
 function elsewhere(target) {
-    return target instanceof HTMLElement &&
-        (target.matches("input:not([type=checkbox], [type=radio], [type=range]), select, textarea") ||
-            target.closest("dialog"));
+    return (
+        target instanceof HTMLElement &&
+        (target.matches(
+            "input:not([type=checkbox], [type=radio], [type=range]), select, textarea",
+        ) ||
+            target.closest("dialog"))
+    );
 }
 
 /**
@@ -17,7 +21,11 @@ export function listen_for_shortcuts(actions, picture) {
         if (event.defaultPrevented || event.repeat || elsewhere(event.target)) return;
         const undo = event.key.toLowerCase() === "z" && (event.ctrlKey || event.metaKey);
         if (!undo && (event.ctrlKey || event.metaKey || event.altKey)) return;
-        const name = undo ? "Backspace" : event.key.length === 1 ? event.key.toLowerCase() : event.key;
+        const name = undo
+            ? "Backspace"
+            : event.key.length === 1
+              ? event.key.toLowerCase()
+              : event.key;
         if ((name === "Enter" || name === " ") && event.target !== picture) return;
         const act = actions[name];
         if (!act) return;

@@ -3,7 +3,11 @@ import { by_id, element } from "./dom.js";
 import { many, percent, quantity } from "./words.js";
 
 const kWords = {
-    moving: "", filling: "filling in", refining: "refining", ambient: "ambient light", done: "settled",
+    moving: "",
+    filling: "filling in",
+    refining: "refining",
+    ambient: "ambient light",
+    done: "settled",
 };
 
 const line = (name, value) =>
@@ -13,7 +17,8 @@ const line = (name, value) =>
 export function show_phase({ phase, share }) {
     const settling = phase !== "moving" && phase !== "done";
     const words = kWords[phase] ?? "";
-    by_id("phase").textContent = settling && Number.isFinite(share) ? `${words} ${percent(share)}` : words;
+    by_id("phase").textContent =
+        settling && Number.isFinite(share) ? `${words} ${percent(share)}` : words;
     const bar = by_id("refinement");
     bar.value = phase === "done" ? 1 : settling ? share || 0 : 0;
     bar.classList.toggle("idle", !settling);

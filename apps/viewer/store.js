@@ -37,4 +37,5 @@ export function scene_item(scene, name, fallback) {
     return Array.isArray(value) === Array.isArray(fallback) && value !== null ? value : fallback;
 }
 
-export const keep_scene_item = (scene, name, value) => write(kept, `lightwalk.${name}.${scene}`, value);
+export const keep_scene_item = (scene, name, value) =>
+    write(kept, `lightwalk.${name}.${scene}`, value);

@@ -2,9 +2,28 @@
 import { view_options } from "./view_text.js";
 
 const kColumns = [
-    "kind", "name", "illuminance_lx", "luminance_cd_m2", "x_m", "y_m", "z_m",
-    "normal_x", "normal_y", "normal_z", "material", "surface", "settled",
-    "left", "bottom", "right", "top", "pixels", "view", "ambient", "scene", "time",
+    "kind",
+    "name",
+    "illuminance_lx",
+    "luminance_cd_m2",
+    "x_m",
+    "y_m",
+    "z_m",
+    "normal_x",
+    "normal_y",
+    "normal_z",
+    "material",
+    "surface",
+    "settled",
+    "left",
+    "bottom",
+    "right",
+    "top",
+    "pixels",
+    "view",
+    "ambient",
+    "scene",
+    "time",
 ];
 
 /** A cell; text that a spreadsheet would take for a formula is kept text. */
@@ -19,9 +38,20 @@ function probe_row(probe) {
     const [x_m, y_m, z_m] = probe.position;
     const [normal_x, normal_y, normal_z] = probe.normal;
     return {
-        kind: "probe", name: probe.name, x_m, y_m, z_m, normal_x, normal_y, normal_z,
-        illuminance_lx: probe.illuminance, luminance_cd_m2: probe.luminance,
-        material: probe.material, surface: probe.surface, settled: probe.settled, time: probe.time,
+        kind: "probe",
+        name: probe.name,
+        x_m,
+        y_m,
+        z_m,
+        normal_x,
+        normal_y,
+        normal_z,
+        illuminance_lx: probe.illuminance,
+        luminance_cd_m2: probe.luminance,
+        material: probe.material,
+        surface: probe.surface,
+        settled: probe.settled,
+        time: probe.time,
     };
 }
 
@@ -29,8 +59,19 @@ function area_row(area) {
     const [left, bottom, right, top] = area.rect;
     const [x_m, y_m, z_m] = area.view.position;
     return {
-        kind: "mean", name: area.name, x_m, y_m, z_m, luminance_cd_m2: area.luminance,
-        left, bottom, right, top, pixels: area.pixels, settled: area.settled, time: area.time,
+        kind: "mean",
+        name: area.name,
+        x_m,
+        y_m,
+        z_m,
+        luminance_cd_m2: area.luminance,
+        left,
+        bottom,
+        right,
+        top,
+        pixels: area.pixels,
+        settled: area.settled,
+        time: area.time,
         // "VIEW= " keeps the leading minus of the options out of a spreadsheet's way.
         view: `VIEW= ${view_options(area.view)}`,
     };

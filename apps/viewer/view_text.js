@@ -34,11 +34,24 @@ export function path_text(keys) {
 
 const kVectors = { p: "position", d: "direction", u: "up" };
 const kScalars = {
-    h: "horizontal", v: "vertical", o: "fore", a: "aft", s: "shift", l: "lift",
+    h: "horizontal",
+    v: "vertical",
+    o: "fore",
+    a: "aft",
+    s: "shift",
+    l: "lift",
 };
 const kStart = {
-    type: "v", position: [0, 0, 0], direction: [0, 1, 0], up: [0, 0, 1],
-    horizontal: 45, vertical: 45, fore: 0, aft: 0, shift: 0, lift: 0,
+    type: "v",
+    position: [0, 0, 0],
+    direction: [0, 1, 0],
+    up: [0, 0, 1],
+    horizontal: 45,
+    vertical: 45,
+    fore: 0,
+    aft: 0,
+    shift: 0,
+    lift: 0,
 };
 // A time may stand before it, as in paths.
 const kViewLine =

@@ -2,7 +2,7 @@
 import { by_id, element, remove_button } from "./dom.js";
 import { quantity } from "./words.js";
 
-const kBetween = 2;  // of two keys [s]
+const kBetween = 2; // of two keys [s]
 
 /** A number that no name of the list ends in yet. */
 function free_number(list) {
@@ -13,10 +13,10 @@ export class ViewsPanel {
     /** @param on  {go(view), kept(saved), keys_changed(keys)} */
     constructor(on) {
         this.on_ = on;
-        this.scene_views = [];   ///< {name, view}: of the scene
-        this.saved = [];         ///< {name, view}: kept by this browser
-        this.keys = [];          ///< {time, view}
-        this.naming_ = -1;       // which saved view's name is being typed
+        this.scene_views = []; ///< {name, view}: of the scene
+        this.saved = []; ///< {name, view}: kept by this browser
+        this.keys = []; ///< {time, view}
+        this.naming_ = -1; // which saved view's name is being typed
     }
 
     /** View number k = 0, 1, ... of both lists. */
@@ -69,27 +69,37 @@ export class ViewsPanel {
         by_id("keys").replaceChildren(...this.keys.map((key, k) => this.key_entry_(key, k)));
         by_id("clear-path").disabled = this.keys.length === 0;
         // One key is a place, not a path.
-        for (const id of ["write-path", "write-path-too"]) by_id(id).disabled = this.keys.length < 2;
+        for (const id of ["write-path", "write-path-too"])
+            by_id(id).disabled = this.keys.length < 2;
     }
 
     entry_({ name, view }, k) {
         const number = k < 9 ? String(k + 1) : "";
-        const button = element("button", { type: "button", className: "go", onclick: () => this.on_.go(view) },
-            element("b", { textContent: number }), element("span", { textContent: name }));
+        const button = element(
+            "button",
+            { type: "button", className: "go", onclick: () => this.on_.go(view) },
+            element("b", { textContent: number }),
+            element("span", { textContent: name }),
+        );
         return element("li", {}, button);
     }
 
     saved_entry_(entry, k) {
-        const line = this.naming_ === k ? this.name_field_(entry) : this.entry_(entry, this.scene_views.length + k);
+        const line =
+            this.naming_ === k
+                ? this.name_field_(entry)
+                : this.entry_(entry, this.scene_views.length + k);
         line.ondblclick = () => {
             this.naming_ = k;
             this.show();
         };
         line.title = "Double-click to rename";
-        line.append(remove_button(entry.name, () => {
-            this.saved.splice(k, 1);
-            this.kept_();
-        }));
+        line.append(
+            remove_button(entry.name, () => {
+                this.saved.splice(k, 1);
+                this.kept_();
+            }),
+        );
         return line;
     }
 
@@ -112,12 +122,21 @@ export class ViewsPanel {
     }
 
     key_entry_({ time, view }, k) {
-        const button = element("button", { type: "button", className: "go", onclick: () => this.on_.go(view) },
-            element("b", { textContent: `${quantity(time)} s` }), element("span", { textContent: `Key ${k + 1}` }));
-        return element("li", {}, button, remove_button(`key ${k + 1}`, () => {
-            this.keys.splice(k, 1);
-            this.keys_changed_();
-        }));
+        const button = element(
+            "button",
+            { type: "button", className: "go", onclick: () => this.on_.go(view) },
+            element("b", { textContent: `${quantity(time)} s` }),
+            element("span", { textContent: `Key ${k + 1}` }),
+        );
+        return element(
+            "li",
+            {},
+            button,
+            remove_button(`key ${k + 1}`, () => {
+                this.keys.splice(k, 1);
+                this.keys_changed_();
+            }),
+        );
     }
 
     kept_() {

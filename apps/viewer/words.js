@@ -7,7 +7,8 @@ export function quantity(value) {
     if (!Number.isFinite(value)) return "–";
     const size = Math.abs(value);
     if (size === 0) return "0";
-    if (size < 1e-3 || size >= 1e7) return value.toExponential(2).replace("e", "·10^").replace("^+", "^");
+    if (size < 1e-3 || size >= 1e7)
+        return value.toExponential(2).replace("e", "·10^").replace("^+", "^");
     const decimals = Math.max(0, 2 - Math.floor(Math.log10(size) + 1e-9));
     const [whole, part] = value.toFixed(decimals).split(".");
     const apart = whole.replace(/\B(?=(\d{3})+$)/g, kThin);

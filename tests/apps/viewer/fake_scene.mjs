@@ -2,31 +2,44 @@
 // wall of known luminance. Radiance in cd/m2, for pictures that change with the view as real ones do.
 
 const kRoom = { low: [-4, -3, 0], high: [4, 3, 3] };
-const kWindows = [[-3.2, -1.2], [-0.4, 1.6]];        // x ranges in the wall y = 3
+const kWindows = [
+    [-3.2, -1.2],
+    [-0.4, 1.6],
+]; // x ranges in the wall y = 3
 const kBall = { centre: [1.6, 0.6, 0.7], radius: 0.7 };
 const kTable = { low: [-2.2, -0.6, 0], high: [-0.9, 0.9, 0.75] };
-export const kKnownWall = { luminance: 120, material: "plaster", surface: "west_wall" };  // x = -4
+export const kKnownWall = { luminance: 120, material: "plaster", surface: "west_wall" }; // x = -4
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const cross = (a, b) => [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+];
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
 
 /** Where a ray leaves (inside) or enters (outside) a box: {t, axis, sign}. */
 function box_hit(origin, direction, { low, high }, inside) {
-    let near = -Infinity, far = Infinity, near_axis = 0, far_axis = 0;
+    let near = -Infinity,
+        far = Infinity,
+        near_axis = 0,
+        far_axis = 0;
     for (let k = 0; k < 3; ++k) {
-        const a = (low[k] - origin[k]) / direction[k], b = (high[k] - origin[k]) / direction[k];
+        const a = (low[k] - origin[k]) / direction[k],
+            b = (high[k] - origin[k]) / direction[k];
         if (Math.min(a, b) > near) [near, near_axis] = [Math.min(a, b), k];
         if (Math.max(a, b) < far) [far, far_axis] = [Math.max(a, b), k];
     }
     if (near > far) return null;
-    const t = inside ? far : near, axis = inside ? far_axis : near_axis;
+    const t = inside ? far : near,
+        axis = inside ? far_axis : near_axis;
     return t > 1e-6 ? { t, axis, sign: Math.sign(direction[axis]) } : null;
 }
 
 function ball_hit(origin, direction, { centre, radius }) {
-    const to = sub(centre, origin), along = dot(to, direction);
+    const to = sub(centre, origin),
+        along = dot(to, direction);
     const rest = radius * radius - (dot(to, to) - along * along);
     const t = along - Math.sqrt(rest);
     return rest > 0 && t > 1e-6 ? t : null;
@@ -36,7 +49,8 @@ function ball_hit(origin, direction, { centre, radius }) {
 function daylight(position, normal) {
     let sum = 12;
     for (const [x0, x1] of kWindows) {
-        const to = sub([(x0 + x1) / 2, 3, 1.6], position), r2 = dot(to, to);
+        const to = sub([(x0 + x1) / 2, 3, 1.6], position),
+            r2 = dot(to, to);
         sum += (1500 * Math.max(0, dot(to, normal)) * Math.max(0.05, to[1])) / (r2 * r2 + 1);
     }
     return sum;
@@ -47,14 +61,35 @@ export function look(origin, direction) {
     const at = (t) => origin.map((x, k) => x + t * direction[k]);
     const wall = box_hit(origin, direction, kRoom, true);
     if (!wall) return null;
-    let t = wall.t, colour = [1, 1, 1], luminance, material = "plaster", surface;
+    let t = wall.t,
+        colour = [1, 1, 1],
+        luminance,
+        material = "plaster",
+        surface;
     let normal = [0, 0, 0];
     normal[wall.axis] = -wall.sign;
     let position = at(t);
     const side = `${"xyz"[wall.axis]}${wall.sign > 0 ? "+" : "-"}`;
-    surface = { "x-": "west_wall", "x+": "east_wall", "y-": "south_wall", "y+": "north_wall", "z-": "floor", "z+": "ceiling" }[side];
-    const pane = side === "y+" && kWindows.some(([a, b]) => position[0] > a && position[0] < b) && position[2] > 0.9 && position[2] < 2.4;
-    if (pane) [luminance, colour, material, surface] = [3500 + 1500 * (position[2] - 0.9), [0.82, 0.92, 1], "sky_pane", "window"];
+    surface = {
+        "x-": "west_wall",
+        "x+": "east_wall",
+        "y-": "south_wall",
+        "y+": "north_wall",
+        "z-": "floor",
+        "z+": "ceiling",
+    }[side];
+    const pane =
+        side === "y+" &&
+        kWindows.some(([a, b]) => position[0] > a && position[0] < b) &&
+        position[2] > 0.9 &&
+        position[2] < 2.4;
+    if (pane)
+        [luminance, colour, material, surface] = [
+            3500 + 1500 * (position[2] - 0.9),
+            [0.82, 0.92, 1],
+            "sky_pane",
+            "window",
+        ];
     else if (side === "x-") luminance = kKnownWall.luminance;
     else {
         luminance = daylight(position, normal) * 0.55;
@@ -71,22 +106,35 @@ export function look(origin, direction) {
         position = at(t);
         normal = [0, 0, 0];
         normal[table.axis] = -table.sign;
-        [luminance, colour, material, surface] = [daylight(position, normal) * 0.4, [0.75, 0.85, 1], "lacquer", "table"];
+        [luminance, colour, material, surface] = [
+            daylight(position, normal) * 0.4,
+            [0.75, 0.85, 1],
+            "lacquer",
+            "table",
+        ];
     }
     const ball = ball_hit(origin, direction, kBall);
     if (ball !== null && ball < t) {
         t = ball;
         position = at(t);
         normal = unit(sub(position, kBall.centre));
-        [luminance, colour, material, surface] = [daylight(position, normal) * 0.6, [1, 0.45, 0.3], "terracotta", "ball"];
+        [luminance, colour, material, surface] = [
+            daylight(position, normal) * 0.6,
+            [1, 0.45, 0.3],
+            "terracotta",
+            "ball",
+        ];
     }
     return { t, position, normal, luminance, colour, material, surface };
 }
 
 /** The direction of a place x, y (0..1 from the lower left) of a perspective view. */
 export function direction_at(view, x, y) {
-    const forward = unit(view.direction), right = unit(cross(forward, view.up)), up = cross(right, forward);
-    const w = 2 * Math.tan((view.horizontal * Math.PI) / 360), h = 2 * Math.tan((view.vertical * Math.PI) / 360);
+    const forward = unit(view.direction),
+        right = unit(cross(forward, view.up)),
+        up = cross(right, forward);
+    const w = 2 * Math.tan((view.horizontal * Math.PI) / 360),
+        h = 2 * Math.tan((view.vertical * Math.PI) / 360);
     return unit(forward.map((f, k) => f + right[k] * w * (x - 0.5) + up[k] * h * (y - 0.5)));
 }
 
@@ -96,7 +144,18 @@ const turbo = (() => {
         [0.09140261, 2.19418839, 4.84296658, -14.18503333, 4.27729857, 2.82956604],
         [0.1066733, 12.64194608, -60.58204836, 110.36276771, -89.90310912, 27.34824973],
     ];
-    return (x) => terms.map((t) => 255 * Math.max(0, Math.min(1, t.reduceRight((s, c) => s * x + c, 0))));
+    return (x) =>
+        terms.map(
+            (t) =>
+                255 *
+                Math.max(
+                    0,
+                    Math.min(
+                        1,
+                        t.reduceRight((s, c) => s * x + c, 0),
+                    ),
+                ),
+        );
 })();
 
 /** Colour bytes of a luminance as a display message wants it. */
@@ -104,10 +163,13 @@ function colour_of(hit, display, factor) {
     if (!hit) return [0, 0, 0];
     if (display.mode === "false") {
         const { low, high, log } = display.scale;
-        const share = log ? Math.log(hit.luminance / low) / Math.log(high / low) : (hit.luminance - low) / (high - low);
+        const share = log
+            ? Math.log(hit.luminance / low) / Math.log(high / low)
+            : (hit.luminance - low) / (high - low);
         return turbo(Math.max(0, Math.min(1, share)));
     }
-    const L = (hit.luminance / 179) * factor, shown = L / (1 + L * 0.35);
+    const L = (hit.luminance / 179) * factor,
+        shown = L / (1 + L * 0.35);
     return hit.colour.map((c) => 255 * Math.min(1, c * shown) ** (1 / 2.2));
 }
 
@@ -121,7 +183,10 @@ export function paint(view, width, height, from, to, display) {
     let k = 0;
     for (let y = from; y < to; ++y)
         for (let x = 0; x < width; ++x, k += 4) {
-            const hit = look(view.position, direction_at(view, (x + 0.5) / width, 1 - (y + 0.5) / height));
+            const hit = look(
+                view.position,
+                direction_at(view, (x + 0.5) / width, 1 - (y + 0.5) / height),
+            );
             const [r, g, b] = colour_of(hit, display, factor);
             bytes[k] = r;
             bytes[k + 1] = g;

@@ -10,113 +10,68 @@ import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
-import { deflateSync, crc32 as zlib_crc32 } from "node:zlib";
-import { direction_at, exposure_of, look, paint } from "./fake_scene.mjs";
+import { coarse_pieces, frame_bytes, kStrips, strip_piece } from "./fake_frames.mjs";
+import { direction_at, look } from "./fake_scene.mjs";
 
-const { values: args } = parseArgs({ options: {
-    npm: { type: "string" }, port: { type: "string", default: "8099" }, log: { type: "boolean", default: false },
-} });
+const { values: args } = parseArgs({
+    options: {
+        npm: { type: "string" },
+        port: { type: "string", default: "8099" },
+        log: { type: "boolean", default: false },
+    },
+});
 const load = createRequire(path.resolve(args.npm, "none.js"));
 const { WebSocketServer } = load("ws");
 const jpeg = load("jpeg-js");
 
 const kPage = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../../../apps/viewer");
-const kPolicy = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; " +
+const kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; " +
     "font-src 'self'; connect-src 'self'; worker-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml" };
-const kMoving = 320;     // pixels across while moving
-const kStrips = 8;       // pieces of a picture at rest
+const kTypes = {
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".svg": "image/svg+xml",
+};
 const kEyeHeight = 1.6;
 
-const view_at = (position, direction, horizontal = 70) =>
-    ({ type: "v", position, direction, up: [0, 0, 1], horizontal, vertical: 50, fore: 0, aft: 0, shift: 0, lift: 0 });
+const view_at = (position, direction, horizontal = 70) => ({
+    type: "v",
+    position,
+    direction,
+    up: [0, 0, 1],
+    horizontal,
+    vertical: 50,
+    fore: 0,
+    aft: 0,
+    shift: 0,
+    lift: 0,
+});
 const kViews = [
     { name: "entrance", view: view_at([3, -2.2, kEyeHeight], [-0.85, 0.52, -0.05]) },
     { name: "window seat", view: view_at([0.2, -2.4, kEyeHeight], [0, 1, -0.04]) },
     { name: "west wall", view: view_at([2.4, -1, kEyeHeight], [-1, 0.05, -0.08]) },
 ];
 
-// PNG -------------------------------------------------------------------------------------------
-
-const crc_table = Array.from({ length: 256 }, (_, n) => {
-    for (let k = 0; k < 8; ++k) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
-    return n >>> 0;
-});
-const crc32 = zlib_crc32 || ((bytes) => {
-    let c = ~0;
-    for (const b of bytes) c = crc_table[(c ^ b) & 255] ^ (c >>> 8);
-    return ~c >>> 0;
-});
-
-function png_chunk(name, data) {
-    const body = Buffer.concat([Buffer.from(name), data]), chunk = Buffer.alloc(body.length + 8);
-    chunk.writeUInt32BE(data.length, 0);
-    body.copy(chunk, 4);
-    chunk.writeUInt32BE(crc32(body) >>> 0, body.length + 4);
-    return chunk;
-}
-
-function png(rgba, width, height) {
-    const rows = Buffer.alloc((width * 4 + 1) * height);
-    for (let y = 0; y < height; ++y) rgba.copy(rows, y * (width * 4 + 1) + 1, y * width * 4, (y + 1) * width * 4);
-    const head = Buffer.alloc(13);
-    head.writeUInt32BE(width, 0);
-    head.writeUInt32BE(height, 4);
-    head.set([8, 6, 0, 0, 0], 8);
-    return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), png_chunk("IHDR", head),
-        png_chunk("IDAT", deflateSync(rows, { level: 1 })), png_chunk("IEND", Buffer.alloc(0))]);
-}
-
-// Frames ----------------------------------------------------------------------------------------
-
-function frame_bytes(number, wish, eye, flags, pieces) {
-    const head = Buffer.alloc(48);
-    head.write("LWF1", 0, "latin1");
-    head.writeUInt32LE(number, 4);
-    head.writeUInt32LE(wish.id, 8);
-    head.writeUInt16LE(wish.width, 12);
-    head.writeUInt16LE(wish.height, 14);
-    head.writeUInt8(flags, 16);
-    head.writeUInt16LE(pieces.length, 18);
-    head.writeFloatLE(exposure_of(display), 20);
-    eye.forEach((x, k) => head.writeDoubleLE(x, 24 + 8 * k));
-    const parts = [head];
-    for (const { x, y, width, height, codec, bytes } of pieces) {
-        const piece = Buffer.alloc(16);
-        [x, y, width, height].forEach((v, k) => piece.writeUInt16LE(v, 2 * k));
-        piece.writeUInt8(codec, 8);
-        piece.writeUInt32LE(bytes.length, 12);
-        parts.push(piece, bytes);
-    }
-    return Buffer.concat(parts);
-}
-
-/** The whole picture at once, coarse: one JPEG that the page stretches. */
-function coarse_pieces(view, { width, height }) {
-    const share = Math.min(1, kMoving / width), w = Math.max(1, Math.round(width * share)), h = Math.max(1, Math.round(height * share));
-    const data = paint(view, w, h, 0, h, display);
-    return [{ x: 0, y: 0, width, height, codec: 1, bytes: jpeg.encode({ data, width: w, height: h }, 80).data }];
-}
-
-/** One strip in full; the first ones as PNG, so that both codecs are in use. */
-function strip_piece(view, { width, height }, k) {
-    const from = Math.floor((k * height) / kStrips), to = Math.floor(((k + 1) * height) / kStrips);
-    const data = paint(view, width, height, from, to, display);
-    const codec = k < 2 ? 2 : 1;
-    const bytes = codec === 2 ? png(data, width, to - from) : jpeg.encode({ data, width, height: to - from }, 92).data;
-    return { x: 0, y: from, width, height: to - from, codec, bytes };
-}
-
 // The walk --------------------------------------------------------------------------------------
 
-let display = { mode: "tone", exposure: { auto: true, ev: 0 }, human: false, scale: { low: 1, high: 10000, log: true } };
+let display = {
+    mode: "tone",
+    exposure: { auto: true, ev: 0 },
+    human: false,
+    scale: { low: 1, high: 10000, log: true },
+};
 let settings = { ambient: "rest" };
 let probes = [];
-let failing = false, guest = null;   // guest: a client that is not there
-let wish = null, version = 0;        // what is to be drawn, and how often it has changed
-const clients = new Map();           // socket -> {id, drawn, strip, busy, frame, session}
-const places = new Map();            // by session: where a client stood
-let driver = null, last_id = 0;
+let failing = false,
+    guest = null; // guest: a client that is not there
+let wish = null,
+    version = 0; // what is to be drawn, and how often it has changed
+const clients = new Map(); // socket -> {id, drawn, strip, busy, frame, session}
+const places = new Map(); // by session: where a client stood
+let driver = null,
+    last_id = 0;
 
 const tell = (socket, message) => socket.readyState === 1 && socket.send(JSON.stringify(message));
 const tell_all = (message) => [...clients.keys()].forEach((socket) => tell(socket, message));
@@ -124,25 +79,44 @@ const tell_all = (message) => [...clients.keys()].forEach((socket) => tell(socke
 function tell_roles() {
     const ids = [...[...clients.values()].map((c) => c.id), ...(guest === null ? [] : [guest])];
     for (const [socket, client] of clients)
-        tell(socket, { type: "role", driver: driver === client.id, driver_id: driver, clients: ids });
+        tell(socket, {
+            type: "role",
+            driver: driver === client.id,
+            driver_id: driver,
+            clients: ids,
+        });
 }
 
 function greet(socket, client, session) {
     client.session = session;
     if (driver === null) driver = client.id;
-    tell(socket, { type: "welcome", version: "fake", you: client.id, driver: driver === client.id, scene: "room/room.rad",
-        max_size: [2560, 1600], fps: 30, views: kViews, view: places.get(session) || kViews[0].view, display, settings });
+    tell(socket, {
+        type: "welcome",
+        version: "fake",
+        you: client.id,
+        driver: driver === client.id,
+        scene: "room/room.rad",
+        max_size: [2560, 1600],
+        fps: 30,
+        views: kViews,
+        view: places.get(session) || kViews[0].view,
+        display,
+        settings,
+    });
     tell_roles();
     if (failing) return tell(socket, failing);
-    for (const [k, text] of ["Reading room.rad", "Building the tree"].entries()) tell(socket, { type: "loading", text, share: k / 2 });
+    for (const [k, text] of ["Reading room.rad", "Building the tree"].entries())
+        tell(socket, { type: "loading", text, share: k / 2 });
     setTimeout(() => tell(socket, { type: "loaded", views: kViews, eye_height: kEyeHeight }), 60);
 }
 
 /** Walking keeps the eye above the floor; the page takes the height over. */
-const eye_of = ({ view, walk }) => (walk ? [view.position[0], view.position[1], kEyeHeight] : view.position);
+const eye_of = ({ view, walk }) =>
+    walk ? [view.position[0], view.position[1], kEyeHeight] : view.position;
 
 function answer(socket, message) {
-    const client = clients.get(socket), driving = driver === client.id;
+    const client = clients.get(socket),
+        driving = driver === client.id;
     const answers = {
         hello: () => greet(socket, client, message.session),
         ack: () => (client.busy = false),
@@ -155,12 +129,19 @@ function answer(socket, message) {
         settings: () => driving && (settings = message),
         pick: () => tell(socket, picked(message)),
         rectangle: () => tell(socket, mean(message)),
-        probes: () => driving && ((probes = message.probes), tell(socket, measured(0.4)), setTimeout(() => tell(socket, measured(1)), 700)),
+        probes: () =>
+            driving &&
+            ((probes = message.probes),
+            tell(socket, measured(0.4)),
+            setTimeout(() => tell(socket, measured(1)), 700)),
         glare: () => {
             tell(socket, { type: "glare", id: message.id, done: 0.5, dgp: 0.3, sources: [] });
             setTimeout(() => tell(socket, glare(message)), 250);
         },
-        take: () => (driver === null ? ((driver = client.id), tell_roles()) : tell(socket, { type: "refused", text: "Somebody drives." })),
+        take: () =>
+            driver === null
+                ? ((driver = client.id), tell_roles())
+                : tell(socket, { type: "refused", text: "Somebody drives." }),
         hand: () => driving && ((driver = message.to), tell_roles()),
     };
     answers[message.type]?.();
@@ -172,30 +153,84 @@ const lux = (hit) => (hit.luminance * Math.PI) / 0.6;
 function picked({ id, x, y }) {
     const view = present_view();
     const hit = look(view.position, direction_at(view, x, y));
-    if (!hit) return { type: "picked", id, hit: false, luminance: 0, illuminance: null, distance: null, position: null, normal: null, material: "", surface: "" };
-    return { type: "picked", id, hit: true, luminance: hit.luminance, illuminance: lux(hit), distance: hit.t,
-        position: hit.position, normal: hit.normal, material: hit.material, surface: hit.surface };
+    if (!hit)
+        return {
+            type: "picked",
+            id,
+            hit: false,
+            luminance: 0,
+            illuminance: null,
+            distance: null,
+            position: null,
+            normal: null,
+            material: "",
+            surface: "",
+        };
+    return {
+        type: "picked",
+        id,
+        hit: true,
+        luminance: hit.luminance,
+        illuminance: lux(hit),
+        distance: hit.t,
+        position: hit.position,
+        normal: hit.normal,
+        material: hit.material,
+        surface: hit.surface,
+    };
 }
 
 function mean({ id, rect: [x0, y0, x1, y1] }) {
-    const view = present_view(), n = 16;
+    const view = present_view(),
+        n = 16;
     let sum = 0;
     for (let k = 0; k < n * n; ++k)
-        sum += look(view.position, direction_at(view, x0 + ((x1 - x0) * ((k % n) + 0.5)) / n, y0 + ((y1 - y0) * (Math.floor(k / n) + 0.5)) / n))?.luminance || 0;
-    return { type: "mean", id, luminance: sum / (n * n), pixels: Math.round((x1 - x0) * (y1 - y0) * wish.width * wish.height) };
+        sum +=
+            look(
+                view.position,
+                direction_at(
+                    view,
+                    x0 + ((x1 - x0) * ((k % n) + 0.5)) / n,
+                    y0 + ((y1 - y0) * (Math.floor(k / n) + 0.5)) / n,
+                ),
+            )?.luminance || 0;
+    return {
+        type: "mean",
+        id,
+        luminance: sum / (n * n),
+        pixels: Math.round((x1 - x0) * (y1 - y0) * wish.width * wish.height),
+    };
 }
 
 function measured(settled) {
     const values = probes.map(({ id, position, normal }) => {
-        const hit = look(position.map((x, k) => x + 0.01 * normal[k]), normal.map((x) => -x));
-        return { id, luminance: hit.luminance * (0.8 + 0.2 * settled), illuminance: lux(hit) * (0.8 + 0.2 * settled) };
+        const hit = look(
+            position.map((x, k) => x + 0.01 * normal[k]),
+            normal.map((x) => -x),
+        );
+        return {
+            id,
+            luminance: hit.luminance * (0.8 + 0.2 * settled),
+            illuminance: lux(hit) * (0.8 + 0.2 * settled),
+        };
     });
     return { type: "probes", probes: values, settled };
 }
 
 function glare({ id }) {
-    const outline = [[0.36, 0.52], [0.52, 0.54], [0.52, 0.78], [0.36, 0.8]];
-    return { type: "glare", id, done: 1, dgp: 0.372, sources: [{ outline, luminance: 4610, solid_angle: 0.21, position_index: 2.4 }] };
+    const outline = [
+        [0.36, 0.52],
+        [0.52, 0.54],
+        [0.52, 0.78],
+        [0.36, 0.8],
+    ];
+    return {
+        type: "glare",
+        id,
+        done: 1,
+        dgp: 0.372,
+        sources: [{ outline, luminance: 4610, solid_angle: 0.21, position_index: 2.4 }],
+    };
 }
 
 /** The next frame for a client that has drawn the one before: coarse at once, then strip by strip. */
@@ -206,14 +241,14 @@ function next_frame(socket, client) {
     if (client.drawn !== wish.version) {
         client.drawn = wish.version;
         client.strip = 0;
-        pieces = coarse_pieces(view, wish);
+        pieces = coarse_pieces(jpeg, view, wish, display);
         flags = 1;
     } else if (!wish.moving && client.strip < kStrips) {
-        pieces = [strip_piece(view, wish, client.strip++)];
+        pieces = [strip_piece(jpeg, view, wish, client.strip++, display)];
         flags = client.strip === kStrips ? 6 : 2;
     } else return;
     client.busy = true;
-    socket.send(frame_bytes(++client.frame, wish, view.position, flags, pieces));
+    socket.send(frame_bytes(++client.frame, wish, view.position, flags, pieces, display));
 }
 
 setInterval(() => [...clients].forEach(([socket, client]) => next_frame(socket, client)), 8);
@@ -221,21 +256,38 @@ setInterval(() => {
     const [client] = clients.values();
     if (!client || !wish || failing) return;
     const done = client.strip >= kStrips;
-    tell_all({ type: "state", fps: 31.4, reuse: 0.964, rays_per_second: 2.43e6, ranks: 1, threads: 2, points: 512345,
-        phase: wish.moving ? "moving" : done ? "done" : client.strip < 3 ? "refining" : "ambient", share: client.strip / kStrips });
+    tell_all({
+        type: "state",
+        fps: 31.4,
+        reuse: 0.964,
+        rays_per_second: 2.43e6,
+        ranks: 1,
+        threads: 2,
+        points: 512345,
+        phase: wish.moving ? "moving" : done ? "done" : client.strip < 3 ? "refining" : "ambient",
+        share: client.strip / kStrips,
+    });
 }, 200);
 
 const pranks = {
-    fail: () => tell_all((failing = { type: "failed", messages: [
-        'room/materials.rad:12: undefined modifier "wite_paint", did you mean "white_paint"?',
-        "room/furniture.rad:87: expected 12 real arguments for polygon \"table.top.4\", found 11" ] })),
+    fail: () =>
+        tell_all(
+            (failing = {
+                type: "failed",
+                messages: [
+                    'room/materials.rad:12: undefined modifier "wite_paint", did you mean "white_paint"?',
+                    'room/furniture.rad:87: expected 12 real arguments for polygon "table.top.4", found 11',
+                ],
+            }),
+        ),
     reload: () => {
         failing = false;
         tell_all({ type: "loading", text: "Reading room.rad again", share: 0.4 });
         setTimeout(() => tell_all({ type: "loaded", views: kViews, eye_height: kEyeHeight }), 300);
     },
     drop: () => [...clients.keys()].forEach((socket) => socket.terminate()),
-    refuse: () => tell_all({ type: "refused", text: "A view without a direction cannot be drawn." }),
+    refuse: () =>
+        tell_all({ type: "refused", text: "A view without a direction cannot be drawn." }),
     join: () => ((guest = 77), tell_roles()),
     steal: () => ((guest = 77), (driver = 77), tell_roles()),
     leave: () => ((driver = driver === 77 ? null : driver), (guest = null), tell_roles()),
@@ -247,12 +299,20 @@ async function serve(request, response) {
         pranks[pathname.slice(6)]?.();
         return response.end("ok");
     }
-    if (pathname === "/save/picture.hdr") return setTimeout(() => response.end("#?RADIANCE\nVIEW= -vtv\nFORMAT=32-bit_rle_rgbe\n\n"), 200);
+    if (pathname === "/save/picture.hdr")
+        return setTimeout(
+            () => response.end("#?RADIANCE\nVIEW= -vtv\nFORMAT=32-bit_rle_rgbe\n\n"),
+            200,
+        );
     const name = pathname === "/" ? "index.html" : /^\/page\/([\w.-]+)$/.exec(pathname)?.[1];
     try {
         const body = await readFile(path.join(kPage, name));
-        response.writeHead(200, { "Content-Type": kTypes[path.extname(name)] || "application/octet-stream", "Content-Security-Policy": kPolicy,
-            "X-Content-Type-Options": "nosniff", "Cache-Control": "no-store" });
+        response.writeHead(200, {
+            "Content-Type": kTypes[path.extname(name)] || "application/octet-stream",
+            "Content-Security-Policy": kPolicy,
+            "X-Content-Type-Options": "nosniff",
+            "Cache-Control": "no-store",
+        });
         response.end(body);
     } catch {
         response.writeHead(404).end("not here");
@@ -273,4 +333,6 @@ new WebSocketServer({ server, path: "/walk" }).on("connection", (socket) => {
         tell_roles();
     });
 });
-server.listen(Number(args.port), "127.0.0.1", () => console.log(`http://127.0.0.1:${server.address().port}/`));
+server.listen(Number(args.port), "127.0.0.1", () =>
+    console.log(`http://127.0.0.1:${server.address().port}/`),
+);

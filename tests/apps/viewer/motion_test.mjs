@@ -1,10 +1,27 @@
 // Motion: turning, walking, and the way between two views.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { advanced, at_height, between, kKeys, looked, moved, next_rates, wish_of, zoomed } from "../../../apps/viewer/motion.js";
+import {
+    advanced,
+    at_height,
+    between,
+    kKeys,
+    looked,
+    moved,
+    next_rates,
+    wish_of,
+    zoomed,
+} from "../../../apps/viewer/motion.js";
 import { dot, length, normalize, subtract } from "../../../apps/viewer/vector.js";
 
-const kView = { type: "v", position: [0, 0, 1.6], direction: [0, 1, 0], up: [0, 0, 1], horizontal: 60, vertical: 45 };
+const kView = {
+    type: "v",
+    position: [0, 0, 1.6],
+    direction: [0, 1, 0],
+    up: [0, 0, 1],
+    horizontal: 60,
+    vertical: 45,
+};
 const near = (a, b, allowed = 1e-9) => {
     const off = Array.isArray(a) ? length(subtract(a, b)) : Math.abs(a - b);
     assert.ok(off <= allowed, `${a} is not ${b}`);
@@ -85,6 +102,13 @@ test("turning round goes round, not through nothing", () => {
     const half = between(kView, back, 0.5).direction;
     near(length(half), 1);
     near(dot(half, [0, 1, 0]), 0, 1e-6);
+});
+
+test("between two views that look up, the eye goes round, not over its head", () => {
+    const from = { ...kView, direction: [0, 1, 1] },
+        to = { ...kView, direction: [0.01, -1, 1] };
+    for (let s = 0.05; s < 1; s += 0.1)
+        near(normalize(between(from, to, s).direction)[2], Math.SQRT1_2, 1e-4);
 });
 
 test("views of unlike types have no way between them", () => {

@@ -3,7 +3,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Navigator } from "../../../apps/viewer/navigator.js";
 
-const kView = { type: "v", position: [0, 0, 1.6], direction: [0, 1, 0], up: [0, 0, 1], horizontal: 60, vertical: 45 };
+const kView = {
+    type: "v",
+    position: [0, 0, 1.6],
+    direction: [0, 1, 0],
+    up: [0, 0, 1],
+    horizontal: 60,
+    vertical: 45,
+};
 const kThere = { ...kView, position: [3, 4, 1.2], direction: [1, 0, 0] };
 
 /** A navigator that stands at kView, has said so, and its clock. */
@@ -80,6 +87,18 @@ test("a jump travels, arrives exactly, and undo comes back exactly", () => {
     assert.equal(navigator.undo(now()), false);
 });
 
+test("two clicks on one view are one jump", () => {
+    const { navigator, tick, now } = standing();
+    navigator.jump(kThere, now());
+    tick();
+    navigator.jump(kThere, now());
+    until_rest(tick);
+    navigator.jump(kThere, now());
+    assert.ok(navigator.undo(now()));
+    assert.deepEqual(until_rest(tick).at(-1).view, kView);
+    assert.equal(navigator.can_undo, false);
+});
+
 test("a jump without duration is there at once", () => {
     const { navigator, tick, now } = standing();
     navigator.jump(kThere, now(), 0);
@@ -113,7 +132,12 @@ test("the server's height counts only while walking, not on the way of a jump", 
 test("what puts the eye elsewhere begins an epoch: older pictures tell no height any more", () => {
     const { navigator, now } = standing();
     const epochs = [navigator.epoch];
-    for (const act of [() => navigator.jump(kThere, now()), () => navigator.undo(now()), () => navigator.set_walk(false), () => navigator.place(kView)]) {
+    for (const act of [
+        () => navigator.jump(kThere, now()),
+        () => navigator.undo(now()),
+        () => navigator.set_walk(false),
+        () => navigator.place(kView),
+    ]) {
         act();
         assert.ok(navigator.epoch > epochs.at(-1));
         epochs.push(navigator.epoch);

@@ -13,34 +13,58 @@ import { createRequire } from "node:module";
 import path from "node:path";
 import { parseArgs } from "node:util";
 
-const { values: args } = parseArgs({ options: {
-    address: { type: "string" }, npm: { type: "string" }, pictures: { type: "string", default: "pictures" },
-    luminance: { type: "string" }, at: { type: "string", default: "0.5,0.5" }, view: { type: "string", default: "1" },
-    chromium: { type: "string", default: "/usr/bin/chromium" }, width: { type: "string", default: "1280" }, height: { type: "string", default: "800" },
-    patience: { type: "string", default: "120" },
-} });
+const { values: args } = parseArgs({
+    options: {
+        address: { type: "string" },
+        npm: { type: "string" },
+        pictures: { type: "string", default: "pictures" },
+        luminance: { type: "string" },
+        at: { type: "string", default: "0.5,0.5" },
+        view: { type: "string", default: "1" },
+        chromium: { type: "string", default: "/usr/bin/chromium" },
+        width: { type: "string", default: "1280" },
+        height: { type: "string", default: "800" },
+        patience: { type: "string", default: "120" },
+    },
+});
 
-const kPatience = Number(args.patience) * 1000;   // for a picture to settle [ms]
-const width = Number(args.width), height = Number(args.height);
+const kPatience = Number(args.patience) * 1000; // for a picture to settle [ms]
+const width = Number(args.width),
+    height = Number(args.height);
 
 /** Values of window.lightwalk. */
 const counters = (page, ...names) =>
-    page.evaluate((wanted) => Object.fromEntries(wanted.map((name) => [name, window.lightwalk[name]])), names);
+    page.evaluate(
+        (wanted) => Object.fromEntries(wanted.map((name) => [name, window.lightwalk[name]])),
+        names,
+    );
 
 /** Until the screen shows the newest view, whole; with `settled` until it gets no better. */
-const shown = (page, settled = false) => page.waitForFunction((wait) => {
-    const l = window.lightwalk;
-    return l.ready && !l.moving && l.frames > 0 && l.shown_view_id === l.view_id && (!wait || l.final);
-}, settled, { timeout: kPatience });
+const shown = (page, settled = false) =>
+    page.waitForFunction(
+        (wait) => {
+            const l = window.lightwalk;
+            return (
+                l.ready &&
+                !l.moving &&
+                l.frames > 0 &&
+                l.shown_view_id === l.view_id &&
+                (!wait || l.final)
+            );
+        },
+        settled,
+        { timeout: kPatience },
+    );
 
 /** A number that tells one picture from another. */
-const fingerprint = (page) => page.evaluate(() => {
-    const canvas = document.querySelector("#picture");
-    const small = Object.assign(document.createElement("canvas"), { width: 64, height: 40 });
-    const context = small.getContext("2d");
-    context.drawImage(canvas, 0, 0, 64, 40);
-    return Array.from(context.getImageData(0, 0, 64, 40).data);
-});
+const fingerprint = (page) =>
+    page.evaluate(() => {
+        const canvas = document.querySelector("#picture");
+        const small = Object.assign(document.createElement("canvas"), { width: 64, height: 40 });
+        const context = small.getContext("2d");
+        context.drawImage(canvas, 0, 0, 64, 40);
+        return Array.from(context.getImageData(0, 0, 64, 40).data);
+    });
 
 /** Mean difference of two fingerprints [0..255]. */
 const difference = (a, b) => a.reduce((sum, x, k) => sum + Math.abs(x - b[k]), 0) / a.length;
@@ -48,7 +72,9 @@ const difference = (a, b) => a.reduce((sum, x, k) => sum + Math.abs(x - b[k]), 0
 /** How far two views' axes differ [degrees]. */
 function turn_between(a, b) {
     const dot = (p, q) => p.reduce((sum, x, k) => sum + x * q[k], 0);
-    const cosine = dot(a.direction, b.direction) / Math.sqrt(dot(a.direction, a.direction) * dot(b.direction, b.direction));
+    const cosine =
+        dot(a.direction, b.direction) /
+        Math.sqrt(dot(a.direction, a.direction) * dot(b.direction, b.direction));
     return (Math.acos(Math.min(1, cosine)) * 180) / Math.PI;
 }
 const distance_between = (a, b) => Math.hypot(...a.position.map((x, k) => x - b.position[k]));
@@ -57,14 +83,21 @@ const steps = {
     async "the first picture"(page) {
         await page.goto(args.address);
         await shown(page);
-        const { frames, connected, driving } = await counters(page, "frames", "connected", "driving");
+        const { frames, connected, driving } = await counters(
+            page,
+            "frames",
+            "connected",
+            "driving",
+        );
         assert.ok(frames > 0 && connected && driving);
-        assert.ok(await page.evaluate(() => document.querySelector("#cover").classList.contains("gone")));
+        assert.ok(
+            await page.evaluate(() => document.querySelector("#cover").classList.contains("gone")),
+        );
         const picture = await fingerprint(page);
         assert.ok(Math.max(...picture.filter((_, k) => k % 4 !== 3)) > 30, "the picture is black");
     },
 
-    async "turn"(page) {
+    async turn(page) {
         const [before, view] = [await fingerprint(page), (await counters(page, "view")).view];
         await page.mouse.move(width / 2, height / 2);
         await page.mouse.down();
@@ -77,7 +110,7 @@ const steps = {
         assert.ok(difference(before, await fingerprint(page)) > 1, "the picture did not follow");
     },
 
-    async "walk"(page) {
+    async walk(page) {
         const [before, view] = [await fingerprint(page), (await counters(page, "view")).view];
         await page.focus("#picture");
         await page.keyboard.down("w");
@@ -101,7 +134,10 @@ const steps = {
         const { last_pick: pick } = await counters(page, "last_pick");
         const expected = Number(args.luminance);
         assert.ok(pick.hit, "nothing there");
-        assert.ok(Math.abs(pick.luminance / expected - 1) < 0.02, `${pick.luminance} cd/m2 instead of ${expected}`);
+        assert.ok(
+            Math.abs(pick.luminance / expected - 1) < 0.02,
+            `${pick.luminance} cd/m2 instead of ${expected}`,
+        );
         const words = await page.textContent("#reading");
         assert.match(words, /cd\/m²/);
         assert.ok(words.includes(pick.material) && words.includes(pick.surface));
@@ -114,7 +150,10 @@ const steps = {
         await page.waitForTimeout(500);
         await shown(page, true);
         assert.ok(difference(before, await fingerprint(page)) > 10, "the colours did not change");
-        assert.ok((await page.locator("#legend-bar text").count()) >= 2, "the scale has no numbers");
+        assert.ok(
+            (await page.locator("#legend-bar text").count()) >= 2,
+            "the scale has no numbers",
+        );
     },
 
     async "save a view"(page) {
@@ -133,7 +172,10 @@ const steps = {
         await page.keyboard.press("h");
         await page.waitForTimeout(200);
         await shown(page);
-        assert.ok(turn_between(saved, (await counters(page, "view")).view) > 2, "home is where we were");
+        assert.ok(
+            turn_between(saved, (await counters(page, "view")).view) > 2,
+            "home is where we were",
+        );
         await page.reload();
         await shown(page);
         await page.keyboard.press("v");
@@ -141,14 +183,20 @@ const steps = {
         await page.waitForTimeout(200);
         await shown(page, true);
         const { view: back } = await counters(page, "view");
-        assert.ok(turn_between(saved, back) < 0.01 && distance_between(saved, back) < 0.01, "not where we were");
+        assert.ok(
+            turn_between(saved, back) < 0.01 && distance_between(saved, back) < 0.01,
+            "not where we were",
+        );
     },
 };
 
 async function run() {
     const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
     await mkdir(args.pictures, { recursive: true });
-    const browser = await chromium.launch({ executablePath: args.chromium, args: ["--no-sandbox"] });
+    const browser = await chromium.launch({
+        executablePath: args.chromium,
+        args: ["--no-sandbox"],
+    });
     const page = await browser.newPage({ viewport: { width, height } });
     const complaints = [];
     page.on("pageerror", (error) => complaints.push(String(error)));

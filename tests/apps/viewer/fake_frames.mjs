@@ -1,0 +1,95 @@
+// Frames as the protocol has them, of the fake room: JPEG and PNG pieces.
+import { deflateSync } from "node:zlib";
+import { exposure_of, paint } from "./fake_scene.mjs";
+
+const kMoving = 320; // pixels across while moving
+export const kStrips = 8; // pieces of a picture at rest
+
+const crc_table = Array.from({ length: 256 }, (_, n) => {
+    for (let k = 0; k < 8; ++k) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
+    return n >>> 0;
+});
+
+function crc32(bytes) {
+    let c = ~0;
+    for (const b of bytes) c = crc_table[(c ^ b) & 255] ^ (c >>> 8);
+    return ~c >>> 0;
+}
+
+function png_chunk(name, data) {
+    const body = Buffer.concat([Buffer.from(name), data]),
+        chunk = Buffer.alloc(body.length + 8);
+    chunk.writeUInt32BE(data.length, 0);
+    body.copy(chunk, 4);
+    chunk.writeUInt32BE(crc32(body), body.length + 4);
+    return chunk;
+}
+
+function png(rgba, width, height) {
+    const rows = Buffer.alloc((width * 4 + 1) * height);
+    for (let y = 0; y < height; ++y)
+        rgba.copy(rows, y * (width * 4 + 1) + 1, y * width * 4, (y + 1) * width * 4);
+    const head = Buffer.alloc(13);
+    head.writeUInt32BE(width, 0);
+    head.writeUInt32BE(height, 4);
+    head.set([8, 6, 0, 0, 0], 8);
+    return Buffer.concat([
+        Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]),
+        png_chunk("IHDR", head),
+        png_chunk("IDAT", deflateSync(rows, { level: 1 })),
+        png_chunk("IEND", Buffer.alloc(0)),
+    ]);
+}
+
+export function frame_bytes(number, wish, eye, flags, pieces, display) {
+    const head = Buffer.alloc(48);
+    head.write("LWF1", 0, "latin1");
+    head.writeUInt32LE(number, 4);
+    head.writeUInt32LE(wish.id, 8);
+    head.writeUInt16LE(wish.width, 12);
+    head.writeUInt16LE(wish.height, 14);
+    head.writeUInt8(flags, 16);
+    head.writeUInt16LE(pieces.length, 18);
+    head.writeFloatLE(exposure_of(display), 20);
+    eye.forEach((x, k) => head.writeDoubleLE(x, 24 + 8 * k));
+    const parts = [head];
+    for (const { x, y, width, height, codec, bytes } of pieces) {
+        const piece = Buffer.alloc(16);
+        [x, y, width, height].forEach((v, k) => piece.writeUInt16LE(v, 2 * k));
+        piece.writeUInt8(codec, 8);
+        piece.writeUInt32LE(bytes.length, 12);
+        parts.push(piece, bytes);
+    }
+    return Buffer.concat(parts);
+}
+
+/** The whole picture at once, coarse: one JPEG that the page stretches. */
+export function coarse_pieces(jpeg, view, { width, height }, display) {
+    const share = Math.min(1, kMoving / width),
+        w = Math.max(1, Math.round(width * share)),
+        h = Math.max(1, Math.round(height * share));
+    const data = paint(view, w, h, 0, h, display);
+    return [
+        {
+            x: 0,
+            y: 0,
+            width,
+            height,
+            codec: 1,
+            bytes: jpeg.encode({ data, width: w, height: h }, 80).data,
+        },
+    ];
+}
+
+/** One strip in full; the first ones as PNG, so that both codecs are in use. */
+export function strip_piece(jpeg, view, { width, height }, k, display) {
+    const from = Math.floor((k * height) / kStrips),
+        to = Math.floor(((k + 1) * height) / kStrips);
+    const data = paint(view, width, height, from, to, display);
+    const codec = k < 2 ? 2 : 1;
+    const bytes =
+        codec === 2
+            ? png(data, width, to - from)
+            : jpeg.encode({ data, width, height: to - from }, 92).data;
+    return { x: 0, y: from, width, height: to - from, codec, bytes };
+}
