@@ -1,7 +1,7 @@
 // The scale of false colours: beside the picture, and in pictures that are saved.
 import { by_id, shape } from "./dom.js";
 import { colour_text, palette_colour, scale_ticks, share_of } from "./scale.js";
-import { quantity } from "./words.js";
+import { round_number } from "./words.js";
 
 const kSteps = 48; // of colour in the gradient
 const kWidth = 14; // of the bar [CSS pixels]
@@ -29,22 +29,22 @@ export function show_legend(display) {
         { scale } = display;
     const height = svg.clientHeight || 200;
     const bar = { x: 0.5, y: 0.5, width: kWidth, height: height - 1, rx: 2 };
-    svg.replaceChildren(
-        gradient(),
-        shape("rect", { ...bar, fill: "url(#scale-colours)" }),
-        shape("rect", { ...bar, class: "frame" }),
-    );
+    svg.replaceChildren(gradient(), shape("rect", { ...bar, fill: "url(#scale-colours)" }));
     for (const tick of ticks_for(scale, height)) {
         const y = height - share_of(scale, tick) * (height - 1) - 0.5;
         svg.append(
             shape("line", { x1: kWidth, x2: kWidth + 5, y1: y, y2: y, class: "tick" }),
-            shape("text", { x: kWidth + 10, y, "dominant-baseline": "central" }, quantity(tick)),
+            shape(
+                "text",
+                { x: kWidth + 10, y, "dominant-baseline": "central" },
+                round_number(tick),
+            ),
         );
     }
     const steps = scale.log ? "logarithmic" : "linear";
     svg.setAttribute(
         "aria-label",
-        `${steps} scale from ${quantity(scale.low)} to ${quantity(scale.high)} candela per square metre`,
+        `${steps} scale from ${round_number(scale.low)} to ${round_number(scale.high)} candela per square metre`,
     );
 }
 
@@ -75,6 +75,6 @@ export function paint_legend(context, scale, height, zoom) {
         const y = top + bar.height * (1 - share_of(scale, tick));
         context.fillStyle = "#fff";
         context.fillRect(bar.left + bar.width, y - zoom / 2, 5 * zoom, zoom);
-        write(quantity(tick), bar.left + bar.width + 10 * zoom, y);
+        write(round_number(tick), bar.left + bar.width + 10 * zoom, y);
     }
 }

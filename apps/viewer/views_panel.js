@@ -1,6 +1,6 @@
 // Places to go to: the scene's views, those saved in this browser, and the keys of a path.
 import { by_id, element, remove_button } from "./dom.js";
-import { quantity } from "./words.js";
+import { round_number } from "./words.js";
 
 const kBetween = 2; // of two keys [s]
 
@@ -125,7 +125,7 @@ export class ViewsPanel {
         const button = element(
             "button",
             { type: "button", className: "go", onclick: () => this.on_.go(view) },
-            element("b", { textContent: `${quantity(time)} s` }),
+            element("b", { textContent: `${round_number(time)} s` }),
             element("span", { textContent: `Key ${k + 1}` }),
         );
         return element(

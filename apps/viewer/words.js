@@ -15,6 +15,14 @@ export function quantity(value) {
     return part ? `${apart}.${part}` : apart;
 }
 
+/** A number that is round already, as it is: 0.05, 30, 1 000. */
+export function round_number(value) {
+    if (Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-4)) return quantity(value);
+    const [whole, part] = String(value).split(".");
+    const apart = whole.replace(/\B(?=(\d{3})+$)/g, kThin);
+    return part ? `${apart}.${part}` : apart;
+}
+
 export const percent = (share) => `${Math.round(share * 100)}${kThin}%`;
 
 /** A rate of rays: 2.4 M, 310 k. */

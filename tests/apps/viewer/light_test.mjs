@@ -9,7 +9,7 @@ import {
     share_of,
 } from "../../../apps/viewer/scale.js";
 import { measurement_table } from "../../../apps/viewer/table.js";
-import { glare_word, quantity, stops } from "../../../apps/viewer/words.js";
+import { glare_word, quantity, round_number, stops } from "../../../apps/viewer/words.js";
 
 const kView = {
     type: "v",
@@ -97,6 +97,10 @@ test("quantities have three digits that matter", () => {
     assert.equal(quantity(1.2e-5), "1.20·10^-5");
     for (const none of [null, undefined, NaN, Infinity]) assert.equal(quantity(none), "–");
     assert.equal(stops(-1.25), "−1.3");
+    assert.deepEqual(
+        [0.05, 30, 10000, 2.5].map((x) => round_number(x).replaceAll("\u202f", " ")),
+        ["0.05", "30", "10 000", "2.5"],
+    );
 });
 
 test("glare is felt by the classes of its authors", () => {

@@ -90,9 +90,7 @@ const steps = {
             "driving",
         );
         assert.ok(frames > 0 && connected && driving);
-        assert.ok(
-            await page.evaluate(() => document.querySelector("#cover").classList.contains("gone")),
-        );
+        await page.waitForSelector("#cover.gone", { state: "attached", timeout: 5000 });
         const picture = await fingerprint(page);
         assert.ok(Math.max(...picture.filter((_, k) => k % 4 !== 3)) > 30, "the picture is black");
     },
