@@ -13,7 +13,7 @@ import { start_panels } from "./panels.js";
 import { Roles } from "./roles.js";
 import { picture_size, Screen } from "./screen.js";
 import { Session } from "./session.js";
-import { show_figures, show_phase } from "./status.js";
+import { show_phase, start_figures } from "./status.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
 import { same_picture } from "./view.js";
 import { ViewsPanel } from "./views_panel.js";
@@ -205,8 +205,6 @@ function lost(reason, wait) {
 function role_changed(driving) {
     session.driving = driving;
     if (!driving) session.shown = null;
-    for (const control of document.querySelectorAll("#panel-light input, #walk"))
-        control.disabled = !driving;
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();
@@ -263,25 +261,10 @@ function on_resize() {
     }, kResized);
 }
 
-let bytes_before = 0;
-function show_status() {
-    const bits = (session.connection.bytes - bytes_before) * 8;
-    bytes_before = session.connection.bytes;
-    if (by_id("status").hidden) return;
-    show_figures(counters.state, {
-        latency: session.latency.quantile(0.5),
-        latency_95: session.latency.quantile(0.95),
-        width: picture.width,
-        height: picture.height,
-        speed: navigator.speed,
-        walk: navigator.walk,
-        megabits: bits / 1e6,
-    });
-}
-
 let ticked = 0;
-function tick(now) {
-    requestAnimationFrame(tick);
+/** Tell the server where the eye is now, if it does not know yet. */
+function step_now() {
+    const now = performance.now();
     if (!welcomed || !session.driving || now - ticked < kFastest) return;
     ticked = now;
     const step = navigator.tick(now);
@@ -291,13 +274,17 @@ function tick(now) {
     if (reading.pick && !reading.pick.hit) reading.close();
 }
 
-role_changed(false);
 start_panels();
 addEventListener("resize", on_resize);
 addEventListener("online", () => session.connection.hurry());
 document.addEventListener("visibilitychange", () => {
     if (!document.hidden) session.connection.hurry();
 });
-setInterval(show_status, 1000);
-requestAnimationFrame(tick);
+start_figures(session, navigator, picture, () => counters.state);
+// A key is answered at once, not with the screen's next refresh.
+navigator.on_input = () => queueMicrotask(step_now);
+requestAnimationFrame(function tick() {
+    step_now();
+    requestAnimationFrame(tick);
+});
 window.lightwalk = counters;

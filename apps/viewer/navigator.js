@@ -23,6 +23,7 @@ export class Navigator {
         this.view = null;
         this.walk = true;
         this.speed = 1.4; ///< [m/s]
+        this.on_input = null; ///< called when something was pressed or moved
         this.keys = new Set();
         this.modifier = "none"; ///< none, faster, slower
         this.dragging = false;
@@ -147,6 +148,7 @@ export class Navigator {
 
     note_input(now) {
         this.input_ = this.input_ ?? now;
+        this.on_input?.();
     }
 
     /** Send the view again though nothing moved: a window of another size, a server that is back. */

@@ -65,5 +65,8 @@ export class Roles {
             ...this.others_.map((id) => element("option", { textContent: `Viewer ${id}` })),
         );
         by_id("picture").classList.toggle("watching", !this.driving);
+        // What only the driver's word changes; glare is for all.
+        for (const control of document.querySelectorAll("#panel-light input, #walk"))
+            control.disabled = !this.driving;
     }
 }

@@ -29,7 +29,7 @@ export function show_phase({ phase, share }) {
  * @param state  of the server; nothing: not known yet
  * @param page   {latency, latency_95 [ms], width, height, speed [m/s], walk, exposure, megabits}
  */
-export function show_figures(state, page) {
+function show_figures(state, page) {
     const rows = [
         ["Frames a second", quantity(state.fps)],
         ["Reused", Number.isFinite(state.reuse) ? percent(state.reuse) : "–"],
@@ -44,4 +44,22 @@ export function show_figures(state, page) {
         [page.walk ? "Walking" : "Flying", `${quantity(page.speed)} m/s`],
     ];
     by_id("figures").replaceChildren(...rows.map((row) => line(...row)));
+}
+
+/** Keep the table up to date while it is seen. state_now(): of the server. */
+export function start_figures(session, navigator, picture, state_now) {
+    let before = 0;
+    setInterval(() => {
+        const bits = (session.connection.bytes - before) * 8;
+        before = session.connection.bytes;
+        show_figures(state_now(), {
+            latency: session.latency.quantile(0.5),
+            latency_95: session.latency.quantile(0.95),
+            width: picture.width,
+            height: picture.height,
+            speed: navigator.speed,
+            walk: navigator.walk,
+            megabits: bits / 1e6,
+        });
+    }, 1000);
 }

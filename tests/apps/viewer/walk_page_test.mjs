@@ -28,7 +28,8 @@ const { values: args } = parseArgs({
     },
 });
 
-const kPatience = Number(args.patience) * 1000; // for a picture to settle [ms]
+const kPatience = Number(args.patience) * 1000; // for a picture to come [ms]
+const kSettling = 20000; // for it to get no better [ms]
 const width = Number(args.width),
     height = Number(args.height);
 
@@ -39,22 +40,24 @@ const counters = (page, ...names) =>
         names,
     );
 
-/** Until the screen shows the newest view, whole; with `settled` until it gets no better. */
-const shown = (page, settled = false) =>
+/** Until the screen shows the newest view, whole. */
+const shown = (page) =>
     page.waitForFunction(
-        (wait) => {
+        () => {
             const l = window.lightwalk;
-            return (
-                l.ready &&
-                !l.moving &&
-                l.frames > 0 &&
-                l.shown_view_id === l.view_id &&
-                (!wait || l.final)
-            );
+            return l.ready && !l.moving && l.frames > 0 && l.shown_view_id === l.view_id;
         },
-        settled,
+        null,
         { timeout: kPatience },
     );
+
+/** The same, and a while for the light to settle, which makes the screenshots better. */
+async function settled(page) {
+    await shown(page);
+    await page
+        .waitForFunction(() => window.lightwalk.final, null, { timeout: kSettling })
+        .catch(() => {});
+}
 
 /** A number that tells one picture from another. */
 const fingerprint = (page) =>
@@ -125,7 +128,7 @@ const steps = {
     async "read a known luminance"(page) {
         await page.keyboard.press(args.view);
         await page.waitForTimeout(300);
-        await shown(page, true);
+        await settled(page);
         const [x, y] = args.at.split(",").map(Number);
         await page.mouse.click(x * width, (1 - y) * height);
         await page.waitForFunction(() => window.lightwalk.last_pick, null, { timeout: 10000 });
@@ -146,7 +149,7 @@ const steps = {
         await page.keyboard.press("f");
         await page.waitForFunction(() => !document.querySelector("#legend").hidden);
         await page.waitForTimeout(500);
-        await shown(page, true);
+        await settled(page);
         assert.ok(difference(before, await fingerprint(page)) > 10, "the colours did not change");
         assert.ok(
             (await page.locator("#legend-bar text").count()) >= 2,
@@ -179,7 +182,7 @@ const steps = {
         await page.keyboard.press("v");
         await page.click("text=where I was");
         await page.waitForTimeout(200);
-        await shown(page, true);
+        await settled(page);
         const { view: back } = await counters(page, "view");
         assert.ok(
             turn_between(saved, back) < 0.01 && distance_between(saved, back) < 0.01,
