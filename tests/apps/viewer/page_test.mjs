@@ -88,15 +88,15 @@ const steps = {
     },
 
     async "a jump is undone"(page) {
-        const before = await value(page, "view");
+        const before = await value(page, "shown_view");
         await page.keyboard.press("3");
         await page.waitForTimeout(100);
         await shown(page);
-        assert.ok(gone(before, await value(page, "view")) > 0.5);
+        assert.ok(gone(before, await value(page, "shown_view")) > 0.5);
         await page.keyboard.press("Backspace");
         await page.waitForTimeout(100);
         await shown(page);
-        assert.ok(gone(before, await value(page, "view")) < 1e-6);
+        assert.ok(gone(before, await value(page, "shown_view")) < 1e-6);
     },
 
     async "the wheel changes the speed, with Ctrl the lens"(page) {
