@@ -97,6 +97,12 @@ test("the way between two views begins at one and ends at the other, unit all al
     for (let s = 0; s < 1; s += 0.1) near(length(between(kView, to, s).direction), 1);
 });
 
+test("half the way from north to east is north-east, with the elevation half changed", () => {
+    const to = { ...kView, direction: [1, 0, Math.tan(0.4)] };
+    const half = between(kView, to, 0.5).direction;
+    near(half, [Math.SQRT1_2 * Math.cos(0.2), Math.SQRT1_2 * Math.cos(0.2), Math.sin(0.2)]);
+});
+
 test("turning round goes round, not through nothing", () => {
     const back = { ...kView, direction: [0, -1, 0] };
     const half = between(kView, back, 0.5).direction;
