@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloud/gaps.h"
+
 namespace lightwalk {
 namespace {
 
@@ -26,15 +28,47 @@ RestingWork RestingPicture::next(std::size_t most) const {
     return work.places.empty() ? steep(most) : work;
 }
 
-/// Pixels that have not been traced.
+std::size_t RestingPicture::open_pixels() const {
+    return static_cast<std::size_t>(std::count_if(
+        origins_.begin(), origins_.end(),
+        [](const PixelOrigin& pixel) { return pixel.kind != PixelOrigin::Kind::traced; }));
+}
+
+std::size_t RestingPicture::guessed_pixels() const {
+    return static_cast<std::size_t>(
+        std::count_if(origins_.begin(), origins_.end(), [](const PixelOrigin& pixel) {
+            return pixel.kind == PixelOrigin::Kind::filled ||
+                   pixel.kind == PixelOrigin::Kind::guessed;
+        }));
+}
+
+std::vector<Rgb> RestingPicture::picture() const {
+    std::vector<Rgb> shown = radiance_;
+    std::vector<std::uint8_t> known;
+    known.reserve(origins_.size());
+    for (const PixelOrigin& pixel : origins_)
+        known.push_back(pixel.kind == PixelOrigin::Kind::filled ? 0 : 1);
+    fill_gaps(width_, height_, shown, known);
+    return shown;
+}
+
+/// Pixels that have not been traced, the most needed first.
 RestingWork RestingPicture::open(std::size_t most) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < origins_.size(); ++i)
         if (origins_[i].kind != PixelOrigin::Kind::traced) found.push_back(i);
+    const auto width = static_cast<std::size_t>(width_);
+    const auto level = [&](std::size_t i) {
+        return origins_[i].kind == PixelOrigin::Kind::filled
+                   ? grid_level({static_cast<int>(i % width), static_cast<int>(i / width)})
+                   : 0;
+    };
     const auto sooner = [&](std::size_t a, std::size_t b) {
         const PixelOrigin &p = origins_[a], &q = origins_[b];
         if (p.kind != q.kind) return p.kind < q.kind;
-        return p.order != q.order ? p.order < q.order : a < b;
+        if (p.order != q.order) return p.order < q.order;
+        const int coarse = level(a), other = level(b);
+        return coarse != other ? coarse < other : a < b;
     };
     if (found.size() > most) {
         std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(most),
@@ -44,7 +78,6 @@ RestingWork RestingPicture::open(std::size_t most) const {
     std::sort(found.begin(), found.end(), sooner);
     RestingWork work;
     work.places.reserve(found.size());
-    const auto width = static_cast<std::size_t>(width_);
     for (const std::size_t i : found)
         work.places.push_back({static_cast<int>(i % width), static_cast<int>(i / width)});
     return work;
@@ -61,11 +94,11 @@ bool RestingPicture::is_steep(int x, int y) const {
 /// Of the pixels at steps those with the fewest rays.
 RestingWork RestingPicture::steep(std::size_t most) const {
     RestingWork work;
-    work.sample = kMostSamples;
+    work.sample = most_samples_;
     for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
             const int samples = origins_[at(x, y)].samples;
-            if (samples > work.sample || samples >= kMostSamples || !is_steep(x, y)) continue;
+            if (samples > work.sample || samples >= most_samples_ || !is_steep(x, y)) continue;
             if (samples < work.sample) work.places.clear();
             work.sample = samples;
             work.places.push_back({x, y});

@@ -1,5 +1,6 @@
 #pragma once
 // A view that stands still: which pixels to trace next, so that its picture becomes ever better.
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,11 +11,22 @@
 
 namespace lightwalk {
 
+/// Grids of pixels, each twice as fine as the one before: the coarsest has every 16th pixel of
+/// every 16th row. What is traced grid by grid looks like the picture early.
+inline constexpr int kGridLevels = 5;
+/// The coarsest grid that a pixel belongs to, 0 ... kGridLevels - 1.
+[[nodiscard]] inline int grid_level(const PixelPlace& place) {
+    const auto bits =
+        static_cast<unsigned>(place.x) | static_cast<unsigned>(place.y) | 1U << (kGridLevels - 1);
+    return kGridLevels - 1 - std::countr_zero(bits);
+}
+
 /// Where a pixel's value comes from.
 struct PixelOrigin {
     enum class Kind : std::uint8_t {
-        filled,  ///< from its neighbours
-        reused,  ///< from points
+        filled,   ///< from its neighbours
+        guessed,  ///< from points that are not near enough
+        reused,   ///< from points
         traced,
     };
     Kind kind = Kind::filled;
@@ -31,18 +43,26 @@ struct RestingWork {
 /// The picture of a resting view, and how good each of its pixels is.
 class RestingPicture {
   public:
-    /// Rays that a pixel at an edge gets in the end.
+    /// Rays that a pixel at an edge gets in the end, unless told otherwise.
     static constexpr int kMostSamples = 8;
 
-    RestingPicture(int width, int height) : width_(width), height_(height) {}
+    /// @param samples  1 ... 255: rays that a pixel at an edge gets in the end
+    RestingPicture(int width, int height, int samples = kMostSamples)
+        : width_(width), height_(height), most_samples_(samples) {}
 
     /// A new picture to work on, row by row.
     void begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins);
 
-    /// At most so many pixels: those filled from others, then reused ones, oldest points first,
-    /// then, one ray more a pixel each time, those that differ by more than a tenth from a
-    /// neighbour. Nothing when the picture is as good as it gets.
+    /// At most so many pixels: those filled from others, coarse grids first, guessed ones, then
+    /// reused ones, oldest points first, then, one ray more a pixel each time, those that differ by
+    /// more than a tenth from a neighbour. Nothing when the picture is as good as it gets.
     [[nodiscard]] RestingWork next(std::size_t most) const;
+    /// Pixels that have not been traced.
+    [[nodiscard]] std::size_t open_pixels() const;
+    /// Pixels that show neither what was traced nor what points tell truthfully.
+    [[nodiscard]] std::size_t guessed_pixels() const;
+    /// The picture, its filled pixels from what is known by now.
+    [[nodiscard]] std::vector<Rgb> picture() const;
 
     /// The first pixels of `work` were traced: the others were not.
     void take(const RestingWork& work, std::span<const Rgb> traced);
@@ -59,7 +79,7 @@ class RestingPicture {
                static_cast<std::size_t>(x);
     }
 
-    int width_, height_;
+    int width_, height_, most_samples_;
     std::vector<Rgb> radiance_;
     std::vector<PixelOrigin> origins_;
 };

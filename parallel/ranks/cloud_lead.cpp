@@ -38,7 +38,7 @@ CloudLead::CloudLead(int width, int height, const CloudOptions& options, WalkFra
       options_(options),
       guard_(options.audit_limit),
       frame_(first),
-      resting_(width, height) {}
+      resting_(width, height, options.samples) {}
 
 CloudOrder CloudLead::order(const View& view, const View* next, std::string payload) {
     CloudOrder order;
@@ -163,13 +163,10 @@ void CloudLead::refine(std::span<const CloudPart* const> parts, CloudFrame& fram
                   static_cast<std::size_t>(place.x)] = value.distance;
     }
     resting_.take(done, radiance);
-    frame.radiance.assign(resting_.radiance().begin(), resting_.radiance().end());
+    frame.radiance = resting_.picture();
     frame.distance = distance_;
-    const auto filled = std::count_if(
-        resting_.origins().begin(), resting_.origins().end(),
-        [](const PixelOrigin& pixel) { return pixel.kind == PixelOrigin::Kind::filled; });
     frame.report.holes[static_cast<std::size_t>(HoleCause::refined)] = radiance.size();
-    frame.report.filled = static_cast<std::size_t>(filled);
+    frame.report.filled = resting_.guessed_pixels();
     frame.report.reused = frame.report.pixels - frame.report.filled;
 }
 

@@ -216,7 +216,7 @@ void fields(Archive& archive, CloudReport& r) {
 }
 template <class Archive>
 void fields(Archive& archive, PixelOrigin& origin) {
-    enumerator(archive, origin.kind, 3);
+    enumerator(archive, origin.kind, 4);
     archive(origin.samples, origin.order);
 }
 template <class Archive>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cloud/ageing.h"
+#include "core/cloud/resting.h"
 #include "core/cloud/reuse.h"
 #include "core/math/rgb.h"
 
@@ -15,6 +16,7 @@ namespace lightwalk {
 enum class CloudCheck {
     none,   ///< of none: only the points' own depths tell what is hidden
     edges,  ///< where new things may come into view
+    half,   ///< of every other one, and of those between others that do not see the same
     all,
 };
 
@@ -30,7 +32,8 @@ struct CloudOptions {
     double budget = 0;       ///< of a frame: what does not fit is filled from around; 0: none [s]
     double refine = 0;       ///< share of the pixels that are refined in a frame whose view is
                              ///< that of the frame before
-    std::uint64_t seed = 0;  ///< of the audit's choice
+    int samples = RestingPicture::kMostSamples;  ///< rays that edges get then
+    std::uint64_t seed = 0;                      ///< of the audit's choice
 
     /// Most points of a picture's cloud.
     [[nodiscard]] std::size_t most_points(int width, int height) const {

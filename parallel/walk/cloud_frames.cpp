@@ -25,7 +25,7 @@ CloudFrames::CloudFrames(int width, int height, const CloudOptions& options, std
       region_({0, 0, width, height}, width, height, options),
       guard_(options.audit_limit),
       frame_(first),
-      resting_(width, height) {}
+      resting_(width, height, options.samples) {}
 
 CloudFrame CloudFrames::draw(const Camera& camera, const PixelCaster& caster, Executor& executor,
                              const StopFlag& stop) {
@@ -65,10 +65,18 @@ void CloudFrames::plan_refinement(Step& step) {
     region_.refine(step.work.places);
 }
 
+/// Where looking at the pixels has taken the time, some is left for tracing all the same: else
+/// nothing new would ever be seen.
+HoleTracer::Clock::time_point CloudFrames::trace_deadline(const Step& step) const {
+    constexpr double kLeastShare = 0.25;
+    return options_.budget > 0 ? std::max(step.deadline, deadline_of(kLeastShare * options_.budget))
+                               : step.deadline;
+}
+
 /// Trace holes until the frame's time is over; some at least, or a short budget would never end.
 void CloudFrames::trace(Step& step) {
     const StepTimer timer(region_.frame().report.trace_seconds);
-    const HoleTracer tracer(step.caster, options_.tolerance, step.deadline);
+    const HoleTracer tracer(step.caster, options_.tolerance, trace_deadline(step));
     std::vector<PixelPlace> places;
     for (const CloudHole& hole : region_.holes()) places.push_back(hole.place);
     tracer.trace(places, step.work.sample, step.executor, step.stop,
@@ -114,13 +122,10 @@ void CloudFrames::refine(Step& step) {
         if (step.work.sample == 0) distance_[region_.pixel(place)] = traced.distance;
     }
     resting_.take(done, radiance);
-    frame.radiance.assign(resting_.radiance().begin(), resting_.radiance().end());
+    frame.radiance = resting_.picture();
     frame.distance = distance_;
     frame.report.holes[static_cast<std::size_t>(HoleCause::refined)] = radiance.size();
-    const auto filled = std::count_if(
-        resting_.origins().begin(), resting_.origins().end(),
-        [](const PixelOrigin& pixel) { return pixel.kind == PixelOrigin::Kind::filled; });
-    frame.report.filled = static_cast<std::size_t>(filled);
+    frame.report.filled = resting_.guessed_pixels();
     frame.report.reused = frame.report.pixels - frame.report.filled;
 }
 

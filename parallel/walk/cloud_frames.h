@@ -13,6 +13,7 @@
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_frame.h"
 #include "parallel/walk/cloud_region.h"
+#include "parallel/walk/hole_tracer.h"
 
 namespace lightwalk {
 
@@ -32,11 +33,18 @@ class CloudFrames {
                                   Executor& executor, const StopFlag& stop);
 
     [[nodiscard]] std::span<const CloudPoint> points() const { return region_.points(); }
+    /// The last frame as one to be refined; nothing before the first one, and without `refine`.
+    [[nodiscard]] const RestingPicture* resting() const { return view_ ? &resting_ : nullptr; }
+    /// Time for each of the next frames; 0: none is too long [s].
+    void set_budget(double seconds) { options_.budget = seconds; }
+    /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
+    void set_refine(double share) { options_.refine = share; }
 
   private:
     struct Step;
     void plan_refinement(Step& step);
     void trace(Step& step);
+    [[nodiscard]] HoleTracer::Clock::time_point trace_deadline(const Step& step) const;
     void show();
     void remember(const Camera& camera);
     void refine(Step& step);

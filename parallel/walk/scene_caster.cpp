@@ -4,6 +4,16 @@
 
 namespace lightwalk {
 
+PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options, int sample) {
+    PixelOptions pixels = options.pixels;
+    std::uint64_t seed = options.seed;
+    if (sample > 0) {
+        seed = mix_bits(seed + static_cast<std::uint64_t>(sample));
+        if (!(pixels.jitter > 0)) pixels.jitter = PixelOptions{}.jitter;
+    }
+    return {camera, options.previous, options.width, options.height, pixels, seed, options.step};
+}
+
 SceneCaster::SceneCaster(const Tracer& tracer, const SceneSights& sights, const Camera& camera,
                          const FrameOptions& options, WorkerContexts& contexts,
                          const StopFlag& stop)
@@ -11,23 +21,10 @@ SceneCaster::SceneCaster(const Tracer& tracer, const SceneSights& sights, const 
       sights_(sights),
       camera_(camera),
       options_(options),
-      rays_(rays_of(0)),
+      rays_(rays_of_sample(camera, options, 0)),
       contexts_(contexts),
       stop_(stop),
       scratch_(static_cast<std::size_t>(contexts.size())) {}
-
-/// Sample 0 is the picture's own. The others are those of pictures with other seeds; jittered even
-/// where the picture is not, or they would all be the same.
-PixelRays SceneCaster::rays_of(int sample) const {
-    PixelOptions pixels = options_.pixels;
-    std::uint64_t seed = options_.seed;
-    if (sample > 0) {
-        seed = mix_bits(seed + static_cast<std::uint64_t>(sample));
-        if (!(pixels.jitter > 0)) pixels.jitter = PixelOptions{}.jitter;
-    }
-    return {camera_, options_.previous, options_.width, options_.height, pixels,
-            seed,    options_.step};
-}
 
 void SceneCaster::look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
                        int worker) {
@@ -93,7 +90,7 @@ void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixe
     s.sights.resize(places.size());
     s.values.resize(places.size());
     s.pixel_hits.resize(places.size());
-    const PixelRays rays = rays_of(sample);
+    const PixelRays rays = rays_of_sample(camera_, options_, sample);
     look_along(rays, true, places, s.sights, s);
     PixelTracer trace_pixels(tracer_, rays, contexts_[worker], stop_);
     trace_pixels(places, s.values, s.pixel_hits);

@@ -13,6 +13,12 @@
 
 namespace lightwalk {
 
+/// The rays of a picture's sample: of sample 0 its own, of the others those of pictures with other
+/// seeds; jittered even where the picture is not, or they would all be the same. The camera and the
+/// options' `previous` must outlive them.
+[[nodiscard]] PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options,
+                                       int sample);
+
 /// The rays of one frame: those that a picture with the same options has, to the bit.
 class SceneCaster {
   public:
@@ -37,7 +43,6 @@ class SceneCaster {
         std::vector<PixelHit> pixel_hits;
     };
 
-    [[nodiscard]] PixelRays rays_of(int sample) const;
     /// The rays of pixels: of perspective views that nothing blurs, which is faster, and of all.
     void set_out_plainly(const PixelRays& rays, std::span<const PixelPlace> places,
                          std::span<RaySegment> segments, std::span<PixelSights> sights) const;

@@ -1,0 +1,123 @@
+#include "parallel/walk/resting_light.h"
+
+#include <algorithm>
+
+#include "parallel/pixel_tracer.h"
+#include "parallel/walk/scene_caster.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kPixelsATask = 16;
+// Enough for a step of a second on many cores; choosing them takes a pass over the picture.
+constexpr std::size_t kMostPixels = 65536;
+
+}  // namespace
+
+RestingLight::RestingLight(const Tracer& tracer, const View& view, const FrameOptions& options,
+                           WorkerContexts& contexts, int samples)
+    : tracer_(tracer),
+      camera_(view),
+      options_(options),
+      contexts_(contexts),
+      work_(options.width, options.height, samples) {}
+
+void RestingLight::begin(std::span<const Rgb> radiance, std::span<const float> distance) {
+    before_.assign(radiance.begin(), radiance.end());
+    distance_.assign(distance.begin(), distance.end());
+    left_.assign(kGridLevels, 0);
+    std::vector<PixelOrigin> origins(radiance.size());
+    for (int y = 0; y < options_.height; ++y) {
+        for (int x = 0; x < options_.width; ++x) {
+            const int level = grid_level({x, y});
+            origins[at(x, y)] = {PixelOrigin::Kind::reused, 0, static_cast<std::uint32_t>(level)};
+            ++left_[static_cast<std::size_t>(level)];
+        }
+    }
+    work_.begin(radiance, origins);
+}
+
+bool RestingLight::step(HoleTracer::Clock::time_point deadline, Executor& executor,
+                        const StopFlag& stop) {
+    const RestingWork work = work_.next(kMostPixels);
+    if (work.places.empty()) return false;
+    const PixelRays rays = rays_of_sample(camera_, options_, work.sample);
+    const std::size_t tasks = (work.places.size() + kPixelsATask - 1) / kPixelsATask;
+    std::vector<PixelValue> values(work.places.size());
+    std::vector<std::uint8_t> done(tasks, 0);
+    executor.for_each(
+        tasks,
+        [&](std::size_t task, int worker) {
+            if (task > 0 && HoleTracer::Clock::now() > deadline) return;
+            const std::size_t first = task * kPixelsATask;
+            const std::size_t count = std::min(kPixelsATask, work.places.size() - first);
+            PixelTracer trace(tracer_, rays, contexts_[worker], stop);
+            trace(std::span(work.places).subspan(first, count),
+                  std::span(values).subspan(first, count));
+            done[task] = stop.requested() ? 0 : 1;
+        },
+        stop);
+    RestingWork finished{work.sample, {}};
+    std::vector<Rgb> radiance;
+    for (std::size_t i = 0; i < work.places.size(); ++i) {
+        if (done[i / kPixelsATask] == 0) continue;
+        const PixelPlace& place = work.places[i];
+        finished.places.push_back(place);
+        radiance.push_back(values[i].radiance);
+        if (work.sample > 0) continue;
+        distance_[at(place.x, place.y)] = values[i].distance;
+        --left_[static_cast<std::size_t>(grid_level(place))];
+    }
+    work_.take(finished, radiance);
+    return true;
+}
+
+/// Spacing of the finest grid that is traced as a whole; 0: none is.
+int RestingLight::whole_grid() const {
+    int spacing = 0;
+    for (int level = 0; level < kGridLevels && left_[static_cast<std::size_t>(level)] == 0; ++level)
+        spacing = 1 << (kGridLevels - 1 - level);
+    return spacing;
+}
+
+/// What the grid's pixels around have won, weighted as near as they are.
+Rgb RestingLight::difference(int x, int y, int spacing) const {
+    Rgb sum;
+    float weights = 0;
+    const int left = x - x % spacing, below = y - y % spacing;
+    for (const int gy : {below, below + spacing}) {
+        for (const int gx : {left, left + spacing}) {
+            if (gx >= options_.width || gy >= options_.height) continue;
+            const auto weight =
+                static_cast<float>((spacing - std::abs(gx - x)) * (spacing - std::abs(gy - y)));
+            sum += weight * (work_.radiance()[at(gx, gy)] - before_[at(gx, gy)]);
+            weights += weight;
+        }
+    }
+    return sum * (1 / weights);
+}
+
+std::vector<Rgb> RestingLight::picture() const {
+    std::vector<Rgb> shown(work_.radiance().begin(), work_.radiance().end());
+    const int spacing = whole_grid();
+    if (spacing <= 1) return shown;
+    for (int y = 0; y < options_.height; ++y) {
+        for (int x = 0; x < options_.width; ++x) {
+            if (is_traced(x, y)) continue;
+            Rgb& pixel = shown[at(x, y)];
+            pixel += difference(x, y, spacing);
+            // A brighter neighbour's loss may be more than this one has.
+            pixel = {std::max(pixel.r, 0.0f), std::max(pixel.g, 0.0f), std::max(pixel.b, 0.0f)};
+        }
+    }
+    return shown;
+}
+
+double RestingLight::share() const {
+    std::size_t left = 0;
+    for (const std::size_t count : left_) left += count;
+    return before_.empty() ? 1
+                           : 1 - static_cast<double>(left) / static_cast<double>(before_.size());
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,63 @@
+#pragma once
+// Indirect light for a view that rests: its picture is traced again, coarse to fine, by a tracer
+// that knows more light than the frames of the walk had time for.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/cloud/resting.h"
+#include "core/transport/tracer.h"
+#include "parallel/executor.h"
+#include "parallel/frame_options.h"
+#include "parallel/stop_flag.h"
+#include "parallel/walk/hole_tracer.h"
+#include "parallel/worker_contexts.h"
+
+namespace lightwalk {
+
+/// A picture that starts as one tracer drew it, and ends as another one draws it. Meanwhile pixels
+/// that are not traced yet get what the difference is around them.
+class RestingLight {
+  public:
+    /// All must outlive this.
+    /// @param options   of the picture: one sample a pixel, no window
+    /// @param contexts  made for `tracer`, one for each worker of the executor
+    /// @param samples   rays that a pixel at an edge gets in the end, at least 1
+    RestingLight(const Tracer& tracer, const View& view, const FrameOptions& options,
+                 WorkerContexts& contexts, int samples);
+
+    /// @param radiance, distance  row by row from the bottom
+    void begin(std::span<const Rgb> radiance, std::span<const float> distance);
+
+    /// Trace more pixels until the deadline, some at least.
+    /// @return  false: there is nothing left to do
+    bool step(HoleTracer::Clock::time_point deadline, Executor& executor, const StopFlag& stop);
+
+    /// The picture as far as it is known, row by row from the bottom.
+    [[nodiscard]] std::vector<Rgb> picture() const;
+    [[nodiscard]] std::span<const float> distance() const { return distance_; }
+    /// Share of the pixels that are traced, 0 ... 1.
+    [[nodiscard]] double share() const;
+
+  private:
+    [[nodiscard]] std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) +
+               static_cast<std::size_t>(x);
+    }
+    [[nodiscard]] bool is_traced(int x, int y) const {
+        return work_.origins()[at(x, y)].kind == PixelOrigin::Kind::traced;
+    }
+    [[nodiscard]] int whole_grid() const;
+    [[nodiscard]] Rgb difference(int x, int y, int spacing) const;
+
+    const Tracer& tracer_;
+    Camera camera_;
+    FrameOptions options_;
+    WorkerContexts& contexts_;
+    RestingPicture work_;
+    std::vector<Rgb> before_;
+    std::vector<float> distance_;
+    std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
+};
+
+}  // namespace lightwalk

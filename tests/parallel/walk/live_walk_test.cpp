@@ -1,0 +1,161 @@
+#include "parallel/walk/live_walk.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "parallel/concurrent_cache.h"
+#include "parallel/frame.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using lightwalk::test::TestScene;
+
+namespace {
+
+const std::string kRoom = R"(
+void plastic grey 0 0 5 .5 .5 .5 0 0
+void plastic red 0 0 5 .6 .1 .1 0 0
+void light lamp 0 0 3 40 40 40
+grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+grey polygon ceiling 0 0 12  -4 6 3  4 6 3  4 -6 3  -4 -6 3
+grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
+red polygon right 0 0 12  4 6 0  4 -6 0  4 -6 3  4 6 3
+grey sphere ball 0 0 4 -1 2 .7 .7
+lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
+)";
+constexpr int kWidth = 80, kHeight = 60;
+
+View view_at(double turned) {
+    View view;
+    view.position = {0, -4, 1.5};
+    view.direction = {turned, 1, -0.05};
+    view.horizontal = 60;
+    view.vertical = 46.8;
+    return view;
+}
+
+RenderOptions with_bounces(int bounces) {
+    RenderOptions options;
+    options.ambient_bounces = bounces;
+    options.ambient_accuracy = 0;  // no cache: what a pixel gets depends on nothing else
+    options.ambient_divisions = 16;
+    options.ambient_value = Rgb::grey(0.1f);
+    return options;
+}
+
+struct Walker {
+    explicit Walker(int bounces, int samples = 1)
+        : room(kRoom),
+          direct(room.scene, with_bounces(0), room.warnings),
+          full(room.scene, with_bounces(bounces), room.warnings),
+          executor(make_executor(ExecutorKind::threads, 2)),
+          live(direct, bounces > 0 ? &full : nullptr, cloud(samples), options(), *executor,
+               room.warnings) {}
+
+    static CloudOptions cloud(int samples) {
+        CloudOptions cloud;
+        cloud.budget = 1;
+        cloud.refine = 0.1;
+        cloud.samples = samples;
+        return cloud;
+    }
+    static FrameOptions options() {
+        FrameOptions options;
+        options.width = kWidth;
+        options.height = kHeight;
+        options.pixels.spacing = 1;
+        return options;
+    }
+    LivePicture next(const View& view, AmbientUse use, double budget = 1e-9) {
+        return live.next(view, kWidth, kHeight, use, budget, stop);
+    }
+    /// The picture when nothing more comes; with what was said meanwhile.
+    LivePicture rest(const View& view, AmbientUse use, std::vector<LivePicture>* all = nullptr) {
+        for (int i = 0; i < 20000; ++i) {
+            LivePicture picture = next(view, use, 1e-3);
+            if (all != nullptr) all->push_back(picture);
+            if (picture.phase == LivePhase::done) return picture;
+        }
+        FAIL("it does not end");
+        return {};
+    }
+    Frame rendered(const Tracer& tracer, const View& view) {
+        WorkerContexts contexts(tracer, room.warnings, executor->concurrency());
+        return render_frame(tracer, Camera(view), options(), *executor, contexts, stop,
+                            [](const FrameProgress&) {});
+    }
+
+    TestScene room;
+    Tracer direct, full;
+    std::unique_ptr<Executor> executor;
+    StopFlag stop;
+    LiveWalk live;
+};
+
+}  // namespace
+
+TEST_CASE("a view that rests ends as the picture that is rendered of it, whatever came before") {
+    Walker walker(0);
+    for (const double turned : {-0.1, -0.05, 0.0})
+        (void)walker.next(view_at(turned), AmbientUse::off);
+    const LivePicture rested = walker.rest(view_at(0), AmbientUse::off);
+    CHECK(rested.radiance == walker.rendered(walker.direct, view_at(0)).radiance);
+    CHECK(rested.distance == walker.rendered(walker.direct, view_at(0)).distance);
+}
+
+TEST_CASE("indirect light comes while a view rests, and ends as the picture that is rendered") {
+    Walker walker(1);
+    const View view = view_at(0);
+    const Frame truth = walker.rendered(walker.full, view);
+    const Frame direct = walker.rendered(walker.direct, view);
+    std::vector<LivePicture> all;
+    CHECK(walker.rest(view, AmbientUse::rest, &all).radiance == truth.radiance);
+    const auto error = [&](const std::vector<Rgb>& radiance) {
+        double sum = 0;
+        for (std::size_t i = 0; i < radiance.size(); ++i)
+            sum += static_cast<double>(
+                std::abs(brightness(radiance[i]) - brightness(truth.radiance[i])));
+        return sum;
+    };
+    // Long before all pixels are traced they look more like it than what the frames had.
+    const auto early = std::find_if(all.begin(), all.end(), [](const LivePicture& picture) {
+        return picture.phase == LivePhase::ambient && picture.share > 0.1;
+    });
+    REQUIRE(early != all.end());
+    CHECK(early->share < 0.5);
+    CHECK(error(early->radiance) < 0.5 * error(direct.radiance));
+}
+
+TEST_CASE("indirect light is always there, or never, where that is asked for") {
+    Walker walker(1);
+    CHECK(walker.rest(view_at(0), AmbientUse::always).radiance ==
+          walker.rendered(walker.full, view_at(0)).radiance);
+    CHECK(walker.rest(view_at(0), AmbientUse::off).radiance ==
+          walker.rendered(walker.direct, view_at(0)).radiance);
+}
+
+TEST_CASE("a view that moves on leaves what it was doing, and is told from one that rests") {
+    Walker walker(1);
+    (void)walker.rest(view_at(0), AmbientUse::rest);
+    const LivePicture moved = walker.next(view_at(0.05), AmbientUse::rest);
+    CHECK(moved.phase == LivePhase::moving);
+    CHECK(moved.radiance.size() == kWidth * kHeight);
+    CHECK(walker.next(view_at(0.05), AmbientUse::rest).phase != LivePhase::moving);
+    CHECK(
+        walker.live.next(view_at(0.05), 40, 30, AmbientUse::rest, 1, walker.stop).radiance.size() ==
+        1200);
+}
+
+TEST_CASE("edges get more rays where a view rests, other pixels do not") {
+    Walker once(0), often(0, 4);
+    const LivePicture plain = once.rest(view_at(0), AmbientUse::off);
+    const LivePicture smooth = often.rest(view_at(0), AmbientUse::off);
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < plain.radiance.size(); ++i)
+        changed += plain.radiance[i] == smooth.radiance[i] ? 0 : 1;
+    CHECK(changed > 0);
+    CHECK(changed < plain.radiance.size() / 2);
+}
