@@ -17,6 +17,7 @@ inline constexpr int kUsageStatus = 2;    ///< a command line that was not under
 /// @param ranks  the wire to the other ranks; null: this process is alone
 int run_render(const std::vector<std::string>& words, Transport* ranks);
 int run_animate(const std::vector<std::string>& words, Transport* ranks);
+int run_walk(const std::vector<std::string>& words, Transport* ranks);
 int run_trace(const std::vector<std::string>& words, Transport* ranks);
 int run_info(const std::vector<std::string>& words, Transport* ranks);
 

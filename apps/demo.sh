@@ -1,14 +1,22 @@
 #!/bin/sh
-# Install what is needed, build, and render the demo scene's views by day and in the evening.
-# Usage: demo.sh [WIDTH] [FOLDER]   (default: 640 pixels wide, pictures in out/demo)
+# Install what is needed, build, and walk through the demo scene in a browser, or render its views.
+# Usage: demo.sh [OPTIONS...]                       walk: open the printed address; options of `lightwalk walk`
+#        demo.sh --pictures [WIDTH] [FOLDER]        by day and in the evening (640 pixels wide, in out/demo)
 set -eu
 cd "$(dirname "$0")/.."
 root=$(pwd)
-width="${1:-640}"
-out="${2:-$root/out/demo}"
 sh apps/install_packages.sh
 cmake --preset release
 cmake --build --preset release --target lightwalk
+if [ "${1:-}" != --pictures ]; then
+    cd apps/scenes/lodge
+    echo "Open this address in a browser; Ctrl-C ends the walk:"
+    exec "$root/build/release/lightwalk" walk -vf views/living.vf -vf views/window.vf -vf views/dining.vf \
+        -vf views/fireplace.vf -vf views/terrace.vf -ab 1 -aa .25 -ad 256 -as 64 -ar 384 -av .2 .2 .19 -ds .3 "$@" \
+        lodge.rad day.rad
+fi
+width="${2:-640}"
+out="${3:-$root/out/demo}"
 mkdir -p "$out"
 cd apps/scenes/lodge
 rm -f "$out/day.amb" "$out/night.amb"

@@ -8,6 +8,7 @@ constexpr const char* kProgramHelp =
 
   lightwalk render OPTIONS SCENE...   a picture of a view          (like rpict)
   lightwalk animate OPTIONS SCENE...  the frames of a walk
+  lightwalk walk OPTIONS SCENE...     walk through a scene in a browser
   lightwalk trace OPTIONS SCENE...    radiance along single rays   (like rtrace)
   lightwalk info SCENE...             what a scene holds
   lightwalk help COMMAND              how to use one of them
@@ -121,7 +122,8 @@ rays wherever these are true.
   --cloud-age N      supersaturated: frames that a point outlives unused, default 25
   --cloud-limit N    points are at most N times the pixels, default 4
   --check WHICH      of which pixels a ray tells what is there, so that no other thing's point shows: all (default),
-                     edges (where points are missing or jump in depth, and the picture's rim), none
+                     half (every other one, and those between others that do not see the same), edges (where points
+                     are missing or jump in depth, and the picture's rim), none
   --drop WHICH       where no ray tells: hidden: points far behind most of those around them are dropped; lonely: those
                      far from all around them; both (default), none
   --look WHERE       back (default): a pixel takes the nearest point of what its ray meets; forward: only a point that
@@ -139,6 +141,25 @@ rays wherever these are true.
   --refine PERCENT   when a frame has the view of the frame before, that share of its pixels is made better (10): those
                      filled, then those reused, oldest first, then, with further rays, those at steps of brightness
   --projectors N     of many ranks so many at most keep points (32); the others trace what is missing
+)";
+
+constexpr const char* kWalkHelp =
+    R"(lightwalk walk OPTIONS SCENE...
+
+Walk through a scene in a browser: prints the address to open. Options are those of `lightwalk render` and those on
+reuse of `lightwalk animate`, but for what is about files of pictures. When the scene's files change it is read again,
+and the walk goes on from where it stood; what is wrong with them stands in the page.
+
+  -vf FILE           a view for the page's list, named as the file; repeatable. The first is where the walk begins, and its
+                     height above the ground is that of the eyes
+  --port N           default 8080; 0: any that is free
+  --bind ADDRESS     default 127.0.0.1: this machine alone. Anything else demands the token in the printed address
+  --clients N        browsers at once, default 8: the first drives, others watch
+  --fps N            frames a second while moving, default 30: a frame's time goes to its worst pixels, the others are
+                     filled from around them and traced later
+  --max-size WxH     of pictures, default 1920x1200; larger windows show them enlarged
+  --ambient WHEN     rest (default): with -ab, indirect light comes when the view rests; always, off. The page may change it
+  --edge-samples N   rays that a pixel at an edge gets when the view rests, default 8; 1: the picture of `lightwalk render`
 )";
 
 constexpr const char* kTraceHelp =
@@ -190,6 +211,7 @@ cannot be rendered; what could be found out is printed all the same.
 const char* help_text(const std::string& command) {
     if (command == "render") return kRenderHelp;
     if (command == "animate") return kAnimateHelp;
+    if (command == "walk") return kWalkHelp;
     if (command == "trace") return kTraceHelp;
     if (command == "info") return kInfoHelp;
     return kProgramHelp;

@@ -17,16 +17,21 @@ const std::vector<std::string> kOwnNames{
     "-vts",         "--exposure", "--tone", "--samples", "--overture", "--deterministic",
     "--checkpoint", "--resume"};
 
-bool parse_view(OptionWords& words, View& view, FileSource& files) {
+bool parse_view(OptionWords& words, RenderCommand& command, FileSource& files) {
     const std::vector<std::string> rest = words.rest();
     std::size_t used = 0;
     try {
-        used = parse_view_option(rest, view, files);
+        // A walk's views know nothing of each other.
+        if (command.serve && words.option() == "-vf") command.view = {};
+        used = parse_view_option(rest, command.view, files);
     } catch (const InputError& error) {
         if (words.option() == "-vf" && rest.size() > 1)
             throw;  // the file is at fault, not the command line
         throw UsageError(error.what());
     }
+    if (command.serve && words.option() == "-vf")
+        command.serve->views.push_back({view_title(rest[1]), command.view});
+    if (used > 0) command.view_given = true;
     words.skip(used);
     return used > 0;
 }
@@ -131,8 +136,9 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
         return;
     }
     refuse_foreign(word);
+    if (command.serve && parse_serve_option(words, *command.serve)) return;
     if (command.walk && parse_walk_option(words, *command.walk)) return;
-    if (parse_view(words, command.view, library.files()) || parse_pixel_option(words, command) ||
+    if (parse_view(words, command, library.files()) || parse_pixel_option(words, command) ||
         parse_output_option(words, command) ||
         parse_render_option(words, library, command.settings) ||
         parse_common_option(words, command.common, command.settings)) {
@@ -142,6 +148,8 @@ void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand&
     names.insert(names.end(), kOwnNames.begin(), kOwnNames.end());
     if (command.walk)
         for (std::string& name : walk_option_names()) names.push_back(std::move(name));
+    if (command.serve)
+        for (std::string& name : serve_option_names()) names.push_back(std::move(name));
     refuse_option(words, std::move(names));
 }
 
@@ -179,19 +187,39 @@ void check_walk(const RenderCommand& command) {
         throw UsageError("options -pd and -pm blur what points show sharp: say --reuse off");
 }
 
+/// What is drawn for somebody who watches has no files and no end.
+void check_serve(const RenderCommand& command) {
+    if (command.first_frame > 0 || !command.checkpoint.empty() || !command.output.empty() ||
+        !command.depth.empty() || command.walk->way != WalkCommand::Way::none)
+        throw UsageError(
+            "-o, -z, -S, --checkpoint, --path, --rotate and --walk are for pictures in files: say "
+            "lightwalk render or animate");
+    if (!command.walk->reuse) throw UsageError("option --reuse: a walk that is steered reuses");
+    if (command.pixels.aperture > 0 || command.pixels.motion > 0)
+        throw UsageError("options -pd and -pm blur what points show sharp");
+    if (command.pixels.samples > 1)
+        throw UsageError("option --samples: say --edge-samples, for where a view rests");
+}
+
 }  // namespace
 
 RenderCommand parse_render_command(const std::string& name, const std::vector<std::string>& line,
                                    const std::shared_ptr<FileSource>& files) {
     RenderCommand command;
     command.name = name;
-    if (name == "animate") command.walk.emplace();
+    if (name != "render") command.walk.emplace();
+    if (name == "walk") {
+        command.serve.emplace();
+        command.walk->rate = 30;
+    }
     command.settings = default_render_settings(OptionDefaults::rpict);
     const LibraryPath library = LibraryPath::from_environment(files);
     OptionWords words(line, files);
     while (!command.show_defaults && words.at_option()) parse_option(words, library, command);
     check(command);
-    if (command.walk && !command.show_defaults) {
+    if (command.serve) {
+        check_serve(command);
+    } else if (command.walk && !command.show_defaults) {
         check_walk(command);
         settle_walk(*command.walk, command.view, *files);
     }

@@ -1,10 +1,11 @@
 #pragma once
-// What the command line of `lightwalk render` or `lightwalk animate` says.
+// What the command line of `lightwalk render`, `animate` or `walk` says.
 #include <array>
 #include <optional>
 #include <string>
 
 #include "apps/common_options.h"
+#include "apps/walk/serve_command.h"
 #include "apps/walk_command.h"
 #include "core/view/view.h"
 #include "io/picture/tone.h"
@@ -32,13 +33,15 @@ struct RenderCommand {
     bool overture = true;                            ///< --overture auto|off
     bool deterministic = false;                      ///< --deterministic
     int first_frame = 0;  ///< -S: number of the first frame of a sequence; 0: one picture
-    std::optional<WalkCommand> walk;  ///< of `lightwalk animate`; nothing for `render`
-    bool show_defaults = false;       ///< -defaults
-    std::string history;              ///< the command line for the picture's header
+    std::optional<WalkCommand> walk;    ///< of `lightwalk animate`; nothing for `render`
+    std::optional<ServeCommand> serve;  ///< of `lightwalk walk`, beside `walk`
+    bool view_given = false;            ///< an option named a part of the view
+    bool show_defaults = false;         ///< -defaults
+    std::string history;                ///< the command line for the picture's header
 };
 
 /// Throws UsageError, and InputError for files that options name.
-/// @param name  of the command: render or animate
+/// @param name  of the command: render, animate or walk
 [[nodiscard]] RenderCommand parse_render_command(const std::string& name,
                                                  const std::vector<std::string>& words,
                                                  const std::shared_ptr<FileSource>& files);

@@ -36,15 +36,6 @@ double share(OptionWords& words, double most) {
     return percent / 100;
 }
 
-int count(OptionWords& words, int least, int most) {
-    const std::string option = words.option();
-    const int number = words.integer();
-    if (number < least || number > most)
-        throw UsageError("option " + option + ": expected a number from " + std::to_string(least) +
-                         " to " + std::to_string(most));
-    return number;
-}
-
 double real_between(OptionWords& words, double least, double most) {
     const std::string option = words.option();
     const double number = words.real();
@@ -80,7 +71,7 @@ bool parse_way(OptionWords& words, WalkCommand& walk) {
     } else if (word == "--step") {
         walk.step = share(words, 100);
     } else if (word == "--frames") {
-        walk.frames = count(words, 1, kMostFrames);
+        walk.frames = whole_number(words, 1, kMostFrames);
     } else if (word == "--fps") {
         walk.rate = real_between(words, 0.1, 1000);
     } else {
@@ -146,6 +137,15 @@ bool parse_care(OptionWords& words, CloudOptions& cloud) {
 
 }  // namespace
 
+int whole_number(OptionWords& words, int least, int most) {
+    const std::string option = words.option();
+    const int number = words.integer();
+    if (number < least || number > most)
+        throw UsageError("option " + option + ": expected a number from " + std::to_string(least) +
+                         " to " + std::to_string(most));
+    return number;
+}
+
 bool parse_walk_option(OptionWords& words, WalkCommand& walk) {
     if (parse_way(words, walk) || parse_rule(words, walk.cloud.rules) ||
         parse_care(words, walk.cloud))
@@ -154,7 +154,7 @@ bool parse_walk_option(OptionWords& words, WalkCommand& walk) {
     if (word == "--reuse")
         set_reuse(words, walk);
     else if (word == "--cloud-age")
-        walk.cloud.age = count(words, 0, kOldestAge - 1);
+        walk.cloud.age = whole_number(words, 0, kOldestAge - 1);
     else if (word == "--cloud-limit")
         walk.cloud.limit = real_between(words, 2, 64);  // a pixel leaves up to two points
     else if (word == "--check")
@@ -163,7 +163,7 @@ bool parse_walk_option(OptionWords& words, WalkCommand& walk) {
             std::array{std::pair{"all", CloudCheck::all}, std::pair{"half", CloudCheck::half},
                        std::pair{"edges", CloudCheck::edges}, std::pair{"none", CloudCheck::none}});
     else if (word == "--projectors")
-        walk.projectors = count(words, 1, kMostProjectors);
+        walk.projectors = whole_number(words, 1, kMostProjectors);
     else if (word == "--specular-tolerance")
         walk.cloud.tolerance = share(words, 100);
     else

@@ -30,6 +30,9 @@ struct WalkCommand {
     CloudOptions cloud{.audit = 0.01, .audit_limit = 0.1, .refine = 0.1};
 };
 
+/// The whole number after an option. Throws UsageError for one beyond these.
+[[nodiscard]] int whole_number(OptionWords& words, int least, int most);
+
 /// Take an option of animate's own; false when the word is another one. Throws UsageError.
 [[nodiscard]] bool parse_walk_option(OptionWords& words, WalkCommand& walk);
 

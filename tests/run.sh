@@ -1,11 +1,27 @@
 #!/bin/sh
 # Install what is needed, build, and run all tests. An argument names another preset (asan, tsan); more arguments
-# go to ctest.
+# go to ctest. --no-browser, before them: without the test of the page in a browser, which is large to install.
 set -eu
 cd "$(dirname "$0")/.."
-sh apps/install_packages.sh qemu-user
+browser=chromium
+if [ "${1:-}" = --no-browser ]; then
+    browser=""
+    shift
+fi
 preset="${1:-release}"
 [ $# -eq 0 ] || shift
+[ "$preset" = release ] || browser=""  # a browser is not what sanitizers look at
+# Node.js may be there from elsewhere.
+if [ -n "$browser" ]; then
+    command -v node >/dev/null || browser="$browser nodejs"
+    command -v npm >/dev/null || browser="$browser npm"
+fi
+# shellcheck disable=SC2086  # a list of words
+sh apps/install_packages.sh qemu-user $browser
+if [ -n "$browser" ] && [ ! -d build/npm/node_modules/playwright-core ]; then
+    mkdir -p build/npm
+    npm install --silent --no-audit --no-fund --prefix build/npm playwright-core@1
+fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 ctest --preset "$preset" -j "$(nproc)" "$@"

@@ -169,6 +169,16 @@ std::string walk_text(const StateReply& reply) {
                     {"points", reply.points}});
 }
 
+std::string walk_text(const ViewReply& reply) {
+    return text_of({{"type", "view"}, {"view", to_json(reply.view)}});
+}
+
+std::string walk_text(const DisplayReply& reply) {
+    Json json = to_json(reply.display);
+    json["type"] = "display";
+    return text_of(json);
+}
+
 std::string walk_text(const RefusedReply& reply) {
     Json object{{"type", "refused"}, {"text", reply.text}};
     if (reply.id) object["id"] = *reply.id;

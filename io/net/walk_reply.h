@@ -93,6 +93,13 @@ struct StateReply {
     int ranks = 1, threads = 1;
     std::uint64_t points = 0;
 };
+/// What the driver sees, to those who watch.
+struct ViewReply {
+    View view;
+};
+struct DisplayReply {
+    DisplayRequest display;
+};
 /// A request that cannot be done.
 struct RefusedReply {
     std::string text;
@@ -113,6 +120,8 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const ProbesReply& reply);
 [[nodiscard]] std::string walk_text(const GlareReply& reply);
 [[nodiscard]] std::string walk_text(const StateReply& reply);
+[[nodiscard]] std::string walk_text(const ViewReply& reply);
+[[nodiscard]] std::string walk_text(const DisplayReply& reply);
 [[nodiscard]] std::string walk_text(const RefusedReply& reply);
 [[nodiscard]] std::string walk_text(const ByeReply& reply);
 

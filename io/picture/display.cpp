@@ -4,13 +4,13 @@
 #include <bit>
 #include <cmath>
 
+#include "core/math/xyz.h"
 #include "io/picture/human_tone.h"
 #include "io/picture/tone.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr double kLumens = 179;  // of Radiance's radiance [lm/W]
 constexpr double kMiddleGrey = 0.18;
 constexpr double kShareBelowWhite = 0.999;
 constexpr double kAdaptationTime = 0.4;  // [s]
@@ -105,14 +105,15 @@ Display::Display(const DisplaySettings& settings, const Adaptation& eye,
     if (settings.mode == DisplaySettings::Mode::false_colour) {
         colours_.resize(place_of(kMost) + 1);
         for (std::size_t i = 0; i < colours_.size(); ++i)
-            colours_[i] = false_colour(kLumens * static_cast<double>(value_at(i)));
+            colours_[i] = false_colour(double{kEfficacy} * static_cast<double>(value_at(i)));
         return;
     }
     if (settings.human) {
         const HumanTone tone(picture);
         fill_table([&](double L) -> Entry {
-            const double grey = 1 - colour_sensitivity(kLumens * L);
-            return {static_cast<float>(tone(kLumens * L) / L), 0, static_cast<float>(grey)};
+            const double grey = 1 - colour_sensitivity(double{kEfficacy} * L);
+            return {static_cast<float>(tone(double{kEfficacy} * L) / L), 0,
+                    static_cast<float>(grey)};
         });
         return;
     }

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/math/xyz.h"
+
 namespace lightwalk {
 namespace {
 
-constexpr double kLumens = 179;                        // of Radiance's radiance [lm/W]
 constexpr double kScreenDark = 1, kScreenWhite = 100;  // [cd/m²]
 constexpr int kBins = 100;
 constexpr double kTolerance = 0.025;  // share of the pixels that may be cut in the last round
@@ -37,7 +38,7 @@ double colour_sensitivity(double L) {
 }
 
 HumanTone::HumanTone(const BrightnessHistogram& histogram) {
-    const double average = kLumens * histogram.log_average();
+    const double average = double{kEfficacy} * histogram.log_average();
     // What is just visible there is just visible on the screen's middle.
     const double middle = std::sqrt(kScreenDark * kScreenWhite);
     factor_ = average > 0 ? visible_difference(middle) / visible_difference(average) / kScreenWhite
@@ -49,14 +50,15 @@ HumanTone::HumanTone(const BrightnessHistogram& histogram) {
     if (first == last) return;
     constexpr double kDarkest = 1e-4;  // nobody sees less [cd/m²]
     const double half = 0.5 / BrightnessHistogram::kStepsPerOctave;
-    lowest_ = std::log(
-        std::max(kLumens * BrightnessHistogram::middle(first) * std::exp2(-half), kDarkest));
-    highest_ = std::log(
-        std::max(kLumens * BrightnessHistogram::middle(last - 1) * std::exp2(half), 2 * kDarkest));
+    lowest_ = std::log(std::max(
+        double{kEfficacy} * BrightnessHistogram::middle(first) * std::exp2(-half), kDarkest));
+    highest_ = std::log(std::max(
+        double{kEfficacy} * BrightnessHistogram::middle(last - 1) * std::exp2(half), 2 * kDarkest));
     std::vector<double> bins(kBins, 0.0);
     for (std::size_t step = first; step < last; ++step) {
-        const double at = (std::log(kLumens * BrightnessHistogram::middle(step)) - lowest_) /
-                          (highest_ - lowest_) * kBins;
+        const double at =
+            (std::log(double{kEfficacy} * BrightnessHistogram::middle(step)) - lowest_) /
+            (highest_ - lowest_) * kBins;
         bins[static_cast<std::size_t>(std::clamp(at, 0.0, kBins - 1.0))] += counts[step];
     }
     adjust(bins);

@@ -27,7 +27,9 @@ std::vector<int> places(const RestingWork& work) {
 
 }  // namespace
 
-TEST_CASE("resting view: filled pixels come first, then reused ones by age, each once") {
+TEST_CASE(
+    "resting view: filled pixels come first, coarse grids before fine ones, then reused ones by "
+    "age") {
     RestingPicture picture = row({1, 1, 1, 1, 1}, {{Kind::reused, 0, 9},
                                                    {Kind::traced, 1, 0},
                                                    {Kind::filled, 0, 0},
@@ -35,7 +37,7 @@ TEST_CASE("resting view: filled pixels come first, then reused ones by age, each
                                                    {Kind::filled, 0, 0}});
     RestingWork work = picture.next(3);
     CHECK(work.sample == 0);
-    CHECK(places(work) == std::vector<int>{2, 4, 3});
+    CHECK(places(work) == std::vector<int>{4, 2, 3});
     picture.take(work, std::vector<Rgb>(2, Rgb::grey(1)));  // there was time for two only
     work = picture.next(3);
     CHECK(places(work) == std::vector<int>{3, 0});

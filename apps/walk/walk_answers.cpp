@@ -1,0 +1,107 @@
+#include "apps/walk/walk_answers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/xyz.h"
+#include "core/scene/scene.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kSide = 4;  // rays along each side of a pixel
+
+double luminance(const Rgb& radiance) {
+    return double{kEfficacy} * static_cast<double>(brightness(radiance));
+}
+
+}  // namespace
+
+Ray WalkAnswers::look(const Vec3& origin, const Vec3& direction, double limit, int sample) {
+    Ray ray = tracer_.primary(origin, direction, limit,
+                              RandomStream::of_pixel(0, 0, 0, static_cast<std::uint32_t>(sample)));
+    tracer_.trace(ray, context_);
+    return ray;
+}
+
+double WalkAnswers::illuminance(const Vec3& point, const Vec3& normal) {
+    Rgb sum;
+    constexpr int kRays = 16;
+    for (int i = 0; i < kRays; ++i)
+        sum += tracer_
+                   .irradiance(point, normal,
+                               RandomStream::of_pixel(1, 0, 0, static_cast<std::uint32_t>(i)),
+                               context_)
+                   .value;
+    return luminance(sum * (1.0f / kRays));
+}
+
+PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
+                              const std::pair<double, double>& pixel) {
+    PickedReply reply;
+    reply.id = request.id;
+    const std::optional<Camera::ViewRay> middle = camera.ray(request.x, request.y);
+    if (!middle) return reply;
+    Rgb sum;
+    int rays = 0;
+    for (int k = 0; k < kSide * kSide; ++k) {
+        const double h = request.x + ((k % kSide + 0.5) / kSide - 0.5) * pixel.first;
+        const double v = request.y + ((k / kSide + 0.5) / kSide - 0.5) * pixel.second;
+        const std::optional<Camera::ViewRay> ray = camera.ray(h, v);
+        if (!ray) continue;
+        sum += look(ray->origin, ray->direction, ray->limit, k).value;
+        ++rays;
+    }
+    reply.luminance = rays > 0 ? luminance(sum * (1.0f / static_cast<float>(rays))) : 0;
+    const Scene& scene = tracer_.scene();
+    const Hit hit = scene.geometry().intersect(
+        {middle->origin, middle->direction, middle->limit > kEpsilon ? middle->limit : kHuge});
+    reply.hit = hit.exists();
+    if (!reply.hit) return reply;
+    reply.distance = hit.t;
+    reply.position = hit.position;
+    reply.normal = dot(hit.normal, middle->direction) > 0 ? -hit.normal : hit.normal;
+    reply.illuminance = illuminance(reply.position, reply.normal);
+    const std::optional<ModifierId> material = scene.material_of(hit.modifier);
+    reply.material = material ? scene.modifier(*material).name : "void";
+    reply.surface = scene.surface(hit.surface).name;
+    return reply;
+}
+
+MeanReply WalkAnswers::mean(const MeanRequest& request, const LivePicture& picture) {
+    const auto pixels = [](double from, double to, int size) {
+        const int first = std::clamp(static_cast<int>(std::floor(from * size)), 0, size - 1);
+        const int last = std::clamp(static_cast<int>(std::ceil(to * size)), first + 1, size);
+        return std::pair{first, last};
+    };
+    const auto [x0, x1] = pixels(request.x0, request.x1, picture.width);
+    const auto [y0, y1] = pixels(1 - request.y1, 1 - request.y0, picture.height);
+    double sum = 0;
+    for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x)
+            sum += luminance(picture.radiance[static_cast<std::size_t>(y) *
+                                                  static_cast<std::size_t>(picture.width) +
+                                              static_cast<std::size_t>(x)]);
+    const auto count = static_cast<std::uint64_t>(x1 - x0) * static_cast<std::uint64_t>(y1 - y0);
+    return {request.id, sum / static_cast<double>(count), count};
+}
+
+ProbeValue WalkAnswers::measure(const ProbePlace& probe, const Vec3& eye) {
+    ProbeValue value;
+    value.id = probe.id;
+    value.illuminance = illuminance(probe.position, probe.normal);
+    const Vec3 way = probe.position - eye;
+    constexpr double kBeyond = 1.001;  // so that the ray reaches the pin's surface
+    const double far = length(way);
+    if (far > kEpsilon)
+        value.luminance = luminance(look(eye, way * (1 / far), kBeyond * far, 0).value);
+    return value;
+}
+
+std::optional<double> height_above_ground(const Geometry& geometry, const Vec3& eye,
+                                          const Vec3& up) {
+    const Hit below = geometry.intersect({eye, -normalize(up), kHuge});
+    return below.exists() ? std::optional(below.t) : std::nullopt;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,101 @@
+#pragma once
+// Where the web server's thread leaves what browsers want, and the drawing thread fetches it.
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/net/walk_reply.h"
+#include "io/net/walk_request.h"
+#include "io/net/walk_seats.h"
+#include "io/net/web_server.h"
+
+namespace lightwalk {
+
+/// What the driver wants to see.
+struct WalkWish {
+    std::optional<ViewRequest> view;  ///< nothing: nobody has asked yet
+    DisplayRequest display;
+    SettingsRequest settings;
+    std::vector<ProbePlace> probes;
+};
+
+/// What one client asks.
+struct WalkQuestion {
+    ClientId client;
+    std::variant<PickRequest, MeanRequest, GlareRequest> ask;
+};
+
+/// All that has come since the last time.
+struct WalkInbox {
+    WalkWish wish;  ///< the newest one
+    bool new_probes = false;
+    std::vector<WalkQuestion> questions;
+    std::vector<std::pair<ClientId, std::uint32_t>> acks;  ///< client, frame
+    std::vector<ClientId> joined, left;
+    std::vector<WebReply> saves;  ///< who waits for the picture as a file
+};
+
+/// Answers by itself who drives, and greets; everything else waits in the inbox.
+class WalkDesk final : public WebHandler {
+  public:
+    /// @param welcome  what newcomers are told, but for what is theirs
+    explicit WalkDesk(WelcomeReply welcome);
+
+    /// Before the server runs; it must outlive the desk's use.
+    void attach(WebServer& server) { server_ = &server; }
+
+    // For the drawing thread.
+    /// Waits for something, so long at most.
+    [[nodiscard]] WalkInbox take(std::chrono::milliseconds longest);
+    /// Whether the driver has asked for another view than that of this id.
+    [[nodiscard]] bool has_moved(std::uint32_t view) const;
+    /// What becomes of the scene: all are told, and those who come later.
+    void announce(const LoadingReply& reply);
+    void announce(const FailedReply& reply);
+    void announce(const LoadedReply& reply);
+    void tell(ClientId client, std::string text) { server_->send_text(client, std::move(text)); }
+    void tell_all(const std::string& text);
+    void tell_watchers(const std::string& text);
+    void send(ClientId client, std::shared_ptr<const std::string> frame) {
+        server_->send_binary(client, std::move(frame));
+    }
+    /// To go on from after the scene was read again, or until somebody asks for another.
+    void set_home(const View& view);
+
+    // For the server's.
+    void opened(ClientId client) override;
+    void message(ClientId client, std::string_view text) override;
+    void closed(ClientId client) override;
+    void save(const std::string& path, WebReply reply) override;
+
+  private:
+    void accept(ClientId client, const HelloRequest& request);
+    void accept(ClientId client, const ViewRequest& request);
+    void accept(ClientId client, const AckRequest& request);
+    void accept(ClientId client, const DisplayRequest& request);
+    void accept(ClientId client, const SettingsRequest& request);
+    void accept(ClientId client, const ProbesRequest& request);
+    void accept(ClientId client, const PickRequest& request) { ask({client, request}); }
+    void accept(ClientId client, const MeanRequest& request) { ask({client, request}); }
+    void accept(ClientId client, const GlareRequest& request) { ask({client, request}); }
+    void accept(ClientId client, const TakeRequest& request);
+    void accept(ClientId client, const HandRequest& request);
+    void ask(WalkQuestion question);
+    void announce_text(std::string text);
+    void announce_roles();
+
+    WebServer* server_ = nullptr;
+    mutable std::mutex mutex_;
+    std::condition_variable news_;
+    bool has_news_ = false;
+    WalkInbox inbox_;
+    WalkSeats seats_;
+    WelcomeReply welcome_;
+    std::string stage_;  ///< what was announced last
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,101 @@
+#include "apps/walk/walk_glare.h"
+
+#include "core/glare/glare.h"
+#include "core/glare/outline.h"
+
+namespace lightwalk {
+namespace {
+
+// Of the picture: a pixel is less than half of the sun, which would else be hit or missed by
+// chance.
+constexpr int kSide = 800;
+constexpr double kToldEach = 0.1;  // of the work
+
+/// All that lies before the eye.
+View field_of(const View& view) {
+    View field;
+    field.type = 'a';
+    field.position = view.position;
+    field.direction = view.direction;
+    field.up = view.up;
+    field.horizontal = field.vertical = 180;
+    return field;
+}
+
+FrameOptions picture_options() {
+    FrameOptions options;
+    options.width = options.height = kSide;
+    options.pixels.spacing = 1;
+    return options;
+}
+
+/// Rows from the top.
+std::vector<Rgb> from_the_top(const std::vector<Rgb>& rows) {
+    std::vector<Rgb> turned;
+    turned.reserve(rows.size());
+    for (int y = kSide - 1; y >= 0; --y) {
+        const auto row = rows.begin() + static_cast<std::ptrdiff_t>(y) * kSide;
+        turned.insert(turned.end(), row, row + kSide);
+    }
+    return turned;
+}
+
+}  // namespace
+
+void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& view) {
+    asked_.push_back({client, request.id});
+    if (picture_ && view_ == view) return;
+    view_ = view;
+    told_ = 0;
+    picture_.emplace(tracer_, field_of(view), picture_options(), contexts_, 1);
+    constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
+    picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels));
+}
+
+void WalkGlare::forget(WalkDesk& desk) {
+    for (const Asked& asked : asked_)
+        desk.tell(asked.client, walk_text(RefusedReply{"the view has moved", asked.id}));
+    asked_.clear();
+    picture_.reset();
+}
+
+void WalkGlare::step(double budget, const StopFlag& stop, WalkDesk& desk) {
+    if (picture_->step(deadline_of(budget), executor_, stop)) {
+        if (picture_->share() < told_ + kToldEach) return;
+        told_ = picture_->share();
+        GlareReply reply;
+        reply.done = std::min(told_, 1 - kToldEach / 2);  // 1 comes with the answer
+        tell(reply, desk);
+        return;
+    }
+    tell(evaluate(), desk);
+    asked_.clear();
+}
+
+void WalkGlare::tell(GlareReply reply, WalkDesk& desk) const {
+    for (const Asked& asked : asked_) {
+        reply.id = asked.id;
+        desk.tell(asked.client, walk_text(reply));
+    }
+}
+
+GlareReply WalkGlare::evaluate() const {
+    const std::vector<Rgb> radiance = from_the_top(picture_->picture());
+    const GlareReport report = analyse_glare({kSide, kSide, radiance}, field_of(view_));
+    const Camera camera(view_);
+    GlareReply reply;
+    reply.done = 1;
+    reply.dgp = report.dgp;
+    for (const GlareSource& source : report.sources) {
+        GlareOutline outline;
+        outline.luminance = source.luminance;
+        outline.solid_angle = source.solid_angle;
+        outline.position_index = source.position_index;
+        for (const OutlinePoint& point : project_outline(source.outline, camera))
+            outline.outline.emplace_back(point.h, point.v);
+        reply.sources.push_back(std::move(outline));
+    }
+    return reply;
+}
+
+}  // namespace lightwalk

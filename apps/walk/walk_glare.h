@@ -1,0 +1,48 @@
+#pragma once
+// Whether what somebody sees glares: a picture of all that lies before the eye, drawn bit by bit,
+// and what it says.
+#include <optional>
+#include <vector>
+
+#include "apps/walk/walk_desk.h"
+#include "core/transport/tracer.h"
+#include "parallel/executor.h"
+#include "parallel/walk/resting_light.h"
+
+namespace lightwalk {
+
+class WalkGlare {
+  public:
+    /// All must outlive this.
+    WalkGlare(const Tracer& tracer, Executor& executor, WarningSink& warnings)
+        : tracer_(tracer),
+          executor_(executor),
+          contexts_(tracer, warnings, executor.concurrency()) {}
+
+    /// Somebody asks about a view. What others ask about the same one is answered with it.
+    void ask(ClientId client, const GlareRequest& request, const View& view);
+    /// The view is another one: nobody gets an answer any more.
+    void forget(WalkDesk& desk);
+
+    [[nodiscard]] bool is_asked() const { return !asked_.empty(); }
+    /// Draw for so long, and tell how far it is; at the end the answer [s].
+    void step(double budget, const StopFlag& stop, WalkDesk& desk);
+
+  private:
+    struct Asked {
+        ClientId client;
+        std::uint32_t id = 0;
+    };
+    [[nodiscard]] GlareReply evaluate() const;
+    void tell(GlareReply reply, WalkDesk& desk) const;
+
+    const Tracer& tracer_;
+    Executor& executor_;
+    WorkerContexts contexts_;
+    std::vector<Asked> asked_;
+    View view_;
+    std::optional<RestingLight> picture_;
+    double told_ = 0;  ///< share that was told last
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,259 @@
+#include "apps/walk/walk_room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "apps/picture_series.h"
+#include "io/options/view_text.h"
+#include "io/picture/picture.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr double kUsualEyeHeight = 1.6;  // [m]
+constexpr double kHighestStep = 0.35;    // as a share of the eye's height
+// At rest most of the time goes to better pixels: compressing them can wait.
+constexpr std::chrono::milliseconds kRestingInterval{100};
+constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
+constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
+constexpr std::chrono::milliseconds kIdle{100};
+
+CloudOptions cloud_options(const RenderCommand& command) {
+    CloudOptions options = command.walk->cloud;
+    options.budget = 1 / command.walk->rate;
+    options.samples = command.serve->edge_samples;
+    return options;
+}
+
+FrameOptions picture_options(const RenderCommand& command) {
+    FrameOptions options = frame_options(command, {});
+    options.pixels.spacing = 1;
+    return options;
+}
+
+std::unique_ptr<const Tracer> without_ambient(const SceneSession& session, WarningSink& warnings) {
+    RenderOptions options = session.tracer().options();
+    if (options.ambient_bounces == 0) return nullptr;
+    options.ambient_bounces = 0;
+    return std::make_unique<const Tracer>(session.scene(), options, warnings);
+}
+
+double eye_height_of(const Scene& scene, const View& view) {
+    const std::optional<double> height =
+        height_above_ground(scene.geometry(), view.position, view.up);
+    constexpr double kTwoStoreys = 8;
+    return height && *height < kTwoStoreys ? *height : kUsualEyeHeight;
+}
+
+DisplaySettings display_settings(const DisplayRequest& request) {
+    DisplaySettings settings;
+    settings.mode =
+        request.false_colour ? DisplaySettings::Mode::false_colour : DisplaySettings::Mode::tone;
+    settings.automatic = request.automatic;
+    settings.ev = request.ev;
+    settings.human = request.human;
+    settings.low = request.low;
+    settings.high = request.high;
+    settings.logarithmic = request.logarithmic;
+    return settings;
+}
+
+bool same_picture(const ViewRequest& a, const ViewRequest& b) {
+    return a.view == b.view && a.walk == b.walk && a.width == b.width && a.height == b.height;
+}
+
+WalkPhase phase_name(LivePhase phase) {
+    switch (phase) {
+        case LivePhase::moving:
+            return WalkPhase::moving;
+        case LivePhase::filling:
+            return WalkPhase::filling;
+        case LivePhase::ambient:
+            return WalkPhase::ambient;
+        case LivePhase::refining:
+            return WalkPhase::refining;
+        case LivePhase::done:
+            break;
+    }
+    return WalkPhase::done;
+}
+
+}  // namespace
+
+WalkRoom::WalkRoom(const RenderCommand& command, const SceneSession& session, const View& home,
+                   Executor& executor, WarningSink& warnings, WalkDesk& desk, WalkScreen& screen)
+    : command_(command),
+      session_(session),
+      desk_(desk),
+      screen_(screen),
+      threads_(executor.concurrency()),
+      direct_(without_ambient(session, warnings)),
+      live_(direct_ ? *direct_ : session.tracer(), direct_ ? &session.tracer() : nullptr,
+            cloud_options(command), picture_options(command), executor, warnings),
+      answers_(session.tracer(), warnings),
+      glare_(session.tracer(), executor, warnings),
+      eye_height_(eye_height_of(session.scene(), home)) {}
+
+void WalkRoom::step(const StopFlag& stop) {
+    answer(desk_.take(patience()));
+    if (!wish_.view || stop.requested()) return;
+    draw(stop);
+    const Clock::time_point now = Clock::now();
+    const bool hurries = picture_.phase == LivePhase::moving;
+    if (drawn_ && (hurries || now - shown_at_ >= kRestingInterval)) show(now);
+    screen_.send(desk_, now);
+    report(now);
+    if (!wish_.probes.empty() && !hurries && now - measured_at_ >= kProbeInterval) measure_probes();
+}
+
+std::chrono::milliseconds WalkRoom::patience() const {
+    if (!wish_.view) return kIdle;
+    if (has_work()) return std::chrono::milliseconds(0);
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::min(screen_.next_chance(), Clock::now() + kIdle) - Clock::now());
+    return std::max(left, std::chrono::milliseconds(1));
+}
+
+bool WalkRoom::has_work() const {
+    return !drawn_ || picture_.phase != LivePhase::done || glare_.is_asked();
+}
+
+void WalkRoom::answer(const WalkInbox& inbox) {
+    for (const ClientId client : inbox.joined) screen_.join(client);
+    if (!inbox.joined.empty()) told_.reset();
+    for (const ClientId client : inbox.left) screen_.leave(client);
+    const Clock::time_point now = Clock::now();
+    for (const auto& [client, frame] : inbox.acks) (void)screen_.acked(client, frame, now);
+    if (inbox.wish.display != wish_.display) {
+        shown_ = false;
+        moved_ = now;
+    }
+    const bool other_light = inbox.wish.settings != wish_.settings;
+    const bool moved =
+        inbox.wish.view && (!wish_.view || !same_picture(*inbox.wish.view, *wish_.view));
+    if (inbox.wish.view && wish_.view && inbox.wish.view->id != wish_.view->id) shown_ = false;
+    wish_ = inbox.wish;
+    if (moved) {
+        glare_.forget(desk_);
+        view_ = on_the_ground(*wish_.view);
+        moved_ = now;
+    }
+    if (moved || other_light) drawn_ = false;
+    if (inbox.new_probes) measured_at_ = {};
+    for (const WalkQuestion& question : inbox.questions) ask(question);
+    save(inbox);
+}
+
+View WalkRoom::on_the_ground(const ViewRequest& request) const {
+    View view = request.view;
+    if (!request.walk) return view;
+    const std::optional<double> height =
+        height_above_ground(session_.scene().geometry(), view.position, view.up);
+    if (height && std::abs(eye_height_ - *height) <= kHighestStep * eye_height_)
+        view.position += (eye_height_ - *height) * normalize(view.up);
+    return view;
+}
+
+AmbientUse WalkRoom::ambient_use() const {
+    if (!direct_) return AmbientUse::off;
+    switch (wish_.settings.ambient) {
+        case WalkAmbient::rest:
+            return AmbientUse::rest;
+        case WalkAmbient::always:
+            return AmbientUse::always;
+        case WalkAmbient::off:
+            return AmbientUse::off;
+    }
+    return AmbientUse::off;
+}
+
+void WalkRoom::draw(const StopFlag& stop) {
+    const double budget = std::max(1 / command_.walk->rate - show_seconds_, 0.001);
+    if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, desk_);
+    if (!has_work()) return;
+    LivePicture next =
+        live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop);
+    if (next.radiance.empty()) return;
+    picture_ = std::move(next);
+    drawn_ = true;
+    shown_ = false;
+    pace_.rays += picture_.rays.total();
+    if (picture_.phase == LivePhase::moving) {
+        pace_.reused += static_cast<double>(picture_.report.reused);
+        pace_.pixels += static_cast<double>(picture_.report.pixels);
+    }
+}
+
+/// Not where nothing is new: neither pixels nor their colours.
+void WalkRoom::show(Clock::time_point now) {
+    if (shown_ && now - moved_ > kAdaptationTime) return;
+    const ShownView view{wish_.view->id, view_->position, picture_.phase != LivePhase::moving,
+                         picture_.phase == LivePhase::done};
+    screen_.show(picture_, display_settings(wish_.display), view, now);
+    if (told_ != view_) desk_.tell_watchers(walk_text(ViewReply{*view_}));
+    told_ = view_;
+    shown_ = true;
+    shown_at_ = now;
+    ++pace_.frames;
+    constexpr double kShare = 0.2;
+    const double seconds = std::chrono::duration<double>(Clock::now() - now).count();
+    show_seconds_ += kShare * (seconds - show_seconds_);
+}
+
+void WalkRoom::report(Clock::time_point now) {
+    if (now - pace_.since < kStateInterval) return;
+    const double seconds = std::chrono::duration<double>(now - pace_.since).count();
+    StateReply state;
+    state.fps = pace_.frames / seconds;
+    state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1;
+    state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
+    state.phase = phase_name(picture_.phase);
+    state.share = picture_.share;
+    state.threads = threads_;
+    state.points = picture_.report.points;
+    desk_.tell_all(walk_text(state));
+    pace_ = {now, 0, 0, 0, 0};
+}
+
+void WalkRoom::ask(const WalkQuestion& question) {
+    if (!view_ || picture_.radiance.empty()) {
+        const std::uint32_t id =
+            std::visit([](const auto& asked) { return asked.id; }, question.ask);
+        desk_.tell(question.client, walk_text(RefusedReply{"there is no picture yet", id}));
+        return;
+    }
+    if (const auto* pick = std::get_if<PickRequest>(&question.ask)) {
+        const std::pair<double, double> pixel{1.0 / picture_.width, 1.0 / picture_.height};
+        desk_.tell(question.client, walk_text(answers_.pick(*pick, Camera(*view_), pixel)));
+    } else if (const auto* mean = std::get_if<MeanRequest>(&question.ask)) {
+        desk_.tell(question.client, walk_text(WalkAnswers::mean(*mean, picture_)));
+    } else if (const auto* glare = std::get_if<GlareRequest>(&question.ask)) {
+        glare_.ask(question.client, *glare, *view_);
+    }
+}
+
+void WalkRoom::save(const WalkInbox& inbox) {
+    for (const WebReply& reply : inbox.saves) {
+        if (!view_ || picture_.radiance.empty()) {
+            reply({503, "text/plain; charset=utf-8", "there is no picture yet\n", {}});
+            continue;
+        }
+        PictureHeader header{history_header(session_.model->header, command_.history)};
+        header.lines.push_back("VIEW= " + view_text(*view_));
+        for (const std::string& line : date_lines()) header.lines.push_back(line);
+        const Picture picture{picture_.width, picture_.height, picture_.radiance};
+        reply({200, "image/vnd.radiance", encode_hdr(picture, header), "picture.hdr"});
+    }
+}
+
+void WalkRoom::measure_probes() {
+    ProbesReply reply;
+    for (const ProbePlace& probe : wish_.probes)
+        reply.probes.push_back(answers_.measure(probe, view_->position));
+    reply.settled = picture_.phase == LivePhase::done ? 1 : picture_.share;
+    desk_.tell_all(walk_text(reply));
+    measured_at_ = Clock::now();
+}
+
+}  // namespace lightwalk

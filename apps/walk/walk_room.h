@@ -1,0 +1,78 @@
+#pragma once
+// A scene in which somebody walks: its pictures, its light, and what browsers are told of both.
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/render_command.h"
+#include "apps/scene_session.h"
+#include "apps/walk/walk_answers.h"
+#include "apps/walk/walk_desk.h"
+#include "apps/walk/walk_glare.h"
+#include "apps/walk/walk_screen.h"
+#include "parallel/walk/live_walk.h"
+
+namespace lightwalk {
+
+/// Draws until it is told to stop. For one thread.
+class WalkRoom {
+  public:
+    /// All must outlive this.
+    /// @param home  where the walk begins, which tells how high eyes are
+    WalkRoom(const RenderCommand& command, const SceneSession& session, const View& home,
+             Executor& executor, WarningSink& warnings, WalkDesk& desk, WalkScreen& screen);
+
+    /// Answer what has come, and draw the next picture, if there is one to draw; otherwise wait for
+    /// a moment.
+    void step(const StopFlag& stop);
+
+    /// Height of the eye above the ground [m].
+    [[nodiscard]] double eye_height() const { return eye_height_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    /// What the page's numbers are made of.
+    struct Pace {
+        Clock::time_point since;
+        std::uint32_t frames = 0;
+        std::uint64_t rays = 0;
+        double reused = 0, pixels = 0;
+    };
+
+    void answer(const WalkInbox& inbox);
+    void ask(const WalkQuestion& question);
+    void save(const WalkInbox& inbox);
+    void measure_probes();
+    void draw(const StopFlag& stop);
+    void show(Clock::time_point now);
+    void report(Clock::time_point now);
+    [[nodiscard]] View on_the_ground(const ViewRequest& request) const;
+    [[nodiscard]] AmbientUse ambient_use() const;
+    [[nodiscard]] bool has_work() const;
+    [[nodiscard]] std::chrono::milliseconds patience() const;
+
+    const RenderCommand& command_;
+    const SceneSession& session_;
+    WalkDesk& desk_;
+    WalkScreen& screen_;
+    int threads_;
+    std::unique_ptr<const Tracer> direct_;  ///< without indirect light, where the scene's has it
+    LiveWalk live_;
+    WalkAnswers answers_;
+    WalkGlare glare_;
+    double eye_height_;
+
+    WalkWish wish_;
+    std::optional<View> view_;  ///< that is drawn
+    LivePicture picture_;
+    std::optional<View> told_;  ///< that watchers know
+    bool drawn_ = false;        ///< picture_ is of view_, as wished
+    bool shown_ = false;        ///< as it is, with the display that is wished
+    Clock::time_point moved_, shown_at_, measured_at_;
+    double show_seconds_ = 0;  ///< of a picture, of late
+    Pace pace_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,155 @@
+#include "apps/walk/walk_screen.h"
+
+#include <algorithm>
+#include <functional>
+#include <string_view>
+
+#include "io/net/walk_frame.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kPieceWidth = 160, kPieceHeight = 120;  // [pixels]
+constexpr int kMovingQuality = 75, kRestingQuality = 95;
+constexpr std::size_t kLookedAt = 5;  // every so-manieth pixel tells how bright a picture is
+
+}  // namespace
+
+WalkScreen::WalkScreen(Executor& executor)
+    : executor_(executor), compressors_(static_cast<std::size_t>(executor.concurrency())) {}
+
+bool WalkScreen::acked(ClientId client, std::uint32_t frame, Time now) {
+    const auto found = clients_.find(client);
+    return found == clients_.end() || found->second.flow.acked(frame, now);
+}
+
+void WalkScreen::cut(int width, int height) {
+    width_ = width;
+    height_ = height;
+    bytes_.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    pieces_.clear();
+    for (int y = 0; y < height; y += kPieceHeight)
+        for (int x = 0; x < width; x += kPieceWidth)
+            pieces_.push_back(
+                {{x, y, std::min(x + kPieceWidth, width), std::min(y + kPieceHeight, height)},
+                 0,
+                 0,
+                 false,
+                 {}});
+    contents_.assign(pieces_.size(), 0);
+}
+
+void WalkScreen::show(const LivePicture& picture, const DisplaySettings& settings,
+                      const ShownView& view, Time now) {
+    if (picture.width != width_ || picture.height != height_) cut(picture.width, picture.height);
+    const BrightnessHistogram brightness(picture.radiance, kLookedAt);
+    eye_.look_at(brightness, std::chrono::duration<double>(now - last_look_).count());
+    last_look_ = now;
+    const Display display(settings, eye_, brightness);
+    exposure_ = static_cast<float>(display.exposure());
+    view_ = view;
+    const int quality = view.at_rest ? kRestingQuality : kMovingQuality;
+    executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
+        colour(pieces_[i], picture, display, quality);
+        contents_[i] = pieces_[i].content;
+    });
+}
+
+/// A piece that shows the same as before need not be compressed, nor sent, again.
+void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display& display,
+                        int quality) {
+    const PixelRectangle& area = piece.area;
+    const auto width = static_cast<std::size_t>(area.width());
+    std::size_t content = static_cast<std::size_t>(quality);
+    for (int y = area.y0; y < area.y1; ++y) {
+        const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                  static_cast<std::size_t>(area.x0);
+        const std::span<std::uint8_t> row = std::span(bytes_).subspan(3 * first, 3 * width);
+        display.show(std::span(picture.radiance).subspan(first, width), row);
+        const std::string_view text(reinterpret_cast<const char*>(row.data()), row.size());
+        content = content * 0x9E3779B97F4A7C15U + std::hash<std::string_view>{}(text);
+    }
+    if (piece.content == content) return;
+    piece.content = content;
+    piece.quality = quality;
+    piece.compressed = false;
+}
+
+void WalkScreen::compress(std::span<const std::size_t> pieces) {
+    executor_.for_each(pieces.size(), [&](std::size_t i, int worker) {
+        Piece& piece = pieces_[pieces[i]];
+        if (piece.compressed) return;
+        const auto stride = 3 * static_cast<std::size_t>(width_);
+        const std::uint8_t* first = bytes_.data() +
+                                    static_cast<std::size_t>(piece.area.y0) * stride +
+                                    3 * static_cast<std::size_t>(piece.area.x0);
+        const std::span<const std::uint8_t> jpeg =
+            compressors_[static_cast<std::size_t>(worker)].compress(
+                {first, piece.area.width(), piece.area.height(), stride}, piece.quality);
+        piece.bytes.assign(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
+        piece.compressed = true;
+    });
+}
+
+std::vector<std::size_t> WalkScreen::missing(const Client& client) const {
+    const auto layout =
+        static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
+    return client.flow.missing(layout, contents_);
+}
+
+bool WalkScreen::is_behind() const {
+    return !pieces_.empty() && std::any_of(clients_.begin(), clients_.end(),
+                                           [&](const auto& c) { return lacks(c.second); });
+}
+
+WalkScreen::Time WalkScreen::next_chance() const {
+    Time soonest = Time::max();
+    for (const auto& [id, client] : clients_)
+        if (lacks(client)) soonest = std::min(soonest, client.flow.next_chance());
+    return soonest;
+}
+
+std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::size_t> pieces) const {
+    WalkFrameHeader header;
+    header.frame = frame_;
+    header.view = view_.id;
+    header.width = static_cast<std::uint16_t>(width_);
+    header.height = static_cast<std::uint16_t>(height_);
+    header.whole = pieces.size() == pieces_.size();
+    header.at_rest = view_.at_rest;
+    header.finished = view_.finished;
+    header.exposure = exposure_;
+    header.eye = view_.eye;
+    std::vector<WalkFramePiece> sent;
+    for (const std::size_t i : pieces) {
+        const Piece& piece = pieces_[i];
+        sent.push_back(
+            {static_cast<std::uint16_t>(piece.area.x0), static_cast<std::uint16_t>(piece.area.y0),
+             static_cast<std::uint16_t>(piece.area.width()),
+             static_cast<std::uint16_t>(piece.area.height()), PieceCodec::jpeg, piece.bytes});
+    }
+    return std::make_shared<const std::string>(encode_walk_frame(header, sent));
+}
+
+void WalkScreen::send(WalkDesk& desk, Time now) {
+    if (pieces_.empty()) return;
+    const auto layout =
+        static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
+    ++frame_;
+    std::map<std::vector<std::size_t>, std::shared_ptr<const std::string>> made;
+    for (auto& [id, client] : clients_) {
+        if (!client.flow.may_send(now) || !lacks(client)) continue;
+        const std::vector<std::size_t> pieces = missing(client);
+        std::shared_ptr<const std::string>& frame = made[pieces];
+        if (!frame) {
+            compress(pieces);
+            frame = frame_of(pieces);
+        }
+        desk.send(id, frame);
+        client.flow.sent(frame_, layout, contents_, frame->size(), now);
+        client.shown = view_;
+        client.has_shown = true;
+    }
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,93 @@
+#pragma once
+// From pictures of radiance to what browsers show: colours, compressed pieces, frames.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/walk/walk_desk.h"
+#include "core/view/pixels.h"
+#include "io/net/frame_flow.h"
+#include "io/picture/display.h"
+#include "io/picture/jpeg.h"
+#include "parallel/executor.h"
+#include "parallel/walk/live_walk.h"
+
+namespace lightwalk {
+
+/// What goes with a picture.
+struct ShownView {
+    std::uint32_t id = 0;  ///< of the newest view it shows
+    Vec3 eye;              ///< [m]
+    bool at_rest = false;
+    bool finished = false;  ///< as good as it gets
+    friend bool operator==(const ShownView&, const ShownView&) = default;
+};
+
+/// For one thread.
+class WalkScreen {
+  public:
+    using Time = FrameFlow::Time;
+
+    /// The executor must outlive this.
+    explicit WalkScreen(Executor& executor);
+
+    void join(ClientId client) { clients_.try_emplace(client); }
+    void leave(ClientId client) { clients_.erase(client); }
+    /// A client has drawn a frame. False: that frame was never sent to it.
+    bool acked(ClientId client, std::uint32_t frame, Time now);
+
+    /// The newest picture, in its colours.
+    void show(const LivePicture& picture, const DisplaySettings& settings, const ShownView& view,
+              Time now);
+    /// Compress what clients lack, and send it to all that are ready for a frame.
+    void send(WalkDesk& desk, Time now);
+    /// Whether some client lacks something of the picture.
+    [[nodiscard]] bool is_behind() const;
+    /// When a client may be ready that is not now; Time::max(): only when it says so.
+    [[nodiscard]] Time next_chance() const;
+    /// Frames that were sent to the client that got most.
+    [[nodiscard]] std::uint32_t frames() const { return frame_; }
+    void forget_adaptation() { eye_.forget(); }
+
+  private:
+    struct Piece {
+        PixelRectangle area;  ///< rows from the top
+        std::uint64_t content = 0;
+        int quality = 0;
+        bool compressed = false;
+        std::string bytes;
+    };
+    struct Client {
+        FrameFlow flow;
+        ShownView shown;
+        bool has_shown = false;
+    };
+
+    void cut(int width, int height);
+    void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
+    void compress(std::span<const std::size_t> pieces);
+    [[nodiscard]] std::vector<std::size_t> missing(const Client& client) const;
+    [[nodiscard]] bool lacks(const Client& client) const {
+        return !client.has_shown || client.shown != view_ || !missing(client).empty();
+    }
+    [[nodiscard]] std::shared_ptr<const std::string> frame_of(
+        std::span<const std::size_t> pieces) const;
+
+    Executor& executor_;
+    std::vector<JpegCompressor> compressors_;  ///< one for each worker
+    std::map<ClientId, Client> clients_;
+    int width_ = 0, height_ = 0;
+    std::vector<Piece> pieces_;
+    std::vector<std::uint64_t> contents_;  ///< of the pieces
+    std::vector<std::uint8_t> bytes_;      ///< r, g, b of the picture
+    ShownView view_;
+    Adaptation eye_;
+    Time last_look_{};
+    float exposure_ = 1;
+    std::uint32_t frame_ = 0;
+};
+
+}  // namespace lightwalk

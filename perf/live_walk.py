@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""How well `lightwalk walk` keeps up with somebody who moves: frames a second, and how long a view takes to be shown.
+
+  perf/run.sh walk [--scenes DIR] [--seconds 20] [--sizes 640x480,1280x720]     builds, then this
+  live_walk.py --lightwalk PROGRAM ...
+
+Starts the server, connects by a WebSocket as the page does, sends sixty views a second of a turn and of a walk forward
+and back, and acknowledges each frame when it is there (a page does so when it is drawn). One line a walk:
+
+  fps         frames a second that reached the client
+  latency     from sending a view to the first frame that shows it or a newer one: median, 95th percentile [ms]
+  reused      share of the pixels that points answered, as the server tells [%]
+  MB/s        of frames
+"""
+import argparse, json, math, os, pathlib, subprocess, sys, time
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE / "scaling"))
+
+from walk import stage, views  # noqa: E402
+from walk.websocket import Frame, WebSocket  # noqa: E402
+
+SETTLE = 6  # before moving: the first picture [s]
+
+
+def as_message(view, ident, size, moving=True):
+    return {"type": "view", "id": ident, "width": size[0], "height": size[1], "moving": moving, "walk": False, "view": view}
+
+
+def page_view(view):
+    """A view of views.parse as the page says it."""
+    return {"type": view["type"], "position": view["-vp"], "direction": view["-vd"], "up": view["-vu"],
+            "horizontal": view["-vh"][0], "vertical": view["-vv"][0]}
+
+
+def turned(view, degrees):
+    angle, (x, y, z) = math.radians(degrees), view["direction"]
+    return {**view, "direction": [x * math.cos(angle) + y * math.sin(angle), y * math.cos(angle) - x * math.sin(angle), z]}
+
+
+def advanced(view, way):
+    x, y, z = view["direction"]
+    size = math.hypot(x, y)
+    position = view["position"]
+    return {**view, "position": [position[0] + way * x / size, position[1] + way * y / size, position[2]]}
+
+
+#: View after so many seconds: a slow look around, thirty degrees a second; half a pace a second, there and back.
+WALKS = {"turn": lambda view, t: turned(view, 30 * t),
+         "walk": lambda view, t: advanced(view, 0.7 * (1 - abs(t % 4 - 2) / 2) * view["pace"])}
+
+
+class Server:
+    def __init__(self, place, words):
+        self.process = subprocess.Popen([place.program.lightwalk, "walk", "--port", "0", "--quiet", *words, "-vf", place.file, *map(str, stage.AMBIENT),
+                                         *place.program.scene.words], cwd=place.program.scene.folder,
+                                        env={**os.environ, "RAYPATH": ".:../lib"}, stdout=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+        if not self.address:
+            sys.exit("the server does not start")
+        self.port = int(self.address.split(":")[2].split("/")[0])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(20)
+
+
+class Client:
+    def __init__(self, port, size):
+        self.socket, self.size = WebSocket("127.0.0.1", port), size
+        self.ident, self.sent, self.frames, self.latency, self.bytes, self.reuse = 0, {}, 0, [], 0, []
+        self.loaded = None
+        self.socket.send({"type": "hello", "session": "0123456789abcdef"})
+
+    def look(self, view, moving=True):
+        self.ident += 1
+        self.sent[self.ident] = time.monotonic()
+        view = {name: value for name, value in view.items() if name != "pace"}
+        self.socket.send(as_message(view, self.ident, self.size, moving))
+
+    def listen(self, until):
+        while self.socket.waits(until - time.monotonic()):
+            self.take(self.socket.receive())
+            if time.monotonic() >= until:
+                return
+
+    def take(self, message):
+        if not isinstance(message, bytes):
+            if message["type"] == "state":
+                self.reuse.append(message["reuse"])
+            elif message["type"] == "failed":
+                sys.exit("\n".join(message["messages"]))
+            elif message["type"] == "loaded":
+                self.loaded = message
+            return
+        frame = Frame(message)
+        self.socket.send({"type": "ack", "frame": frame.number})
+        self.frames += 1
+        self.bytes += frame.bytes
+        now = time.monotonic()
+        for ident in [ident for ident in self.sent if ident <= frame.view]:
+            self.latency.append(now - self.sent.pop(ident))
+
+    def forget(self):
+        self.sent, self.frames, self.latency, self.bytes, self.reuse = {}, 0, [], 0, []
+
+
+def measure(client, view, walk, seconds):
+    client.look(view)
+    client.listen(time.monotonic() + SETTLE)
+    client.forget()
+    start = time.monotonic()
+    while (now := time.monotonic()) < start + seconds:
+        client.look(WALKS[walk](view, now - start))
+        client.listen(now + 1 / 60)
+    took = time.monotonic() - start
+    waits = sorted(client.latency) or [math.inf]
+    return {"fps": client.frames / took, "latency ms": 1000 * waits[len(waits) // 2],
+            "95 % ms": 1000 * waits[int(0.95 * (len(waits) - 1))],
+            "reused %": 100 * sum(client.reuse) / max(len(client.reuse), 1), "MB/s": client.bytes / took / 1e6}
+
+
+def parse_args():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scenes", type=lambda text: pathlib.Path(text).resolve(), metavar="DIR")
+    parser.add_argument("--lightwalk", default=HERE.parent / "build/release/lightwalk", metavar="PROGRAM")
+    parser.add_argument("--views", default="cabin/living,cabin/interior,lodge/living")
+    parser.add_argument("--seconds", type=float, default=20)
+    parser.add_argument("--sizes", default="640x480,1280x720")
+    parser.add_argument("--options", default="", help="more options of walk, in one word")
+    parser.add_argument("--json", type=pathlib.Path, metavar="FILE")
+    return parser.parse_args()
+
+
+def main():
+    args = parse_args()
+    rows = []
+    for place in stage.places(args.views.split(","), args.lightwalk, args.scenes):
+        for size in [tuple(int(word) for word in text.split("x")) for text in args.sizes.split(",")]:
+            with Server(place, args.options.split()) as server:
+                client = Client(server.port, size)
+                while client.loaded is None:
+                    client.listen(time.monotonic() + 0.1)
+                words = (place.program.scene.folder / place.file).read_text()
+                # Eyes are as high as a person's, whatever the scene's unit is.
+                view = {**page_view(views.parse(words)), "pace": client.loaded["eye_height"] / 1.6}
+                view["vertical"] = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
+                for walk in WALKS:
+                    row = {"view": place.name, "size": f"{size[0]}x{size[1]}", "walk": walk, **measure(client, view, walk, args.seconds)}
+                    if not rows:
+                        print("\t".join(row))
+                    rows.append(row)
+                    print("\t".join(f"{value:.3g}" if isinstance(value, float) else value for value in row.values()), flush=True)
+    if args.json:
+        args.json.write_text(json.dumps(rows, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

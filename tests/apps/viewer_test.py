@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+"""The page of `lightwalk walk`: its modules' own tests, and the page in a browser against the real server.
+
+    viewer_test.py modules
+    viewer_test.py page PROGRAM NPM PICTURES
+
+NPM is a folder with node_modules/playwright-core; PICTURES gets a screenshot of each step. Exit status 77: what is
+needed is not there.
+"""
+import pathlib, shutil, subprocess, sys
+
+from walk_server_test import Server
+
+VIEWER = pathlib.Path(__file__).resolve().parent / "viewer"
+
+
+def modules(node):
+    tests = sorted(str(path) for path in VIEWER.glob("*_test.mjs") if path.name not in ("walk_page_test.mjs", "page_test.mjs"))
+    return subprocess.run([node, "--test", *tests]).returncode
+
+
+def page(node, program, npm, pictures):
+    if not shutil.which("chromium") or not (pathlib.Path(npm) / "node_modules/playwright-core").is_dir():
+        print("skipped: no chromium, or no playwright-core (tests/run.sh installs both)")
+        return 77
+    with Server(program) as server:
+        # The panel glows with 2 W/(m2 sr), and is the middle of the picture's right half.
+        return subprocess.run([node, VIEWER / "walk_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
+                               "--luminance", "358", "--at", "0.67,0.52"]).returncode
+
+
+if __name__ == "__main__":
+    node = shutil.which("node")
+    if not node:
+        print("skipped: there is no Node.js")
+        sys.exit(77)
+    sys.exit(modules(node) if sys.argv[1] == "modules" else page(node, *sys.argv[2:]))

@@ -1,0 +1,337 @@
+#!/usr/bin/python3
+"""`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
+
+    walk_server_test.py PROGRAM [rest|light|roles|mended|returning|slow|abuse ...]
+"""
+import os, pathlib, random, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "perf/walk"))
+
+from websocket import Closed, Frame, WebSocket  # noqa: E402
+
+ROOM = """void plastic grey 0 0 5 .5 .5 .5 0 0
+void light lamp 0 0 3 10 10 10
+void glow panel 0 0 4 2 2 2 0
+grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
+grey sphere ball 0 0 4 -1 2 .7 .7
+panel polygon screen 0 0 12  1 5.9 .5  3 5.9 .5  3 5.9 2.5  1 5.9 2.5
+lamp polygon light 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
+"""
+VIEW = {"type": "v", "position": [0, -4, 1.5], "direction": [0, 1, -0.05], "up": [0, 0, 1], "horizontal": 60, "vertical": 46.8}
+WORDS = "-vtv -vp 0 -4 1.5 -vd 0 1 -.05 -vu 0 0 1 -vh 60 -vv 46.8"
+SIZE = (160, 120)
+PATIENCE = float(os.environ.get("LIGHTWALK_TEST_PATIENCE", "60"))  # [s]
+
+
+class Server:
+    """The program with a scene of its own, until the end of the block."""
+
+    def __init__(self, program, words=(), scene=ROOM):
+        self.folder = tempfile.TemporaryDirectory()
+        self.scene = pathlib.Path(self.folder.name) / "room.rad"
+        self.scene.write_text(scene)
+        self.program, self.words = program, words
+
+    def __enter__(self):
+        self.process = subprocess.Popen([self.program, "walk", "--port", "0", "-n", "2", *WORDS.split(), *self.words, self.scene],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+        assert self.address.startswith("http://"), self.process.stderr.read()
+        self.port = int(self.address.split(":")[2].split("/")[0])
+        return self
+
+    def __exit__(self, kind, *_):
+        alive = self.process.poll() is None
+        self.process.terminate()
+        errors = self.process.communicate(timeout=PATIENCE)[1]
+        self.folder.cleanup()
+        assert alive, f"the server has ended: {errors}"
+        assert kind is not None or self.process.returncode == 0, (self.process.returncode, errors)
+
+    def get(self, path):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=PATIENCE) as answer:
+            return answer.read()
+
+
+class Client:
+    def __init__(self, port, session="0123456789abcdef"):
+        self.socket = WebSocket("127.0.0.1", port, timeout=PATIENCE)
+        self.ident, self.messages = 0, []
+        self.socket.send({"type": "hello", "session": session})
+
+    def look(self, **changes):
+        self.ident += 1
+        self.socket.send({"type": "view", "id": self.ident, "view": {**VIEW, **changes}, "width": SIZE[0], "height": SIZE[1],
+                          "moving": False, "walk": False})
+
+    def take(self):
+        message = self.socket.receive()
+        if isinstance(message, bytes):
+            frame = Frame(message)
+            self.socket.send({"type": "ack", "frame": frame.number})
+            return frame
+        self.messages.append(message)
+        return message
+
+    def until(self, wanted):
+        """The next message or frame of which wanted() is true."""
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            taken = self.take()
+            if wanted(taken):
+                return taken
+        raise AssertionError(f"nothing came of what was waited for; the last messages: {self.messages[-3:]}")
+
+    def told(self, kind, **fields):
+        return self.until(lambda m: isinstance(m, dict) and m["type"] == kind and all(m.get(k) == v for k, v in fields.items()))
+
+    def frame(self, view=0):
+        return self.until(lambda m: isinstance(m, Frame) and m.view >= view)
+
+    def ask(self, kind, answer, **fields):
+        self.ident += 1
+        self.socket.send({"type": kind, "id": self.ident, **fields})
+        return self.told(answer, id=self.ident)
+
+
+def rest(program):
+    """A view that rests ends as the picture that `render` draws, with and without indirect light."""
+    for light in ([], ["-ab", "1", "-aa", "0", "-ad", "16"]):
+        with Server(program, ["--edge-samples", "1", *light]) as server:
+            client = Client(server.port)
+            client.told("loaded")
+            client.look(direction=[0.1, 1, 0])
+            client.frame(1)
+            client.look()
+            client.until(lambda m: isinstance(m, Frame) and m.view == 2 and m.finished)
+            saved = server.get("/save/picture.hdr")
+            rendered = subprocess.run([program, "render", "-ps", "1", "-pa", "0", "-x", str(SIZE[0]), "-y", str(SIZE[1]),
+                                       *WORDS.split(), *light, server.scene], stdout=subprocess.PIPE, check=True).stdout
+            body = [picture.split(b"\n\n", 1)[1] for picture in (saved, rendered)]
+            assert body[0] == body[1], "the pictures differ"
+            assert b"VIEW= -vtv" in saved.split(b"\n\n")[0]
+
+
+def light(program):
+    """What is pointed at: a panel of known luminance, its name, the mean, glare; where nothing is, nothing is hit."""
+    with Server(program) as server:
+        client = Client(server.port)
+        client.told("loaded")
+        client.look()
+        client.frame(1)
+        picked = client.ask("pick", "picked", x=0.67, y=0.52)
+        assert picked["hit"] and picked["material"] == "panel" and picked["surface"] == "screen", picked
+        assert abs(picked["luminance"] - 358) < 0.02 * 358, picked
+        assert abs(picked["position"][1] - 5.9) < 0.001 and picked["normal"] == [0, -1, 0], picked
+        floor = client.ask("pick", "picked", x=0.5, y=0.1)
+        # Diffuse: the luminance is the illuminance times the reflectance over pi.
+        assert abs(floor["luminance"] - floor["illuminance"] * 0.5 / 3.14159) < 0.05 * floor["luminance"], floor
+        assert not client.ask("pick", "picked", x=0.05, y=0.95)["hit"]
+        mean = client.ask("rectangle", "mean", rect=[0.66, 0.5, 0.68, 0.54])
+        assert abs(mean["luminance"] - 358) < 0.02 * 358 and mean["pixels"] > 0, mean
+        client.socket.send({"type": "probes", "probes": [{"id": 7, "position": floor["position"], "normal": floor["normal"]}]})
+        probe = client.told("probes")["probes"][0]
+        assert probe["id"] == 7 and abs(probe["illuminance"] - floor["illuminance"]) < 0.05 * floor["illuminance"], probe
+        client.ident += 1
+        client.socket.send({"type": "glare", "id": client.ident})
+        glare = client.told("glare", id=client.ident, done=1)
+        assert 0 <= glare["dgp"] <= 1, glare
+
+
+def roles(program):
+    """The first drives, the second watches the same picture and may take over when the first has left."""
+    with Server(program) as server:
+        first = Client(server.port)
+        assert first.told("welcome")["driver"]
+        first.told("loaded")
+        first.look()
+        first.frame(1)
+        second = Client(server.port, "fedcba9876543210")
+        assert not second.told("welcome")["driver"]
+        assert second.told("view")["view"]["position"] == VIEW["position"]
+        second.frame()
+        second.socket.send({"type": "take"})
+        second.told("refused")
+        first.socket.close()
+        second.told("role", driver=False, driver_id=None)
+        second.socket.send({"type": "take"})
+        second.told("role", driver=True)
+        second.look(direction=[0, 1, 0])
+        second.frame(1)
+
+
+def mended(program):
+    """A scene that cannot be read says why and where; when it is mended the walk goes on."""
+    with Server(program) as server:
+        client = Client(server.port)
+        client.told("loaded")
+        client.look()
+        client.frame(1)
+        server.scene.write_text(ROOM + "nothing sphere wrong 0 0 4 0 0 0 1\n")
+        failed = client.told("failed")
+        assert any("room.rad:9" in line for line in failed["messages"]), failed
+        late = Client(server.port, "1111111111111111")
+        late.told("failed")
+        late.socket.close()
+        server.scene.write_text(ROOM.replace("2 2 2 0", "4 4 4 0"))
+        client.told("loaded")
+        client.until(lambda m: isinstance(m, Frame))
+        picked = client.ask("pick", "picked", x=0.67, y=0.52)
+        assert abs(picked["luminance"] - 716) < 0.02 * 716, picked
+
+
+def returning(program):
+    """A client that comes back finds its view."""
+    with Server(program) as server:
+        client = Client(server.port)
+        client.told("loaded")
+        client.look(position=[1, -3, 1.5])
+        client.frame(1)
+        client.socket.close()
+        again = Client(server.port)
+        welcome = again.told("welcome")
+        assert welcome["view"]["position"] == [1, -3, 1.5], welcome
+        other = Client(server.port, "2222222222222222")
+        assert other.told("welcome")["view"]["position"] == [0, -4, 1.5]
+
+
+class SlowLink(threading.Thread):
+    """A proxy that carries so many bytes a second from the server, and lets both directions wait for half of the delay."""
+
+    def __init__(self, port, bytes_per_second, delay):
+        super().__init__(daemon=True)
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        self.target, self.rate, self.delay = port, bytes_per_second, delay
+
+    def run(self):
+        near, _ = self.listener.accept()
+        far = socket.socket()
+        # What lies in the system's own buffers is on its way too, and would hide the link's width.
+        far.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 16384)
+        far.connect(("127.0.0.1", self.target))
+        for end in (near, far):
+            end.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        threading.Thread(target=self.carry, args=(near, far, 1e9), daemon=True).start()
+        self.carry(far, near, self.rate)
+
+    def carry(self, source, sink, rate):
+        queue, ready = [], threading.Condition()
+
+        def deliver():
+            while True:
+                with ready:
+                    while not queue:
+                        ready.wait()
+                    due, data = queue.pop(0)
+                time.sleep(max(0, due - time.monotonic()))
+                try:
+                    sink.sendall(data)
+                except OSError:
+                    return
+
+        threading.Thread(target=deliver, daemon=True).start()
+        free = time.monotonic()
+        while True:
+            try:
+                data = source.recv(4096)
+            except OSError:
+                return
+            if not data:
+                return
+            free = max(free, time.monotonic()) + len(data) / rate
+            time.sleep(max(0, free - time.monotonic()))
+            with ready:
+                queue.append((free + self.delay / 2, data))
+                ready.notify()
+
+
+def slow(program):
+    """Behind 2 Mbit/s and 100 ms of delay frames are dropped, not queued: what is seen is never old."""
+    with Server(program) as server:
+        link = SlowLink(server.port, 250e3, 0.1)
+        link.start()
+        client = Client(link.port)
+        client.told("loaded")
+        client.look()
+        client.frame(1)
+        sent, waits, start = {}, [], time.monotonic()
+        while (now := time.monotonic()) < start + 5:
+            client.look(direction=[0.3 * (now - start) - 0.75, 1, -0.05])
+            sent[client.ident] = now
+            while client.socket.waits(now + 0.03 - time.monotonic()):
+                taken = client.take()
+                if isinstance(taken, Frame):
+                    came = time.monotonic()
+                    waits += [came - sent.pop(ident) for ident in list(sent) if ident <= taken.view]
+        waits.sort()
+        typical, late = waits[len(waits) // 2], waits[int(0.95 * len(waits))]
+        print(f"slow link: from a view to its frame {1000 * typical:.0f} ms, 95 % {1000 * late:.0f} ms")
+        # A timing never gates: what must not be is a queue, which would grow to seconds.
+        assert late < 2, waits[-5:]
+
+
+SHAPES = [b"", b"{", b"null", b"[[[[[[[[[[[[[[", b'{"type":"view"}', b'{"type":"hello","session":1}', b"\xff\xfe" * 100, b"x" * 70000]
+VIEWS = [{"width": -1}, {"width": 1e9}, {"view": {**VIEW, "direction": [0, 0, 0]}}, {"view": {**VIEW, "horizontal": 1e30}},
+         {"view": {**VIEW, "position": ["NaN", 0, 0]}}, {"id": -5}]
+
+
+def misbehave(port, chance, session):
+    """Random and malformed messages, until the server has enough of them."""
+    try:
+        bad = WebSocket("127.0.0.1", port, timeout=PATIENCE)
+        if chance.random() < 0.7:
+            bad.send({"type": "hello", "session": session})
+        for _ in range(20):
+            draw = chance.random()
+            if draw < 0.3:
+                bad.send_raw(1, chance.choice(SHAPES))
+            elif draw < 0.6:
+                bad.send({"type": "view", "id": 1, "view": VIEW, "width": 10, "height": 10, "moving": False, "walk": False,
+                          **chance.choice(VIEWS)})
+            elif draw < 0.8:
+                bad.send_raw(chance.randrange(16), chance.randbytes(chance.randrange(200)))
+            else:
+                bad.socket.sendall(chance.randbytes(50))
+        bad.socket.close()
+    except (Closed, OSError):
+        pass
+
+
+def abuse(program):
+    """Nothing that a client sends or fails to send disturbs the others."""
+    chance = random.Random(1)
+    with Server(program, ["--clients", "4"]) as server:
+        driver = Client(server.port)
+        driver.told("loaded")
+        driver.look()
+        driver.frame(1)
+        for round_ in range(100):
+            misbehave(server.port, chance, f"{round_:016x}")
+        half_open = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(150)]
+        for path in ("/../etc/passwd", "/page/none.js", "/save/other"):
+            try:
+                server.get(path)
+                raise AssertionError(f"{path} was served")
+            except urllib.error.HTTPError as error:
+                assert error.code == 404, (path, error.code)
+        try:
+            WebSocket("127.0.0.1", server.port, origin="http://elsewhere.example").close()
+            raise AssertionError("a foreign page was let in")
+        except Closed as refused:
+            assert "403" in str(refused), refused
+        driver.look(direction=[0.2, 1, 0])
+        driver.frame(driver.ident)
+        assert driver.ask("pick", "picked", x=0.5, y=0.1)["hit"]
+        for one in half_open:
+            one.close()
+
+
+CASES = {case.__name__: case for case in (rest, light, roles, mended, returning, slow, abuse)}
+
+if __name__ == "__main__":
+    for name in sys.argv[2:] or CASES:
+        CASES[name](sys.argv[1])
+        print(f"ok: {name}", flush=True)
