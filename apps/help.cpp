@@ -122,8 +122,7 @@ rays wherever these are true.
   --cloud-age N      supersaturated: frames that a point outlives unused, default 25
   --cloud-limit N    points are at most N times the pixels, default 4
   --check WHICH      of which pixels a ray tells what is there, so that no other thing's point shows: all (default),
-                     half (every other one, and those between others that do not see the same), edges (where points
-                     are missing or jump in depth, and the picture's rim), none
+                     edges (where points are missing or jump in depth, and the picture's rim), none
   --drop WHICH       where no ray tells: hidden: points far behind most of those around them are dropped; lonely: those
                      far from all around them; both (default), none
   --look WHERE       back (default): a pixel takes the nearest point of what its ray meets; forward: only a point that

@@ -1,6 +1,7 @@
 #include "apps/walk/serve_command.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <charconv>
 #include <filesystem>
 
 #include "apps/walk_command.h"
@@ -10,10 +11,13 @@ namespace {
 
 WalkSizeLimit size_limit(const std::string& word) {
     WalkSizeLimit size;
-    int used = 0;
-    if (std::sscanf(word.c_str(), "%dx%d%n", &size.width, &size.height, &used) != 2 ||
-        static_cast<std::size_t>(used) != word.size() || size.width < 1 || size.height < 1 ||
-        size.width > kLargestWalkSize || size.height > kLargestWalkSize)
+    const std::size_t by = std::min(word.find('x'), word.size());
+    const auto read = [&](std::size_t first, std::size_t last, int& side) {
+        const auto [end, problem] = std::from_chars(word.data() + first, word.data() + last, side);
+        return problem == std::errc{} && end == word.data() + last && side >= 1 &&
+               side <= kLargestWalkSize;
+    };
+    if (by == word.size() || !read(0, by, size.width) || !read(by + 1, word.size(), size.height))
         throw UsageError("option --max-size: expected WIDTHxHEIGHT of at most " +
                          std::to_string(kLargestWalkSize) + " pixels, found \"" + word + "\"");
     return size;

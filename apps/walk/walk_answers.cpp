@@ -9,7 +9,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr int kSide = 4;  // rays along each side of a pixel
+constexpr int kPixelRays = 4;  // rays along each side of a pixel
 
 double luminance(const Rgb& radiance) {
     return double{kEfficacy} * static_cast<double>(brightness(radiance));
@@ -44,9 +44,10 @@ PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
     if (!middle) return reply;
     Rgb sum;
     int rays = 0;
-    for (int k = 0; k < kSide * kSide; ++k) {
-        const double h = request.x + ((k % kSide + 0.5) / kSide - 0.5) * pixel.first;
-        const double v = request.y + ((k / kSide + 0.5) / kSide - 0.5) * pixel.second;
+    for (int k = 0; k < kPixelRays * kPixelRays; ++k) {
+        const int column = k % kPixelRays, row = k / kPixelRays;
+        const double h = request.x + ((column + 0.5) / kPixelRays - 0.5) * pixel.first;
+        const double v = request.y + ((row + 0.5) / kPixelRays - 0.5) * pixel.second;
         const std::optional<Camera::ViewRay> ray = camera.ray(h, v);
         if (!ray) continue;
         sum += look(ray->origin, ray->direction, ray->limit, k).value;

@@ -8,7 +8,7 @@ namespace {
 
 // Of the picture: a pixel is less than half of the sun, which would else be hit or missed by
 // chance.
-constexpr int kSide = 800;
+constexpr int kFieldSide = 800;
 constexpr double kToldEach = 0.1;  // of the work
 
 /// All that lies before the eye.
@@ -24,7 +24,7 @@ View field_of(const View& view) {
 
 FrameOptions picture_options() {
     FrameOptions options;
-    options.width = options.height = kSide;
+    options.width = options.height = kFieldSide;
     options.pixels.spacing = 1;
     return options;
 }
@@ -33,9 +33,9 @@ FrameOptions picture_options() {
 std::vector<Rgb> from_the_top(const std::vector<Rgb>& rows) {
     std::vector<Rgb> turned;
     turned.reserve(rows.size());
-    for (int y = kSide - 1; y >= 0; --y) {
-        const auto row = rows.begin() + static_cast<std::ptrdiff_t>(y) * kSide;
-        turned.insert(turned.end(), row, row + kSide);
+    for (int y = kFieldSide - 1; y >= 0; --y) {
+        const auto row = rows.begin() + static_cast<std::ptrdiff_t>(y) * kFieldSide;
+        turned.insert(turned.end(), row, row + kFieldSide);
     }
     return turned;
 }
@@ -48,7 +48,7 @@ void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& vi
     view_ = view;
     told_ = 0;
     picture_.emplace(tracer_, field_of(view), picture_options(), contexts_, 1);
-    constexpr std::size_t kPixels = std::size_t{kSide} * kSide;
+    constexpr std::size_t kPixels = std::size_t{kFieldSide} * kFieldSide;
     picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels));
 }
 
@@ -81,7 +81,7 @@ void WalkGlare::tell(GlareReply reply, WalkDesk& desk) const {
 
 GlareReply WalkGlare::evaluate() const {
     const std::vector<Rgb> radiance = from_the_top(picture_->picture());
-    const GlareReport report = analyse_glare({kSide, kSide, radiance}, field_of(view_));
+    const GlareReport report = analyse_glare({kFieldSide, kFieldSide, radiance}, field_of(view_));
     const Camera camera(view_);
     GlareReply reply;
     reply.done = 1;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPieceWidth = 160, kPieceHeight = 120;  // [pixels]
 constexpr int kMovingQuality = 75, kRestingQuality = 95;
-constexpr std::size_t kLookedAt = 5;  // every so-manieth pixel tells how bright a picture is
+constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how bright a picture is
 
 }  // namespace
 

@@ -10,8 +10,9 @@
 
 namespace lightwalk {
 
-inline constexpr std::size_t kLargestWalkRequest = 64 * 1024;  ///< of a message [bytes]
-inline constexpr int kLargestWalkSize = 4096;                  ///< of a window's side [pixels]
+inline constexpr std::size_t kLargestWalkRequest =
+    std::size_t{64} * 1024;                    ///< of a message [bytes]
+inline constexpr int kLargestWalkSize = 4096;  ///< of a window's side [pixels]
 inline constexpr std::size_t kMostProbes = 64;
 
 struct HelloRequest {

@@ -27,14 +27,15 @@ struct WebLimits {
     int clients = 8;
     int connections = 256;  ///< all sockets; more are closed at once
     int saves = 4;          ///< requests of /save/ that wait for their answer
-    std::size_t header_bytes = 16 * 1024;
-    std::size_t message_bytes = 64 * 1024;
+    std::size_t header_bytes = std::size_t{16} * 1024;
+    std::size_t message_bytes = std::size_t{64} * 1024;
     /// Of a client, on average; pings count as well. A page on a screen of 240 Hz sends a view and
     /// an acknowledgement for each picture.
     double messages_per_second = 500;
     double messages_at_once = 1000;
-    std::size_t text_bytes = 1024 * 1024;  ///< that wait for a slow reader before it is closed
-    std::size_t frames = 4;                ///< binary messages that do
+    std::size_t text_bytes =
+        std::size_t{1024} * 1024;  ///< that wait for a slow reader before it is closed
+    std::size_t frames = 4;        ///< binary messages that do
     Time request{5'000};  ///< from connecting, or from the answer before, to a whole request
     Time answer{60'000};  ///< until an answer has been taken
     /// Of a WebSocket; after half of it it is pinged. One that broke the protocol and does not

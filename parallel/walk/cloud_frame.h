@@ -16,7 +16,6 @@ namespace lightwalk {
 enum class CloudCheck {
     none,   ///< of none: only the points' own depths tell what is hidden
     edges,  ///< where new things may come into view
-    half,   ///< of every other one, and of those between others that do not see the same
     all,
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/cloud/audit.h"
-#include "core/cloud/between.h"
 #include "core/cloud/point_order.h"
 #include "core/math/prefetch.h"
 #include "parallel/blocks.h"
@@ -206,60 +205,12 @@ void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointF
         prefetch(&frame_.distance[at]);
         if (!origins_.empty()) prefetch(&origins_[at]);
     }
-    if (options_.check == CloudCheck::half)
-        look_at_half(places, {sights.data(), places.size()}, caster, worker);
-    else
-        caster.look(places, {sights.data(), places.size()}, worker);
+    caster.look(places, {sights.data(), places.size()}, worker);
     finder.checked(places, {sights.data(), places.size()}, answers);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (answers[i].ahead != kNoPoint) prefetch(&used_[answers[i].ahead]);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (sights[i].ray) settle(places[i], finder, answers[i], holes);
-}
-
-/// Pixels of one packet, row by row: those of one colour of a chessboard by rays, then, of the
-/// others, those that neighbours on two opposite sides do not tell.
-void CloudRegion::look_at_half(std::span<const PixelPlace> places, std::span<PixelSights> sights,
-                               const PixelCaster& caster, int worker) const {
-    const int left = places.front().x, right = places.back().x + 1, low = places.front().y;
-    const auto width = static_cast<std::size_t>(right - left);
-    std::array<PixelPlace, kPacket> asked;
-    std::array<PixelSights, kPacket> told;
-    std::array<std::size_t, kPacket> of;
-    std::size_t count = 0;
-    const auto ask = [&](std::size_t i) {
-        of[count] = i;
-        asked[count++] = places[i];
-    };
-    const auto look = [&] {
-        caster.look({asked.data(), count}, {told.data(), count}, worker);
-        for (std::size_t k = 0; k < count; ++k) sights[of[k]] = told[k];
-        count = 0;
-    };
-    const auto is_asked = [](const PixelPlace& place) { return ((place.x + place.y) & 1) == 0; };
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (is_asked(places[i])) ask(i);
-    look();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const PixelPlace& place = places[i];
-        if (is_asked(place)) continue;
-        std::array<const PixelSights*, 4> around{};
-        std::size_t found = 0;
-        bool alike = true;
-        const auto add_pair = [&](std::size_t step) {
-            around[found++] = &sights[i - step];
-            around[found++] = &sights[i + step];
-            alike = alike && see_alike(sights[i - step], sights[i + step]) &&
-                    see_alike(*around[0], sights[i - step]);
-        };
-        if (place.x > left && place.x + 1 < right) add_pair(1);
-        if (place.y > low && i + width < places.size()) add_pair(width);
-        if (found > 0 && alike)
-            sights[i] = sights_between({around.data(), found}, place);
-        else
-            ask(i);
-    }
-    if (count > 0) look();
 }
 
 void CloudRegion::answer_block(std::size_t block, const PixelCaster& caster, int worker) {
@@ -274,7 +225,7 @@ void CloudRegion::answer_block(std::size_t block, const PixelCaster& caster, int
                 for (int x = x0; x < std::min(x0 + kPacketSide, area.x1); ++x) {
                     const bool check =
                         !rules_.empty &&
-                        (options_.check == CloudCheck::all || options_.check == CloudCheck::half ||
+                        (options_.check == CloudCheck::all ||
                          (options_.check == CloudCheck::edges && finder.is_edge({x, y})));
                     if (check)
                         checked[count++] = {x, y};

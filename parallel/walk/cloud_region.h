@@ -115,8 +115,6 @@ class CloudRegion {
     void answer_block(std::size_t block, const PixelCaster& caster, int worker);
     void answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
                        const PixelCaster& caster, int worker, std::vector<CloudHole>& holes);
-    void look_at_half(std::span<const PixelPlace> places, std::span<PixelSights> sights,
-                      const PixelCaster& caster, int worker) const;
     void settle(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
                 std::vector<CloudHole>& holes);
     void order_holes(const std::vector<std::vector<CloudHole>>& of_blocks);
