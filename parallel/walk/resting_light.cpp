@@ -1,6 +1,7 @@
 #include "parallel/walk/resting_light.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "parallel/pixel_tracer.h"
 #include "parallel/walk/scene_caster.h"
@@ -9,7 +10,7 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kPixelsATask = 16;
-// Enough for a step of a second on many cores; choosing them takes a pass over the picture.
+// Choosing them takes a pass over the picture.
 constexpr std::size_t kMostPixels = 65536;
 
 }  // namespace
@@ -35,12 +36,15 @@ void RestingLight::begin(std::span<const Rgb> radiance, std::span<const float> d
         }
     }
     work_.begin(radiance, origins);
+    chosen_ = {};
 }
 
 bool RestingLight::step(HoleTracer::Clock::time_point deadline, Executor& executor,
                         const StopFlag& stop) {
-    const RestingWork work = work_.next(kMostPixels);
-    if (work.places.empty()) return false;
+    if (chosen_.places.empty()) chosen_ = work_.next(kMostPixels);
+    if (chosen_.places.empty()) return false;
+    const RestingWork work = std::move(chosen_);
+    chosen_ = {work.sample, {}};
     const PixelRays rays = rays_of_sample(camera_, options_, work.sample);
     const std::size_t tasks = (work.places.size() + kPixelsATask - 1) / kPixelsATask;
     std::vector<PixelValue> values(work.places.size());
@@ -60,8 +64,11 @@ bool RestingLight::step(HoleTracer::Clock::time_point deadline, Executor& execut
     RestingWork finished{work.sample, {}};
     std::vector<Rgb> radiance;
     for (std::size_t i = 0; i < work.places.size(); ++i) {
-        if (done[i / kPixelsATask] == 0) continue;
         const PixelPlace& place = work.places[i];
+        if (done[i / kPixelsATask] == 0) {
+            chosen_.places.push_back(place);
+            continue;
+        }
         finished.places.push_back(place);
         radiance.push_back(values[i].radiance);
         if (work.sample > 0) continue;

@@ -58,6 +58,7 @@ class RestingLight {
     std::vector<Rgb> before_;
     std::vector<float> distance_;
     std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
+    RestingWork chosen_;             ///< of them those that come next
 };
 
 }  // namespace lightwalk
