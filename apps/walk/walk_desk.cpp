@@ -27,11 +27,6 @@ WalkInbox WalkDesk::take(std::chrono::milliseconds longest) {
     return taken;
 }
 
-bool WalkDesk::has_moved(std::uint32_t view) const {
-    const std::lock_guard lock(mutex_);
-    return inbox_.wish.view && inbox_.wish.view->id != view;
-}
-
 void WalkDesk::announce(const LoadingReply& reply) {
     announce_text(walk_text(reply));
 }

@@ -51,8 +51,6 @@ class WalkDesk final : public WebHandler {
     // For the drawing thread.
     /// Waits for something, so long at most.
     [[nodiscard]] WalkInbox take(std::chrono::milliseconds longest);
-    /// Whether the driver has asked for another view than that of this id.
-    [[nodiscard]] bool has_moved(std::uint32_t view) const;
     /// What becomes of the scene: all are told, and those who come later.
     void announce(const LoadingReply& reply);
     void announce(const FailedReply& reply);

@@ -97,11 +97,6 @@ std::vector<std::size_t> WalkScreen::missing(const Client& client) const {
     return client.flow.missing(layout, contents_);
 }
 
-bool WalkScreen::is_behind() const {
-    return !pieces_.empty() && std::any_of(clients_.begin(), clients_.end(),
-                                           [&](const auto& c) { return lacks(c.second); });
-}
-
 WalkScreen::Time WalkScreen::next_chance() const {
     Time soonest = Time::max();
     for (const auto& [id, client] : clients_)

@@ -44,13 +44,8 @@ class WalkScreen {
               Time now);
     /// Compress what clients lack, and send it to all that are ready for a frame.
     void send(WalkDesk& desk, Time now);
-    /// Whether some client lacks something of the picture.
-    [[nodiscard]] bool is_behind() const;
     /// When a client may be ready that is not now; Time::max(): only when it says so.
     [[nodiscard]] Time next_chance() const;
-    /// Frames that were sent to the client that got most.
-    [[nodiscard]] std::uint32_t frames() const { return frame_; }
-    void forget_adaptation() { eye_.forget(); }
 
   private:
     struct Piece {

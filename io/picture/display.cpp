@@ -83,17 +83,12 @@ std::array<double, 3> scale_colour(double at) {
 
 void Adaptation::look_at(const BrightnessHistogram& picture, double seconds) {
     if (!(picture.total() > 0)) return;
-    const double share = settled_ ? 1 - std::exp(-std::max(seconds, 0.0) / kAdaptationTime) : 1;
+    const double share = 1 - std::exp(-std::max(seconds, 0.0) / kAdaptationTime);
     const auto follow = [&](double from, double to) {
-        return from > 0 ? from * std::pow(to / from, share) : to;
+        return from > 0 ? from * std::pow(to / from, share) : to;  // the first look: at once
     };
     average_ = follow(average_, picture.log_average());
     white_ = follow(white_, picture.below_which(kShareBelowWhite));
-    if (!settled_) {
-        average_ = picture.log_average();
-        white_ = picture.below_which(kShareBelowWhite);
-    }
-    settled_ = true;
 }
 
 Display::Display(const DisplaySettings& settings, const Adaptation& eye,

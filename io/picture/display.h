@@ -32,14 +32,11 @@ class Adaptation {
   public:
     /// The next picture, so long after the one before.
     void look_at(const BrightnessHistogram& picture, double seconds);
-    /// What the present picture calls for at once: the view has jumped.
-    void forget() { settled_ = false; }
 
     [[nodiscard]] double average() const { return average_; }  ///< [W/(m² sr)], 0: no light yet
     [[nodiscard]] double white() const { return white_; }      ///< brightest worth drawing
 
   private:
-    bool settled_ = false;
     double average_ = 0, white_ = 0;
 };
 

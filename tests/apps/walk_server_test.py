@@ -66,6 +66,12 @@ class Client:
         self.socket.send({"type": "view", "id": self.ident, "view": {**VIEW, **changes}, "width": SIZE[0], "height": SIZE[1],
                           "moving": False, "walk": False})
 
+    def enter(self):
+        """Once the scene is there: the first picture."""
+        self.told("loaded")
+        self.look()
+        self.frame(1)
+
     def take(self):
         message = self.socket.receive()
         if isinstance(message, bytes):
@@ -118,9 +124,7 @@ def light(program):
     """What is pointed at: a panel of known luminance, its name, the mean, glare; where nothing is, nothing is hit."""
     with Server(program) as server:
         client = Client(server.port)
-        client.told("loaded")
-        client.look()
-        client.frame(1)
+        client.enter()
         picked = client.ask("pick", "picked", x=0.67, y=0.52)
         assert picked["hit"] and picked["material"] == "panel" and picked["surface"] == "screen", picked
         assert abs(picked["luminance"] - 358) < 0.02 * 358, picked
@@ -145,9 +149,7 @@ def roles(program):
     with Server(program) as server:
         first = Client(server.port)
         assert first.told("welcome")["driver"]
-        first.told("loaded")
-        first.look()
-        first.frame(1)
+        first.enter()
         second = Client(server.port, "fedcba9876543210")
         assert not second.told("welcome")["driver"]
         assert second.told("view")["view"]["position"] == VIEW["position"]
@@ -166,9 +168,7 @@ def mended(program):
     """A scene that cannot be read says why and where; when it is mended the walk goes on."""
     with Server(program) as server:
         client = Client(server.port)
-        client.told("loaded")
-        client.look()
-        client.frame(1)
+        client.enter()
         server.scene.write_text(ROOM + "nothing sphere wrong 0 0 4 0 0 0 1\n")
         failed = client.told("failed")
         assert any("room.rad:9" in line for line in failed["messages"]), failed
@@ -254,9 +254,7 @@ def slow(program):
         link = SlowLink(server.port, 250e3, 0.1)
         link.start()
         client = Client(link.port)
-        client.told("loaded")
-        client.look()
-        client.frame(1)
+        client.enter()
         sent, waits, start = {}, [], time.monotonic()
         while (now := time.monotonic()) < start + 5:
             client.look(direction=[0.3 * (now - start) - 0.75, 1, -0.05])
@@ -305,9 +303,7 @@ def abuse(program):
     chance = random.Random(1)
     with Server(program, ["--clients", "4"]) as server:
         driver = Client(server.port)
-        driver.told("loaded")
-        driver.look()
-        driver.frame(1)
+        driver.enter()
         for round_ in range(100):
             misbehave(server.port, chance, f"{round_:016x}")
         half_open = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(150)]
