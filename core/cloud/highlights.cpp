@@ -14,6 +14,7 @@ namespace {
 constexpr double kChange = 0.1;       ///< of the colour
 constexpr double kLeastCosine = 0.1;  ///< views nearer to the surface do not count
 constexpr double kLeastTurn = 0.003, kFirstTurn = 0.0125, kMostTurn = 0.8;
+constexpr double kFaint = 0.1 * kChange;  ///< shares below it hardly count
 
 /// A part of a light as the surface sees it.
 struct LitPart {
@@ -37,10 +38,13 @@ class LightOnSurface {
 
     /// Leave out the parts that opaque surfaces hide.
     void drop_hidden(const Geometry& geometry);
-    /// How far the eye may turn before the colour changes by kChange [rad].
+    /// How far the eye may turn before the colour changes by kChange, if that is less than `most`
+    /// [rad].
     [[nodiscard]] double steady_turn(double most) const;
 
   private:
+    [[nodiscard]] double dark_turn(const LitPart& part) const;
+    [[nodiscard]] double dark_turn(double most) const;
     [[nodiscard]] double shine(const Vec3& wo) const;
     [[nodiscard]] double change(double turn, double here) const;
     [[nodiscard]] std::array<Vec3, 2> axes() const;
@@ -114,11 +118,38 @@ double LightOnSurface::change(double turn, double here) const {
     return most;
 }
 
+/// How far the eye may turn with no more than kFaint of a part's light in the lobe: until the half
+/// vector, which turns more slowly by the length of h, comes so near to the normal [rad].
+double LightOnSurface::dark_turn(const LitPart& part) const {
+    const Vec3 h = part.direction + at_.wo;
+    const double hn = dot(h, at_.normal), size = length(h);
+    const double peak = ratio_ / (part.alpha2 * size * size);  // of the share
+    if (peak <= kFaint) return kMostTurn;
+    const double slope2 = part.alpha2 * std::log(peak / kFaint);
+    const double sine2 = std::max(1 - hn * hn / (size * size), 0.0);
+    // Most lights are seen where the lobe is, or far beside it: no arc tangent for the former.
+    if (sine2 <= slope2 * (1 - sine2)) return 0;
+    const double apart = std::asin(std::sqrt(sine2)) - std::atan(std::sqrt(slope2));
+    return apart * std::min(size, 1.0);
+}
+
+double LightOnSurface::dark_turn(double most) const {
+    for (const LitPart& part : std::span(parts_.data(), count_)) {
+        most = std::min(most, dark_turn(part));
+        if (most <= 0) return 0;
+    }
+    return most;
+}
+
 double LightOnSurface::steady_turn(double most) const {
     if (count_ == 0) return most;
+    const double dark = dark_turn(most);
+    if (dark >= most) return most;
     const double here = shine(at_.wo), allowed = kChange * (1 + here);
     double turn = 0, changed = 0;
-    for (double next = kFirstTurn; turn < most; next *= 2) {
+    double next = kFirstTurn;
+    for (; next <= dark; next *= 2) turn = next;
+    for (; turn < most; next *= 2) {
         const double then = change(next, here);
         if (then > allowed)
             return std::min(most, turn + (next - turn) * (allowed - changed) / (then - changed));
