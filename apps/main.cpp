@@ -1,4 +1,5 @@
 // lightwalk: one program, one command a task.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -80,8 +81,8 @@ int run(const std::vector<std::string>& words) {
     try {
         if (started_by_mpi()) ranks = open_mpi();
         // Only pictures and rays are shared out: rank 0 answers everything else.
-        const bool shared = !words.empty() &&
-                            (words[0] == "render" || words[0] == "animate" || words[0] == "trace");
+        const std::vector<std::string> work{"render", "animate", "walk", "trace"};
+        const bool shared = !words.empty() && std::ranges::find(work, words[0]) != work.end();
         if (ranks && ranks->rank() != 0 && !shared) return kSuccessStatus;
         return dispatch(words, ranks.get());
     } catch (const UsageError& error) {

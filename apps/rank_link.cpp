@@ -127,9 +127,10 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     if (leads()) {
         const bool same = problems.size() == 1 && others == 0 && problems.begin()->second == 0;
         if (!advice.empty() && problem.empty() && !problems.empty()) told += advice + '\n';
-        std::fprintf(stderr, "%s", same ? (problems.begin()->first + '\n').c_str() : told.c_str());
+        if (same) told = problems.begin()->first + '\n';
+        std::fprintf(stderr, "%s", told.c_str());
     }
-    throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst};
+    throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst, told};
 }
 
 AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientRecord>& known) {
@@ -272,9 +273,23 @@ std::optional<FinishedFrame> RankLink::wait_for_frame(const StopFlag& stop) {
     return std::exchange(frame_, std::nullopt);
 }
 
-std::map<int, std::string> RankLink::finish(const StopFlag& stop) {
+void RankLink::dismiss() {
     for (int rank = 0; rank < ranks(); ++rank)
         loop_.post(Role::program, {rank, Role::program}, Finish{});
+}
+
+std::string RankLink::hear(std::string said) {
+    {
+        const std::lock_guard lock(mutex_);
+        finished_ = false;
+        tracer_ = nullptr;
+        frame_.reset();
+    }
+    return loop_.all_gather(std::move(said)).front();
+}
+
+std::map<int, std::string> RankLink::finish(const StopFlag& stop) {
+    dismiss();
     std::unique_lock lock(mutex_);
     while (static_cast<int>(reports_.size()) < ranks() - 1 && !stop.requested())
         changed_.wait_for(lock, kPatience);

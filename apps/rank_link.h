@@ -23,6 +23,7 @@ namespace lightwalk {
 /// All ranks have found that the run cannot be; rank 0 has said why.
 struct AgreedProblem {
     int status = 1;
+    std::string text;  ///< on rank 0: what it has said
 };
 
 class RankLink final : private LocalEnd {
@@ -105,6 +106,14 @@ class RankLink final : private LocalEnd {
     [[nodiscard]] std::optional<FinishedFrame> wait_for_frame(const StopFlag& stop);
     /// No more work comes: what the other ranks report, by rank.
     [[nodiscard]] std::map<int, std::string> finish(const StopFlag& stop);
+
+    // Several works one after the other: each ends by dismiss(), and another one may begin when
+    // all have heard so.
+
+    /// On rank 0: no more of this work comes.
+    void dismiss();
+    /// What rank 0 says, on every rank; waits for all. The work before has ended on this one.
+    [[nodiscard]] std::string hear(std::string said = {});
 
     /// What this rank cannot go on for: ends the whole run.
     void fail(const std::string& text);

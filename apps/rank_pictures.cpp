@@ -49,7 +49,8 @@ std::string encode_order(const PictureOrder& order) {
               {"width", order.width},
               {"height", order.height},
               {"step", order.step},
-              {"deterministic", order.deterministic}};
+              {"deterministic", order.deterministic},
+              {"indirect", order.indirect}};
     if (order.previous) json["previous"] = to_json(*order.previous);
     return json.dump();
 }
@@ -64,6 +65,7 @@ PictureOrder decode_order(const std::string& text) {
         order.height = json.at("height");
         order.step = json.at("step");
         order.deterministic = json.at("deterministic");
+        order.indirect = json.at("indirect");
         return order;
     } catch (const Json::exception& error) {
         throw InputError(std::string("a picture's order cannot be read: ") + error.what());

@@ -25,6 +25,7 @@ struct PictureOrder {
     int width = 0, height = 0;
     int step = 1;
     bool deterministic = false;  ///< fill the cache before, all ranks together
+    bool indirect = true;        ///< false: by direct light alone
 };
 [[nodiscard]] std::string encode_order(const PictureOrder& order);
 /// Throws InputError for text that encode_order did not make.

@@ -85,9 +85,10 @@ std::shared_ptr<FileReplay> replay_of_rank_0(RankLink& link) {
 
 std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions& options,
                                              const RenderSettings& settings,
-                                             const std::string& history, WarningSink& warnings) {
+                                             const std::string& history, WarningSink& warnings,
+                                             std::shared_ptr<FileSource> base) {
     const bool shared = options.ranks.scene_from == SceneFrom::rank0;
-    auto files = std::make_shared<FileRecorder>(real_files(), shared && link.leads());
+    auto files = std::make_shared<FileRecorder>(std::move(base), shared && link.leads());
     std::shared_ptr<FileReplay> replay;
     std::unique_ptr<SceneSession> session;
     std::string problem;

@@ -37,11 +37,11 @@ void parse_on_ranks(Transport* transport, const std::string& program,
 /// Every rank reads and builds the scene, from its own files or from what rank 0 has read
 /// (--scene-from); all go on, or none: throws AgreedProblem.
 /// @param history  the options, which must be the same everywhere
-[[nodiscard]] std::unique_ptr<SceneSession> build_on_ranks(RankLink& link,
-                                                           const CommonOptions& options,
-                                                           const RenderSettings& settings,
-                                                           const std::string& history,
-                                                           WarningSink& warnings);
+/// @param base     where rank 0, or each rank, finds its files
+[[nodiscard]] std::unique_ptr<SceneSession> build_on_ranks(
+    RankLink& link, const CommonOptions& options, const RenderSettings& settings,
+    const std::string& history, WarningSink& warnings,
+    std::shared_ptr<FileSource> base = real_files());
 
 /// On rank 0: `work`, while another thread runs `trace` where this rank traces. `trace` must end
 /// after work's RankLink::finish. An exception of either ends the whole run.

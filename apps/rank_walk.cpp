@@ -15,7 +15,9 @@ class SceneRays final : public WalkRays {
   public:
     SceneRays(const View& view, const Tracer& tracer, const SceneSights& sights,
               const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop)
-        : camera_(view), caster_(tracer, sights, camera_, options, contexts, stop) {}
+        : camera_(view),
+          contexts_(contexts),
+          caster_(tracer, sights, camera_, options, contexts, stop) {}
     [[nodiscard]] const Camera& camera() const override { return camera_; }
     void look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
               int worker) override {
@@ -25,9 +27,11 @@ class SceneRays final : public WalkRays {
                int worker) override {
         caster_.trace(places, pixels, sample, worker);
     }
+    [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
 
   private:
     Camera camera_;
+    const WorkerContexts& contexts_;
     SceneCaster caster_;
 };
 
@@ -103,8 +107,12 @@ std::unique_ptr<WalkRays> RankWalk::make_rays(const CloudOrder& order, Executor&
     FrameOptions options = options_;
     options.width = order.width;
     options.height = order.height;
-    auto rays = std::make_unique<SceneRays>(decode_order(order.payload).view, session_.tracer(),
-                                            sights_, options, contexts_, stop_);
+    const PictureOrder picture = decode_order(order.payload);
+    if (direct_ != nullptr && !picture.indirect)
+        return std::make_unique<SceneRays>(picture.view, direct_->tracer, direct_->sights, options,
+                                           direct_->contexts, stop_);
+    auto rays = std::make_unique<SceneRays>(picture.view, session_.tracer(), sights_, options,
+                                            contexts_, stop_);
     if (order.rules.empty || overture_ == Overture::deterministic)
         play_overture(rays->camera(), options, executor);
     return rays;

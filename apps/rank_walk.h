@@ -13,6 +13,7 @@
 #include "core/cloud/scene_sights.h"
 #include "parallel/overture.h"
 #include "parallel/ranks/cloud_lead.h"
+#include "parallel/walk/live_frames.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
@@ -73,6 +74,9 @@ class RankWalk final : public RankWork {
           stop_(stop),
           sights_(session.tracer()) {}
 
+    /// Orders that want direct light alone get this; without, they get what the session has.
+    void set_direct(WalkLight& direct) { direct_ = &direct; }
+
     void serve(Executor& executor) override;
     [[nodiscard]] RayCounters rays() const override;
     [[nodiscard]] AmbientCounters ambient() const override;
@@ -91,6 +95,7 @@ class RankWalk final : public RankWork {
     WarningSink& warnings_;
     const StopFlag& stop_;
     SceneSights sights_;
+    WalkLight* direct_ = nullptr;
     RayCounters overture_rays_;
     AmbientCounters overture_ambient_;
 };

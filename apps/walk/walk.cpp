@@ -1,12 +1,17 @@
 // lightwalk walk: light in the browser. A web server on a thread of its own, and the frames.
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <thread>
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "apps/rank_session.h"
+#include "apps/rank_walk.h"
 #include "apps/render_command.h"
 #include "apps/walk/pages.h"
+#include "apps/walk/rank_frames.h"
+#include "apps/walk/walk_light.h"
 #include "apps/walk/walk_room.h"
 #include "apps/warnings.h"
 #include "io/files/watched_files.h"
@@ -93,10 +98,61 @@ class ServerThread {
     std::thread thread_;
 };
 
+// What rank 0 tells the others to do next.
+constexpr const char *kLoad = "load", *kEnd = "end";
+
+/// A rank's part of the frames of one scene.
+class RankShare {
+  public:
+    /// @param direct  without indirect light; null: there is none
+    RankShare(RankLink& link, const SceneSession& session, const RenderCommand& command,
+              const Tracer* direct, StderrWarnings& warnings)
+        : executor_(make_executor(command.common.executor, command.common.workers)),
+          contexts_(session.tracer(), warnings, executor_->concurrency()),
+          walk_(link, session, Overture::none, walk_picture_options(command),
+                walk_cloud_options(command), command.walk->projectors, contexts_, warnings,
+                interrupt_flag()) {
+        if (direct == nullptr) return;
+        direct_.emplace(*direct, warnings, executor_->concurrency());
+        walk_.set_direct(*direct_);
+    }
+    void serve() { walk_.serve(*executor_); }
+
+  private:
+    std::unique_ptr<Executor> executor_;
+    WorkerContexts contexts_;
+    std::optional<WalkLight> direct_;
+    RankWalk walk_;
+};
+
+/// The other ranks: scene after scene.
+int follow_walk(RankLink& link, const RenderCommand& command) {
+    StderrWarnings warnings("lightwalk walk");
+    warnings.enable(false);  // rank 0 has the same
+    while (link.hear() == kLoad) {
+        try {
+            const std::unique_ptr<SceneSession> session =
+                build_on_ranks(link, command.common, command.settings, command.history, warnings);
+            const std::unique_ptr<const Tracer> direct = without_indirect(*session, warnings);
+            RankShare share(link, *session, command, direct.get(), warnings);
+            if (link.traces())
+                share.serve();
+            else
+                link.wait_for_end(interrupt_flag());
+        } catch (const AgreedProblem&) {
+            continue;  // until its files change
+        }
+    }
+    return kSuccessStatus;
+}
+
+/// What serves the page: this process, or rank 0.
 class WalkProgram {
   public:
-    explicit WalkProgram(RenderCommand command)
-        : command_(std::move(command)),
+    /// @param link  to the other ranks; null: there are none
+    WalkProgram(const RenderCommand& command, RankLink* link)
+        : command_(command),
+          link_(link),
           warnings_("lightwalk walk"),
           executor_(make_executor(command_.common.executor, command_.common.workers)),
           desk_(welcome()),
@@ -107,8 +163,6 @@ class WalkProgram {
     }
 
     int run() {
-        handle_interrupts();
-        set_interrupt_phase(InterruptPhase::request);
         std::printf("%s\n", server_.url().c_str());
         std::fflush(stdout);
         const ServerThread serving(server_);
@@ -119,10 +173,13 @@ class WalkProgram {
             } catch (const InputError& error) {
                 std::fprintf(stderr, "%s\n", error.what());
                 desk_.announce(FailedReply{lines_of(error.what())});
+            } catch (const AgreedProblem& problem) {
+                desk_.announce(FailedReply{lines_of(problem.text)});
             }
             wait_for_change(serving);
             std::this_thread::sleep_for(kWriting);
         }
+        if (link_ != nullptr) (void)link_->hear(kEnd);
         if (serving.ended()) serving.raise();
         return kSuccessStatus;
     }
@@ -142,19 +199,54 @@ class WalkProgram {
         return welcome;
     }
 
-    /// Read the scene, and draw until its files change. Throws InputError for what is wrong with
-    /// it.
-    void enter(const ServerThread& serving) {
+    /// Throws InputError for what is wrong with the scene, or AgreedProblem.
+    std::unique_ptr<SceneSession> read_scene() {
         desk_.announce(LoadingReply{"reading " + welcome().scene, 0.1});
-        SceneSession session(command_.common, warnings_, std::make_shared<FileRecorder>(watched_));
+        if (link_ != nullptr) {
+            (void)link_->hear(kLoad);
+            return build_on_ranks(*link_, command_.common, command_.settings, command_.history,
+                                  warnings_, watched_);
+        }
+        auto session = std::make_unique<SceneSession>(command_.common, warnings_,
+                                                      std::make_shared<FileRecorder>(watched_));
         desk_.announce(LoadingReply{"building the scene", 0.5});
-        session.build(command_.settings);
-        session.warn_of_darkness();
+        session->build(command_.settings);
+        return session;
+    }
+
+    /// Read the scene, and draw until its files change. Throws as read_scene.
+    void enter(const ServerThread& serving) {
+        const std::unique_ptr<SceneSession> session = read_scene();
+        session->warn_of_darkness();
+        const std::unique_ptr<const Tracer> direct = without_indirect(*session, warnings_);
+        const Tracer& tracer = direct ? *direct : session->tracer();
+        const Tracer* const indirect = direct ? &session->tracer() : nullptr;
+        const CloudOptions cloud = walk_cloud_options(command_);
+        const FrameOptions picture = walk_picture_options(command_);
+        if (link_ == nullptr) {
+            LocalFrames frames(tracer, indirect, cloud, picture, *executor_, warnings_);
+            return stay(*session, frames, serving);
+        }
+        RankShare share(*link_, *session, command_, direct.get(), warnings_);
+        lead_ranks(
+            *link_, [&] { share.serve(); },
+            [&] {
+                RankFrames frames(*link_, tracer, indirect, cloud, picture, *executor_, warnings_,
+                                  next_order_);
+                stay(*session, frames, serving);
+                next_order_ = frames.next();
+                link_->dismiss();
+            });
+    }
+
+    /// Draw until the scene's files change.
+    void stay(const SceneSession& session, LiveFrames& frames, const ServerThread& serving) {
         const View home = !command_.serve->views.empty() ? command_.serve->views.front().view
                           : command_.view_given          ? command_.view
                                                          : view_of(session.scene());
         desk_.set_home(home);
-        WalkRoom room(command_, session, home, *executor_, warnings_, desk_, screen_);
+        WalkRoom room(command_, session, home, frames, *executor_, warnings_, desk_, screen_);
+        if (link_ != nullptr) room.set_company(link_->ranks(), command_.common.workers);
         LoadedReply loaded;
         loaded.views = command_.serve->views;
         if (loaded.views.empty()) loaded.views.push_back({"start", home});
@@ -185,7 +277,9 @@ class WalkProgram {
         }
     }
 
-    RenderCommand command_;
+    const RenderCommand& command_;
+    RankLink* link_;
+    WalkFrameId next_order_ = 0;
     StderrWarnings warnings_;
     std::unique_ptr<Executor> executor_;
     WalkDesk desk_;
@@ -196,17 +290,33 @@ class WalkProgram {
 
 }  // namespace
 
-int run_walk(const std::vector<std::string>& words, Transport*) {
-    RenderCommand command = parse_render_command("walk", words, real_files());
-    if (command.show_defaults) {
-        std::fputs(describe(command).c_str(), stdout);
-        return kSuccessStatus;
+int run_walk(const std::vector<std::string>& words, Transport* ranks) {
+    std::optional<RenderCommand> command;
+    parse_on_ranks(ranks, "lightwalk walk", [&](const std::shared_ptr<FileSource>& files) {
+        RenderCommand parsed = parse_render_command("walk", words, files);
+        if (parsed.show_defaults) {
+            if (ranks == nullptr || ranks->rank() == 0)
+                std::fputs(describe(parsed).c_str(), stdout);
+            return;
+        }
+        check_render_settings(parsed.settings);
+        (void)Camera(parsed.view);
+        settle_scene_files(parsed.common, "", *files);
+        command = std::move(parsed);
+    });
+    if (!command) return kSuccessStatus;
+    handle_interrupts();
+    const std::unique_ptr<RankLink> link = link_ranks(
+        ranks, command->common, {"lightwalk walk", false, false, command->walk->projectors});
+    if (!link) {
+        set_interrupt_phase(InterruptPhase::request);
+        return WalkProgram(*command, nullptr).run();
     }
-    check_render_settings(command.settings);
-    (void)Camera(command.view);
-    settle_scene_files(command.common, "", *real_files());
-    WalkProgram program(std::move(command));
-    return program.run();
+    const auto body = [&] {
+        return link->leads() ? WalkProgram(*command, link.get()).run()
+                             : follow_walk(*link, *command);
+    };
+    return link->run(body, interrupt_flag());
 }
 
 }  // namespace lightwalk

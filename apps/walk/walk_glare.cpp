@@ -2,6 +2,7 @@
 
 #include "core/glare/glare.h"
 #include "core/glare/outline.h"
+#include "parallel/walk/live_frames.h"
 
 namespace lightwalk {
 namespace {
@@ -47,7 +48,7 @@ void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& vi
     if (picture_ && view_ == view) return;
     view_ = view;
     told_ = 0;
-    picture_.emplace(tracer_, field_of(view), picture_options(), contexts_, 1);
+    picture_.emplace(kFieldSide, kFieldSide, 1);
     constexpr std::size_t kPixels = std::size_t{kFieldSide} * kFieldSide;
     picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels));
 }
@@ -60,7 +61,12 @@ void WalkGlare::forget(WalkDesk& desk) {
 }
 
 void WalkGlare::step(double budget, const StopFlag& stop, WalkDesk& desk) {
-    if (picture_->step(deadline_of(budget), executor_, stop)) {
+    const Camera field(field_of(view_));
+    const auto trace = [&](const RestingWork& work) {
+        return trace_pixels(tracer_, contexts_, field, picture_options(), work, budget, executor_,
+                            stop);
+    };
+    if (picture_->step(trace)) {
         if (picture_->share() < told_ + kToldEach) return;
         told_ = picture_->share();
         GlareReply reply;

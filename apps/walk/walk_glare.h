@@ -8,6 +8,7 @@
 #include "core/transport/tracer.h"
 #include "parallel/executor.h"
 #include "parallel/walk/resting_light.h"
+#include "parallel/worker_contexts.h"
 
 namespace lightwalk {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/picture_series.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
 
@@ -18,26 +17,6 @@ constexpr std::chrono::milliseconds kRestingInterval{100};
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
 constexpr std::chrono::milliseconds kIdle{100};
-
-CloudOptions cloud_options(const RenderCommand& command) {
-    CloudOptions options = command.walk->cloud;
-    options.budget = 1 / command.walk->rate;
-    options.samples = command.serve->edge_samples;
-    return options;
-}
-
-FrameOptions picture_options(const RenderCommand& command) {
-    FrameOptions options = frame_options(command, {});
-    options.pixels.spacing = 1;
-    return options;
-}
-
-std::unique_ptr<const Tracer> without_ambient(const SceneSession& session, WarningSink& warnings) {
-    RenderOptions options = session.tracer().options();
-    if (options.ambient_bounces == 0) return nullptr;
-    options.ambient_bounces = 0;
-    return std::make_unique<const Tracer>(session.scene(), options, warnings);
-}
 
 double eye_height_of(const Scene& scene, const View& view) {
     const std::optional<double> height =
@@ -82,15 +61,15 @@ WalkPhase phase_name(LivePhase phase) {
 }  // namespace
 
 WalkRoom::WalkRoom(const RenderCommand& command, const SceneSession& session, const View& home,
-                   Executor& executor, WarningSink& warnings, WalkDesk& desk, WalkScreen& screen)
+                   LiveFrames& frames, Executor& executor, WarningSink& warnings, WalkDesk& desk,
+                   WalkScreen& screen)
     : command_(command),
       session_(session),
       desk_(desk),
       screen_(screen),
       threads_(executor.concurrency()),
-      direct_(without_ambient(session, warnings)),
-      live_(direct_ ? *direct_ : session.tracer(), direct_ ? &session.tracer() : nullptr,
-            cloud_options(command), picture_options(command), executor, warnings),
+      has_indirect_(frames.has_indirect()),
+      live_(frames, command.serve->edge_samples),
       answers_(session.tracer(), warnings),
       glare_(session.tracer(), executor, warnings),
       eye_height_(eye_height_of(session.scene(), home)) {}
@@ -156,7 +135,7 @@ View WalkRoom::on_the_ground(const ViewRequest& request) const {
 }
 
 AmbientUse WalkRoom::ambient_use() const {
-    if (!direct_) return AmbientUse::off;
+    if (!has_indirect_) return AmbientUse::off;
     switch (wish_.settings.ambient) {
         case WalkAmbient::rest:
             return AmbientUse::rest;
@@ -178,7 +157,7 @@ void WalkRoom::draw(const StopFlag& stop) {
     picture_ = std::move(next);
     drawn_ = true;
     shown_ = false;
-    pace_.rays += picture_.rays.total();
+    pace_.rays += picture_.rays;
     if (picture_.phase == LivePhase::moving) {
         pace_.reused += static_cast<double>(picture_.report.reused);
         pace_.pixels += static_cast<double>(picture_.report.pixels);
@@ -210,6 +189,7 @@ void WalkRoom::report(Clock::time_point now) {
     state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
     state.phase = phase_name(picture_.phase);
     state.share = picture_.share;
+    state.ranks = ranks_;
     state.threads = threads_;
     state.points = picture_.report.points;
     desk_.tell_all(walk_text(state));

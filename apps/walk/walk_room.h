@@ -22,7 +22,14 @@ class WalkRoom {
     /// All must outlive this.
     /// @param home  where the walk begins, which tells how high eyes are
     WalkRoom(const RenderCommand& command, const SceneSession& session, const View& home,
-             Executor& executor, WarningSink& warnings, WalkDesk& desk, WalkScreen& screen);
+             LiveFrames& frames, Executor& executor, WarningSink& warnings, WalkDesk& desk,
+             WalkScreen& screen);
+
+    /// Who draws it, for the page's numbers.
+    void set_company(int ranks, int threads) {
+        ranks_ = ranks;
+        threads_ = threads;
+    }
 
     /// Answer what has come, and draw the next picture, if there is one to draw; otherwise wait for
     /// a moment.
@@ -57,8 +64,8 @@ class WalkRoom {
     const SceneSession& session_;
     WalkDesk& desk_;
     WalkScreen& screen_;
-    int threads_;
-    std::unique_ptr<const Tracer> direct_;  ///< without indirect light, where the scene's has it
+    int ranks_ = 1, threads_;
+    bool has_indirect_;
     LiveWalk live_;
     WalkAnswers answers_;
     WalkGlare glare_;

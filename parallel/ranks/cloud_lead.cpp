@@ -20,6 +20,7 @@ namespace {
 void add_part(const CloudReport& part, CloudReport& all) {
     all.reused += part.reused;
     all.filled += part.filled;
+    all.rays += part.rays;
     for (std::size_t i = 0; i < all.holes.size(); ++i) all.holes[i] += part.holes[i];
     for (double CloudReport::*seconds : {&CloudReport::project_seconds, &CloudReport::check_seconds,
                                          &CloudReport::trace_seconds, &CloudReport::keep_seconds})
@@ -40,12 +41,18 @@ CloudLead::CloudLead(int width, int height, const CloudOptions& options, WalkFra
       frame_(first),
       resting_(width, height, options.samples) {}
 
-CloudOrder CloudLead::order(const View& view, const View* next, std::string payload) {
+CloudOrder CloudLead::new_order(std::string payload) const {
     CloudOrder order;
     order.width = width_;
     order.height = height_;
     order.rules = {frame_, empty_, guard_.tightness(), room_};
     order.payload = std::move(payload);
+    order.budget = options_.budget;
+    return order;
+}
+
+CloudOrder CloudLead::order(const View& view, const View* next, std::string payload) {
+    CloudOrder order = new_order(std::move(payload));
     rests_ = resting_view_ == view;
     rest_follows_ = !rests_ && options_.refine > 0 && next != nullptr && *next == view;
     view_ = view;
@@ -58,6 +65,7 @@ CloudOrder CloudLead::order(const View& view, const View* next, std::string payl
     }
     order.rests = rests_;
     order.rest_follows = rest_follows_;
+    order.leaves = rests_ && work_.sample == 0;
     order.sample = work_.sample;
     order.refined = work_.places;
     return order;
@@ -76,11 +84,47 @@ CloudFrame CloudLead::take(const FinishedFrame& finished) {
         refine(parts, frame);
     else
         put_together(parts, frame);
-    if (rest_follows_) remember(parts, frame);
+    if (!rests_ && options_.refine > 0) {
+        radiance_ = frame.radiance;
+        distance_ = frame.distance;
+    }
+    if (rest_follows_) remember(parts, frame.radiance);
     guard_.take(frame.report.audit_errors, frame.report.audit_floors);
     ++frame_;
     frame.complete = true;
     return frame;
+}
+
+CloudOrder CloudLead::ask_origins(std::string payload) {
+    CloudOrder order = new_order(std::move(payload));
+    order.rests = order.rest_follows = true;
+    return order;
+}
+
+void CloudLead::take_origins(const FinishedFrame& finished) {
+    const std::vector<const CloudPart*> parts = sorted_parts(finished);
+    CloudReport report;
+    add_up(parts, report);
+    if (radiance_.empty()) refuse_parts();
+    remember(parts, radiance_);
+    ++frame_;
+}
+
+CloudOrder CloudLead::trace(const RestingWork& work, std::string payload) {
+    CloudOrder order = new_order(std::move(payload));
+    work_ = work;
+    order.rests = true;
+    order.sample = work.sample;
+    order.refined = work.places;
+    return order;
+}
+
+std::vector<PixelValue> CloudLead::take_traced(const FinishedFrame& finished) {
+    const std::vector<const CloudPart*> parts = sorted_parts(finished);
+    CloudReport report;
+    add_up(parts, report);
+    ++frame_;
+    return refined_values(parts);
 }
 
 /// In an order that does not depend on which came first.
@@ -131,36 +175,47 @@ void CloudLead::put_together(std::span<const CloudPart* const> parts, CloudFrame
 }
 
 /// For the next frame, which has the same view.
-void CloudLead::remember(std::span<const CloudPart* const> parts, const CloudFrame& frame) {
-    std::vector<PixelOrigin> origins(frame.radiance.size());
+void CloudLead::remember(std::span<const CloudPart* const> parts, std::span<const Rgb> radiance) {
+    std::vector<PixelOrigin> origins(radiance.size());
     for (const CloudPart* part : parts) {
         if (part->origins.size() != part->area.pixels()) refuse_parts();
         for_pixels(part->area,
                    [&](std::size_t at, std::size_t i) { origins[at] = part->origins[i]; });
     }
-    resting_.begin(frame.radiance, origins);
-    distance_ = frame.distance;
+    resting_.begin(radiance, origins);
     resting_view_ = view_;
 }
 
-/// Put what was traced into the picture of a resting view.
-void CloudLead::refine(std::span<const CloudPart* const> parts, CloudFrame& frame) {
-    RestingWork done{work_.sample, {}};
-    std::vector<Rgb> radiance;
+/// What the parts have of the work that was ordered, in its order.
+std::vector<PixelValue> CloudLead::refined_values(std::span<const CloudPart* const> parts) const {
+    std::vector<PixelValue> values;
+    values.reserve(work_.places.size());
     std::vector<std::size_t> next(parts.size());  // of the parts' pixels
     for (const PixelPlace& place : work_.places) {
         const auto part = std::find_if(parts.begin(), parts.end(), [&](const CloudPart* one) {
             return one->area.contains(place);
         });
+        if (part == parts.end()) refuse_parts();
         std::size_t& at = next[static_cast<std::size_t>(part - parts.begin())];
         if (at >= (*part)->refined.size()) refuse_parts();
-        const PixelValue& value = (*part)->refined[at++];
-        if (!(value.distance >= 0)) continue;  // there was no time
+        values.push_back((*part)->refined[at++]);
+    }
+    return values;
+}
+
+/// Put what was traced into the picture of a resting view.
+void CloudLead::refine(std::span<const CloudPart* const> parts, CloudFrame& frame) {
+    const std::vector<PixelValue> values = refined_values(parts);
+    RestingWork done{work_.sample, {}};
+    std::vector<Rgb> radiance;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!(values[i].distance >= 0)) continue;  // there was no time
+        const PixelPlace& place = work_.places[i];
         done.places.push_back(place);
-        radiance.push_back(value.radiance);
+        radiance.push_back(values[i].radiance);
         if (work_.sample > 0) continue;
         distance_[static_cast<std::size_t>(place.y) * static_cast<std::size_t>(width_) +
-                  static_cast<std::size_t>(place.x)] = value.distance;
+                  static_cast<std::size_t>(place.x)] = values[i].distance;
     }
     resting_.take(done, radiance);
     frame.radiance = resting_.picture();

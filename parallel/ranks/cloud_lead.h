@@ -31,11 +31,36 @@ class CloudLead {
     /// Throws InputError for parts that do not make the frame.
     [[nodiscard]] CloudFrame take(const FinishedFrame& finished);
 
+    // Of walks whose next view nobody knows: orders of the view of the last frame.
+
+    /// Of the frames that follow; see CloudOptions.
+    void set_limits(double budget, double refine) {
+        options_.budget = budget;
+        options_.refine = refine;
+    }
+    /// The last frame is kept, to be refined where the next one turns out to have the same view:
+    /// once it is known where its pixels come from.
+    [[nodiscard]] CloudOrder ask_origins(std::string payload);
+    void take_origins(const FinishedFrame& finished);
+    /// The last frame's pixels as far as that is known; else null.
+    [[nodiscard]] const RestingPicture* resting() const {
+        return resting_view_ ? &resting_ : nullptr;
+    }
+    /// Pixels that are no part of the frames, and leave no points.
+    [[nodiscard]] CloudOrder trace(const RestingWork& work, std::string payload);
+    /// The distance of those that there was no time for is negative.
+    [[nodiscard]] std::vector<PixelValue> take_traced(const FinishedFrame& finished);
+    /// Number of the next order.
+    [[nodiscard]] WalkFrameId next() const { return frame_; }
+
   private:
+    [[nodiscard]] CloudOrder new_order(std::string payload) const;
+    [[nodiscard]] std::vector<PixelValue> refined_values(
+        std::span<const CloudPart* const> parts) const;
     [[nodiscard]] std::vector<const CloudPart*> sorted_parts(const FinishedFrame& finished) const;
     void add_up(std::span<const CloudPart* const> parts, CloudReport& report);
     void put_together(std::span<const CloudPart* const> parts, CloudFrame& frame) const;
-    void remember(std::span<const CloudPart* const> parts, const CloudFrame& frame);
+    void remember(std::span<const CloudPart* const> parts, std::span<const Rgb> radiance);
     void refine(std::span<const CloudPart* const> parts, CloudFrame& frame);
     /// Calls visit(index of the pixel in the picture, index in the part).
     template <class Visit>
@@ -61,6 +86,7 @@ class CloudLead {
     // Of a view that rests.
     std::optional<View> resting_view_;
     RestingPicture resting_;
+    std::vector<Rgb> radiance_;  ///< of the last frame, in case it rests
     std::vector<float> distance_;
 };
 

@@ -21,9 +21,11 @@ struct CloudOrder {
     std::int32_t width = 0, height = 0;
     CloudRules rules;
     std::string payload;        ///< what the tracer makes of it: the view
+    double budget = 0;          ///< see CloudOptions [s]
     bool rest_follows = false;  ///< the next frame has the same view: say where pixels come from
     // Or the view is that of the frame before: nothing but these pixels is traced.
     bool rests = false;
+    bool leaves = false;      ///< points of these pixels
     std::int32_t sample = 0;  ///< see PixelCaster
     std::vector<PixelPlace> refined;
 };

@@ -78,7 +78,7 @@ void CloudTracer::run(Executor& executor, const StopFlag& stop) {
 }
 
 void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFlag& stop) {
-    const double budget = options_.cloud.budget;
+    const double budget = order.budget;
     const HoleTracer::Clock::time_point deadline = budget > 0
                                                        ? deadline_of(budget - last_keep_seconds_)
                                                        : HoleTracer::Clock::time_point::max();
@@ -88,8 +88,8 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
     const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                            int sample, int worker) { rays->trace(places, pixels, sample, worker); };
     const PixelCaster caster{look, trace};
-    const HoleTracer tracer(caster, options_.cloud.tolerance, deadline);
-    const Frame frame{order, caster, tracer, executor, stop};
+    const std::uint64_t rays_before = rays->traced();
+    const Frame frame{order, caster, executor, stop};
     const bool owns = options_.index < options_.owners;
     if (owns) {
         const double keeping = begin(order);
@@ -101,11 +101,11 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
             return;
     }
     const auto traces = HoleTracer::Clock::now();
-    serve(frame);
+    serve(frame, HoleTracer(caster, options_.cloud.tolerance, tracing_deadline(deadline, budget)));
     if (!owns) return;
     region_->frame().report.trace_seconds =
         std::chrono::duration<double>(HoleTracer::Clock::now() - traces).count();
-    if (!finish(frame)) return;
+    if (!finish(frame, rays->traced() - rays_before)) return;
     last_keep_seconds_ = region_->frame().report.keep_seconds;
 }
 
@@ -177,12 +177,12 @@ void CloudTracer::send_holes(WalkFrameId frame) {
 }
 
 /// All threads trace what comes, until no more does.
-void CloudTracer::serve(const Frame& frame) {
+void CloudTracer::serve(const Frame& frame, const HoleTracer& tracer) {
     const auto task = [&](std::size_t, int worker) {
         try {
             while (const std::optional<GiveHoles> holes =
                        next_holes(frame.order.rules.frame, worker, frame.stop))
-                trace(*holes, frame, worker);
+                trace(*holes, tracer, frame.order.sample, worker);
         } catch (...) {
             take(Finish{});  // for the other threads
             throw;
@@ -192,31 +192,32 @@ void CloudTracer::serve(const Frame& frame) {
                             frame.stop);
 }
 
-void CloudTracer::trace(const GiveHoles& holes, const Frame& frame, int worker) {
+void CloudTracer::trace(const GiveHoles& holes, const HoleTracer& tracer, int sample, int worker) {
     if (holes.owner >= options_.owners) throw InputError("pixels of a part that nobody owns");
     const auto count = static_cast<std::uint32_t>(holes.places.size());
     TracedHoles result{holes.frame, holes.first, count, {}};
-    if (holes.at_once || !frame.tracer.is_late()) {
+    if (holes.at_once || !tracer.is_late()) {
         const TimedActivity tracing(timeline_, worker, Activity::trace);
         result.traced.resize(count);
         const auto keep = [&](std::size_t first, std::span<const TracedHole> traced) {
             std::copy(traced.begin(), traced.end(),
                       result.traced.begin() + static_cast<std::ptrdiff_t>(first));
         };
-        frame.tracer.trace_part(holes.places, holes.twins ? 1 : frame.order.sample, worker, keep);
+        tracer.trace_part(holes.places, holes.twins ? 1 : sample, worker, keep);
     }
     post_(this->worker(holes.owner), std::move(result));
     post_({0, Role::master}, AskHoles{1});
 }
 
 /// The own part of the frame, when all its pixels are there. False: stopped.
-bool CloudTracer::finish(const Frame& frame) {
+bool CloudTracer::finish(const Frame& frame, std::uint64_t rays) {
     if (!wait_for(CloudStage::Kind::pixels, frame.stop)) return false;
     take_traced();
     CloudPart part = part_of(frame.order);
     part.ages =
-        frame.order.rests ? region_->rest(frame.order.sample == 0) : region_->age(frame.executor);
+        frame.order.rests ? region_->rest(frame.order.leaves) : region_->age(frame.executor);
     part.report = region_->frame().report;
+    part.report.rays = rays;
     post_(worker(options_.index), std::move(part));
     return true;
 }
@@ -230,10 +231,10 @@ CloudPart CloudTracer::part_of(const CloudOrder& order) {
         for (std::size_t i = 0; i < region_->holes().size(); ++i)
             part.refined.push_back(region_->is_traced(i) ? region_->traced(i).value
                                                          : PixelValue{{}, -1});
-        return part;
+    } else {
+        region_->show();
+        part.pixels = encoded();
     }
-    region_->show();
-    part.pixels = encoded();
     if (order.rest_follows)
         part.origins.assign(region_->origins().begin(), region_->origins().end());
     return part;

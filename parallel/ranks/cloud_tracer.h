@@ -31,6 +31,8 @@ class WalkRays {
                       int worker) = 0;
     virtual void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                        int sample, int worker) = 0;
+    /// That were traced so far, of this frame and those before.
+    [[nodiscard]] virtual std::uint64_t traced() const = 0;
 };
 /// Makes them of an order. Called once a frame on every rank that traces.
 using MakeWalkRays = std::function<std::unique_ptr<WalkRays>(const CloudOrder&)>;
@@ -68,7 +70,6 @@ class CloudTracer {
     struct Frame {
         const CloudOrder& order;
         const PixelCaster& caster;
-        const HoleTracer& tracer;
         Executor& executor;
         const StopFlag& stop;
     };
@@ -83,9 +84,9 @@ class CloudTracer {
     void send_points(WalkFrameId frame);
     void send_used(WalkFrameId frame);
     void send_holes(WalkFrameId frame);
-    void serve(const Frame& frame);
-    void trace(const GiveHoles& holes, const Frame& frame, int worker);
-    [[nodiscard]] bool finish(const Frame& frame);
+    void serve(const Frame& frame, const HoleTracer& tracer);
+    void trace(const GiveHoles& holes, const HoleTracer& tracer, int sample, int worker);
+    [[nodiscard]] bool finish(const Frame& frame, std::uint64_t rays);
     void take_traced();
     [[nodiscard]] CloudPart part_of(const CloudOrder& order);
     [[nodiscard]] std::string encoded();

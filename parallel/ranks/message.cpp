@@ -11,7 +11,7 @@ namespace lightwalk {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
-constexpr char kVersion = 2;
+constexpr char kVersion = 3;
 constexpr std::size_t kHeadBytes = 4;
 
 // Each kind of message lists its fields once, for writing, reading and counting alike.
@@ -178,7 +178,8 @@ template <class Archive>
 void fields(Archive& archive, CloudOrder& m) {
     CloudRules& rules = m.rules;
     archive(m.width, m.height, rules.frame, rules.empty, rules.tightness, rules.room.age,
-            rules.room.share, m.payload, m.rest_follows, m.rests, m.sample, m.refined);
+            rules.room.share, m.payload, m.budget, m.rest_follows, m.rests, m.leaves, m.sample,
+            m.refined);
 }
 template <class Archive>
 void fields(Archive& archive, CloudPoints& m) {
@@ -211,8 +212,9 @@ void fields(Archive& archive, CloudStage& m) {
 }
 template <class Archive>
 void fields(Archive& archive, CloudReport& r) {
-    archive(r.pixels, r.reused, r.filled, r.holes, r.points, r.project_seconds, r.check_seconds,
-            r.trace_seconds, r.keep_seconds, r.tightness, r.audit_errors, r.audit_floors);
+    archive(r.pixels, r.reused, r.filled, r.holes, r.points, r.rays, r.project_seconds,
+            r.check_seconds, r.trace_seconds, r.keep_seconds, r.tightness, r.audit_errors,
+            r.audit_floors);
 }
 template <class Archive>
 void fields(Archive& archive, PixelOrigin& origin) {

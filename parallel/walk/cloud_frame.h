@@ -48,6 +48,7 @@ struct CloudReport {
     std::size_t filled = 0;  ///< from their neighbours: there was no time for them
     std::array<std::size_t, kHoleCauses> holes{};  ///< traced pixels, by cause (HoleCause)
     std::size_t points = 0;                        ///< in the cloud after the frame
+    std::uint64_t rays = 0;                        ///< of all ranks, where many draw the frame
     double project_seconds = 0, check_seconds = 0, trace_seconds = 0, keep_seconds = 0;
     double tightness = 1;             ///< of reuse (AuditGuard)
     std::vector<float> audit_errors;  ///< of audited pixels: relative error of their luminance

@@ -65,18 +65,11 @@ void CloudFrames::plan_refinement(Step& step) {
     region_.refine(step.work.places);
 }
 
-/// Where looking at the pixels has taken the time, some is left for tracing all the same: else
-/// nothing new would ever be seen.
-HoleTracer::Clock::time_point CloudFrames::trace_deadline(const Step& step) const {
-    constexpr double kLeastShare = 0.25;
-    return options_.budget > 0 ? std::max(step.deadline, deadline_of(kLeastShare * options_.budget))
-                               : step.deadline;
-}
-
 /// Trace holes until the frame's time is over; some at least, or a short budget would never end.
 void CloudFrames::trace(Step& step) {
     const StepTimer timer(region_.frame().report.trace_seconds);
-    const HoleTracer tracer(step.caster, options_.tolerance, trace_deadline(step));
+    const HoleTracer tracer(step.caster, options_.tolerance,
+                            tracing_deadline(step.deadline, options_.budget));
     std::vector<PixelPlace> places;
     for (const CloudHole& hole : region_.holes()) places.push_back(hole.place);
     tracer.trace(places, step.work.sample, step.executor, step.stop,

@@ -44,7 +44,6 @@ class CloudFrames {
     struct Step;
     void plan_refinement(Step& step);
     void trace(Step& step);
-    [[nodiscard]] HoleTracer::Clock::time_point trace_deadline(const Step& step) const;
     void show();
     void remember(const Camera& camera);
     void refine(Step& step);

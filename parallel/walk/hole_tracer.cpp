@@ -15,6 +15,12 @@ std::chrono::steady_clock::time_point deadline_of(double seconds) {
     return HoleTracer::Clock::now() + std::chrono::duration_cast<HoleTracer::Clock::duration>(span);
 }
 
+std::chrono::steady_clock::time_point tracing_deadline(
+    std::chrono::steady_clock::time_point deadline, double budget) {
+    constexpr double kLeastShare = 0.25;
+    return std::max(deadline, deadline_of(kLeastShare * budget));
+}
+
 void HoleTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
                             Take take) const {
     std::array<TracedPixel, kHolesATask> traced;

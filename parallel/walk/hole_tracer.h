@@ -16,6 +16,12 @@ namespace lightwalk {
 /// The moment when so many seconds will have passed.
 [[nodiscard]] std::chrono::steady_clock::time_point deadline_of(double seconds);
 
+/// When tracing has to end in a frame that has a budget and should be there at `deadline`. Where
+/// looking at the pixels has taken the time, some is left for tracing all the same: else nothing
+/// new would ever be seen.
+[[nodiscard]] std::chrono::steady_clock::time_point tracing_deadline(
+    std::chrono::steady_clock::time_point deadline, double budget);
+
 class HoleTracer {
   public:
     using Clock = std::chrono::steady_clock;

@@ -5,14 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/cloud/scene_sights.h"
-#include "core/transport/tracer.h"
-#include "parallel/executor.h"
-#include "parallel/frame.h"
+#include "core/view/view.h"
 #include "parallel/stop_flag.h"
-#include "parallel/walk/cloud_frames.h"
+#include "parallel/walk/live_frames.h"
 #include "parallel/walk/resting_light.h"
-#include "parallel/worker_contexts.h"
 
 namespace lightwalk {
 
@@ -39,17 +35,14 @@ struct LivePicture {
     LivePhase phase = LivePhase::moving;
     double share = 0;  ///< of that phase's work that is done, 0 ... 1
     CloudReport report;
-    RayCounters rays;  ///< that it took
+    std::uint64_t rays = 0;  ///< that it took
 };
 
 class LiveWalk {
   public:
-    /// All must outlive this.
-    /// @param ambient  knows indirect light; null: there is none
-    /// @param options  of all pictures, but for their size; `cloud.refine` does not
-    ///                 count
-    LiveWalk(const Tracer& direct, const Tracer* ambient, const CloudOptions& cloud,
-             const FrameOptions& options, Executor& executor, WarningSink& warnings);
+    /// `frames` must outlive this.
+    /// @param samples  rays that a pixel at an edge gets in the end
+    LiveWalk(LiveFrames& frames, int samples) : frames_(frames), samples_(samples) {}
 
     /// The picture of a view: the next better one where it is the view of the call before.
     /// @param budget  after which it should be there, and something of it at least will [s]
@@ -58,28 +51,17 @@ class LiveWalk {
                                    double budget, const StopFlag& stop);
 
   private:
-    /// A tracer and what goes with it.
-    struct Light {
-        Light(const Tracer& its_tracer, WarningSink& warnings, int workers)
-            : tracer(its_tracer), sights(its_tracer), contexts(its_tracer, warnings, workers) {}
-        const Tracer& tracer;
-        SceneSights sights;
-        WorkerContexts contexts;
-    };
-
     void begin(int width, int height, AmbientUse use);
-    [[nodiscard]] LivePicture draw(const View& view, bool rests, const StopFlag& stop);
+    [[nodiscard]] LivePicture draw(const View& view, bool rests, double budget,
+                                   const StopFlag& stop);
     [[nodiscard]] LivePicture add_light(double budget, const StopFlag& stop);
     [[nodiscard]] LivePicture unchanged() const;
-    [[nodiscard]] bool adds_light() const { return use_ == AmbientUse::rest && full_ != nullptr; }
 
-    CloudOptions cloud_;
-    FrameOptions options_;
-    Executor& executor_;
-    std::unique_ptr<Light> direct_, full_;  ///< full_: with indirect light, or null
-    Light* walking_ = nullptr;              ///< of the frames
+    LiveFrames& frames_;
+    int samples_;
+    int width_ = 0, height_ = 0;
     AmbientUse use_ = AmbientUse::off;
-    std::unique_ptr<CloudFrames> frames_;
+    double refine_ = 0;         ///< see LiveFrames::draw
     std::optional<View> view_;  ///< of the last picture
     std::unique_ptr<RestingLight> resting_;
     LivePicture last_;  ///< of the view, without indirect light while `resting_` adds it

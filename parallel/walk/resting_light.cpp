@@ -3,33 +3,21 @@
 #include <algorithm>
 #include <utility>
 
-#include "parallel/pixel_tracer.h"
-#include "parallel/walk/scene_caster.h"
-
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kPixelsATask = 16;
 // Choosing them takes a pass over the picture.
 constexpr std::size_t kMostPixels = 65536;
 
 }  // namespace
-
-RestingLight::RestingLight(const Tracer& tracer, const View& view, const FrameOptions& options,
-                           WorkerContexts& contexts, int samples)
-    : tracer_(tracer),
-      camera_(view),
-      options_(options),
-      contexts_(contexts),
-      work_(options.width, options.height, samples) {}
 
 void RestingLight::begin(std::span<const Rgb> radiance, std::span<const float> distance) {
     before_.assign(radiance.begin(), radiance.end());
     distance_.assign(distance.begin(), distance.end());
     left_.assign(kGridLevels, 0);
     std::vector<PixelOrigin> origins(radiance.size());
-    for (int y = 0; y < options_.height; ++y) {
-        for (int x = 0; x < options_.width; ++x) {
+    for (int y = 0; y < height_; ++y) {
+        for (int x = 0; x < width_; ++x) {
             const int level = grid_level({x, y});
             origins[at(x, y)] = {PixelOrigin::Kind::reused, 0, static_cast<std::uint32_t>(level)};
             ++left_[static_cast<std::size_t>(level)];
@@ -39,33 +27,17 @@ void RestingLight::begin(std::span<const Rgb> radiance, std::span<const float> d
     chosen_ = {};
 }
 
-bool RestingLight::step(HoleTracer::Clock::time_point deadline, Executor& executor,
-                        const StopFlag& stop) {
+bool RestingLight::step(Trace trace) {
     if (chosen_.places.empty()) chosen_ = work_.next(kMostPixels);
     if (chosen_.places.empty()) return false;
     const RestingWork work = std::move(chosen_);
     chosen_ = {work.sample, {}};
-    const PixelRays rays = rays_of_sample(camera_, options_, work.sample);
-    const std::size_t tasks = (work.places.size() + kPixelsATask - 1) / kPixelsATask;
-    std::vector<PixelValue> values(work.places.size());
-    std::vector<std::uint8_t> done(tasks, 0);
-    executor.for_each(
-        tasks,
-        [&](std::size_t task, int worker) {
-            if (task > 0 && HoleTracer::Clock::now() > deadline) return;
-            const std::size_t first = task * kPixelsATask;
-            const std::size_t count = std::min(kPixelsATask, work.places.size() - first);
-            PixelTracer trace(tracer_, rays, contexts_[worker], stop);
-            trace(std::span(work.places).subspan(first, count),
-                  std::span(values).subspan(first, count));
-            done[task] = stop.requested() ? 0 : 1;
-        },
-        stop);
+    const std::vector<PixelValue> values = trace(work);
     RestingWork finished{work.sample, {}};
     std::vector<Rgb> radiance;
     for (std::size_t i = 0; i < work.places.size(); ++i) {
         const PixelPlace& place = work.places[i];
-        if (done[i / kPixelsATask] == 0) {
+        if (!(values[i].distance >= 0)) {
             chosen_.places.push_back(place);
             continue;
         }
@@ -94,7 +66,7 @@ Rgb RestingLight::difference(int x, int y, int spacing) const {
     const int left = x - x % spacing, below = y - y % spacing;
     for (const int gy : {below, below + spacing}) {
         for (const int gx : {left, left + spacing}) {
-            if (gx >= options_.width || gy >= options_.height) continue;
+            if (gx >= width_ || gy >= height_) continue;
             const auto weight =
                 static_cast<float>((spacing - std::abs(gx - x)) * (spacing - std::abs(gy - y)));
             sum += weight * (work_.radiance()[at(gx, gy)] - before_[at(gx, gy)]);
@@ -108,8 +80,8 @@ std::vector<Rgb> RestingLight::picture() const {
     std::vector<Rgb> shown(work_.radiance().begin(), work_.radiance().end());
     const int spacing = whole_grid();
     if (spacing <= 1) return shown;
-    for (int y = 0; y < options_.height; ++y) {
-        for (int x = 0; x < options_.width; ++x) {
+    for (int y = 0; y < height_; ++y) {
+        for (int x = 0; x < width_; ++x) {
             if (is_traced(x, y)) continue;
             Rgb& pixel = shown[at(x, y)];
             pixel += difference(x, y, spacing);

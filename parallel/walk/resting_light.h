@@ -6,12 +6,8 @@
 #include <vector>
 
 #include "core/cloud/resting.h"
-#include "core/transport/tracer.h"
-#include "parallel/executor.h"
-#include "parallel/frame_options.h"
-#include "parallel/stop_flag.h"
-#include "parallel/walk/hole_tracer.h"
-#include "parallel/worker_contexts.h"
+#include "core/math/function_ref.h"
+#include "core/view/pixels.h"
 
 namespace lightwalk {
 
@@ -19,19 +15,19 @@ namespace lightwalk {
 /// that are not traced yet get what the difference is around them.
 class RestingLight {
   public:
-    /// All must outlive this.
-    /// @param options   of the picture: one sample a pixel, no window
-    /// @param contexts  made for `tracer`, one for each worker of the executor
+    /// Traces pixels; the distance of those that there was no time for is negative.
+    using Trace = FunctionRef<std::vector<PixelValue>(const RestingWork& work)>;
+
     /// @param samples   rays that a pixel at an edge gets in the end, at least 1
-    RestingLight(const Tracer& tracer, const View& view, const FrameOptions& options,
-                 WorkerContexts& contexts, int samples);
+    RestingLight(int width, int height, int samples)
+        : width_(width), height_(height), work_(width, height, samples) {}
 
     /// @param radiance, distance  row by row from the bottom
     void begin(std::span<const Rgb> radiance, std::span<const float> distance);
 
-    /// Trace more pixels until the deadline, some at least.
+    /// Trace more pixels.
     /// @return  false: there is nothing left to do
-    bool step(HoleTracer::Clock::time_point deadline, Executor& executor, const StopFlag& stop);
+    bool step(Trace trace);
 
     /// The picture as far as it is known, row by row from the bottom.
     [[nodiscard]] std::vector<Rgb> picture() const;
@@ -41,7 +37,7 @@ class RestingLight {
 
   private:
     [[nodiscard]] std::size_t at(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) +
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(x);
     }
     [[nodiscard]] bool is_traced(int x, int y) const {
@@ -50,10 +46,7 @@ class RestingLight {
     [[nodiscard]] int whole_grid() const;
     [[nodiscard]] Rgb difference(int x, int y, int spacing) const;
 
-    const Tracer& tracer_;
-    Camera camera_;
-    FrameOptions options_;
-    WorkerContexts& contexts_;
+    int width_, height_;
     RestingPicture work_;
     std::vector<Rgb> before_;
     std::vector<float> distance_;

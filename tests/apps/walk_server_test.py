@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|roles|mended|returning|slow|abuse ...]
+    walk_server_test.py PROGRAM [rest|light|roles|mended|returning|slow|abuse|ranks ...]
 """
-import os, pathlib, random, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request
+import os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "perf/walk"))
@@ -28,14 +28,16 @@ PATIENCE = float(os.environ.get("LIGHTWALK_TEST_PATIENCE", "60"))  # [s]
 class Server:
     """The program with a scene of its own, until the end of the block."""
 
-    def __init__(self, program, words=(), scene=ROOM):
+    def __init__(self, program, words=(), scene=ROOM, launcher=()):
+        self.launcher = launcher
         self.folder = tempfile.TemporaryDirectory()
         self.scene = pathlib.Path(self.folder.name) / "room.rad"
         self.scene.write_text(scene)
         self.program, self.words = program, words
 
     def __enter__(self):
-        self.process = subprocess.Popen([self.program, "walk", "--port", "0", "-n", "2", *WORDS.split(), *self.words, self.scene],
+        threads = [] if "-n" in self.words else ["-n", "2"]
+        self.process = subprocess.Popen([*self.launcher, self.program, "walk", "--port", "0", *threads, *WORDS.split(), *self.words, self.scene],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
         assert self.address.startswith("http://"), self.process.stderr.read()
@@ -48,7 +50,7 @@ class Server:
         errors = self.process.communicate(timeout=PATIENCE)[1]
         self.folder.cleanup()
         assert alive, f"the server has ended: {errors}"
-        assert kind is not None or self.process.returncode == 0, (self.process.returncode, errors)
+        assert kind is not None or self.launcher or self.process.returncode == 0, (self.process.returncode, errors)
 
     def get(self, path):
         with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=PATIENCE) as answer:
@@ -102,10 +104,10 @@ class Client:
         return self.told(answer, id=self.ident)
 
 
-def rest(program):
+def rest(program, words=(), launcher=()):
     """A view that rests ends as the picture that `render` draws, with and without indirect light."""
     for light in ([], ["-ab", "1", "-aa", "0", "-ad", "16"]):
-        with Server(program, ["--edge-samples", "1", *light]) as server:
+        with Server(program, ["--edge-samples", "1", *light, *words], launcher=launcher) as server:
             client = Client(server.port)
             client.told("loaded")
             client.look(direction=[0.1, 1, 0])
@@ -164,9 +166,9 @@ def roles(program):
         second.frame(1)
 
 
-def mended(program):
+def mended(program, words=(), launcher=()):
     """A scene that cannot be read says why and where; when it is mended the walk goes on."""
-    with Server(program) as server:
+    with Server(program, words, launcher=launcher) as server:
         client = Client(server.port)
         client.enter()
         server.scene.write_text(ROOM + "nothing sphere wrong 0 0 4 0 0 0 1\n")
@@ -325,7 +327,32 @@ def abuse(program):
             one.close()
 
 
-CASES = {case.__name__: case for case in (rest, light, roles, mended, returning, slow, abuse)}
+def ranks(program):
+    """Many ranks walk as one process does, in every split. Where one is killed all end, and the client is told."""
+    if not shutil.which("mpirun"):
+        print("skipped: no mpirun here")
+        sys.exit(77)
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0")
+    mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "-n"]
+    rest(program, ["--variant", "ranks"], [*mpirun, "3"])
+    rest(program, ["--variant", "hybrid", "-n", "2"], [*mpirun, "2"])
+    mended(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
+    mended(program, ["--variant", "ranks", "--scene-from", "rank0"], [*mpirun, "3"])
+    with Server(program, ["--variant", "ranks"], launcher=[*mpirun, "3"]) as server:
+        client = Client(server.port)
+        client.enter()
+        children = pathlib.Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children").read_text().split()
+        os.kill(int(children[-1]), signal.SIGKILL)
+        try:
+            client.until(lambda _: False)
+        except (Closed, OSError):
+            pass
+        errors = server.process.communicate(timeout=PATIENCE)[1]
+        assert server.process.returncode != 0 and "killed" in errors.lower(), errors
+        server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
+
+
+CASES = {case.__name__: case for case in (rest, light, roles, mended, returning, slow, abuse, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

@@ -93,3 +93,58 @@ TEST_CASE("a walk's lead: pixels that there was no time for are filled from arou
     CHECK(frame.radiance[at].g > 3);
     CHECK(frame.distance[at] == 0);
 }
+
+TEST_CASE(
+    "a walk's lead: a frame whose view turns out to rest is refined once its origins are known") {
+    CloudOptions options;
+    options.refine = 1;
+    CloudLead lead(kSide, kSide, options, 0);
+    const View view;
+    (void)lead.order(view, nullptr, "");
+    (void)lead.take(frame_of(0));
+    CHECK(lead.resting() == nullptr);
+    const CloudOrder ask = lead.ask_origins("");
+    CHECK(ask.rests);
+    CHECK(ask.rest_follows);
+    CHECK(ask.refined.empty());
+    FinishedFrame told = frame_of(1);
+    for (CloudPart& part : told.parts)
+        part.origins.assign(part.area.pixels(), {PixelOrigin::Kind::filled, 0, 0});
+    SUBCASE("it is") {
+        lead.take_origins(told);
+        REQUIRE(lead.resting() != nullptr);
+        CHECK(lead.resting()->open_pixels() == std::size_t{kSide} * kSide);
+        const CloudOrder order = lead.order(view, nullptr, "");
+        CHECK(order.rests);
+        CHECK(order.leaves);
+        CHECK(order.refined.size() == std::size_t{kSide} * kSide);
+    }
+    SUBCASE("origins of fewer pixels are refused") {
+        told.parts[1].origins.pop_back();
+        CHECK_THROWS_AS(lead.take_origins(told), InputError);
+    }
+}
+
+TEST_CASE("a walk's lead: pixels that are traced beside the frames come in the order of the work") {
+    CloudLead lead(kSide, kSide, {}, 0);
+    const RestingWork work{3, {{kSide - 1, 0}, {0, 0}, {kSide - 2, 1}}};
+    const CloudOrder order = lead.trace(work, "light");
+    CHECK(order.sample == 3);
+    CHECK_FALSE(order.leaves);
+    CHECK(order.payload == "light");
+    FinishedFrame finished = frame_of(0);
+    finished.parts[0].refined = {{{1, 1, 1}, 5}};
+    finished.parts[1].refined = {{{2, 2, 2}, 6}, {{}, -1}};
+    SUBCASE("they do") {
+        const std::vector<PixelValue> values = lead.take_traced(finished);
+        REQUIRE(values.size() == 3);
+        CHECK(values[0].radiance.r == 2);
+        CHECK(values[1].radiance.r == 1);
+        CHECK(values[2].distance < 0);
+        CHECK(lead.next() == 1);
+    }
+    SUBCASE("fewer are refused") {
+        finished.parts[1].refined.pop_back();
+        CHECK_THROWS_AS((void)lead.take_traced(finished), InputError);
+    }
+}

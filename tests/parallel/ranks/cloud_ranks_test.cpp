@@ -114,7 +114,9 @@ class RoomRays final : public WalkRays {
   public:
     RoomRays(Room& room, const View& view, WorkerContexts& contexts)
         : camera_(view),
+          contexts_(contexts),
           caster_(room.scene.tracer, room.sights, camera_, frame_options(), contexts, room.stop) {}
+    [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
     [[nodiscard]] const Camera& camera() const override { return camera_; }
     void look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
               int worker) override {
@@ -127,6 +129,7 @@ class RoomRays final : public WalkRays {
 
   private:
     Camera camera_;
+    const WorkerContexts& contexts_;
     SceneCaster caster_;
 };
 

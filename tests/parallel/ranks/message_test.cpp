@@ -69,7 +69,8 @@ std::vector<Message> some_messages() {
             AskChunks{3, 4096},
             RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
             ChunkAnswer{5, 1, .25, std::string("\0\xff", 2)},
-            CloudOrder{640, 480, {3, false, .5, {25, 1000}}, "a view", true, true, 2, {{1, 2}}},
+            CloudOrder{
+                640, 480, {3, false, .5, {25, 1000}}, "a view", .25, true, true, true, 2, {{1, 2}}},
             CloudPoints{3, {some_point(), {}}},
             CloudUsed{3, {{{1, 2}, {3, 4}}, {{5, 6}}}},
             CloudHoles{3, 1, {{1, 2}, {1, 2}}},

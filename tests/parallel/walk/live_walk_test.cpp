@@ -52,8 +52,9 @@ struct Walker {
           direct(room.scene, with_bounces(0), room.warnings),
           full(room.scene, with_bounces(bounces), room.warnings),
           executor(make_executor(ExecutorKind::threads, 2)),
-          live(direct, bounces > 0 ? &full : nullptr, cloud(samples), options(), *executor,
-               room.warnings) {}
+          frames(direct, bounces > 0 ? &full : nullptr, cloud(samples), options(), *executor,
+                 room.warnings),
+          live(frames, samples) {}
 
     static CloudOptions cloud(int samples) {
         CloudOptions cloud;
@@ -92,6 +93,7 @@ struct Walker {
     Tracer direct, full;
     std::unique_ptr<Executor> executor;
     StopFlag stop;
+    LocalFrames frames;
     LiveWalk live;
 };
 

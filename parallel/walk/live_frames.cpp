@@ -1,0 +1,81 @@
+#include "parallel/walk/live_frames.h"
+
+#include <algorithm>
+
+#include "parallel/pixel_tracer.h"
+#include "parallel/walk/hole_tracer.h"
+#include "parallel/walk/scene_caster.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kPixelsATask = 16;
+
+}  // namespace
+
+std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
+                                     const Camera& camera, const FrameOptions& options,
+                                     const RestingWork& work, double seconds, Executor& executor,
+                                     const StopFlag& stop) {
+    const PixelRays rays = rays_of_sample(camera, options, work.sample);
+    const HoleTracer::Clock::time_point deadline = deadline_of(seconds);
+    std::vector<PixelValue> values(work.places.size(), {{}, -1});
+    contexts.reset_counters();
+    executor.for_each(
+        (work.places.size() + kPixelsATask - 1) / kPixelsATask,
+        [&](std::size_t task, int worker) {
+            if (task > 0 && HoleTracer::Clock::now() > deadline) return;
+            const std::size_t first = task * kPixelsATask;
+            const std::size_t count = std::min(kPixelsATask, work.places.size() - first);
+            const std::span<PixelValue> part = std::span(values).subspan(first, count);
+            PixelTracer trace(tracer, rays, contexts[worker], stop);
+            trace(std::span(work.places).subspan(first, count), part);
+            if (stop.requested()) std::fill(part.begin(), part.end(), PixelValue{{}, -1});
+        },
+        stop);
+    return values;
+}
+
+LocalFrames::LocalFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
+                         const FrameOptions& options, Executor& executor, WarningSink& warnings)
+    : cloud_(cloud),
+      options_(options),
+      executor_(executor),
+      direct_(std::make_unique<WalkLight>(direct, warnings, executor.concurrency())) {
+    if (indirect != nullptr)
+        indirect_ = std::make_unique<WalkLight>(*indirect, warnings, executor.concurrency());
+}
+
+/// Points of another light are of no use, nor are those of a picture of another size: what answers
+/// a pixel depends on its size.
+void LocalFrames::begin(int width, int height, bool indirect) {
+    options_.width = width;
+    options_.height = height;
+    walking_ = indirect ? indirect_.get() : direct_.get();
+    frames_ = std::make_unique<CloudFrames>(width, height, cloud_);
+}
+
+WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
+    frames_->set_budget(budget);
+    frames_->set_refine(refine);
+    WalkFrame drawn = draw_walk_frame(*frames_, walking_->tracer, walking_->sights, Camera(view),
+                                      options_, executor_, walking_->contexts, stop);
+    rays_ = drawn.frame.rays.total();
+    return drawn;
+}
+
+std::vector<PixelValue> LocalFrames::trace(const View& view, const RestingWork& work,
+                                           double seconds, const StopFlag& stop) {
+    std::vector<PixelValue> values =
+        trace_pixels(indirect_->tracer, indirect_->contexts, Camera(view), options_, work, seconds,
+                     executor_, stop);
+    rays_ = indirect_->contexts.rays().total();
+    return values;
+}
+
+void LocalFrames::add_small_sources(const View& view, Frame& frame) {
+    draw_small_sources(indirect_->tracer, Camera(view), options_, executor_, indirect_->contexts,
+                       frame);
+}
+
+}  // namespace lightwalk

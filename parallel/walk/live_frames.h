@@ -1,0 +1,102 @@
+#pragma once
+// Who draws what a walk that is steered wants: the threads of this process, or many ranks.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/cloud/scene_sights.h"
+#include "core/transport/tracer.h"
+#include "parallel/executor.h"
+#include "parallel/frame.h"
+#include "parallel/frame_options.h"
+#include "parallel/stop_flag.h"
+#include "parallel/walk/cloud_frames.h"
+#include "parallel/walk/walk_frame.h"
+#include "parallel/worker_contexts.h"
+
+namespace lightwalk {
+
+class LiveFrames {
+  public:
+    LiveFrames() = default;
+    virtual ~LiveFrames() = default;
+    LiveFrames(const LiveFrames&) = delete;
+    LiveFrames& operator=(const LiveFrames&) = delete;
+
+    /// Whether there is indirect light to be traced.
+    [[nodiscard]] virtual bool has_indirect() const = 0;
+    /// Frames of this size from here on, and of this light: what was carried on is forgotten.
+    /// @param indirect  only where there is some
+    virtual void begin(int width, int height, bool indirect) = 0;
+
+    // After that; all throw what the tracers throw.
+
+    /// The next frame, see draw_walk_frame.
+    /// @param budget  see CloudOptions
+    /// @param refine  the same
+    [[nodiscard]] virtual WalkFrame draw(const View& view, double budget, double refine,
+                                         const StopFlag& stop) = 0;
+    /// How good the pixels of the last frame are, if the next one has the same view. Null: there is
+    /// none, or it was stopped.
+    [[nodiscard]] virtual const RestingPicture* resting(const StopFlag& stop) = 0;
+    /// Pixels by all light there is.
+    /// @param seconds  after which no more are begun, but some are at once
+    /// @return  of each; the distance of those that there was no time for is negative
+    [[nodiscard]] virtual std::vector<PixelValue> trace(const View& view, const RestingWork& work,
+                                                        double seconds, const StopFlag& stop) = 0;
+    /// See walk_frame.h; by all light there is.
+    virtual void add_small_sources(const View& view, Frame& frame) = 0;
+    /// That the last frame took, or the last pixels.
+    [[nodiscard]] virtual std::uint64_t rays() const = 0;
+};
+
+/// Pixels of a picture by the threads of an executor; see LiveFrames::trace.
+/// @param options   of the picture: one sample a pixel, no window
+/// @param contexts  made for `tracer`, one for each worker; their counters start from zero
+[[nodiscard]] std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
+                                                   const Camera& camera,
+                                                   const FrameOptions& options,
+                                                   const RestingWork& work, double seconds,
+                                                   Executor& executor, const StopFlag& stop);
+
+/// A tracer of a scene, and what goes with it.
+struct WalkLight {
+    WalkLight(const Tracer& its_tracer, WarningSink& warnings, int workers)
+        : tracer(its_tracer), sights(its_tracer), contexts(its_tracer, warnings, workers) {}
+    const Tracer& tracer;
+    SceneSights sights;
+    WorkerContexts contexts;
+};
+
+/// Frames by the threads of this process.
+class LocalFrames final : public LiveFrames {
+  public:
+    /// All must outlive this.
+    /// @param indirect  knows indirect light; null: there is none
+    /// @param options   of all pictures, but for their size
+    LocalFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
+                const FrameOptions& options, Executor& executor, WarningSink& warnings);
+
+    [[nodiscard]] bool has_indirect() const override { return indirect_ != nullptr; }
+    void begin(int width, int height, bool indirect) override;
+    [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
+                                 const StopFlag& stop) override;
+    [[nodiscard]] const RestingPicture* resting(const StopFlag&) override {
+        return frames_->resting();
+    }
+    [[nodiscard]] std::vector<PixelValue> trace(const View& view, const RestingWork& work,
+                                                double seconds, const StopFlag& stop) override;
+    void add_small_sources(const View& view, Frame& frame) override;
+    [[nodiscard]] std::uint64_t rays() const override { return rays_; }
+
+  private:
+    CloudOptions cloud_;
+    FrameOptions options_;
+    Executor& executor_;
+    std::unique_ptr<WalkLight> direct_, indirect_;  ///< indirect_: knows both, or is null
+    WalkLight* walking_ = nullptr;                  ///< of the frames
+    std::unique_ptr<CloudFrames> frames_;
+    std::uint64_t rays_ = 0;
+};
+
+}  // namespace lightwalk
