@@ -121,7 +121,8 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     agreed_ = Timeline::Clock::now();  // all ranks have just heard the same
     if (problems.empty() && others == 0) {
         // Rank 0 may have brought values of a file.
-        if (batch_ > 0) loop_.post(Role::cache, {rank(), Role::ambient_client}, AmbientValues{});
+        if (batch_ > 0)
+            loop_.post(Role::cache, {rank(), Role::ambient_client}, AmbientValues{{}, scene_});
         return;
     }
     if (leads()) {
@@ -130,15 +131,17 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
         if (same) told = problems.begin()->first + '\n';
         std::fprintf(stderr, "%s", told.c_str());
     }
+    forget_cache();
     throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst, told};
 }
 
 AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientRecord>& known) {
     if (batch_ == 0) return cache;
-    const auto send = [this](AmbientValues values) {
+    const auto send = [this, scene = scene_](AmbientValues values) {
+        values.scene = scene;
         loop_.post(Role::cache, {rank(), Role::ambient_client}, std::move(values));
     };
-    if (!known.empty()) send({known});
+    if (!known.empty()) send({known, scene_});
     const std::lock_guard lock(mutex_);
     cache_ = std::make_unique<ExchangingCache>(cache, batch_, send);
     cache_->take(early_values_);
@@ -149,7 +152,7 @@ AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientR
 void RankLink::spread(const std::vector<AmbientRecord>& known, AmbientCache& cache) {
     std::string mine;
     if (leads())
-        mine = encode_message({{0, Role::program}, {0, Role::program}, AmbientValues{known}});
+        mine = encode_message({{0, Role::program}, {0, Role::program}, AmbientValues{known, 0}});
     const std::vector<std::string> all = loop_.all_gather(std::move(mine));
     if (leads()) return;
     const Envelope envelope = decode_message(all.front(), 0, rank());
@@ -278,12 +281,20 @@ void RankLink::dismiss() {
         loop_.post(Role::program, {rank, Role::program}, Finish{});
 }
 
+void RankLink::forget_cache() {
+    const std::lock_guard lock(mutex_);
+    cache_.reset();
+    early_values_.clear();
+}
+
 std::string RankLink::hear(std::string said) {
     {
         const std::lock_guard lock(mutex_);
         finished_ = false;
         tracer_ = nullptr;
         frame_.reset();
+        early_values_.clear();
+        ++scene_;
     }
     return loop_.all_gather(std::move(said)).front();
 }
@@ -306,6 +317,7 @@ void RankLink::take(Envelope envelope) {
     }
     const std::lock_guard lock(mutex_);
     if (auto* values = std::get_if<AmbientValues>(&message)) {
+        if (values->scene != scene_) return;
         if (cache_)
             cache_->take(values->records);
         else

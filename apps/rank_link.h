@@ -112,6 +112,8 @@ class RankLink final : private LocalEnd {
 
     /// On rank 0: no more of this work comes.
     void dismiss();
+    /// On every rank, when it has ended: before the cache of exchange() goes.
+    void forget_cache();
     /// What rank 0 says, on every rank; waits for all. The work before has ended on this one.
     [[nodiscard]] std::string hear(std::string said = {});
 
@@ -127,7 +129,7 @@ class RankLink final : private LocalEnd {
     void take(Envelope envelope) override;
     [[nodiscard]] AmbientValues unsent_values() override {
         const std::lock_guard lock(mutex_);
-        return cache_ ? cache_->unsent() : AmbientValues{};
+        return {cache_ ? cache_->unsent().records : std::vector<AmbientRecord>{}, scene_};
     }
     /// From here on `take` gets what the tracer is to have.
     void open_tracer(std::function<void(Message)> take);
@@ -163,6 +165,7 @@ class RankLink final : private LocalEnd {
     std::function<void(Message)> tracer_;
     std::deque<Message> untaken_;  ///< for the tracer, before it was there
     std::vector<AmbientRecord> early_values_;
+    std::uint32_t scene_ = 0;  ///< see AmbientValues
     std::map<JobId, FinishedPicture> pictures_;
     std::map<JobId, double> shares_;
     std::map<JobId, std::shared_ptr<BlockKeeper>> keepers_;

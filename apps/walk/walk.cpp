@@ -139,6 +139,7 @@ int follow_walk(RankLink& link, const RenderCommand& command) {
                 share.serve();
             else
                 link.wait_for_end(interrupt_flag());
+            link.forget_cache();
         } catch (const AgreedProblem&) {
             continue;  // until its files change
         }
@@ -237,6 +238,7 @@ class WalkProgram {
                 next_order_ = frames.next();
                 link_->dismiss();
             });
+        link_->forget_cache();
     }
 
     /// Draw until the scene's files change.
@@ -306,8 +308,10 @@ int run_walk(const std::vector<std::string>& words, Transport* ranks) {
     });
     if (!command) return kSuccessStatus;
     handle_interrupts();
-    const std::unique_ptr<RankLink> link = link_ranks(
-        ranks, command->common, {"lightwalk walk", false, false, command->walk->projectors});
+    const std::unique_ptr<RankLink> link =
+        link_ranks(ranks, command->common,
+                   {"lightwalk walk", caches_ambient_values(command->settings.light), false,
+                    command->walk->projectors});
     if (!link) {
         set_interrupt_phase(InterruptPhase::request);
         return WalkProgram(*command, nullptr).run();

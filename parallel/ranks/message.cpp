@@ -108,7 +108,7 @@ void fields(Archive& archive, FinishedPicture& m) {
 }
 template <class Archive>
 void fields(Archive& archive, AmbientValues& m) {
-    archive(m.records);
+    archive(m.records, m.scene);
 }
 template <class Archive>
 void fields(Archive& archive, Failure& m) {

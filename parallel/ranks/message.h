@@ -104,6 +104,7 @@ struct FinishedPicture {
 /// since the last one. Also between a rank's cache and its worker.
 struct AmbientValues {
     std::vector<AmbientRecord> records;
+    std::uint32_t scene = 0;  ///< that they are of, where ranks render one after the other
 };
 
 /// Program to program of rank 0: this rank cannot go on.

@@ -146,7 +146,8 @@ class WorkerRole {
 class AmbientMasterRole {
   public:
     explicit AmbientMasterRole(Address self) : self_(self) {}
-    /// AmbientValues in, AmbientValues out.
+    /// AmbientValues in, AmbientValues out. Of several scenes those of the last one are kept: the
+    /// first values of a scene come when all ranks have left the one before.
     void handle(Envelope envelope, Outbox& out);
     [[nodiscard]] std::size_t size() const { return records_.size(); }
 
@@ -155,6 +156,7 @@ class AmbientMasterRole {
     std::vector<AmbientRecord> records_;         ///< in the order of their arrival
     std::vector<int> sources_;                   ///< ranks they came from
     std::unordered_map<int, std::size_t> told_;  ///< records that a rank knows
+    std::uint32_t scene_ = 0;                    ///< that they are of
 };
 
 /// The other end: a rank's own new values go out by the batch, one question at a time.
@@ -175,7 +177,7 @@ class AmbientClientRole {
     Address self_, master_;
     std::size_t batch_;
     bool asked_ = false;
-    AmbientValues own_;
+    AmbientValues own_;  ///< of the scene at hand
 };
 
 /// The pixels of `part` that lie in `block`, whose values are given (or none are).

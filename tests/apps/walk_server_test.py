@@ -337,7 +337,7 @@ def ranks(program):
     rest(program, ["--variant", "ranks"], [*mpirun, "3"])
     rest(program, ["--variant", "hybrid", "-n", "2"], [*mpirun, "2"])
     mended(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
-    mended(program, ["--variant", "ranks", "--scene-from", "rank0"], [*mpirun, "3"])
+    mended(program, ["--variant", "ranks", "--scene-from", "rank0", "-ab", "1", "-ad", "64"], [*mpirun, "3"])
     with Server(program, ["--variant", "ranks"], launcher=[*mpirun, "3"]) as server:
         client = Client(server.port)
         client.enter()

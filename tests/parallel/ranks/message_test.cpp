@@ -104,10 +104,11 @@ TEST_CASE("a message is the same after its way over the wire") {
 
 TEST_CASE("an ambient record takes 68 bytes and arrives to the bit") {
     const Envelope sent{
-        {1, Role::ambient_client}, {0, Role::ambient_master}, AmbientValues{{some_record(3)}}};
+        {1, Role::ambient_client}, {0, Role::ambient_master}, AmbientValues{{some_record(3)}, 5}};
     const std::string bytes = encode_message(sent);
-    CHECK(bytes.size() == 4 + 8 + 68);
+    CHECK(bytes.size() == 4 + 8 + 68 + 4);
     const Envelope got = decode_message(bytes, 1, 0);
+    CHECK(std::get<AmbientValues>(got.message).scene == 5);
     const AmbientRecord record = std::get<AmbientValues>(got.message).records.at(0);
     const AmbientRecord expected = some_record(3);
     CHECK(record.position == expected.position);
