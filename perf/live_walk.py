@@ -11,13 +11,17 @@ and back, and acknowledges each frame when it is there (a page does so when it i
   latency     from sending a view to the first frame that shows it or a newer one: median, 95th percentile [ms]
   reused      share of the pixels that points answered, as the server tells [%]
   MB/s        of frames
+
+With --abuse each walk is measured again while another process holds 200 half-open connections and sends a thousand
+random and malformed messages a second: its share of the frames a second, and how many messages there were.
 """
-import argparse, json, math, os, pathlib, subprocess, sys, time
+import argparse, json, math, multiprocessing, os, pathlib, shlex, subprocess, sys, time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE / "scaling"))
 
 from walk import stage, views  # noqa: E402
+from walk.misbehaviour import keep_misbehaving  # noqa: E402
 from walk.websocket import Frame, WebSocket  # noqa: E402
 
 SETTLE = 6  # before moving: the first picture [s]
@@ -51,8 +55,8 @@ WALKS = {"turn": lambda view, t: turned(view, 30 * t),
 
 
 class Server:
-    def __init__(self, place, words):
-        self.process = subprocess.Popen([place.program.lightwalk, "walk", "--port", "0", "--quiet", *words, "-vf", place.file, *map(str, stage.AMBIENT),
+    def __init__(self, place, words, launcher):
+        self.process = subprocess.Popen([*launcher, place.program.lightwalk, "walk", "--port", "0", "--quiet", *words, "-vf", place.file, *map(str, stage.AMBIENT),
                                          *place.program.scene.words], cwd=place.program.scene.folder,
                                         env={**os.environ, "RAYPATH": ".:../lib"}, stdout=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
@@ -70,7 +74,7 @@ class Server:
 
 class Client:
     def __init__(self, port, size):
-        self.socket, self.size = WebSocket("127.0.0.1", port), size
+        self.port, self.socket, self.size = port, WebSocket("127.0.0.1", port), size
         self.ident, self.sent, self.frames, self.latency, self.bytes, self.reuse = 0, {}, 0, [], 0, []
         self.loaded = None
         self.socket.send({"type": "hello", "session": "0123456789abcdef"})
@@ -123,6 +127,17 @@ def measure(client, view, walk, seconds):
             "reused %": 100 * sum(client.reuse) / max(len(client.reuse), 1), "MB/s": client.bytes / took / 1e6}
 
 
+def measure_abused(client, view, walk, seconds, quiet):
+    counts = multiprocessing.Value("L", 0)
+    abuser = multiprocessing.Process(target=keep_misbehaving, args=(client.port, counts), daemon=True)
+    abuser.start()
+    try:
+        return {"abused": measure(client, view, walk, seconds)["fps"] / quiet, "messages": counts.value}
+    finally:
+        abuser.terminate()
+        abuser.join()
+
+
 def parse_args():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", type=lambda text: pathlib.Path(text).resolve(), metavar="DIR")
@@ -131,6 +146,8 @@ def parse_args():
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--sizes", default="640x480,1280x720")
     parser.add_argument("--options", default="", help="more options of walk, in one word")
+    parser.add_argument("--launcher", default="", help='for example "mpirun -n 2"')
+    parser.add_argument("--abuse", action="store_true")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE")
     return parser.parse_args()
 
@@ -140,7 +157,7 @@ def main():
     rows = []
     for place in stage.places(args.views.split(","), args.lightwalk, args.scenes):
         for size in [tuple(int(word) for word in text.split("x")) for text in args.sizes.split(",")]:
-            with Server(place, args.options.split()) as server:
+            with Server(place, args.options.split(), shlex.split(args.launcher)) as server:
                 client = Client(server.port, size)
                 while client.loaded is None:
                     client.listen(time.monotonic() + 0.1)
@@ -150,6 +167,8 @@ def main():
                 view["vertical"] = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
                 for walk in WALKS:
                     row = {"view": place.name, "size": f"{size[0]}x{size[1]}", "walk": walk, **measure(client, view, walk, args.seconds)}
+                    if args.abuse:
+                        row.update(measure_abused(client, view, walk, args.seconds, row["fps"]))
                     if not rows:
                         print("\t".join(row))
                     rows.append(row)

@@ -6,9 +6,10 @@
 import os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "perf/walk"))
+sys.path.append(str(ROOT / "perf"))
 
-from websocket import Closed, Frame, WebSocket  # noqa: E402
+from walk.misbehaviour import VIEW, misbehave  # noqa: E402
+from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
 
 ROOM = """void plastic grey 0 0 5 .5 .5 .5 0 0
 void light lamp 0 0 3 10 10 10
@@ -19,7 +20,6 @@ grey sphere ball 0 0 4 -1 2 .7 .7
 panel polygon screen 0 0 12  1 5.9 .5  3 5.9 .5  3 5.9 2.5  1 5.9 2.5
 lamp polygon light 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
 """
-VIEW = {"type": "v", "position": [0, -4, 1.5], "direction": [0, 1, -0.05], "up": [0, 0, 1], "horizontal": 60, "vertical": 46.8}
 WORDS = "-vtv -vp 0 -4 1.5 -vd 0 1 -.05 -vu 0 0 1 -vh 60 -vv 46.8"
 SIZE = (160, 120)
 PATIENCE = float(os.environ.get("LIGHTWALK_TEST_PATIENCE", "60"))  # [s]
@@ -273,33 +273,6 @@ def slow(program):
         assert late < 2, waits[-5:]
 
 
-SHAPES = [b"", b"{", b"null", b"[[[[[[[[[[[[[[", b'{"type":"view"}', b'{"type":"hello","session":1}', b"\xff\xfe" * 100, b"x" * 70000]
-VIEWS = [{"width": -1}, {"width": 1e9}, {"view": {**VIEW, "direction": [0, 0, 0]}}, {"view": {**VIEW, "horizontal": 1e30}},
-         {"view": {**VIEW, "position": ["NaN", 0, 0]}}, {"id": -5}]
-
-
-def misbehave(port, chance, session):
-    """Random and malformed messages, until the server has enough of them."""
-    try:
-        bad = WebSocket("127.0.0.1", port, timeout=PATIENCE)
-        if chance.random() < 0.7:
-            bad.send({"type": "hello", "session": session})
-        for _ in range(20):
-            draw = chance.random()
-            if draw < 0.3:
-                bad.send_raw(1, chance.choice(SHAPES))
-            elif draw < 0.6:
-                bad.send({"type": "view", "id": 1, "view": VIEW, "width": 10, "height": 10, "moving": False, "walk": False,
-                          **chance.choice(VIEWS)})
-            elif draw < 0.8:
-                bad.send_raw(chance.randrange(16), chance.randbytes(chance.randrange(200)))
-            else:
-                bad.socket.sendall(chance.randbytes(50))
-        bad.socket.close()
-    except (Closed, OSError):
-        pass
-
-
 def abuse(program):
     """Nothing that a client sends or fails to send disturbs the others."""
     chance = random.Random(1)
@@ -307,7 +280,7 @@ def abuse(program):
         driver = Client(server.port)
         driver.enter()
         for round_ in range(100):
-            misbehave(server.port, chance, f"{round_:016x}")
+            misbehave(server.port, chance, f"{round_:016x}", PATIENCE)
         half_open = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(150)]
         for path in ("/../etc/passwd", "/page/none.js", "/save/other"):
             try:
