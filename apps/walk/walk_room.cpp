@@ -79,7 +79,7 @@ void WalkRoom::step(const StopFlag& stop) {
     if (!wish_.view || stop.requested()) return;
     draw(stop);
     const Clock::time_point now = Clock::now();
-    const bool hurries = picture_.phase == LivePhase::moving;
+    const bool hurries = live_.picture().phase == LivePhase::moving;
     if (drawn_ && (hurries || now - shown_at_ >= kRestingInterval)) show(now);
     screen_.send(desk_, now);
     report(now);
@@ -95,7 +95,7 @@ std::chrono::milliseconds WalkRoom::patience() const {
 }
 
 bool WalkRoom::has_work() const {
-    return !drawn_ || picture_.phase != LivePhase::done || glare_.is_asked();
+    return !drawn_ || live_.picture().phase != LivePhase::done || glare_.is_asked();
 }
 
 void WalkRoom::answer(const WalkInbox& inbox) {
@@ -151,25 +151,24 @@ void WalkRoom::draw(const StopFlag& stop) {
     const double budget = std::max(1 / command_.walk->rate - show_seconds_, 0.001);
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, desk_);
     if (!has_work()) return;
-    LivePicture next =
-        live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop);
-    if (next.radiance.empty()) return;
-    picture_ = std::move(next);
+    if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop))
+        return;
     drawn_ = true;
     shown_ = false;
-    pace_.rays += picture_.rays;
-    if (picture_.phase == LivePhase::moving) {
-        pace_.reused += static_cast<double>(picture_.report.reused);
-        pace_.pixels += static_cast<double>(picture_.report.pixels);
+    pace_.rays += live_.picture().rays;
+    if (live_.picture().phase == LivePhase::moving) {
+        pace_.reused += static_cast<double>(live_.picture().report.reused);
+        pace_.pixels += static_cast<double>(live_.picture().report.pixels);
     }
 }
 
 /// Not where nothing is new: neither pixels nor their colours.
 void WalkRoom::show(Clock::time_point now) {
     if (shown_ && now - moved_ > kAdaptationTime) return;
-    const ShownView view{wish_.view->id, view_->position, picture_.phase != LivePhase::moving,
-                         picture_.phase == LivePhase::done};
-    screen_.show(picture_, display_settings(wish_.display), view, now);
+    const ShownView view{wish_.view->id, view_->position,
+                         live_.picture().phase != LivePhase::moving,
+                         live_.picture().phase == LivePhase::done};
+    screen_.show(live_.picture(), display_settings(wish_.display), view, now);
     if (told_ != view_) desk_.tell_watchers(walk_text(ViewReply{*view_}));
     told_ = view_;
     shown_ = true;
@@ -187,27 +186,28 @@ void WalkRoom::report(Clock::time_point now) {
     state.fps = pace_.frames / seconds;
     state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1;
     state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
-    state.phase = phase_name(picture_.phase);
-    state.share = picture_.share;
+    state.phase = phase_name(live_.picture().phase);
+    state.share = live_.picture().share;
     state.ranks = ranks_;
     state.threads = threads_;
-    state.points = picture_.report.points;
+    state.points = live_.picture().report.points;
     desk_.tell_all(walk_text(state));
     pace_ = {now, 0, 0, 0, 0};
 }
 
 void WalkRoom::ask(const WalkQuestion& question) {
-    if (!view_ || picture_.radiance.empty()) {
+    if (!view_ || live_.picture().radiance.empty()) {
         const std::uint32_t id =
             std::visit([](const auto& asked) { return asked.id; }, question.ask);
         desk_.tell(question.client, walk_text(RefusedReply{"there is no picture yet", id}));
         return;
     }
     if (const auto* pick = std::get_if<PickRequest>(&question.ask)) {
-        const std::pair<double, double> pixel{1.0 / picture_.width, 1.0 / picture_.height};
+        const std::pair<double, double> pixel{1.0 / live_.picture().width,
+                                              1.0 / live_.picture().height};
         desk_.tell(question.client, walk_text(answers_.pick(*pick, Camera(*view_), pixel)));
     } else if (const auto* mean = std::get_if<MeanRequest>(&question.ask)) {
-        desk_.tell(question.client, walk_text(WalkAnswers::mean(*mean, picture_)));
+        desk_.tell(question.client, walk_text(WalkAnswers::mean(*mean, live_.picture())));
     } else if (const auto* glare = std::get_if<GlareRequest>(&question.ask)) {
         glare_.ask(question.client, *glare, *view_);
     }
@@ -215,14 +215,15 @@ void WalkRoom::ask(const WalkQuestion& question) {
 
 void WalkRoom::save(const WalkInbox& inbox) {
     for (const WebReply& reply : inbox.saves) {
-        if (!view_ || picture_.radiance.empty()) {
+        if (!view_ || live_.picture().radiance.empty()) {
             reply({503, "text/plain; charset=utf-8", "there is no picture yet\n", {}});
             continue;
         }
         PictureHeader header{history_header(session_.model->header, command_.history)};
         header.lines.push_back("VIEW= " + view_text(*view_));
         for (const std::string& line : date_lines()) header.lines.push_back(line);
-        const Picture picture{picture_.width, picture_.height, picture_.radiance};
+        const Picture picture{live_.picture().width, live_.picture().height,
+                              live_.picture().radiance};
         reply({200, "image/vnd.radiance", encode_hdr(picture, header), "picture.hdr"});
     }
 }
@@ -231,7 +232,7 @@ void WalkRoom::measure_probes() {
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
         reply.probes.push_back(answers_.measure(probe, view_->position));
-    reply.settled = picture_.phase == LivePhase::done ? 1 : picture_.share;
+    reply.settled = live_.picture().phase == LivePhase::done ? 1 : live_.picture().share;
     desk_.tell_all(walk_text(reply));
     measured_at_ = Clock::now();
 }

@@ -73,9 +73,8 @@ class WalkRoom {
 
     WalkWish wish_;
     std::optional<View> view_;  ///< that is drawn
-    LivePicture picture_;
     std::optional<View> told_;  ///< that watchers know
-    bool drawn_ = false;        ///< picture_ is of view_, as wished
+    bool drawn_ = false;        ///< the picture is of view_, as wished
     bool shown_ = false;        ///< as it is, with the display that is wished
     Clock::time_point moved_, shown_at_, measured_at_;
     double show_seconds_ = 0;  ///< of a picture, of late

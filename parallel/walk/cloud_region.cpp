@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "core/cloud/audit.h"
 #include "core/cloud/point_order.h"
@@ -129,18 +130,23 @@ void CloudRegion::answer(const PixelCaster& caster, Executor& executor, const St
 
 /// Where time is short: the worst first, among equals coarse grids, and another block each frame.
 void CloudRegion::order_holes(const std::vector<std::vector<CloudHole>>& of_blocks) {
+    const bool hurries = options_.budget > 0;
     const std::size_t blocks = of_blocks.size();
-    const std::size_t first =
-        options_.budget > 0 && blocks > 0 ? static_cast<std::size_t>(rules_.frame % blocks) : 0;
-    for (std::size_t k = 0; k < blocks; ++k) {
-        const std::vector<CloudHole>& holes = of_blocks[(first + k) % blocks];
-        holes_.insert(holes_.end(), holes.begin(), holes.end());
-    }
-    if (options_.budget > 0)
-        std::stable_sort(holes_.begin(), holes_.end(), [](const CloudHole& a, const CloudHole& b) {
-            return a.cause != b.cause ? a.cause < b.cause
-                                      : grid_level(a.place) < grid_level(b.place);
-        });
+    const std::size_t first = hurries && blocks > 0 ? rules_.frame % blocks : 0;
+    const auto rank = [hurries](const CloudHole& hole) {
+        if (!hurries) return std::size_t{0};
+        return static_cast<std::size_t>(hole.cause) * kGridLevels +
+               static_cast<std::size_t>(grid_level(hole.place));
+    };
+    // There are tens of thousands where the eye turns fast, and one thread that orders them.
+    std::array<std::size_t, kHoleCauses * kGridLevels + 1> begin{};
+    for (const std::vector<CloudHole>& holes : of_blocks)
+        for (const CloudHole& hole : holes) ++begin[rank(hole) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    holes_.resize(begin.back());
+    for (std::size_t k = 0; k < blocks; ++k)
+        for (const CloudHole& hole : of_blocks[(first + k) % blocks])
+            holes_[begin[rank(hole)]++] = hole;
 }
 
 void CloudRegion::choose_twins() {
@@ -152,9 +158,10 @@ void CloudRegion::choose_twins() {
     }
 }
 
-/// None of them is traced.
+/// None of them is traced. What earlier frames left in `traced_` does no harm, and clearing it
+/// takes a millisecond.
 void CloudRegion::expect_holes() {
-    traced_.resize(holes_.size());
+    if (traced_.size() < holes_.size()) traced_.resize(holes_.size());
     done_.assign(holes_.size(), 0);
     twin_radiance_.resize(twins_.size());
     twin_done_.assign(twins_.size(), 0);
@@ -314,7 +321,7 @@ std::vector<std::uint8_t> CloudRegion::known() const {
 
 void CloudRegion::leave_points() {
     fresh_.clear();
-    for (std::size_t i = 0; i < traced_.size(); ++i) {
+    for (std::size_t i = 0; i < holes_.size(); ++i) {
         if (done_[i] == 0) continue;
         const PixelPoints& left = traced_[i].points;
         fresh_.insert(fresh_.end(), left.points.begin(),

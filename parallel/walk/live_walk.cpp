@@ -32,85 +32,75 @@ void LiveWalk::begin(int width, int height, AmbientUse use) {
     view_.reset();
 }
 
-LivePicture LiveWalk::next(const View& view, int width, int height, AmbientUse use, double budget,
-                           const StopFlag& stop) {
+bool LiveWalk::next(const View& view, int width, int height, AmbientUse use, double budget,
+                    const StopFlag& stop) {
     if (width_ != width || height_ != height || use_ != use) begin(width, height, use);
-    const bool rests = view_ == view;
-    if (!rests) {
+    if (view_ != view) {
         resting_.reset();
         refine_ = kFirstShare;
         view_ = view;
-        LivePicture drawn = draw(view, false, budget, stop);
-        if (drawn.radiance.empty()) view_.reset();
-        return drawn;
+        if (draw(view, false, budget, stop)) return true;
+        view_.reset();
+        return false;
     }
     if (resting_) return add_light(budget, stop);
     const RestingPicture* picture = frames_.resting(stop);
-    if (stop.requested()) return {};
+    if (stop.requested()) return false;
     const bool adds_light = use_ == AmbientUse::rest && frames_.has_indirect();
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
         resting_ = std::make_unique<RestingLight>(width, height, samples_);
-        resting_->begin(turned(std::span<const Rgb>(last_.radiance), width),
-                        turned(std::span<const float>(last_.distance), width));
+        resting_->begin(turned(std::span<const Rgb>(picture_.radiance), width),
+                        turned(std::span<const float>(picture_.distance), width));
         return add_light(budget, stop);
     }
-    if (picture == nullptr || picture->next(1).places.empty()) return unchanged();
-    return draw(view, true, budget, stop);
+    if (picture != nullptr && !picture->next(1).places.empty())
+        return draw(view, true, budget, stop);
+    picture_.phase = LivePhase::done;
+    picture_.share = 1;
+    picture_.rays = 0;
+    return true;
 }
 
-LivePicture LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag& stop) {
+bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag& stop) {
     WalkFrame drawn = frames_.draw(view, budget, refine_, stop);
-    LivePicture picture;
-    if (!drawn.frame.complete) return picture;
-    picture.width = width_;
-    picture.height = height_;
-    picture.radiance = std::move(drawn.frame.radiance);
-    picture.distance = std::move(drawn.frame.distance);
-    picture.rays = frames_.rays();
-    picture.report = std::move(drawn.report);
-    if (rests) {
-        const auto pixels = static_cast<double>(picture.radiance.size());
-        const auto traced =
-            static_cast<double>(picture.report.holes[static_cast<std::size_t>(HoleCause::refined)]);
-        refine_ = std::clamp(2 * traced / pixels, kLeastShare, 1.0);
-        const RestingPicture* resting = frames_.resting(stop);
-        const std::size_t open = resting != nullptr ? resting->open_pixels() : 0;
-        picture.share = 1 - static_cast<double>(open) / pixels;
-        picture.phase = open > 0 ? LivePhase::filling : LivePhase::refining;
-    }
-    last_ = picture;
-    return picture;
+    if (!drawn.frame.complete) return false;
+    picture_.width = width_;
+    picture_.height = height_;
+    picture_.radiance = std::move(drawn.frame.radiance);
+    picture_.distance = std::move(drawn.frame.distance);
+    picture_.rays = frames_.rays();
+    picture_.report = std::move(drawn.report);
+    picture_.phase = LivePhase::moving;
+    picture_.share = 0;
+    if (!rests) return true;
+    const auto pixels = static_cast<double>(picture_.radiance.size());
+    const auto traced =
+        static_cast<double>(picture_.report.holes[static_cast<std::size_t>(HoleCause::refined)]);
+    refine_ = std::clamp(2 * traced / pixels, kLeastShare, 1.0);
+    const RestingPicture* resting = frames_.resting(stop);
+    const std::size_t open = resting != nullptr ? resting->open_pixels() : 0;
+    picture_.share = 1 - static_cast<double>(open) / pixels;
+    picture_.phase = open > 0 ? LivePhase::filling : LivePhase::refining;
+    return true;
 }
 
-LivePicture LiveWalk::add_light(double budget, const StopFlag& stop) {
+bool LiveWalk::add_light(double budget, const StopFlag& stop) {
     const bool worked = resting_->step(
         [&](const RestingWork& work) { return frames_.trace(*view_, work, budget, stop); });
-    LivePicture picture;
-    picture.width = width_;
-    picture.height = height_;
-    picture.share = resting_->share();
-    picture.phase = !worked             ? LivePhase::done
-                    : picture.share < 1 ? LivePhase::ambient
-                                        : LivePhase::refining;
     Frame frame;
-    frame.width = picture.width;
-    frame.height = picture.height;
-    frame.radiance = turned(std::span<const Rgb>(resting_->picture()), picture.width);
-    frame.distance = turned(resting_->distance(), picture.width);
+    frame.width = width_;
+    frame.height = height_;
+    frame.radiance = turned(std::span<const Rgb>(resting_->picture()), width_);
+    frame.distance = turned(resting_->distance(), width_);
     frames_.add_small_sources(*view_, frame);
-    picture.radiance = std::move(frame.radiance);
-    picture.distance = std::move(frame.distance);
-    picture.rays = worked ? frames_.rays() : 0;
-    picture.report = last_.report;
-    return picture;
-}
-
-LivePicture LiveWalk::unchanged() const {
-    LivePicture picture = last_;
-    picture.phase = LivePhase::done;
-    picture.share = 1;
-    picture.rays = 0;
-    return picture;
+    picture_.radiance = std::move(frame.radiance);
+    picture_.distance = std::move(frame.distance);
+    picture_.rays = worked ? frames_.rays() : 0;
+    picture_.share = resting_->share();
+    picture_.phase = !worked              ? LivePhase::done
+                     : picture_.share < 1 ? LivePhase::ambient
+                                          : LivePhase::refining;
+    return true;
 }
 
 }  // namespace lightwalk

@@ -46,16 +46,16 @@ class LiveWalk {
 
     /// The picture of a view: the next better one where it is the view of the call before.
     /// @param budget  after which it should be there, and something of it at least will [s]
-    /// Throws what the tracers throw. When stopped the picture may be empty.
-    [[nodiscard]] LivePicture next(const View& view, int width, int height, AmbientUse use,
-                                   double budget, const StopFlag& stop);
+    /// Throws what the tracers throw. False: stopped; the picture is the one before.
+    [[nodiscard]] bool next(const View& view, int width, int height, AmbientUse use, double budget,
+                            const StopFlag& stop);
+    /// The last one; empty before the first.
+    [[nodiscard]] const LivePicture& picture() const { return picture_; }
 
   private:
     void begin(int width, int height, AmbientUse use);
-    [[nodiscard]] LivePicture draw(const View& view, bool rests, double budget,
-                                   const StopFlag& stop);
-    [[nodiscard]] LivePicture add_light(double budget, const StopFlag& stop);
-    [[nodiscard]] LivePicture unchanged() const;
+    [[nodiscard]] bool draw(const View& view, bool rests, double budget, const StopFlag& stop);
+    [[nodiscard]] bool add_light(double budget, const StopFlag& stop);
 
     LiveFrames& frames_;
     int samples_;
@@ -64,7 +64,7 @@ class LiveWalk {
     double refine_ = 0;         ///< see LiveFrames::draw
     std::optional<View> view_;  ///< of the last picture
     std::unique_ptr<RestingLight> resting_;
-    LivePicture last_;  ///< of the view, without indirect light while `resting_` adds it
+    LivePicture picture_;
 };
 
 }  // namespace lightwalk

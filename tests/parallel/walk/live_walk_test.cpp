@@ -71,7 +71,8 @@ struct Walker {
         return options;
     }
     LivePicture next(const View& view, AmbientUse use, double budget = 1e-9) {
-        return live.next(view, kWidth, kHeight, use, budget, stop);
+        REQUIRE(live.next(view, kWidth, kHeight, use, budget, stop));
+        return live.picture();
     }
     /// The picture when nothing more comes; with what was said meanwhile.
     LivePicture rest(const View& view, AmbientUse use, std::vector<LivePicture>* all = nullptr) {
@@ -146,9 +147,8 @@ TEST_CASE("a view that moves on leaves what it was doing, and is told from one t
     CHECK(moved.phase == LivePhase::moving);
     CHECK(moved.radiance.size() == kWidth * kHeight);
     CHECK(walker.next(view_at(0.05), AmbientUse::rest).phase != LivePhase::moving);
-    CHECK(
-        walker.live.next(view_at(0.05), 40, 30, AmbientUse::rest, 1, walker.stop).radiance.size() ==
-        1200);
+    REQUIRE(walker.live.next(view_at(0.05), 40, 30, AmbientUse::rest, 1, walker.stop));
+    CHECK(walker.live.picture().radiance.size() == 1200);
 }
 
 TEST_CASE("edges get more rays where a view rests, other pixels do not") {
