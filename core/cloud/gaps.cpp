@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <deque>
 #include <vector>
 
 namespace lightwalk {
 namespace {
 
-/// A picture at a fraction of the size: means of what is known below each pixel.
-struct GapLevel {
+/// A picture, and which of its pixels are known.
+struct GapPicture {
     int width = 0, height = 0;
-    std::vector<Rgb> radiance;
-    std::vector<std::uint8_t> known;
+    std::span<Rgb> radiance;
+    std::span<const std::uint8_t> known;
 
-    GapLevel(int w, int h) : width(w), height(h), radiance(count()), known(count()) {}
-    [[nodiscard]] std::size_t count() const {
-        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    }
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(x);
@@ -26,8 +23,22 @@ struct GapLevel {
     }
 };
 
-GapLevel halved(const GapLevel& fine) {
-    GapLevel coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
+/// One at a fraction of the size: means of what is known below each pixel.
+struct GapLevel {
+    int width = 0, height = 0;
+    std::vector<Rgb> radiance;
+    std::vector<std::uint8_t> known;
+
+    GapLevel(int w, int h) : width(w), height(h), radiance(count()), known(count()) {}
+    [[nodiscard]] std::size_t count() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    [[nodiscard]] GapPicture picture() { return {width, height, radiance, known}; }
+};
+
+GapLevel halved(const GapPicture& fine) {
+    GapLevel level((fine.width + 1) / 2, (fine.height + 1) / 2);
+    const GapPicture coarse = level.picture();
     for (int y = 0; y < coarse.height; ++y) {
         for (int x = 0; x < coarse.width; ++x) {
             Rgb sum;
@@ -41,14 +52,14 @@ GapLevel halved(const GapLevel& fine) {
             }
             if (found == 0) continue;
             coarse.radiance[coarse.at(x, y)] = sum * (1.0f / static_cast<float>(found));
-            coarse.known[coarse.at(x, y)] = 1;
+            level.known[coarse.at(x, y)] = 1;
         }
     }
-    return coarse;
+    return level;
 }
 
 /// The coarse picture between its pixels: 9 : 3 : 3 : 1 of the four around a fine one.
-Rgb between(const GapLevel& coarse, int x, int y) {
+Rgb between(const GapPicture& coarse, int x, int y) {
     const int x0 = x / 2, y0 = y / 2;
     const int x1 = std::clamp(x0 + (x % 2 == 0 ? -1 : 1), 0, coarse.width - 1);
     const int y1 = std::clamp(y0 + (y % 2 == 0 ? -1 : 1), 0, coarse.height - 1);
@@ -57,7 +68,7 @@ Rgb between(const GapLevel& coarse, int x, int y) {
            (1.0f / 16) * value(x1, y1);
 }
 
-void fill_from(const GapLevel& coarse, GapLevel& fine) {
+void fill_from(const GapPicture& coarse, const GapPicture& fine) {
     for (int y = 0; y < fine.height; ++y) {
         for (int x = 0; x < fine.width; ++x) {
             const std::size_t i = fine.at(x, y);
@@ -70,16 +81,14 @@ void fill_from(const GapLevel& coarse, GapLevel& fine) {
 
 void fill_gaps(int width, int height, std::span<Rgb> radiance,
                std::span<const std::uint8_t> known) {
-    std::vector<GapLevel> levels{GapLevel(width, height)};
-    std::copy(radiance.begin(), radiance.end(), levels[0].radiance.begin());
-    std::copy(known.begin(), known.end(), levels[0].known.begin());
-    if (levels[0].full()) return;
+    std::vector<GapPicture> levels{{width, height, radiance, known}};
+    std::deque<GapLevel> coarser;  // levels refer to them
     while (!levels.back().full()) {
-        if (levels.back().count() <= 1) return;  // nothing is known at all
-        levels.push_back(halved(levels.back()));
+        if (levels.back().known.size() <= 1) return;  // nothing is known at all
+        coarser.push_back(halved(levels.back()));
+        levels.push_back(coarser.back().picture());
     }
     for (std::size_t i = levels.size() - 1; i > 0; --i) fill_from(levels[i], levels[i - 1]);
-    std::copy(levels[0].radiance.begin(), levels[0].radiance.end(), radiance.begin());
 }
 
 }  // namespace lightwalk
