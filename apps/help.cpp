@@ -122,7 +122,9 @@ rays wherever these are true.
   --cloud-age N      supersaturated: frames that a point outlives unused, default 25
   --cloud-limit N    points are at most N times the pixels, default 4
   --check WHICH      of which pixels a ray tells what is there, so that no other thing's point shows: all (default),
-                     edges (where points are missing or jump in depth, and the picture's rim), none
+                     rotating (all but those in the midst of a surface that the last frame has shown; of these a third,
+                     another one in each frame), edges (where points are missing or jump in depth, and the picture's
+                     rim), none
   --drop WHICH       where no ray tells: hidden: points far behind most of those around them are dropped; lonely: those
                      far from all around them; both (default), none
   --look WHERE       back (default): a pixel takes the nearest point of what its ray meets; forward: only a point that
@@ -157,6 +159,8 @@ and the walk goes on from where it stood; what is wrong with them stands in the 
   --fps N            frames a second while moving, default 30: a frame's time goes to its worst pixels, the others are
                      filled from around them and traced later
   --max-size WxH     of pictures, default 1920x1200; larger windows show them enlarged
+  --check WHICH      as of animate, default rotating: a frame shows for a moment only, and each pixel is checked every
+                     few frames
   --ambient WHEN     rest (default): with -ab, indirect light comes when the view rests; always, off. The page may change it
   --edge-samples N   rays that a pixel at an edge gets when the view rests, default 8; 1: the picture of `lightwalk render`
 )";

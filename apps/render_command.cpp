@@ -211,6 +211,7 @@ RenderCommand parse_render_command(const std::string& name, const std::vector<st
     if (name == "walk") {
         command.serve.emplace();
         command.walk->rate = 30;
+        command.walk->cloud.check = CloudCheck::rotating;  // frames are seen for a moment only
     }
     command.settings = default_render_settings(OptionDefaults::rpict);
     const LibraryPath library = LibraryPath::from_environment(files);

@@ -158,9 +158,11 @@ bool parse_walk_option(OptionWords& words, WalkCommand& walk) {
     else if (word == "--cloud-limit")
         walk.cloud.limit = real_between(words, 2, 64);  // a pixel leaves up to two points
     else if (word == "--check")
-        walk.cloud.check = named_value(words, std::array{std::pair{"all", CloudCheck::all},
-                                                         std::pair{"edges", CloudCheck::edges},
-                                                         std::pair{"none", CloudCheck::none}});
+        walk.cloud.check =
+            named_value(words, std::array{std::pair{"all", CloudCheck::all},
+                                          std::pair{"rotating", CloudCheck::rotating},
+                                          std::pair{"edges", CloudCheck::edges},
+                                          std::pair{"none", CloudCheck::none}});
     else if (word == "--projectors")
         walk.projectors = whole_number(words, 1, kMostProjectors);
     else if (word == "--specular-tolerance")

@@ -1,5 +1,7 @@
 #pragma once
 // The z-buffer of the cloud: which point each pixel of a picture gets.
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -61,8 +63,21 @@ class DepthGrid {
         return static_cast<std::uint32_t>(keys_[at(x, y)].load(std::memory_order_relaxed));
     }
 
+    /// What each pixel's cell and the eight around it hold, for a square of pixels, row by row.
+    struct Surroundings {
+        static constexpr int kSide = 8;
+        std::array<std::uint16_t, std::size_t{kSide} * kSide> known;  ///< cells not empty
+        /// By how much their depths differ [steps of .4 to .8 %].
+        std::array<std::uint16_t, std::size_t{kSide} * kSide> spread;
+    };
+    /// Cheap: no point is looked up.
+    /// @param corner  the square's lower left pixel; parts of it may lie outside
+    [[nodiscard]] Surroundings surroundings(const PixelPlace& corner) const;
+
   private:
     static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
+    static constexpr int kDepthShift = 48;
+    static constexpr std::uint16_t kNoDepth = 0xffff;
     template <class First>
     [[nodiscard]] static bool wins(std::uint64_t key, std::uint64_t kept, First first) {
         if (key >> 32 != kept >> 32) return key < kept;
@@ -72,7 +87,7 @@ class DepthGrid {
         // Floats that are not negative are ordered as their bits are: 8 of exponent, 7 of mantissa.
         const std::uint64_t depth = std::bit_cast<std::uint32_t>(distance) >> 16;
         const auto off = static_cast<std::uint64_t>(apart * 65535.0f);
-        return depth << 48 | off << 32 | index;
+        return depth << kDepthShift | off << 32 | index;
     }
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y - area_.y0) * static_cast<std::size_t>(area_.width()) +
@@ -83,6 +98,44 @@ class DepthGrid {
     std::size_t cells_;
     std::unique_ptr<std::atomic<std::uint64_t>[]> keys_;
 };
+
+inline DepthGrid::Surroundings DepthGrid::surroundings(const PixelPlace& corner) const {
+    constexpr int kSide = Surroundings::kSide, kWide = kSide + 2;
+    std::array<std::uint16_t, std::size_t{kWide} * kWide> depths;
+    depths.fill(kNoDepth);
+    for (int y = std::max(corner.y - 1, area_.y0); y < std::min(corner.y + kSide + 1, area_.y1);
+         ++y) {
+        std::uint16_t* const row = &depths[static_cast<std::size_t>((y - corner.y + 1) * kWide)];
+        for (int x = std::max(corner.x - 1, area_.x0); x < std::min(corner.x + kSide + 1, area_.x1);
+             ++x)
+            row[x - corner.x + 1] = static_cast<std::uint16_t>(
+                keys_[at(x, y)].load(std::memory_order_relaxed) >> kDepthShift);
+    }
+    Surroundings found;
+    for (std::size_t y = 0; y < kSide; ++y) {
+        std::array<std::uint16_t, kWide> known, nearest,
+            farthest;  // of three cells one above other
+        for (std::size_t x = 0; x < kWide; ++x) {
+            const std::uint16_t a = depths[y * kWide + x], b = depths[(y + 1) * kWide + x],
+                                c = depths[(y + 2) * kWide + x];
+            known[x] =
+                static_cast<std::uint16_t>((a != kNoDepth) + (b != kNoDepth) + (c != kNoDepth));
+            nearest[x] = std::min({a, b, c});
+            // One more than it is, so that empty cells, the deepest, overflow to the least.
+            farthest[x] =
+                std::max({static_cast<std::uint16_t>(a + 1), static_cast<std::uint16_t>(b + 1),
+                          static_cast<std::uint16_t>(c + 1)});
+        }
+        for (std::size_t x = 0; x < kSide; ++x) {
+            const std::uint16_t least = std::min({nearest[x], nearest[x + 1], nearest[x + 2]});
+            const std::uint16_t most = std::max({farthest[x], farthest[x + 1], farthest[x + 2]});
+            found.known[y * kSide + x] =
+                static_cast<std::uint16_t>(known[x] + known[x + 1] + known[x + 2]);
+            found.spread[y * kSide + x] = static_cast<std::uint16_t>(most - 1 - least);
+        }
+    }
+    return found;
+}
 
 /// The grids of what lies ahead and of what is mirrored: a mirror's images lie behind it, and
 /// would lose against it.

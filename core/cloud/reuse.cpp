@@ -33,6 +33,11 @@ bool depths_jump(float a, float b) {
     return std::abs(a - b) > kDepthJump * std::min(a, b);
 }
 
+/// Where no ray tells, of the nine cells around a pixel's middle so many hold points at least,
+/// their depths differ by no more [steps of .4 to .8 %], and the last frame has shown as many of
+/// them.
+constexpr int kWellKnown = 5, kSmooth = 4, kWitnesses = 3;
+
 /// Direction from where the pixel's ray begins to a point beside it.
 Vec3 toward(const CloudPoint& point, const PixelSights& sights, const Sight& sight) {
     const double scale = 1 / std::max(static_cast<double>(sight.distance), kEpsilon);
@@ -177,8 +182,8 @@ inline void PointFinder::check(const PixelPlace& pixel, const PixelSights& sight
             search(grids_.mirrored, pixel, sights, sights.mirrored, answer.mirrored, answer);
 }
 
-void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
-                          std::span<PixelAnswer> answers) const {
+/// Fetch the pixels' points into the cache.
+void PointFinder::expect(std::span<const PixelPlace> pixels) const {
     for (const PixelPlace& pixel : pixels) {
         const std::uint32_t index = grids_.ahead.winner(pixel.x, pixel.y);
         if (index == kNoPoint) continue;
@@ -186,6 +191,11 @@ void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const Pi
         prefetch(&points_[index].paired);  // the last member: it may lie in the next line
         prefetch(&places_[index]);
     }
+}
+
+void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
+                          std::span<PixelAnswer> answers) const {
+    expect(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) check(pixels[i], sights[i], answers[i]);
 }
 
@@ -212,15 +222,74 @@ PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
     for (const std::uint32_t index : {answer.ahead, answer.mirrored}) {
         if (index == kNoPoint) continue;
         answer.radiance += points_[index].radiance;
-        if (!answer.found()) continue;
-        const Camera& camera = projector_.camera();
-        const auto ray =
-            camera.ray((pixel.x + 0.5) / projector_.width(), (pixel.y + 0.5) / projector_.height());
-        if (!ray || !holds_from(points_[index], normalize(points_[index].place() - ray->origin),
-                                rules_.tightness))
-            answer.cause = HoleCause::turned;
+        if (answer.found() && !holds(points_[index], pixel)) answer.cause = HoleCause::turned;
     }
     return answer;
+}
+
+/// Whether there is a ray to a point that a pixel shows, and the point looks the same along it.
+bool PointFinder::holds(const CloudPoint& point, const PixelPlace& pixel) const {
+    const Camera& camera = projector_.camera();
+    const auto ray =
+        camera.ray((pixel.x + 0.5) / projector_.width(), (pixel.y + 0.5) / projector_.height());
+    return ray && holds_from(point, normalize(point.place() - ray->origin), rules_.tightness);
+}
+
+/// The answer of a pixel's point, or, where it has none, of those around it, as if a ray had told
+/// that it sees their surface: if that is one, and the last frame has shown some of them.
+PixelAnswer PointFinder::vouched(const PixelPlace& pixel) const {
+    PixelSights sights;
+    float sum = 0;
+    int count = 0, fresh = 0;
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
+            const std::uint32_t index = inside(x, y) ? grids_.ahead.winner(x, y) : kNoPoint;
+            if (index == kNoPoint) continue;
+            const CloudPoint& point = points_[index];
+            if (point.paired || (count > 0 && point.surface != sights.ahead.surface)) return {};
+            sights.ahead.surface = point.surface;
+            sum += places_[index].distance;
+            ++count;
+            if (point.age == 0) ++fresh;
+        }
+    }
+    if (fresh < kWitnesses) return {};
+    const double h = pixel.x + 0.5, v = pixel.y + 0.5;
+    const auto ray = projector_.camera().ray(h / projector_.width(), v / projector_.height());
+    if (!ray) return {};
+    sights.x = static_cast<float>(h);
+    sights.y = static_cast<float>(v);
+    sights.direction = ray->direction;
+    sights.ahead.seen = true;
+    sights.ahead.distance = sum / static_cast<float>(count);
+    sights.ahead.position =
+        ray->origin + ray->direction * static_cast<double>(sights.ahead.distance);
+    PixelAnswer answer;
+    check(pixel, sights, answer);
+    return answer;
+}
+
+void PointFinder::steady(std::span<const PixelPlace> pixels, std::span<PixelAnswer> answers) const {
+    constexpr int kSide = DepthGrid::Surroundings::kSide;
+    if (pixels.empty()) return;
+    expect(pixels);
+    const PixelPlace corner{pixels[0].x - pixels[0].x % kSide, pixels[0].y - pixels[0].y % kSide};
+    const auto around = grids_.ahead.surroundings(corner);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const PixelPlace& pixel = pixels[i];
+        PixelAnswer& answer = answers[i];
+        answer = {};
+        const auto at = static_cast<std::size_t>((pixel.y - corner.y) * kSide + pixel.x - corner.x);
+        if (around.known[at] < kWellKnown || around.spread[at] > kSmooth ||
+            grids_.mirrored.winner(pixel.x, pixel.y) != kNoPoint)
+            continue;
+        const std::uint32_t own = grids_.ahead.winner(pixel.x, pixel.y);
+        if (own == kNoPoint || points_[own].age > 0)
+            answer = vouched(pixel);
+        else if (const CloudPoint& point = points_[own];
+                 !point.paired && (point.turn == kAnyTurn || holds(point, pixel)))
+            answer = {HoleCause::none, own, kNoPoint, 0, point.radiance};
+    }
 }
 
 /// Distances of the points that fell onto the pixel and those around it, from below, left to

@@ -59,6 +59,7 @@ class PointFinder {
     /// A pixel will be checked soon: fetch its cell into the cache.
     [[gnu::always_inline]] void expect(const PixelPlace& pixel) const {
         grids_.ahead.prefetch(pixel.x, pixel.y);
+        grids_.mirrored.prefetch(pixel.x, pixel.y);
     }
     /// For a pixel of which a ray has told what it sees.
     [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel, const PixelSights& sights) const;
@@ -67,6 +68,12 @@ class PointFinder {
                  std::span<PixelAnswer> answers) const;
     /// For a pixel of which nothing is known: the point that fell onto it.
     [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
+    /// For pixels of which no ray has told, in the midst of a surface: where no depth around steps,
+    /// nothing is mirrored, and the last frame has shown what lies there, what is there still.
+    /// Elsewhere HoleCause::uncovered, and nothing is known. A point that a ray finds hidden is not
+    /// used, and vouches for nothing in the next frame.
+    /// @param pixels  of one square of 8 x 8 with corners at multiples of 8
+    void steady(std::span<const PixelPlace> pixels, std::span<PixelAnswer> answers) const;
     /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
     /// without a point, where depths jump.
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
@@ -87,6 +94,9 @@ class PointFinder {
                      const PixelSights& sights, const Sight& sight, Search& found) const;
     void look_at(std::uint32_t index, float squared, const PixelSights& sights, const Sight& sight,
                  Search& found) const;
+    void expect(std::span<const PixelPlace> pixels) const;
+    [[nodiscard]] PixelAnswer vouched(const PixelPlace& pixel) const;
+    [[nodiscard]] bool holds(const CloudPoint& point, const PixelPlace& pixel) const;
     [[nodiscard]] float squared_distance(std::uint32_t index, const PixelSights& sights) const;
     [[nodiscard]] float squared_reach(float contrast) const;
     [[nodiscard]] bool contradicts(const PixelPlace& pixel, const DepthGrid& grid) const;

@@ -14,8 +14,10 @@ namespace lightwalk {
 
 /// Of which pixels a ray verifies what the points say.
 enum class CloudCheck {
-    none,   ///< of none: only the points' own depths tell what is hidden
-    edges,  ///< where new things may come into view
+    none,      ///< of none: only the points' own depths tell what is hidden
+    edges,     ///< where new things may come into view
+    rotating,  ///< of all but those that a surface already shown seems to go through; of these by
+               ///< lot, tile by tile, and others in each frame
     all,
 };
 

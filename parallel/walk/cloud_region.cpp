@@ -21,6 +21,9 @@ constexpr int kPacketSide = 8;  ///< of those that are looked at together
 constexpr std::size_t kPacket = std::size_t{kPacketSide} * kPacketSide;
 constexpr int kHalo = 1;  ///< pixels around the region whose points may answer its own
 
+/// Of the tiles: of CloudCheck::rotating, of those where points seem to tell enough.
+constexpr double kCheckedShare = 1.0 / 3;
+
 /// Of the audited pixels a second ray tells how much two rays differ.
 constexpr double kFloorShare = 0.25;
 
@@ -172,6 +175,24 @@ void CloudRegion::refine(std::span<const PixelPlace> places) {
     expect_holes();
 }
 
+/// Whether the lot has rays check all of a pixel's tile. No fixed turn: points that move a tile a
+/// frame would then never be checked.
+bool CloudRegion::is_checked(const PixelPlace& place) const {
+    return RandomStream::of_pixel(options_.seed + rules_.frame + 1,
+                                  static_cast<std::uint32_t>(place.x / kPacketSide),
+                                  static_cast<std::uint32_t>(place.y / kPacketSide), 1)
+               .next() < kCheckedShare;
+}
+
+/// A pixel will be answered soon: fetch what is read and written then into the cache.
+void CloudRegion::expect(const PixelPlace& place, const PointFinder& finder) const {
+    const std::size_t at = pixel(place);
+    finder.expect(place);
+    prefetch(&frame_.radiance[at]);
+    prefetch(&frame_.distance[at]);
+    if (!origins_.empty()) prefetch(&origins_[at]);
+}
+
 /// Show what a pixel's answer brings, or note that it is a hole.
 void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
                          const PixelAnswer& answer, std::vector<CloudHole>& holes) {
@@ -203,15 +224,9 @@ void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
 void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
                                 const PixelCaster& caster, int worker,
                                 std::vector<CloudHole>& holes) {
-    std::array<PixelSights, kPacket> sights;
-    std::array<PixelAnswer, kPacket> answers;
-    for (const PixelPlace& place : places) {
-        const std::size_t at = pixel(place);
-        finder.expect(place);
-        prefetch(&frame_.radiance[at]);
-        prefetch(&frame_.distance[at]);
-        if (!origins_.empty()) prefetch(&origins_[at]);
-    }
+    std::array<PixelSights, 2 * kPacket> sights;
+    std::array<PixelAnswer, 2 * kPacket> answers;
+    for (const PixelPlace& place : places) expect(place, finder);
     caster.look(places, {sights.data(), places.size()}, worker);
     finder.checked(places, {sights.data(), places.size()}, answers);
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -220,29 +235,66 @@ void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointF
         if (sights[i].ray) settle(places[i], finder, answers[i], holes);
 }
 
+/// Answer those pixels of a tile that the last frame's surfaces seem to go through.
+/// @return  the number of those left, which are moved to the front
+std::size_t CloudRegion::answer_steady(std::span<PixelPlace> tile, const PointFinder& finder,
+                                       std::vector<CloudHole>& holes) {
+    std::array<PixelAnswer, kPacket> answers;
+    for (const PixelPlace& place : tile) expect(place, finder);
+    finder.steady(tile, answers);
+    for (std::size_t i = 0; i < tile.size(); ++i)
+        if (answers[i].found()) prefetch(&used_[answers[i].ahead]);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+        if (answers[i].found())
+            settle(tile[i], finder, answers[i], holes);
+        else
+            tile[left++] = tile[i];
+    }
+    return left;
+}
+
+/// Answer those pixels of a tile that no ray checks.
+/// @return  the number of those left, which are moved to the front
+std::size_t CloudRegion::answer_freely(std::span<PixelPlace> tile, const PointFinder& finder,
+                                       std::vector<CloudHole>& holes) {
+    if (!rules_.empty && options_.check == CloudCheck::all) return tile.size();
+    if (!rules_.empty && options_.check == CloudCheck::rotating) {
+        if (is_checked(tile.front())) return tile.size();
+        return answer_steady(tile, finder, holes);
+    }
+    std::size_t left = 0;
+    for (const PixelPlace& place : tile) {
+        if (!rules_.empty && options_.check == CloudCheck::edges && finder.is_edge(place))
+            tile[left++] = place;
+        else
+            settle(place, finder, finder.unchecked(place), holes);
+    }
+    return left;
+}
+
 void CloudRegion::answer_block(std::size_t block, const PixelCaster& caster, int worker) {
     const PointFinder finder(*projector_, points_, grids_, places_, reuse_);
     const PixelRectangle& area = blocks_[block];
     std::vector<CloudHole>& holes = holes_of_[block];
-    std::array<PixelPlace, kPacket> checked;
-    for (int y0 = area.y0; y0 < area.y1; y0 += kPacketSide) {
-        for (int x0 = area.x0; x0 < area.x1; x0 += kPacketSide) {
-            std::size_t count = 0;
-            for (int y = y0; y < std::min(y0 + kPacketSide, area.y1); ++y) {
-                for (int x = x0; x < std::min(x0 + kPacketSide, area.x1); ++x) {
-                    const bool check =
-                        !rules_.empty &&
-                        (options_.check == CloudCheck::all ||
-                         (options_.check == CloudCheck::edges && finder.is_edge({x, y})));
-                    if (check)
-                        checked[count++] = {x, y};
-                    else
-                        settle({x, y}, finder, finder.unchecked({x, y}), holes);
-                }
-            }
-            if (count > 0) answer_packet({checked.data(), count}, finder, caster, worker, holes);
+    std::array<PixelPlace, 2 * kPacket> places;
+    std::size_t count = 0;
+    const auto check = [&] {
+        if (count > 0) answer_packet({places.data(), count}, finder, caster, worker, holes);
+        count = 0;
+    };
+    for (int y0 = area.y0 - area.y0 % kPacketSide; y0 < area.y1; y0 += kPacketSide) {
+        for (int x0 = area.x0 - area.x0 % kPacketSide; x0 < area.x1; x0 += kPacketSide) {
+            PixelPlace* const tile = places.data() + count;
+            std::size_t pixels = 0;
+            for (int y = std::max(y0, area.y0); y < std::min(y0 + kPacketSide, area.y1); ++y)
+                for (int x = std::max(x0, area.x0); x < std::min(x0 + kPacketSide, area.x1); ++x)
+                    tile[pixels++] = {x, y};
+            count += answer_freely({tile, pixels}, finder, holes);
+            if (count >= kPacket) check();
         }
     }
+    check();
 }
 
 UsedPixels CloudRegion::used_beside() const {

@@ -115,6 +115,12 @@ class CloudRegion {
     void answer_block(std::size_t block, const PixelCaster& caster, int worker);
     void answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
                        const PixelCaster& caster, int worker, std::vector<CloudHole>& holes);
+    [[nodiscard]] std::size_t answer_freely(std::span<PixelPlace> tile, const PointFinder& finder,
+                                            std::vector<CloudHole>& holes);
+    [[nodiscard]] std::size_t answer_steady(std::span<PixelPlace> tile, const PointFinder& finder,
+                                            std::vector<CloudHole>& holes);
+    [[nodiscard]] bool is_checked(const PixelPlace& place) const;
+    void expect(const PixelPlace& place, const PointFinder& finder) const;
     void settle(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
                 std::vector<CloudHole>& holes);
     void order_holes(const std::vector<std::vector<CloudHole>>& of_blocks);

@@ -8,7 +8,7 @@ WAYS = {"supersaturated": "--reuse supersaturated", "cloud": "--reuse cloud",
 
 #: Each rule by itself: its settings, the weakest first, and what else has to be so for it to count. The watch over
 #: the errors (--audit-limit) is off but where it is what is measured: it would make good what a rule lets through.
-RULES = {"check": (("none", "edges", "all"), ""),
+RULES = {"check": (("none", "edges", "rotating", "all"), ""),
          "drop": (("none", "hidden", "lonely", "both"), "--check none"),
          "look": (("forward", "back"), ""),
          "near": (("1.5", "1.25", "1", ".7", ".35", "0"), ""),

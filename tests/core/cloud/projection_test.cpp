@@ -149,3 +149,36 @@ TEST_CASE("cloud: the winners do not depend on how the points are divided") {
         }
     }
 }
+
+TEST_CASE("cloud: surroundings are what the nine cells around each pixel hold") {
+    constexpr int kWide = 13, kHigh = 11;
+    DepthGrid grid(PixelRectangle{2, 3, 2 + kWide, 3 + kHigh});
+    RandomStream random(5);
+    std::vector<int> depths(std::size_t{kWide} * kHigh, -1);
+    for (int i = 0; i < kWide * kHigh; ++i) {
+        if (random.next() < 0.4) continue;
+        const int step = static_cast<int>(100 * random.next());  // of the keys' seven bits
+        depths[static_cast<std::size_t>(i)] = step;
+        grid.offer(2 + i % kWide, 3 + i / kWide, 1 + static_cast<float>(step) / 128, 0, 7);
+    }
+    for (const PixelPlace corner : {PixelPlace{0, 0}, PixelPlace{8, 0}, PixelPlace{8, 8}}) {
+        const auto found = grid.surroundings(corner);
+        for (int i = 0; i < 64; ++i) {
+            const int x = corner.x + i % 8, y = corner.y + i / 8;
+            if (!grid.area().contains({x, y})) continue;
+            int known = 0, least = 1000, most = -1;
+            for (int v = y - 1; v <= y + 1; ++v) {
+                for (int u = x - 1; u <= x + 1; ++u) {
+                    if (!grid.area().contains({u, v})) continue;
+                    const int depth = depths[static_cast<std::size_t>((v - 3) * kWide + u - 2)];
+                    if (depth < 0) continue;
+                    ++known;
+                    least = std::min(least, depth);
+                    most = std::max(most, depth);
+                }
+            }
+            CHECK(found.known[static_cast<std::size_t>(i)] == known);
+            if (known > 0) CHECK(found.spread[static_cast<std::size_t>(i)] == most - least);
+        }
+    }
+}

@@ -258,3 +258,61 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
     CHECK(wall.project().is_edge({0, 7}));
     CHECK(!wall.project().is_edge({12, 12}));
 }
+
+TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide something is not") {
+    Wall wall;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) wall.add(x + 0.5, y + 0.5, 1, 1);
+    const auto point = [&](int x, int y) -> CloudPoint& {
+        return wall.points[static_cast<std::size_t>(y * kSide + x)];
+    };
+    const auto answer = [&] {
+        wall.grids.ahead.clear(0, wall.grids.ahead.size());
+        const PixelPlace pixel{5, 5};
+        PixelAnswer found;
+        wall.project().steady({&pixel, 1}, {&found, 1});
+        return found;
+    };
+    REQUIRE(answer().found());
+    CHECK(answer().radiance.g == 1);
+    CHECK(answer().ahead == 5 * kSide + 5);
+    SUBCASE("a depth that steps") {
+        wall.add(6.5, 5.5, 2, 1, 3.5);
+        CHECK(!answer().found());
+    }
+    SUBCASE("a pixel whose light is a sum") {
+        point(5, 5).paired = true;
+        CHECK(!answer().found());
+    }
+    SUBCASE("something mirrored") {
+        wall.points.push_back(point(5, 5));
+        wall.points.back().kind = PointKind::mirrored;
+        CHECK(!answer().found());
+    }
+    SUBCASE("a colour seen from elsewhere") {
+        point(5, 5).turn = 0.01f;
+        CHECK(answer().found());
+        point(5, 5).direction = encode_direction({1, 0, 0});
+        CHECK(!answer().found());
+    }
+    SUBCASE(
+        "a point that the last frame did not show, with others around that it did, or without") {
+        point(5, 5).age = 1;
+        CHECK(answer().found());
+        for (CloudPoint& other : wall.points) other.age = 1;
+        CHECK(!answer().found());
+    }
+    SUBCASE("no point of its own, but around it, of one surface or two") {
+        point(5, 5).kind = PointKind::gone;
+        CHECK(answer().found());
+        CHECK(answer().radiance.g == 1);
+        point(4, 5).surface = 2;
+        CHECK(!answer().found());
+    }
+    SUBCASE("too few points around") {
+        for (int x = 4; x <= 6; ++x) point(x, 4).kind = PointKind::gone;
+        CHECK(answer().found());
+        for (int x = 4; x <= 6; ++x) point(x, 6).kind = PointKind::gone;
+        CHECK(!answer().found());
+    }
+}

@@ -322,11 +322,11 @@ TEST_CASE("a walk is the same where only some ranks keep points, and where most 
 TEST_CASE("a walk by ranks is the same in every mode") {
     Room room;
     const std::vector<View> views = walk(4);
-    for (const CloudCheck check : {CloudCheck::edges, CloudCheck::none}) {
+    for (const CloudCheck check : {CloudCheck::rotating, CloudCheck::edges, CloudCheck::none}) {
         CloudOptions options;
         options.check = check;
         options.supersaturated = check == CloudCheck::none;
-        options.rules.look_back = check == CloudCheck::edges;
+        options.rules.look_back = check != CloudCheck::none;
         check_same(draw_alone(room, views, options),
                    draw_together(room, views, options, {Variant::hybrid, 4}, 5));
     }

@@ -74,15 +74,19 @@ struct Room {
     SceneSights sights{scene.tracer};
     StopFlag stop;
     std::atomic<std::size_t> looked = 0;  ///< pixels that draw() has looked at
+    std::vector<std::uint8_t> seen =      ///< for each pixel: not 0 if it is one of them
+        std::vector<std::uint8_t>(std::size_t{kWidth} * kHeight);
 
     CloudFrame draw(CloudFrames& frames, const View& view, Executor& executor) {
         WorkerContexts contexts(scene.tracer, scene.warnings, executor.concurrency());
         const Camera camera(view);
         SceneCaster caster(scene.tracer, sights, camera, frame_options(), contexts, stop);
         return frames.draw(camera,
-                           {[&](auto places, auto seen, int w) {
+                           {[&](auto places, auto sees, int w) {
                                 looked += places.size();
-                                caster.look(places, seen, w);
+                                for (const PixelPlace& place : places)
+                                    seen[static_cast<std::size_t>(place.y * kWidth + place.x)] = 1;
+                                caster.look(places, sees, w);
                             },
                             [&](auto places, auto out, int sample, int w) {
                                 caster.trace(places, out, sample, w);
@@ -195,7 +199,8 @@ TEST_CASE("cloud: mirrors, panes, polished floors and hidden things are true in 
 
 TEST_CASE("cloud: the same bytes with any number of threads, in every mode") {
     Room room;
-    for (const CloudCheck check : {CloudCheck::all, CloudCheck::edges, CloudCheck::none}) {
+    for (const CloudCheck check :
+         {CloudCheck::all, CloudCheck::rotating, CloudCheck::edges, CloudCheck::none}) {
         CloudOptions options;
         options.check = check;
         options.audit = 0.02;
@@ -217,6 +222,24 @@ TEST_CASE("cloud: the same bytes with any number of threads, in every mode") {
             }
         }
     }
+}
+
+TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them for long") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options;
+    options.check = CloudCheck::rotating;
+    CloudFrames frames(kWidth, kHeight, options);
+    const std::size_t pixels = room.seen.size();
+    (void)room.draw(frames, view_at(0, 0, 0), *executor);
+    CHECK(room.looked == 0);
+    for (int i = 1; i <= 20; ++i) {
+        room.looked = 0;
+        (void)room.draw(frames, view_at(0, 0, 0.0002 * i), *executor);
+        CHECK(room.looked.load() > pixels / 3);
+        CHECK(room.looked.load() < pixels * 9 / 10);  // much of the room is mirrored somewhere
+    }
+    CHECK(std::count(room.seen.begin(), room.seen.end(), 0) == 0);
 }
 
 TEST_CASE("cloud: a frame that is stopped leaves the cloud as it was") {
