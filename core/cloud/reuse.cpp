@@ -205,25 +205,40 @@ PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sig
     return answer;
 }
 
-PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
+/// What fell onto the pixel, whatever it is: HoleCause::uncovered where a part of it is missing.
+PixelAnswer PointFinder::own_points(const PixelPlace& pixel) const {
     PixelAnswer answer;
     const std::uint32_t ahead = grids_.ahead.winner(pixel.x, pixel.y);
     const std::uint32_t mirrored = grids_.mirrored.winner(pixel.x, pixel.y);
     const bool lone_mirror = mirrored != kNoPoint && !points_[mirrored].paired;
     if (ahead == kNoPoint && !lone_mirror) return answer;
-    const bool mirror = ahead == kNoPoint;
-    answer.cause = contradicts(pixel, mirror ? grids_.mirrored : grids_.ahead) ? HoleCause::hidden
-                                                                               : HoleCause::none;
-    if (!mirror) answer.ahead = ahead;
-    if (mirror || points_[ahead].paired) {
+    answer.cause = HoleCause::none;
+    answer.ahead = ahead;
+    if (ahead == kNoPoint || points_[ahead].paired) {
         answer.mirrored = mirrored;
         if (mirrored == kNoPoint) answer.cause = HoleCause::uncovered;
     }
-    for (const std::uint32_t index : {answer.ahead, answer.mirrored}) {
-        if (index == kNoPoint) continue;
-        answer.radiance += points_[index].radiance;
-        if (answer.found() && !holds(points_[index], pixel)) answer.cause = HoleCause::turned;
+    for (const std::uint32_t index : {answer.ahead, answer.mirrored})
+        if (index != kNoPoint) answer.radiance += points_[index].radiance;
+    return answer;
+}
+
+PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
+    PixelAnswer answer = own_points(pixel);
+    if (!answer.found()) return answer;
+    if (contradicts(pixel, answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead)) {
+        answer.cause = HoleCause::hidden;
+        return answer;
     }
+    for (const std::uint32_t index : {answer.ahead, answer.mirrored})
+        if (index != kNoPoint && !holds(points_[index], pixel)) answer.cause = HoleCause::turned;
+    return answer;
+}
+
+PixelAnswer PointFinder::glimpsed(const PixelPlace& pixel) const {
+    PixelAnswer answer = own_points(pixel);
+    const DepthGrid& grid = answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead;
+    if (answer.found() && grid.is_behind(pixel.x, pixel.y)) answer.cause = HoleCause::hidden;
     return answer;
 }
 

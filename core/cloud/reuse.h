@@ -68,6 +68,8 @@ class PointFinder {
                  std::span<PixelAnswer> answers) const;
     /// For a pixel of which nothing is known: the point that fell onto it.
     [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
+    /// The same for a moment, which is shorter: the point may have been seen from elsewhere.
+    [[nodiscard]] PixelAnswer glimpsed(const PixelPlace& pixel) const;
     /// For pixels of which no ray has told, in the midst of a surface: where no depth around steps,
     /// nothing is mirrored, and the last frame has shown what lies there, what is there still.
     /// Elsewhere HoleCause::uncovered, and nothing is known. A point that a ray finds hidden is not
@@ -95,6 +97,7 @@ class PointFinder {
     void look_at(std::uint32_t index, float squared, const PixelSights& sights, const Sight& sight,
                  Search& found) const;
     void expect(std::span<const PixelPlace> pixels) const;
+    [[nodiscard]] PixelAnswer own_points(const PixelPlace& pixel) const;
     [[nodiscard]] PixelAnswer vouched(const PixelPlace& pixel) const;
     [[nodiscard]] bool holds(const CloudPoint& point, const PixelPlace& pixel) const;
     [[nodiscard]] float squared_distance(std::uint32_t index, const PixelSights& sights) const;

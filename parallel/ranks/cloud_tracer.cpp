@@ -141,7 +141,8 @@ bool CloudTracer::answer(const Frame& frame) {
         points.swap(points_);
     }
     for (const CloudPoints& others : points) region_->add(others.points);
-    region_->answer(frame.caster, frame.executor, frame.stop);
+    region_->answer(frame.caster, frame.executor, frame.stop,
+                    checking_deadline(frame.order.budget));
     if (frame.stop.requested()) return false;
     send_used(id);
     send_holes(id);

@@ -37,7 +37,7 @@ CloudFrame CloudFrames::draw(const Camera& camera, const PixelCaster& caster, Ex
         plan_refinement(step);
     } else {
         region_.project(executor);
-        region_.answer(caster, executor, stop);
+        region_.answer(caster, executor, stop, checking_deadline(options_.budget));
     }
     trace(step);
     CloudFrame& frame = region_.frame();

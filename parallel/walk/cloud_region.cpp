@@ -118,13 +118,20 @@ RandomStream CloudRegion::audit_stream(const PixelPlace& place) const {
                                   static_cast<std::uint32_t>(place.y), 0);
 }
 
-void CloudRegion::answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop) {
+void CloudRegion::answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop,
+                         Clock::time_point check_until) {
     const StepTimer timer(frame_.report.check_seconds);
+    check_until_ = check_until;
     origins_.clear();
     if (options_.refine > 0) origins_.resize(frame_.radiance.size());
     holes_of_.assign(blocks_.size(), {});
+    // Where time is short it is that of the last ones: others in each frame.
+    const std::size_t first = rules_.frame * (blocks_.size() / 3 + 1);
     executor.for_each(
-        blocks_.size(), [&](std::size_t block, int worker) { answer_block(block, caster, worker); },
+        blocks_.size(),
+        [&](std::size_t block, int worker) {
+            answer_block((first + block) % blocks_.size(), caster, worker);
+        },
         stop);
     order_holes(holes_of_);
     choose_twins();
@@ -260,8 +267,13 @@ std::size_t CloudRegion::answer_freely(std::span<PixelPlace> tile, const PointFi
                                        std::vector<CloudHole>& holes) {
     if (!rules_.empty && options_.check == CloudCheck::all) return tile.size();
     if (!rules_.empty && options_.check == CloudCheck::rotating) {
-        if (is_checked(tile.front())) return tile.size();
-        return answer_steady(tile, finder, holes);
+        const bool late = Clock::now() > check_until_;
+        if (!late && is_checked(tile.front())) return tile.size();
+        const std::size_t left = answer_steady(tile, finder, holes);
+        if (!late) return left;
+        for (const PixelPlace& place : tile.first(left))
+            settle(place, finder, finder.glimpsed(place), holes);
+        return 0;
     }
     std::size_t left = 0;
     for (const PixelPlace& place : tile) {

@@ -2,6 +2,7 @@
 // A rectangle of a picture, and the points that lie in it: the steps of a frame of a walk. One
 // process has one that is the whole picture; of many each has its own, and they give each other the
 // points that leave one for another.
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -67,8 +68,11 @@ class CloudRegion {
     /// Points of other regions that lie in this one, or a pixel beside it.
     void add(std::span<const CloudPoint> points);
 
+    using Clock = std::chrono::steady_clock;
     /// Find points for all pixels. What none answers is a hole. The caster's `look` is called.
-    void answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop);
+    /// @param check_until  with CloudCheck::rotating: after that no more rays check what points say
+    void answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop,
+                Clock::time_point check_until = Clock::time_point::max());
     [[nodiscard]] std::span<const CloudHole> holes() const { return holes_; }
     /// Of the holes those that are to be traced by a second ray, too, to tell how much two differ.
     [[nodiscard]] std::span<const std::uint32_t> twins() const { return twins_; }
@@ -144,6 +148,7 @@ class CloudRegion {
     std::optional<PointProjector> projector_;
     CloudFrame frame_;
     std::vector<PixelOrigin> origins_;  ///< of each pixel; empty unless views that rest are refined
+    Clock::time_point check_until_;
     std::vector<PixelRectangle> blocks_;
     std::vector<std::vector<CloudHole>> holes_of_;  ///< each block
     std::vector<CloudHole> holes_;

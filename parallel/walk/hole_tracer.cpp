@@ -15,9 +15,15 @@ std::chrono::steady_clock::time_point deadline_of(double seconds) {
     return HoleTracer::Clock::now() + std::chrono::duration_cast<HoleTracer::Clock::duration>(span);
 }
 
+std::chrono::steady_clock::time_point checking_deadline(double budget) {
+    constexpr double kMostShare = 0.4;
+    return budget > 0 ? deadline_of(kMostShare * budget)
+                      : std::chrono::steady_clock::time_point::max();
+}
+
 std::chrono::steady_clock::time_point tracing_deadline(
     std::chrono::steady_clock::time_point deadline, double budget) {
-    constexpr double kLeastShare = 0.25;
+    constexpr double kLeastShare = 0.2;
     return std::max(deadline, deadline_of(kLeastShare * budget));
 }
 

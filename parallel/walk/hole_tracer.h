@@ -16,6 +16,9 @@ namespace lightwalk {
 /// The moment when so many seconds will have passed.
 [[nodiscard]] std::chrono::steady_clock::time_point deadline_of(double seconds);
 
+/// When looking at the pixels has to end in a frame that has a budget and looks from now on.
+[[nodiscard]] std::chrono::steady_clock::time_point checking_deadline(double budget);
+
 /// When tracing has to end in a frame that has a budget and should be there at `deadline`. Where
 /// looking at the pixels has taken the time, some is left for tracing all the same: else nothing
 /// new would ever be seen.
