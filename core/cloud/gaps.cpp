@@ -36,25 +36,31 @@ struct GapLevel {
     [[nodiscard]] GapPicture picture() { return {width, height, radiance, known}; }
 };
 
-GapLevel halved(const GapPicture& fine) {
-    GapLevel level((fine.width + 1) / 2, (fine.height + 1) / 2);
-    const GapPicture coarse = level.picture();
-    for (int y = 0; y < coarse.height; ++y) {
-        for (int x = 0; x < coarse.width; ++x) {
-            Rgb sum;
-            int found = 0;
-            for (int v = 2 * y; v < std::min(2 * y + 2, fine.height); ++v) {
-                for (int u = 2 * x; u < std::min(2 * x + 2, fine.width); ++u) {
-                    if (fine.known[fine.at(u, v)] == 0) continue;
-                    sum += fine.radiance[fine.at(u, v)];
-                    ++found;
-                }
-            }
-            if (found == 0) continue;
-            coarse.radiance[coarse.at(x, y)] = sum * (1.0f / static_cast<float>(found));
-            level.known[coarse.at(x, y)] = 1;
+/// The mean of what is known of the four pixels below a coarse one. 0: nothing is.
+std::uint8_t mean_below(const GapPicture& fine, int x, int y, Rgb& mean) {
+    Rgb sum;
+    int found = 0;
+    for (int v = 2 * y; v < std::min(2 * y + 2, fine.height); ++v) {
+        for (int u = 2 * x; u < std::min(2 * x + 2, fine.width); ++u) {
+            if (fine.known[fine.at(u, v)] == 0) continue;
+            sum += fine.radiance[fine.at(u, v)];
+            ++found;
         }
     }
+    if (found == 0) return 0;
+    mean = sum * (1.0f / static_cast<float>(found));
+    return 1;
+}
+
+GapLevel halved(const GapPicture& fine, ForRows by_rows) {
+    GapLevel level((fine.width + 1) / 2, (fine.height + 1) / 2);
+    const GapPicture coarse = level.picture();
+    by_rows(coarse.height, [&](int first, int last) {
+        for (int y = first; y < last; ++y)
+            for (int x = 0; x < coarse.width; ++x)
+                level.known[coarse.at(x, y)] =
+                    mean_below(fine, x, y, coarse.radiance[coarse.at(x, y)]);
+    });
     return level;
 }
 
@@ -68,27 +74,36 @@ Rgb between(const GapPicture& coarse, int x, int y) {
            (1.0f / 16) * value(x1, y1);
 }
 
-void fill_from(const GapPicture& coarse, const GapPicture& fine) {
-    for (int y = 0; y < fine.height; ++y) {
-        for (int x = 0; x < fine.width; ++x) {
-            const std::size_t i = fine.at(x, y);
-            if (fine.known[i] == 0) fine.radiance[i] = between(coarse, x, y);
+void fill_from(const GapPicture& coarse, const GapPicture& fine, ForRows by_rows) {
+    by_rows(fine.height, [&](int first, int last) {
+        for (int y = first; y < last; ++y) {
+            for (int x = 0; x < fine.width; ++x) {
+                const std::size_t i = fine.at(x, y);
+                if (fine.known[i] == 0) fine.radiance[i] = between(coarse, x, y);
+            }
         }
-    }
+    });
 }
 
 }  // namespace
 
-void fill_gaps(int width, int height, std::span<Rgb> radiance,
-               std::span<const std::uint8_t> known) {
+void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const std::uint8_t> known,
+               ForRows by_rows) {
     std::vector<GapPicture> levels{{width, height, radiance, known}};
     std::deque<GapLevel> coarser;  // levels refer to them
     while (!levels.back().full()) {
         if (levels.back().known.size() <= 1) return;  // nothing is known at all
-        coarser.push_back(halved(levels.back()));
+        coarser.push_back(halved(levels.back(), by_rows));
         levels.push_back(coarser.back().picture());
     }
-    for (std::size_t i = levels.size() - 1; i > 0; --i) fill_from(levels[i], levels[i - 1]);
+    for (std::size_t i = levels.size() - 1; i > 0; --i)
+        fill_from(levels[i], levels[i - 1], by_rows);
+}
+
+void fill_gaps(int width, int height, std::span<Rgb> radiance,
+               std::span<const std::uint8_t> known) {
+    fill_gaps(width, height, radiance, known,
+              [](int rows, FunctionRef<void(int, int)> part) { part(0, rows); });
 }
 
 }  // namespace lightwalk

@@ -27,12 +27,13 @@ CloudFrames::CloudFrames(int width, int height, const CloudOptions& options, std
       frame_(first),
       resting_(width, height, options.samples) {}
 
-CloudFrame CloudFrames::draw(const Camera& camera, const PixelCaster& caster, Executor& executor,
-                             const StopFlag& stop) {
+const CloudFrame& CloudFrames::draw(const Camera& camera, const PixelCaster& caster,
+                                    Executor& executor, const StopFlag& stop) {
     Step step{caster, executor, stop, HoleTracer::Clock::time_point::max(), {}};
     if (options_.budget > 0) step.deadline = deadline_of(options_.budget - last_keep_seconds_);
-    region_.begin(camera, {frame_, region_.points().empty(), guard_.tightness(), {}});
     const bool rests = view_ == camera.view();
+    if (rests) begin_resting();  // before the last frame is forgotten
+    region_.begin(camera, {frame_, region_.points().empty(), guard_.tightness(), {}});
     if (rests) {
         plan_refinement(step);
     } else {
@@ -41,18 +42,38 @@ CloudFrame CloudFrames::draw(const Camera& camera, const PixelCaster& caster, Ex
     }
     trace(step);
     CloudFrame& frame = region_.frame();
-    if (stop.requested()) return std::move(frame);
+    if (stop.requested()) {
+        view_.reset();
+        return frame;
+    }
     if (rests)
         refine(step);
     else
-        show();
-    if (!rests) remember(camera);
+        show(executor);
+    if (!rests && options_.refine > 0) {
+        view_ = camera.view();
+        begun_ = false;
+    }
     const AgeCounts ages = rests ? region_.rest(step.work.sample == 0) : region_.age(executor);
     region_.keep(age_limit(ages, options_.most_points(width_, height_)));
     last_keep_seconds_ = frame.report.keep_seconds;
     ++frame_;
     frame.complete = true;
-    return std::move(frame);
+    return frame;
+}
+
+const RestingPicture* CloudFrames::resting() {
+    if (!view_) return nullptr;
+    begin_resting();
+    return &resting_;
+}
+
+/// Only once it is known that the view rests: the copies take longer than showing a frame.
+void CloudFrames::begin_resting() {
+    if (begun_) return;
+    resting_.begin(region_.frame().radiance, region_.origins());
+    distance_ = region_.frame().distance;
+    begun_ = true;
 }
 
 /// The view stands still: nothing is missing, but there are better values than those that it shows.
@@ -84,20 +105,21 @@ void CloudFrames::trace(Step& step) {
                  });
 }
 
-void CloudFrames::show() {
+void CloudFrames::show(Executor& executor) {
     region_.show();
     const CloudReport& report = region_.frame().report;
     guard_.take(report.audit_errors, report.audit_floors);
     // Holes that there was no time for, from what lies around them.
-    if (report.filled > 0) fill_gaps(width_, height_, region_.frame().radiance, region_.known());
-}
-
-/// For the case that the next frame has the same view.
-void CloudFrames::remember(const Camera& camera) {
-    if (!(options_.refine > 0)) return;
-    view_ = camera.view();
-    resting_.begin(region_.frame().radiance, region_.origins());
-    distance_ = region_.frame().distance;
+    if (report.filled == 0) return;
+    const auto by_rows = [&](int rows, FunctionRef<void(int, int)> part) {
+        constexpr int kRowsATask = 32;
+        const int tasks = (rows + kRowsATask - 1) / kRowsATask;
+        executor.for_each(static_cast<std::size_t>(tasks), [&](std::size_t task, int) {
+            const int first = static_cast<int>(task) * kRowsATask;
+            part(first, std::min(first + kRowsATask, rows));
+        });
+    };
+    fill_gaps(width_, height_, region_.frame().radiance, region_.known(), by_rows);
 }
 
 /// Put what was traced into the picture of a resting view.

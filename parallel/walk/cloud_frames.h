@@ -28,13 +28,13 @@ class CloudFrames {
     CloudFrames(int width, int height, const CloudOptions& options, std::uint64_t first = 0);
 
     /// The next frame. Throws what the caster throws; then, and when stopped, the cloud is as it
-    /// was before.
-    [[nodiscard]] CloudFrame draw(const Camera& camera, const PixelCaster& caster,
-                                  Executor& executor, const StopFlag& stop);
+    /// was before. The frame is there until the next one is drawn.
+    [[nodiscard]] const CloudFrame& draw(const Camera& camera, const PixelCaster& caster,
+                                         Executor& executor, const StopFlag& stop);
 
     [[nodiscard]] std::span<const CloudPoint> points() const { return region_.points(); }
     /// The last frame as one to be refined; nothing before the first one, and without `refine`.
-    [[nodiscard]] const RestingPicture* resting() const { return view_ ? &resting_ : nullptr; }
+    [[nodiscard]] const RestingPicture* resting();
     /// Time for each of the next frames; 0: none is too long [s].
     void set_budget(double seconds) { options_.budget = seconds; }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
@@ -44,8 +44,8 @@ class CloudFrames {
     struct Step;
     void plan_refinement(Step& step);
     void trace(Step& step);
-    void show();
-    void remember(const Camera& camera);
+    void show(Executor& executor);
+    void begin_resting();
     void refine(Step& step);
 
     int width_, height_;
@@ -56,6 +56,7 @@ class CloudFrames {
     double last_keep_seconds_ = 0;  ///< of the frame before
     // With `refine`: the last frame.
     std::optional<View> view_;
+    bool begun_ = false;  ///< to be refined: what follows is of it
     RestingPicture resting_;
     std::vector<float> distance_;
 };

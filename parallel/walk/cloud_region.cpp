@@ -63,10 +63,11 @@ void CloudRegion::begin(const Camera& camera, const CloudRules& rules) {
     reuse_ = tightened(options_.rules, rules.tightness);
     projector_.emplace(camera, width_, height_);
     const std::size_t pixels = area_.pixels();
-    frame_ = {};
-    frame_.radiance.resize(pixels);
-    frame_.distance.resize(pixels);
-    frame_.causes.resize(pixels, HoleCause::none);
+    frame_.radiance.assign(pixels, {});
+    frame_.distance.assign(pixels, 0);
+    frame_.causes.assign(pixels, HoleCause::none);
+    frame_.complete = false;
+    frame_.report = {};
     frame_.report.pixels = pixels;
     frame_.report.tightness = rules.tightness;
     holes_.clear();

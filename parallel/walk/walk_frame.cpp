@@ -25,6 +25,33 @@ Frame turned_over(CloudFrame& drawn, int width, int height) {
     return frame;
 }
 
+namespace {
+
+/// The same of a frame that is still wanted.
+Frame copied_over(const CloudFrame& drawn, int width, int height, Executor& executor) {
+    constexpr int kRowsATask = 32;
+    Frame frame;
+    frame.width = width;
+    frame.height = height;
+    frame.radiance.resize(drawn.radiance.size());
+    frame.distance.resize(drawn.distance.size());
+    const auto copy_row = [&](int y, const auto& from, auto& to) {
+        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * width, width,
+                    to.begin() + static_cast<std::ptrdiff_t>(height - 1 - y) * width);
+    };
+    const auto tasks = static_cast<std::size_t>((height + kRowsATask - 1) / kRowsATask);
+    executor.for_each(tasks, [&](std::size_t task, int) {
+        const int first = static_cast<int>(task) * kRowsATask;
+        for (int y = first; y < std::min(first + kRowsATask, height); ++y) {
+            copy_row(y, drawn.radiance, frame.radiance);
+            copy_row(y, drawn.distance, frame.distance);
+        }
+    });
+    return frame;
+}
+
+}  // namespace
+
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
                         Executor& executor, WorkerContexts& contexts, Frame& frame) {
     if (options.pixels.samples > 1) return;
@@ -52,11 +79,11 @@ WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer, const Scene
     const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                            int sample,
                            int worker) { caster.trace(places, pixels, sample, worker); };
-    CloudFrame drawn = frames.draw(camera, {look, trace}, executor, stop);
+    const CloudFrame& drawn = frames.draw(camera, {look, trace}, executor, stop);
     WalkFrame result;
-    result.frame = turned_over(drawn, options.width, options.height);
-    result.report = std::move(drawn.report);
-    result.causes = std::move(drawn.causes);
+    result.frame = copied_over(drawn, options.width, options.height, executor);
+    result.report = drawn.report;
+    result.causes = drawn.causes;
     if (drawn.complete)
         draw_small_sources(tracer, camera, options, executor, contexts, result.frame);
     result.frame.rays = contexts.rays();
