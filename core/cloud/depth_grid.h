@@ -126,7 +126,7 @@ inline DepthGrid::Surroundings DepthGrid::surroundings(const PixelPlace& corner)
     depths.fill(kNoDepth);
     for (int y = std::max(corner.y - 1, area_.y0); y < std::min(corner.y + kSide + 1, area_.y1);
          ++y) {
-        std::uint16_t* const row = &depths[static_cast<std::size_t>((y - corner.y + 1) * kWide)];
+        std::uint16_t* const row = &depths[static_cast<std::size_t>(y - corner.y + 1) * kWide];
         for (int x = std::max(corner.x - 1, area_.x0); x < std::min(corner.x + kSide + 1, area_.x1);
              ++x)
             row[x - corner.x + 1] = static_cast<std::uint16_t>(

@@ -14,7 +14,7 @@ namespace {
 constexpr double kChange = 0.1;       ///< of the colour
 constexpr double kLeastCosine = 0.1;  ///< views nearer to the surface do not count
 constexpr double kLeastTurn = 0.003, kFirstTurn = 0.0125, kMostTurn = 0.8;
-constexpr double kFaint = 0.1 * kChange;  ///< shares below it hardly count
+constexpr double kFaintShine = 0.1 * kChange;  ///< shares below it hardly count
 
 /// A part of a light as the surface sees it.
 struct LitPart {
@@ -118,14 +118,14 @@ double LightOnSurface::change(double turn, double here) const {
     return most;
 }
 
-/// How far the eye may turn with no more than kFaint of a part's light in the lobe: until the half
-/// vector, which turns more slowly by the length of h, comes so near to the normal [rad].
+/// How far the eye may turn with no more than kFaintShine of a part's light in the lobe: until the
+/// half vector, which turns more slowly by the length of h, comes so near to the normal [rad].
 double LightOnSurface::dark_turn(const LitPart& part) const {
     const Vec3 h = part.direction + at_.wo;
     const double hn = dot(h, at_.normal), size = length(h);
     const double peak = ratio_ / (part.alpha2 * size * size);  // of the share
-    if (peak <= kFaint) return kMostTurn;
-    const double slope2 = part.alpha2 * std::log(peak / kFaint);
+    if (peak <= kFaintShine) return kMostTurn;
+    const double slope2 = part.alpha2 * std::log(peak / kFaintShine);
     const double sine2 = std::max(1 - hn * hn / (size * size), 0.0);
     // Most lights are seen where the lobe is, or far beside it: no arc tangent for the former.
     if (sine2 <= slope2 * (1 - sine2)) return 0;

@@ -294,7 +294,8 @@ void PointFinder::steady(std::span<const PixelPlace> pixels, std::span<PixelAnsw
         const PixelPlace& pixel = pixels[i];
         PixelAnswer& answer = answers[i];
         answer = {};
-        const auto at = static_cast<std::size_t>((pixel.y - corner.y) * kSide + pixel.x - corner.x);
+        const auto at = static_cast<std::size_t>(pixel.y - corner.y) * kSide +
+                        static_cast<std::size_t>(pixel.x - corner.x);
         if (around.known[at] < kWellKnown || around.spread[at] > kSmooth ||
             grids_.mirrored.winner(pixel.x, pixel.y) != kNoPoint)
             continue;
