@@ -249,6 +249,9 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
     CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);  // behind the wall
     CHECK(wall.project().unchecked({9, 9}).cause == HoleCause::hidden);  // alone before it
     CHECK(wall.project().unchecked({12, 12}).found());
+    CHECK(wall.project().glimpsed({5, 5}).cause == HoleCause::hidden);
+    CHECK(wall.project().glimpsed({9, 9}).found());
+    CHECK(wall.project().glimpsed({12, 12}).radiance.g == 1);
     wall.rules.drop_lonely = false;
     CHECK(wall.project().unchecked({9, 9}).found());
     CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);

@@ -242,6 +242,30 @@ TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them
     CHECK(std::count(room.seen.begin(), room.seen.end(), 0) == 0);
 }
 
+TEST_CASE("cloud: a frame that has no time to look shows what points say, and the next one looks") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options;
+    options.check = CloudCheck::rotating;
+    CloudFrames frames(kWidth, kHeight, options);
+    (void)room.draw(frames, view_at(0, 0, 0), *executor);
+    frames.set_budget(1e-9);
+    const CloudFrame hurried = room.draw(frames, view_at(0, 0, 0.001), *executor);
+    CHECK(room.looked == 0);
+    CHECK(hurried.complete);
+    CHECK(hurried.report.reused > room.seen.size() / 2);
+    const std::vector<TracedPixel> truth = room.truth(view_at(0, 0, 0.001));
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const float is = brightness(hurried.radiance[i]), should = brightness(truth[i].radiance);
+        if (std::abs(is - should) > 0.1f * should) ++off;
+    }
+    CHECK(off < truth.size() / 4);
+    frames.set_budget(0);
+    (void)room.draw(frames, view_at(0, 0, 0.002), *executor);
+    CHECK(room.looked > 0);
+}
+
 TEST_CASE("cloud: a frame that is stopped leaves the cloud as it was") {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
