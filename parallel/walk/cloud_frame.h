@@ -17,7 +17,8 @@ enum class CloudCheck {
     none,      ///< of none: only the points' own depths tell what is hidden
     edges,     ///< where new things may come into view
     rotating,  ///< of all but those that a surface already shown seems to go through; of these by
-               ///< lot, tile by tile, and others in each frame
+               ///< lot, tile by tile, and others in each frame. Where there is a budget most of
+               ///< it is left for other things: what rays come too late for, points tell alone
     all,
 };
 
