@@ -160,7 +160,7 @@ and the walk goes on from where it stood; what is wrong with them stands in the 
                      filled from around them and traced later
   --max-size WxH     of pictures, default 1920x1200; larger windows show them enlarged
   --check WHICH      as of animate, default rotating: a frame shows for a moment only, and each pixel is checked every
-                     few frames; where three tenths of a frame's time are over, the points alone tell the rest
+                     few frames; after a quarter of a frame's time the points alone tell the rest
   --ambient WHEN     rest (default): with -ab, indirect light comes when the view rests; always, off. The page may change it
   --edge-samples N   rays that a pixel at an edge gets when the view rests, default 8; 1: the picture of `lightwalk render`
 )";

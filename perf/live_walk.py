@@ -172,7 +172,7 @@ def main():
                     if not rows:
                         print("\t".join(row))
                     rows.append(row)
-                    print("\t".join(f"{value:.3g}" if isinstance(value, float) else value for value in row.values()), flush=True)
+                    print("\t".join(f"{value:.3g}" if isinstance(value, float) else str(value) for value in row.values()), flush=True)
     if args.json:
         args.json.write_text(json.dumps(rows, indent=1) + "\n")
 

@@ -16,14 +16,14 @@ std::chrono::steady_clock::time_point deadline_of(double seconds) {
 }
 
 std::chrono::steady_clock::time_point checking_deadline(double budget) {
-    constexpr double kMostShare = 0.3;
+    constexpr double kMostShare = 0.25;
     return budget > 0 ? deadline_of(kMostShare * budget)
                       : std::chrono::steady_clock::time_point::max();
 }
 
 std::chrono::steady_clock::time_point tracing_deadline(
     std::chrono::steady_clock::time_point deadline, double budget) {
-    constexpr double kLeastShare = 0.15;
+    constexpr double kLeastShare = 0.12;
     return std::max(deadline, deadline_of(kLeastShare * budget));
 }
 
