@@ -1,6 +1,5 @@
 #include "apps/walk/rank_frames.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "apps/rank_pictures.h"

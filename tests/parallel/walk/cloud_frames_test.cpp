@@ -69,6 +69,12 @@ FrameOptions frame_options() {
     return options;
 }
 
+CloudOptions rotating() {
+    CloudOptions options;
+    options.check = CloudCheck::rotating;
+    return options;
+}
+
 struct Room {
     TestScene scene{kRoom};
     SceneSights sights{scene.tracer};
@@ -227,9 +233,7 @@ TEST_CASE("cloud: the same bytes with any number of threads, in every mode") {
 TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them for long") {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
-    CloudOptions options;
-    options.check = CloudCheck::rotating;
-    CloudFrames frames(kWidth, kHeight, options);
+    CloudFrames frames(kWidth, kHeight, rotating());
     const std::size_t pixels = room.seen.size();
     (void)room.draw(frames, view_at(0, 0, 0), *executor);
     CHECK(room.looked == 0);
@@ -245,9 +249,7 @@ TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them
 TEST_CASE("cloud: a frame that has no time to look shows what points say, and the next one looks") {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
-    CloudOptions options;
-    options.check = CloudCheck::rotating;
-    CloudFrames frames(kWidth, kHeight, options);
+    CloudFrames frames(kWidth, kHeight, rotating());
     (void)room.draw(frames, view_at(0, 0, 0), *executor);
     frames.set_budget(1e-9);
     const CloudFrame hurried = room.draw(frames, view_at(0, 0, 0.001), *executor);
