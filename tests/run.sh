@@ -24,4 +24,12 @@ if [ -n "$browser" ] && [ ! -d build/npm/node_modules/playwright-core ]; then
 fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"
-ctest --preset "$preset" -j "$(nproc)" "$@"
+status=0
+ctest --preset "$preset" -j "$(nproc)" -O "build/$preset/ctest.log" "$@" || status=$?
+if [ "$status" -ne 0 ]; then
+    # What failed once more, where those who see only the end of a long log find it; then ctest's summary again.
+    awk '/^[0-9]+\/[0-9]+ Testing: / { block = "" } { block = block $0 "\n" } /^Test Failed/ { print block }' \
+        "build/$preset/Testing/Temporary/LastTest.log" | cut -c1-300 | tail -n 60
+    sed -n '/tests passed,/,$p' "build/$preset/ctest.log"
+fi
+exit "$status"

@@ -39,6 +39,10 @@ class RunningProgram {
     int process_ = -1, in_ = -1, out_ = -1, err_ = -1;
 };
 
+/// Whether it was not the program that failed: Open MPI 4's mpirun itself may die while it passes
+/// input on (open-mpi/ompi issue 7483).
+[[nodiscard]] bool launcher_died(const ProgramResult& result);
+
 /// The command that starts ranks of the program on this machine, however many cores it has; nothing
 /// where there is none, or where the sanitizer cannot stand it.
 [[nodiscard]] std::optional<std::vector<std::string>> mpirun(

@@ -121,15 +121,16 @@ ProgramResult RunningProgram::finish(const std::string& input) {
     return result;
 }
 
+bool launcher_died(const ProgramResult& result) {
+    return result.status == 128 + SIGSEGV && result.err.find("orte_iof_hnp") != std::string::npos;
+}
+
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input,
                           const std::vector<std::string>& launcher) {
-    // Open MPI 4's mpirun itself may die while it passes input on: open-mpi/ompi issue 7483.
     constexpr int kTries = 3;
     for (int tries = 1;; ++tries) {
         ProgramResult result = RunningProgram(words, launcher).finish(input);
-        const bool launcher_died =
-            result.status == 128 + SIGSEGV && result.err.find("orte_iof_hnp") != std::string::npos;
-        if (launcher.empty() || !launcher_died || tries == kTries) return result;
+        if (launcher.empty() || !launcher_died(result) || tries == kTries) return result;
         MESSAGE("mpirun itself died; once more");
     }
 }

@@ -353,7 +353,9 @@ TEST_CASE("render on ranks: a rank that is killed ends the run at once, and it c
         return line(with(slow, with(more, {"--variant", "ranks", "--checkpoint", checkpoint, "-o",
                                            out, scene})));
     };
-    for (std::size_t victim = 0; victim < 4; ++victim) {
+    // A run whose picture is there when a rank dies is not followed by another: that one would have
+    // to be stopped from outside, and what it leaves running would meet the last run's checkpoint.
+    for (std::size_t victim = 0; victim < 4 && !std::filesystem::exists(out); ++victim) {
         CAPTURE(victim);
         RunningProgram program(command({"--resume"}), *mpirun(4));
         std::vector<int> ranks;
@@ -362,16 +364,16 @@ TEST_CASE("render on ranks: a rank that is killed ends the run at once, and it c
                 return ranks.size() == 4 || std::filesystem::exists(out);
             }))
             FAIL("the ranks do not start");
-        if (ranks.size() < 4) break;  // they were quicker
         std::this_thread::sleep_for(std::chrono::milliseconds(150 + 100 * victim));
-        if (kill(ranks[victim], SIGKILL) != 0) continue;  // it was quicker
+        if (ranks.size() == 4) kill(ranks[victim], SIGKILL);
         const auto begin = std::chrono::steady_clock::now();
         const ProgramResult result = program.finish();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-        CHECK(took.count() < 10);  // it takes one second, on a machine that has nothing else to do
-        if (std::filesystem::exists(out)) continue;
+        CAPTURE(result.err);
+        CHECK(took.count() < 60);  // one second, on a machine that has nothing else to do
+        if (std::filesystem::exists(out)) continue;  // it was quicker
         CHECK(result.status != 0);
-        CHECK(result.err.find("rank") != std::string::npos);
+        if (!launcher_died(result)) CHECK(result.err.find("rank") != std::string::npos);
     }
     std::filesystem::remove(out);
     const ProgramResult rest = run_program(command({"--resume"}), "", *mpirun(3));

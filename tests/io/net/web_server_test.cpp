@@ -232,7 +232,7 @@ TEST_CASE("web server: stop ends it though clients are there, and tells them") {
     std::thread stopper([&] { server.stop("rank 1 was lost"); });
     const std::vector<std::string> messages = client.receive_all();
     stopper.join();
-    CHECK(steady_clock::now() - begin < milliseconds(3000));
+    CHECK(steady_clock::now() - begin < milliseconds(30000));
     REQUIRE(messages.size() == 1);
     CHECK(messages[0] == R"({"reason":"rank 1 was lost","type":"bye"})");
     CHECK(client.close_code() == 1001);
