@@ -27,6 +27,11 @@ WalkInbox WalkDesk::take(std::chrono::milliseconds longest) {
     return taken;
 }
 
+std::vector<WalkAck> WalkDesk::take_acks() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(inbox_.acks, {});
+}
+
 void WalkDesk::announce(const LoadingReply& reply) {
     announce_text(walk_text(reply));
 }
@@ -119,7 +124,7 @@ void WalkDesk::accept(ClientId client, const ViewRequest& request) {
 }
 
 void WalkDesk::accept(ClientId client, const AckRequest& request) {
-    inbox_.acks.emplace_back(client, request.frame);
+    inbox_.acks.push_back({client, request.frame, std::chrono::steady_clock::now()});
 }
 
 void WalkDesk::accept(ClientId client, const DisplayRequest& request) {

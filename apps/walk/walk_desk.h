@@ -29,12 +29,19 @@ struct WalkQuestion {
     std::variant<PickRequest, MeanRequest, GlareRequest> ask;
 };
 
+/// A frame is on a client's screen.
+struct WalkAck {
+    ClientId client;
+    std::uint32_t frame;
+    std::chrono::steady_clock::time_point came;
+};
+
 /// All that has come since the last time.
 struct WalkInbox {
     WalkWish wish;  ///< the newest one
     bool new_probes = false;
     std::vector<WalkQuestion> questions;
-    std::vector<std::pair<ClientId, std::uint32_t>> acks;  ///< client, frame
+    std::vector<WalkAck> acks;
     std::vector<ClientId> joined, left;
     std::vector<WebReply> saves;  ///< who waits for the picture as a file
 };
@@ -51,6 +58,8 @@ class WalkDesk final : public WebHandler {
     // For the drawing thread.
     /// Waits for something, so long at most.
     [[nodiscard]] WalkInbox take(std::chrono::milliseconds longest);
+    /// Only the acknowledgements.
+    [[nodiscard]] std::vector<WalkAck> take_acks();
     /// What becomes of the scene: all are told, and those who come later.
     void announce(const LoadingReply& reply);
     void announce(const FailedReply& reply);

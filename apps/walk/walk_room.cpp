@@ -77,11 +77,15 @@ WalkRoom::WalkRoom(const RenderCommand& command, const SceneSession& session, co
 void WalkRoom::step(const StopFlag& stop) {
     answer(desk_.take(patience()));
     if (!wish_.view || stop.requested()) return;
+    const Clock::time_point begin = Clock::now();
     draw(stop);
     const Clock::time_point now = Clock::now();
     const bool hurries = live_.picture().phase == LivePhase::moving;
-    if (drawn_ && (hurries || now - shown_at_ >= kRestingInterval)) show(now);
-    screen_.send(desk_, now);
+    const bool shows = drawn_ && (hurries || now - shown_at_ >= kRestingInterval);
+    if (shows) show(now);
+    screen_.acked(desk_.take_acks());  // that came meanwhile: they tell who may be sent a frame
+    screen_.send(desk_, Clock::now());
+    if (shows && hurries) note_pace(begin);
     report(now);
     if (!wish_.probes.empty() && !hurries && now - measured_at_ >= kProbeInterval) measure_probes();
 }
@@ -102,8 +106,8 @@ void WalkRoom::answer(const WalkInbox& inbox) {
     for (const ClientId client : inbox.joined) screen_.join(client);
     if (!inbox.joined.empty()) told_.reset();
     for (const ClientId client : inbox.left) screen_.leave(client);
+    screen_.acked(inbox.acks);
     const Clock::time_point now = Clock::now();
-    for (const auto& [client, frame] : inbox.acks) (void)screen_.acked(client, frame, now);
     if (inbox.wish.display != wish_.display) {
         shown_ = false;
         moved_ = now;
@@ -148,7 +152,7 @@ AmbientUse WalkRoom::ambient_use() const {
 }
 
 void WalkRoom::draw(const StopFlag& stop) {
-    const double budget = std::max(1 / command_.walk->rate - show_seconds_, 0.001);
+    const double budget = std::max(1 / command_.walk->rate - aside_seconds_, 0.001);
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, desk_);
     if (!has_work()) return;
     if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop))
@@ -174,9 +178,16 @@ void WalkRoom::show(Clock::time_point now) {
     shown_ = true;
     shown_at_ = now;
     ++pace_.frames;
+}
+
+/// What a frame takes beside the steps that a budget is for is not left for these.
+void WalkRoom::note_pace(Clock::time_point begin) {
     constexpr double kShare = 0.2;
-    const double seconds = std::chrono::duration<double>(Clock::now() - now).count();
-    show_seconds_ += kShare * (seconds - show_seconds_);
+    const CloudReport& report = live_.picture().report;
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count() -
+                           report.project_seconds - report.check_seconds - report.trace_seconds -
+                           report.keep_seconds;
+    aside_seconds_ += kShare * (seconds - aside_seconds_);
 }
 
 void WalkRoom::report(Clock::time_point now) {

@@ -54,6 +54,7 @@ class WalkRoom {
     void measure_probes();
     void draw(const StopFlag& stop);
     void show(Clock::time_point now);
+    void note_pace(Clock::time_point begin);
     void report(Clock::time_point now);
     [[nodiscard]] View on_the_ground(const ViewRequest& request) const;
     [[nodiscard]] AmbientUse ambient_use() const;
@@ -77,7 +78,7 @@ class WalkRoom {
     bool drawn_ = false;        ///< the picture is of view_, as wished
     bool shown_ = false;        ///< as it is, with the display that is wished
     Clock::time_point moved_, shown_at_, measured_at_;
-    double show_seconds_ = 0;  ///< of a picture, of late
+    double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late
     Pace pace_;
 };
 

@@ -18,9 +18,11 @@ constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how brigh
 WalkScreen::WalkScreen(Executor& executor)
     : executor_(executor), compressors_(static_cast<std::size_t>(executor.concurrency())) {}
 
-bool WalkScreen::acked(ClientId client, std::uint32_t frame, Time now) {
-    const auto found = clients_.find(client);
-    return found == clients_.end() || found->second.flow.acked(frame, now);
+void WalkScreen::acked(std::span<const WalkAck> acks) {
+    for (const WalkAck& ack : acks) {
+        const auto found = clients_.find(ack.client);
+        if (found != clients_.end()) (void)found->second.flow.acked(ack.frame, ack.came);
+    }
 }
 
 void WalkScreen::cut(int width, int height) {

@@ -36,8 +36,8 @@ class WalkScreen {
 
     void join(ClientId client) { clients_.try_emplace(client); }
     void leave(ClientId client) { clients_.erase(client); }
-    /// A client has drawn a frame. False: that frame was never sent to it.
-    bool acked(ClientId client, std::uint32_t frame, Time now);
+    /// Clients have drawn frames. What was never sent to them counts for nothing.
+    void acked(std::span<const WalkAck> acks);
 
     /// The newest picture, in its colours.
     void show(const LivePicture& picture, const DisplaySettings& settings, const ShownView& view,
