@@ -20,14 +20,12 @@ inline constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 /// One cell a pixel. Of the points offered to a cell it keeps the nearest one; of those about
 /// equally near (within 0.8 %) the one closest to the pixel's centre; of those the first by an
 /// order that the caller gives. So it does not matter who offers first, and many threads may at
-/// once.
+/// once, while none reads.
 class DepthGrid {
   public:
     /// All cells are empty.
     explicit DepthGrid(const PixelRectangle& area)
-        : area_(area),
-          cells_(area.pixels()),
-          keys_(std::make_unique<std::atomic<std::uint64_t>[]>(cells_)) {
+        : area_(area), cells_(area.pixels()), keys_(std::make_unique<std::uint64_t[]>(cells_)) {
         clear(0, cells_);
     }
 
@@ -35,8 +33,7 @@ class DepthGrid {
     [[nodiscard]] const PixelRectangle& area() const { return area_; }
     /// Empty the cells first ... last - 1, row by row from the bottom.
     void clear(std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            keys_[i].store(kEmpty, std::memory_order_relaxed);
+        std::fill(&keys_[first], &keys_[first] + (last - first), kEmpty);
     }
 
     /// @param x,y       the pixel, inside the area
@@ -46,7 +43,7 @@ class DepthGrid {
     template <class First = std::less<std::uint32_t>>
     void offer(int x, int y, float distance, float apart, std::uint32_t index, First first = {}) {
         const std::uint64_t key = pack(distance, apart, index);
-        std::atomic<std::uint64_t>& cell = keys_[at(x, y)];
+        const std::atomic_ref<std::uint64_t> cell(keys_[at(x, y)]);
         std::uint64_t kept = cell.load(std::memory_order_relaxed);
         while (wins(key, kept, first) &&
                !cell.compare_exchange_weak(kept, key, std::memory_order_relaxed)) {
@@ -60,7 +57,7 @@ class DepthGrid {
 
     /// kNoPoint where there is none.
     [[nodiscard]] std::uint32_t winner(int x, int y) const {
-        return static_cast<std::uint32_t>(keys_[at(x, y)].load(std::memory_order_relaxed));
+        return static_cast<std::uint32_t>(keys_[at(x, y)]);
     }
 
     /// What each pixel's cell and the eight around it hold, for a square of pixels, row by row.
@@ -73,9 +70,13 @@ class DepthGrid {
     /// Cheap: no point is looked up.
     /// @param corner  the square's lower left pixel; parts of it may lie outside
     [[nodiscard]] Surroundings surroundings(const PixelPlace& corner) const;
-    /// Whether most of the cells around a pixel, as far as they are not empty, lie before its own
-    /// by more than a tenth, about. As cheap.
+    /// Cells lie before another one that is so much deeper, a tenth about [steps of .4 to .8 %].
+    static constexpr int kBehind = 16;
+    /// Whether most of the cells around a pixel, as far as they are not empty, lie before its own.
+    /// As cheap.
     [[nodiscard]] bool is_behind(int x, int y) const;
+    /// Whether all cells of the square and those around it are empty. As cheap.
+    [[nodiscard]] bool is_empty(const PixelPlace& corner) const;
 
   private:
     static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
@@ -99,13 +100,12 @@ class DepthGrid {
 
     PixelRectangle area_;
     std::size_t cells_;
-    std::unique_ptr<std::atomic<std::uint64_t>[]> keys_;
+    std::unique_ptr<std::uint64_t[]> keys_;
 };
 
 inline bool DepthGrid::is_behind(int x, int y) const {
-    constexpr int kTenth = 16;  // steps of .4 to .8 %
     const auto depth = [&](int u, int v) {
-        return static_cast<int>(keys_[at(u, v)].load(std::memory_order_relaxed) >> kDepthShift);
+        return static_cast<int>(keys_[at(u, v)] >> kDepthShift);
     };
     const int own = depth(x, y);
     int known = 0, before = 0;
@@ -114,23 +114,45 @@ inline bool DepthGrid::is_behind(int x, int y) const {
             const int other = depth(u, v);
             if (other == kNoDepth || (u == x && v == y)) continue;
             ++known;
-            if (other < own - kTenth) ++before;
+            if (other < own - kBehind) ++before;
         }
     }
     return 2 * before > known;
 }
 
+inline bool DepthGrid::is_empty(const PixelPlace& corner) const {
+    constexpr int kSide = Surroundings::kSide;
+    const int x0 = std::max(corner.x - 1, area_.x0), y0 = std::max(corner.y - 1, area_.y0);
+    const int x1 = std::min(corner.x + kSide + 1, area_.x1);
+    const int y1 = std::min(corner.y + kSide + 1, area_.y1);
+    std::uint64_t all = kEmpty;
+    for (int y = y0; y < y1 && all == kEmpty; ++y) {
+        const std::uint64_t* const row = &keys_[at(x0, y)];
+        for (int x = 0; x < x1 - x0; ++x) all &= row[x];
+    }
+    return all == kEmpty;
+}
+
 inline DepthGrid::Surroundings DepthGrid::surroundings(const PixelPlace& corner) const {
     constexpr int kSide = Surroundings::kSide, kWide = kSide + 2;
     std::array<std::uint16_t, std::size_t{kWide} * kWide> depths;
-    depths.fill(kNoDepth);
-    for (int y = std::max(corner.y - 1, area_.y0); y < std::min(corner.y + kSide + 1, area_.y1);
-         ++y) {
-        std::uint16_t* const row = &depths[static_cast<std::size_t>(y - corner.y + 1) * kWide];
-        for (int x = std::max(corner.x - 1, area_.x0); x < std::min(corner.x + kSide + 1, area_.x1);
-             ++x)
-            row[x - corner.x + 1] = static_cast<std::uint16_t>(
-                keys_[at(x, y)].load(std::memory_order_relaxed) >> kDepthShift);
+    const auto depth = [](std::uint64_t key) {
+        return static_cast<std::uint16_t>(key >> kDepthShift);
+    };
+    const PixelPlace first{corner.x - 1, corner.y - 1}, last{corner.x + kSide, corner.y + kSide};
+    std::uint16_t* next = depths.data();
+    if (area_.contains(first) && area_.contains(last)) {
+        for (int y = 0; y < kWide; ++y, next += kWide) {
+            const std::uint64_t* const row = &keys_[at(first.x, first.y + y)];
+            for (int x = 0; x < kWide; ++x) next[x] = depth(row[x]);
+        }
+    } else {
+        for (int y = 0; y < kWide; ++y) {
+            for (int x = 0; x < kWide; ++x) {
+                const PixelPlace place{first.x + x, first.y + y};
+                *next++ = area_.contains(place) ? depth(keys_[at(place.x, place.y)]) : kNoDepth;
+            }
+        }
     }
     Surroundings found;
     for (std::size_t y = 0; y < kSide; ++y) {

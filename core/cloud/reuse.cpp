@@ -206,25 +206,29 @@ PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sig
 }
 
 /// What fell onto the pixel, whatever it is: HoleCause::uncovered where a part of it is missing.
-PixelAnswer PointFinder::own_points(const PixelPlace& pixel) const {
-    PixelAnswer answer;
+/// @param mirrors  whether there may be a point of what is mirrored
+void PointFinder::find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const {
     const std::uint32_t ahead = grids_.ahead.winner(pixel.x, pixel.y);
-    const std::uint32_t mirrored = grids_.mirrored.winner(pixel.x, pixel.y);
+    const std::uint32_t mirrored = mirrors ? grids_.mirrored.winner(pixel.x, pixel.y) : kNoPoint;
     const bool lone_mirror = mirrored != kNoPoint && !points_[mirrored].paired;
-    if (ahead == kNoPoint && !lone_mirror) return answer;
+    answer.cause = HoleCause::uncovered;
+    answer.ahead = answer.mirrored = kNoPoint;
+    if (ahead == kNoPoint && !lone_mirror) return;
     answer.cause = HoleCause::none;
     answer.ahead = ahead;
+    answer.apart = 0;
+    answer.radiance = {};
     if (ahead == kNoPoint || points_[ahead].paired) {
         answer.mirrored = mirrored;
         if (mirrored == kNoPoint) answer.cause = HoleCause::uncovered;
     }
     for (const std::uint32_t index : {answer.ahead, answer.mirrored})
         if (index != kNoPoint) answer.radiance += points_[index].radiance;
-    return answer;
 }
 
 PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
-    PixelAnswer answer = own_points(pixel);
+    PixelAnswer answer;
+    find_own(pixel, true, answer);
     if (!answer.found()) return answer;
     if (contradicts(pixel, answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead)) {
         answer.cause = HoleCause::hidden;
@@ -232,13 +236,6 @@ PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
     }
     for (const std::uint32_t index : {answer.ahead, answer.mirrored})
         if (index != kNoPoint && !holds(points_[index], pixel)) answer.cause = HoleCause::turned;
-    return answer;
-}
-
-PixelAnswer PointFinder::glimpsed(const PixelPlace& pixel) const {
-    PixelAnswer answer = own_points(pixel);
-    const DepthGrid& grid = answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead;
-    if (answer.found() && grid.is_behind(pixel.x, pixel.y)) answer.cause = HoleCause::hidden;
     return answer;
 }
 
@@ -284,21 +281,27 @@ PixelAnswer PointFinder::vouched(const PixelPlace& pixel) const {
     return answer;
 }
 
-void PointFinder::steady(std::span<const PixelPlace> pixels, std::span<PixelAnswer> answers) const {
+PixelSquare PointFinder::square_of(const PixelPlace& pixel) const {
     constexpr int kSide = DepthGrid::Surroundings::kSide;
-    if (pixels.empty()) return;
+    const PixelPlace corner{pixel.x - pixel.x % kSide, pixel.y - pixel.y % kSide};
+    return {corner, grids_.ahead.surroundings(corner), !grids_.mirrored.is_empty(corner)};
+}
+
+/// Whether a pixel lies in the midst of a surface that mirrors nothing, for all that depths tell.
+bool PointFinder::is_amidst(const PixelSquare& square, const PixelPlace& pixel) const {
+    const std::size_t at = square.at(pixel);
+    return square.ahead.known[at] >= kWellKnown && square.ahead.spread[at] <= kSmooth &&
+           (!square.mirrors || grids_.mirrored.winner(pixel.x, pixel.y) == kNoPoint);
+}
+
+void PointFinder::steady(const PixelSquare& square, std::span<const PixelPlace> pixels,
+                         std::span<PixelAnswer> answers) const {
     expect(pixels);
-    const PixelPlace corner{pixels[0].x - pixels[0].x % kSide, pixels[0].y - pixels[0].y % kSide};
-    const auto around = grids_.ahead.surroundings(corner);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const PixelPlace& pixel = pixels[i];
         PixelAnswer& answer = answers[i];
         answer = {};
-        const auto at = static_cast<std::size_t>(pixel.y - corner.y) * kSide +
-                        static_cast<std::size_t>(pixel.x - corner.x);
-        if (around.known[at] < kWellKnown || around.spread[at] > kSmooth ||
-            grids_.mirrored.winner(pixel.x, pixel.y) != kNoPoint)
-            continue;
+        if (!is_amidst(square, pixel)) continue;
         const std::uint32_t own = grids_.ahead.winner(pixel.x, pixel.y);
         if (own == kNoPoint || points_[own].age > 0)
             answer = vouched(pixel);
@@ -306,6 +309,48 @@ void PointFinder::steady(std::span<const PixelPlace> pixels, std::span<PixelAnsw
                  !point.paired && (point.turn == kAnyTurn || holds(point, pixel)))
             answer = {HoleCause::none, own, kNoPoint, 0, point.radiance};
     }
+}
+
+/// The nearest point of those that fell onto the pixels around, whatever it is.
+void PointFinder::find_around(const PixelPlace& pixel, PixelAnswer& answer) const {
+    const float centre_x = static_cast<float>(pixel.x) + 0.5f;
+    const float centre_y = static_cast<float>(pixel.y) + 0.5f;
+    std::uint32_t best = kNoPoint;
+    float least = HUGE_VALF;
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
+        for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
+            const std::uint32_t index = inside(x, y) ? grids_.ahead.winner(x, y) : kNoPoint;
+            if (index == kNoPoint) continue;
+            const float dx = places_[index].x - centre_x, dy = places_[index].y - centre_y;
+            if (dx * dx + dy * dy >= least) continue;
+            least = dx * dx + dy * dy;
+            best = index;
+        }
+    }
+    if (best == kNoPoint || points_[best].paired) return;
+    answer.cause = HoleCause::none;
+    answer.ahead = best;
+    answer.apart = std::sqrt(least);
+    answer.radiance = points_[best].radiance;
+}
+
+void PointFinder::glimpse(const PixelSquare& square, const PixelPlace& pixel,
+                          PixelAnswer& answer) const {
+    find_own(pixel, square.mirrors, answer);
+    if (!answer.found()) {
+        if (is_amidst(square, pixel)) find_around(pixel, answer);
+        return;
+    }
+    const DepthGrid& grid = answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead;
+    const bool level =
+        answer.ahead != kNoPoint && square.ahead.spread[square.at(pixel)] <= DepthGrid::kBehind;
+    if (!level && grid.is_behind(pixel.x, pixel.y)) answer.cause = HoleCause::hidden;
+}
+
+void PointFinder::glimpsed(const PixelSquare& square, std::span<const PixelPlace> pixels,
+                           std::span<PixelAnswer> answers) const {
+    expect(pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) glimpse(square, pixels[i], answers[i]);
 }
 
 /// Distances of the points that fell onto the pixel and those around it, from below, left to

@@ -48,6 +48,22 @@ struct PixelAnswer {
     [[nodiscard]] bool found() const { return cause == HoleCause::none; }
 };
 
+/// What the grids hold in a square of 8 x 8 pixels, with corners at multiples of 8, and around it.
+struct PixelSquare {
+    PixelPlace corner;
+    DepthGrid::Surroundings ahead;
+    bool mirrors = false;  ///< whether there are points of what is mirrored
+
+    [[nodiscard]] std::size_t at(const PixelPlace& pixel) const {
+        return static_cast<std::size_t>(pixel.y - corner.y) * DepthGrid::Surroundings::kSide +
+               static_cast<std::size_t>(pixel.x - corner.x);
+    }
+    /// Whether no point is near enough for a pixel, whatever its ray sees.
+    [[nodiscard]] bool is_blank(const PixelPlace& pixel) const {
+        return !mirrors && ahead.known[at(pixel)] == 0;
+    }
+};
+
 /// Finds points for the pixels of one frame. All arguments must outlive it; many threads may ask.
 class PointFinder {
   public:
@@ -68,14 +84,19 @@ class PointFinder {
                  std::span<PixelAnswer> answers) const;
     /// For a pixel of which nothing is known: the point that fell onto it.
     [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
-    /// The same for a moment, which is shorter: the point may have been seen from elsewhere.
-    [[nodiscard]] PixelAnswer glimpsed(const PixelPlace& pixel) const;
+    /// The square that a pixel lies in.
+    [[nodiscard]] PixelSquare square_of(const PixelPlace& pixel) const;
+    /// For pixels of a square, which are shown for a moment only: the points that fell onto them,
+    /// though they may have been seen from elsewhere, or, in the midst of a surface, those around.
+    void glimpsed(const PixelSquare& square, std::span<const PixelPlace> pixels,
+                  std::span<PixelAnswer> answers) const;
     /// For pixels of which no ray has told, in the midst of a surface: where no depth around steps,
     /// nothing is mirrored, and the last frame has shown what lies there, what is there still.
     /// Elsewhere HoleCause::uncovered, and nothing is known. A point that a ray finds hidden is not
     /// used, and vouches for nothing in the next frame.
-    /// @param pixels  of one square of 8 x 8 with corners at multiples of 8
-    void steady(std::span<const PixelPlace> pixels, std::span<PixelAnswer> answers) const;
+    /// @param pixels  of the square
+    void steady(const PixelSquare& square, std::span<const PixelPlace> pixels,
+                std::span<PixelAnswer> answers) const;
     /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
     /// without a point, where depths jump.
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
@@ -97,7 +118,10 @@ class PointFinder {
     void look_at(std::uint32_t index, float squared, const PixelSights& sights, const Sight& sight,
                  Search& found) const;
     void expect(std::span<const PixelPlace> pixels) const;
-    [[nodiscard]] PixelAnswer own_points(const PixelPlace& pixel) const;
+    void find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const;
+    void find_around(const PixelPlace& pixel, PixelAnswer& answer) const;
+    void glimpse(const PixelSquare& square, const PixelPlace& pixel, PixelAnswer& answer) const;
+    [[nodiscard]] bool is_amidst(const PixelSquare& square, const PixelPlace& pixel) const;
     [[nodiscard]] PixelAnswer vouched(const PixelPlace& pixel) const;
     [[nodiscard]] bool holds(const CloudPoint& point, const PixelPlace& pixel) const;
     [[nodiscard]] float squared_distance(std::uint32_t index, const PixelSights& sights) const;

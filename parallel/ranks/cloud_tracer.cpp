@@ -92,7 +92,7 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
     const Frame frame{order, caster, executor, stop};
     const bool owns = options_.index < options_.owners;
     if (owns) {
-        const double keeping = begin(order);
+        const double keeping = begin(order, executor);
         region_->begin(rays->camera(), order.rules);
         region_->frame().report.keep_seconds = keeping;
         if (order.rests)
@@ -101,7 +101,9 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
             return;
     }
     const auto traces = HoleTracer::Clock::now();
-    serve(frame, HoleTracer(caster, options_.cloud.tolerance, tracing_deadline(deadline, budget)));
+    const double unknown = owns ? region_->unknown() : 0;
+    serve(frame, HoleTracer(caster, options_.cloud.tolerance,
+                            tracing_deadline(deadline, budget, unknown)));
     if (!owns) return;
     region_->frame().report.trace_seconds =
         std::chrono::duration<double>(HoleTracer::Clock::now() - traces).count();
@@ -110,7 +112,7 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
 }
 
 /// The points of the last frame, as far as there is room for them. The seconds that it took.
-double CloudTracer::begin(const CloudOrder& order) {
+double CloudTracer::begin(const CloudOrder& order, Executor& executor) {
     constexpr int kMostPixels = 1 << 16;  // in a row or column
     if (order.width < 1 || order.width > kMostPixels || order.height < 1 ||
         order.height > kMostPixels)
@@ -125,7 +127,7 @@ double CloudTracer::begin(const CloudOrder& order) {
     }
     double& seconds = region_->frame().report.keep_seconds;
     seconds = 0;
-    region_->keep(order.rules.room);
+    region_->keep(order.rules.room, executor);
     return seconds;
 }
 
@@ -277,7 +279,7 @@ std::string CloudTracer::encoded() {
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = {frame.radiance[i], frame.distance[i]};
     if (frame.report.filled > 0) {
-        const std::vector<std::uint8_t> known = region_->known();
+        const std::span<const std::uint8_t> known = region_->known();
         for (std::size_t i = 0; i < values.size(); ++i)
             if (known[i] == 0) values[i].distance = -1;
     }

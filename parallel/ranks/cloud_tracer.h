@@ -78,7 +78,7 @@ class CloudTracer {
     [[nodiscard]] std::optional<GiveHoles> next_holes(WalkFrameId frame, int worker,
                                                       const StopFlag& stop);
     void draw(const CloudOrder& order, Executor& executor, const StopFlag& stop);
-    [[nodiscard]] double begin(const CloudOrder& order);
+    [[nodiscard]] double begin(const CloudOrder& order, Executor& executor);
     [[nodiscard]] bool answer(const Frame& frame);
     void refine(const CloudOrder& order);
     void send_points(WalkFrameId frame);

@@ -55,7 +55,7 @@ const CloudFrame& CloudFrames::draw(const Camera& camera, const PixelCaster& cas
         begun_ = false;
     }
     const AgeCounts ages = rests ? region_.rest(step.work.sample == 0) : region_.age(executor);
-    region_.keep(age_limit(ages, options_.most_points(width_, height_)));
+    region_.keep(age_limit(ages, options_.most_points(width_, height_)), executor);
     last_keep_seconds_ = frame.report.keep_seconds;
     ++frame_;
     frame.complete = true;
@@ -90,19 +90,21 @@ void CloudFrames::plan_refinement(Step& step) {
 void CloudFrames::trace(Step& step) {
     const StepTimer timer(region_.frame().report.trace_seconds);
     const HoleTracer tracer(step.caster, options_.tolerance,
-                            tracing_deadline(step.deadline, options_.budget));
-    std::vector<PixelPlace> places;
-    for (const CloudHole& hole : region_.holes()) places.push_back(hole.place);
-    tracer.trace(places, step.work.sample, step.executor, step.stop,
-                 [&](std::size_t first, std::span<const TracedHole> traced) {
-                     region_.take(first, traced);
-                 });
-    std::vector<PixelPlace> twins;
-    for (const std::uint32_t hole : region_.twins()) twins.push_back(places[hole]);
-    tracer.trace(twins, 1, step.executor, step.stop,
-                 [&](std::size_t first, std::span<const TracedHole> traced) {
-                     region_.take_twins(first, traced);
-                 });
+                            tracing_deadline(step.deadline, options_.budget, region_.unknown()));
+    const std::span<const CloudHole> holes = region_.holes();
+    tracer.trace(
+        holes.size(), [&](std::size_t hole) { return holes[hole].place; }, step.work.sample,
+        step.executor, step.stop,
+        [&](std::size_t first, std::span<const TracedHole> traced) {
+            region_.take(first, traced);
+        });
+    const std::span<const std::uint32_t> twins = region_.twins();
+    tracer.trace(
+        twins.size(), [&](std::size_t twin) { return holes[twins[twin]].place; }, 1, step.executor,
+        step.stop,
+        [&](std::size_t first, std::span<const TracedHole> traced) {
+            region_.take_twins(first, traced);
+        });
 }
 
 void CloudFrames::show(Executor& executor) {

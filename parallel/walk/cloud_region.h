@@ -2,6 +2,7 @@
 // A rectangle of a picture, and the points that lie in it: the steps of a frame of a walk. One
 // process has one that is the whole picture; of many each has its own, and they give each other the
 // points that leave one for another.
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +24,6 @@ namespace lightwalk {
 struct CloudHole {
     PixelPlace place;
     HoleCause cause = HoleCause::uncovered;
-    bool guessed = false;  ///< it shows something meanwhile that is better than its neighbours
 };
 
 /// A pixel that was traced: what it shows, and the points that it leaves.
@@ -74,6 +74,10 @@ class CloudRegion {
     void answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop,
                 Clock::time_point check_until = Clock::time_point::max());
     [[nodiscard]] std::span<const CloudHole> holes() const { return holes_; }
+    /// Share of the pixels that no point answers, whether they are among the holes or not.
+    [[nodiscard]] double unknown() const {
+        return static_cast<double>(unanswered_) / static_cast<double>(area_.pixels());
+    }
     /// Of the holes those that are to be traced by a second ray, too, to tell how much two differ.
     [[nodiscard]] std::span<const std::uint32_t> twins() const { return twins_; }
     /// Pixels beside the region whose points answered pixels of it.
@@ -89,13 +93,13 @@ class CloudRegion {
 
     /// Put what was traced into the frame.
     void show();
-    /// For each pixel: not 0 where something is known of it.
-    [[nodiscard]] std::vector<std::uint8_t> known() const;
+    /// For each pixel: not 0 where it shows something that is better than what its neighbours tell.
+    [[nodiscard]] std::span<const std::uint8_t> known() const { return known_; }
 
     /// Points grow older; what was traced leaves new ones. All that are kept, by age.
     [[nodiscard]] AgeCounts age(Executor& executor);
     /// The points of the next frame.
-    void keep(const AgeLimit& room);
+    void keep(const AgeLimit& room, Executor& executor);
 
     [[nodiscard]] const PixelRectangle& area() const { return area_; }
     [[nodiscard]] CloudFrame& frame() { return frame_; }
@@ -116,18 +120,38 @@ class CloudRegion {
 
   private:
     [[nodiscard]] PixelRectangle inside_of_area() const;
+    static constexpr std::size_t kHoleRanks = kHoleCauses * kGridLevels;
+    /// Of a block.
+    struct BlockHoles {
+        std::vector<CloudHole> holes;
+        std::array<std::uint32_t, kHoleRanks> ranked{};  ///< how many, then where the next one goes
+        std::size_t left = 0;                            ///< pixels of which nothing is known
+        std::size_t unanswered = 0;                      ///< pixels, noted or not
+    };
+    void blacken(const PixelRectangle& area);
     void answer_block(std::size_t block, const PixelCaster& caster, int worker);
     void answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
-                       const PixelCaster& caster, int worker, std::vector<CloudHole>& holes);
+                       const PixelCaster& caster, int worker, BlockHoles& block);
     [[nodiscard]] std::size_t answer_freely(std::span<PixelPlace> tile, const PointFinder& finder,
-                                            std::vector<CloudHole>& holes);
-    [[nodiscard]] std::size_t answer_steady(std::span<PixelPlace> tile, const PointFinder& finder,
-                                            std::vector<CloudHole>& holes);
+                                            BlockHoles& block);
+    [[nodiscard]] std::span<PixelPlace> with_rays(std::span<PixelPlace> tile) const;
+    void forget(std::span<const PixelPlace> tile);
+    void leave(const PixelPlace& place, BlockHoles& block) const;
+    [[nodiscard]] std::size_t leave_blank(std::span<PixelPlace> tile, const PixelSquare& square,
+                                          BlockHoles& block);
+    [[nodiscard]] int finest_grid() const;
+    [[nodiscard]] std::size_t answer_steady(std::span<PixelPlace> tile, const PixelSquare& square,
+                                            const PointFinder& finder, BlockHoles& block);
+    void answer_late(std::span<const PixelPlace> tile, const PixelSquare& square,
+                     const PointFinder& finder, BlockHoles& block);
     [[nodiscard]] bool is_checked(const PixelPlace& place) const;
     void expect(const PixelPlace& place, const PointFinder& finder) const;
     void settle(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
-                std::vector<CloudHole>& holes);
-    void order_holes(const std::vector<std::vector<CloudHole>>& of_blocks);
+                BlockHoles& block);
+    void settle_audited(const PixelPlace& place, const PointFinder& finder,
+                        const PixelAnswer& answer, BlockHoles& block);
+    [[nodiscard]] std::size_t rank(const CloudHole& hole) const;
+    void order_holes(Executor& executor);
     void choose_twins();
     void expect_holes();
     void leave_points();
@@ -150,7 +174,12 @@ class CloudRegion {
     std::vector<PixelOrigin> origins_;  ///< of each pixel; empty unless views that rest are refined
     Clock::time_point check_until_;
     std::vector<PixelRectangle> blocks_;
-    std::vector<std::vector<CloudHole>> holes_of_;  ///< each block
+    std::vector<BlockHoles> holes_of_;  ///< each block
+    std::vector<std::uint8_t> known_;   ///< see known()
+    std::size_t unanswered_ = 0;        ///< pixels that no point answers
+    std::size_t left_ = 0;              ///< of these those of which nothing is known
+    std::size_t answered_ = 0;          ///< of the unanswered those that were traced
+    int finest_ = kGridLevels - 1;      ///< of holes of which nothing is known (see grid_level)
     std::vector<CloudHole> holes_;
     std::vector<TracedHole> traced_;    ///< each hole
     std::vector<std::uint8_t> done_;    ///< for each hole: not 0 where it was traced in time

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace lightwalk {
 namespace {
@@ -22,9 +23,9 @@ std::chrono::steady_clock::time_point checking_deadline(double budget) {
 }
 
 std::chrono::steady_clock::time_point tracing_deadline(
-    std::chrono::steady_clock::time_point deadline, double budget) {
-    constexpr double kLeastShare = 0.12;
-    return std::max(deadline, deadline_of(kLeastShare * budget));
+    std::chrono::steady_clock::time_point deadline, double budget, double unknown) {
+    constexpr double kLeastShare = 0.12, kBlindShare = 0.5;
+    return std::max(deadline, deadline_of(std::lerp(kLeastShare, kBlindShare, unknown) * budget));
 }
 
 void HoleTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
@@ -40,14 +41,16 @@ void HoleTracer::trace_part(std::span<const PixelPlace> places, int sample, int 
     }
 }
 
-void HoleTracer::trace(std::span<const PixelPlace> places, int sample, Executor& executor,
-                       const StopFlag& stop, Take take) const {
-    executor.for_each((places.size() + kHolesATask - 1) / kHolesATask,
+void HoleTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
+                       Executor& executor, const StopFlag& stop, Take take) const {
+    executor.for_each((count + kHolesATask - 1) / kHolesATask,
                       [&](std::size_t task, int worker) {
                           if (task > 0 && is_late()) return;
                           const std::size_t begin = task * kHolesATask;
-                          const std::size_t count = std::min(kHolesATask, places.size() - begin);
-                          trace_part(places.subspan(begin, count), sample, worker,
+                          std::array<PixelPlace, kHolesATask> places;
+                          const std::size_t some = std::min(kHolesATask, count - begin);
+                          for (std::size_t i = 0; i < some; ++i) places[i] = at(begin + i);
+                          trace_part({places.data(), some}, sample, worker,
                                      [&](std::size_t first, std::span<const TracedHole> traced) {
                                          take(begin + first, traced);
                                      });

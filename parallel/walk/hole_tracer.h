@@ -20,10 +20,11 @@ namespace lightwalk {
 [[nodiscard]] std::chrono::steady_clock::time_point checking_deadline(double budget);
 
 /// When tracing has to end in a frame that has a budget and should be there at `deadline`. Where
-/// looking at the pixels has taken the time, some is left for tracing all the same: else nothing
-/// new would ever be seen.
+/// other steps have taken the time, some is left for tracing all the same: else nothing new would
+/// ever be seen.
+/// @param unknown  share of the pixels that no point answers: the larger it is, the more is left
 [[nodiscard]] std::chrono::steady_clock::time_point tracing_deadline(
-    std::chrono::steady_clock::time_point deadline, double budget);
+    std::chrono::steady_clock::time_point deadline, double budget, double unknown);
 
 class HoleTracer {
   public:
@@ -36,9 +37,10 @@ class HoleTracer {
     HoleTracer(const PixelCaster& caster, double tolerance, Clock::time_point deadline)
         : caster_(caster), tolerance_(tolerance), deadline_(deadline) {}
 
-    /// Trace pixels by all threads. After the deadline no more are begun, but some are at once.
-    void trace(std::span<const PixelPlace> places, int sample, Executor& executor,
-               const StopFlag& stop, Take take) const;
+    /// Trace holes by all threads. After the deadline no more are begun, but some are at once.
+    /// @param at  the place of each one
+    void trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
+               Executor& executor, const StopFlag& stop, Take take) const;
     /// Trace pixels by one thread, some tens at a time, whatever the time is.
     void trace_part(std::span<const PixelPlace> places, int sample, int worker, Take take) const;
     [[nodiscard]] bool is_late() const { return Clock::now() > deadline_; }

@@ -182,3 +182,16 @@ TEST_CASE("cloud: surroundings are what the nine cells around each pixel hold") 
         }
     }
 }
+
+TEST_CASE("cloud: a square is empty when neither its cells nor those around it hold a point") {
+    const PixelPlace corner{8, 8};
+    for (int y = 5; y < 20; ++y) {
+        for (int x = 5; x < 20; ++x) {
+            DepthGrid grid(PixelRectangle{5, 5, 20, 20});
+            CHECK(grid.is_empty(corner));
+            grid.offer(x, y, 1, 0, 7);
+            const bool beside = x >= 7 && x <= 16 && y >= 7 && y <= 16;
+            CHECK(grid.is_empty(corner) == !beside);
+        }
+    }
+}

@@ -249,9 +249,15 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
     CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);  // behind the wall
     CHECK(wall.project().unchecked({9, 9}).cause == HoleCause::hidden);  // alone before it
     CHECK(wall.project().unchecked({12, 12}).found());
-    CHECK(wall.project().glimpsed({5, 5}).cause == HoleCause::hidden);
-    CHECK(wall.project().glimpsed({9, 9}).found());
-    CHECK(wall.project().glimpsed({12, 12}).radiance.g == 1);
+    const auto glimpsed = [&](const PixelPlace& pixel) {
+        const PointFinder& finder = wall.project();
+        PixelAnswer found;
+        finder.glimpsed(finder.square_of(pixel), {&pixel, 1}, {&found, 1});
+        return found;
+    };
+    CHECK(glimpsed({5, 5}).cause == HoleCause::hidden);
+    CHECK(glimpsed({9, 9}).found());
+    CHECK(glimpsed({12, 12}).radiance.g == 1);
     wall.rules.drop_lonely = false;
     CHECK(wall.project().unchecked({9, 9}).found());
     CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);
@@ -260,6 +266,11 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
     CHECK(wall.project().is_edge({4, 5}));
     CHECK(wall.project().is_edge({0, 7}));
     CHECK(!wall.project().is_edge({12, 12}));
+    for (const int x : {12, 13})
+        wall.points[static_cast<std::size_t>(12 * kSide + x)].kind = PointKind::gone;
+    wall.add(13.1, 12.5, 1, 3);
+    wall.grids.ahead.clear(0, wall.grids.ahead.size());
+    CHECK(glimpsed({12, 12}).radiance.g == 3);  // the nearest one around
 }
 
 TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide something is not") {
@@ -273,7 +284,8 @@ TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide 
         wall.grids.ahead.clear(0, wall.grids.ahead.size());
         const PixelPlace pixel{5, 5};
         PixelAnswer found;
-        wall.project().steady({&pixel, 1}, {&found, 1});
+        const PointFinder& finder = wall.project();
+        finder.steady(finder.square_of(pixel), {&pixel, 1}, {&found, 1});
         return found;
     };
     REQUIRE(answer().found());

@@ -268,6 +268,34 @@ TEST_CASE("cloud: a frame that has no time to look shows what points say, and th
     CHECK(room.looked > 0);
 }
 
+TEST_CASE(
+    "cloud: where nearly nothing is known coarse grids come first, and the rest comes in time") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    CloudOptions options = rotating();
+    options.budget = 1e-9;
+    CloudFrames frames(kWidth, kHeight, options);
+    std::size_t reused = 0;
+    for (int i = 0; i < 1200; ++i) {
+        const CloudFrame frame = room.draw(frames, view_at(0, 0, 1e-5 * i), *executor);
+        const CloudReport& report = frame.report;
+        std::size_t traced = 0;
+        for (std::size_t cause = 0; cause < kHoleCauses; ++cause)
+            if (static_cast<HoleCause>(cause) != HoleCause::audited) traced += report.holes[cause];
+        REQUIRE(report.reused + report.filled + traced == report.pixels);
+        if (i == 1) {
+            for (std::size_t at = 0; at < frame.causes.size(); ++at) {
+                const PixelPlace place{static_cast<int>(at % kWidth),
+                                       static_cast<int>(at / kWidth)};
+                const bool kept = frame.causes[at] == HoleCause::none;
+                if (kept || frame.distance[at] > 0) CHECK(grid_level(place) <= 1);
+            }
+        }
+        reused = report.reused;
+    }
+    CHECK(reused > room.seen.size() / 2);
+}
+
 TEST_CASE("cloud: a frame that is stopped leaves the cloud as it was") {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
