@@ -159,8 +159,13 @@ void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointF
     finder.checked(places, {sights.data(), places.size()}, answers);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (answers[i].ahead != kNoPoint) prefetch(&used_[answers[i].ahead]);
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (sights[i].ray) settle_audited(places[i], finder, answers[i], block);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const PixelPlace& place = places[i];
+        if (sights[i].ray)
+            settle_audited(place, finder, answers[i], block);
+        else
+            blacken({place.x, place.y, place.x + 1, place.y + 1});
+    }
 }
 
 /// Answer those pixels of a tile that the last frame's surfaces seem to go through.
