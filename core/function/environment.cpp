@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -79,9 +80,11 @@ struct FunctionEnvironment::Impl {
 
     SymbolTable symbols;
     std::unordered_set<std::string> contexts;
+    std::unordered_map<std::string, Program> shared;  ///< by what was asked for
 
     void parse(std::string_view text, const SourceLocation& where, std::string_view context,
                bool flat) {
+        shared.clear();  // names may mean something else now
         ConstantFolder folder(symbols);
         const function::Scope scope{symbols, &symbols, context, folder};
         function::parse_definitions(text, where, scope, flat);
@@ -165,6 +168,30 @@ Program FunctionEnvironment::compile(std::string_view file,
     code.reals.assign(reals.begin(), reals.end());
     code.where = where;
     return Program(std::make_shared<const Program::Code>(std::move(code)));
+}
+
+Program FunctionEnvironment::shared_program(std::string_view file,
+                                            std::span<const ExpressionRequest> requests,
+                                            std::span<const double> reals,
+                                            ChannelMask material_channels,
+                                            const SourceLocation& where) {
+    std::string key;
+    const auto append = [&key](const void* bytes, std::size_t count) {
+        key.append(std::to_string(count)).append(1, ':');
+        key.append(static_cast<const char*>(bytes), count);
+    };
+    append(file.data(), file.size());
+    for (const ExpressionRequest& request : requests) {
+        append(request.text.data(), request.text.size());
+        append(&request.parameters, sizeof(request.parameters));
+    }
+    append(&material_channels, sizeof(material_channels));
+    append(reals.data(), reals.size_bytes());
+    const auto found = impl_->shared.find(key);
+    if (found != impl_->shared.end()) return found->second;
+    Program program = compile(file, requests, reals, material_channels, where);
+    if (!program.can_throw()) impl_->shared.emplace(std::move(key), program);
+    return program;
 }
 
 FunctionEnvironment::Listing FunctionEnvironment::listing(

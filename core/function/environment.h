@@ -42,6 +42,15 @@ class FunctionEnvironment {
                                   std::span<const double> reals, ChannelMask material_channels,
                                   const SourceLocation& where) const;
 
+    /// The same, but that primitives with the same requests and arguments, as generators write them
+    /// by the thousand, share a program. Those that can throw while they run do not: `where` is
+    /// theirs.
+    [[nodiscard]] Program shared_program(std::string_view file,
+                                         std::span<const ExpressionRequest> requests,
+                                         std::span<const double> reals,
+                                         ChannelMask material_channels,
+                                         const SourceLocation& where);
+
     /// What compile() makes of the same on its way, as text: README.md in core/function reads one.
     struct Listing {
         std::string graph, code;

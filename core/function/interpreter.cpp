@@ -244,6 +244,9 @@ double run(const Program::Code& code, std::uint32_t entry, EvalState& state) {
 std::size_t Program::outputs() const {
     return code_ ? code_->outputs.size() : 0;
 }
+bool Program::can_throw() const {
+    return code_ && (!code_->messages.empty() || !code_->functions.empty());
+}
 ChannelMask Program::channels() const {
     return code_ ? code_->channels : 0;
 }

@@ -115,7 +115,11 @@ class Program {
     explicit Program(std::shared_ptr<const Code> code) : code_(std::move(code)) {}
 
     [[nodiscard]] bool empty() const { return !code_; }
+    /// Whether both are the same compiled program.
+    friend bool operator==(const Program&, const Program&) = default;
     [[nodiscard]] std::size_t outputs() const;
+    /// Whether evaluate() and call() can throw.
+    [[nodiscard]] bool can_throw() const;
     [[nodiscard]] ChannelMask channels()
         const;  ///< channels that any output may read: fill at least these
 

@@ -70,6 +70,27 @@ Bounds grown(Bounds bounds, double margin) {
     return bounds;
 }
 
+std::vector<Bounds> outline_of(std::span<const Bounds> boxes) {
+    constexpr std::size_t kCells = 4;  // along each axis
+    Bounds all;
+    for (const Bounds& box : boxes) extend(all, box);
+    std::vector<Bounds> cells(kCells * kCells * kCells);
+    const auto cell_of = [&](const Bounds& box) {
+        std::size_t cell = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double size = all.upper[k] - all.lower[k],
+                         from = (box.lower[k] + box.upper[k]) * 0.5 - all.lower[k];
+            const double at = size > 0 ? kCells * from / size : 0;
+            cell = cell * kCells + static_cast<std::size_t>(std::clamp(at, 0.0, kCells - 1.0));
+        }
+        return cell;
+    };
+    for (const Bounds& box : boxes)
+        if (!box.empty()) extend(cells[cell_of(box)], box);
+    std::erase_if(cells, [](const Bounds& box) { return box.empty(); });
+    return cells;
+}
+
 Bounds transformed(const Bounds& bounds, const Matrix& matrix) {
     Bounds result;
     if (bounds.empty()) return result;

@@ -1,6 +1,8 @@
 #pragma once
 // Axis-aligned bounds of shapes and of placed models.
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/geometry/geometry.h"
 #include "core/geometry/shapes.h"
@@ -24,6 +26,10 @@ namespace lightwalk {
 [[nodiscard]] Bounds cube_around(const Bounds& bounds);
 
 void extend(Bounds& bounds, const Bounds& other);
+
+/// A few boxes, at most 64, that hold the given ones together: by the cells of a grid that their
+/// centres are in. What is round or slanted is held more tightly than by one box.
+[[nodiscard]] std::vector<Bounds> outline_of(std::span<const Bounds> boxes);
 
 [[nodiscard]] bool contains(const Bounds& bounds, const Vec3& point);
 

@@ -22,12 +22,6 @@ float round_up(double x) {
     return -round_down(-x);
 }
 
-FrameId frame_of(const RTCIntersectContext* context) {
-    const unsigned instance = context->instID[0];
-    return instance == RTC_INVALID_GEOMETRY_ID ? kWorld
-                                               : FrameId{static_cast<std::int32_t>(instance) - 1};
-}
-
 /// The ray of a lane, in the model's space. The direction keeps its scale: distances stay.
 RTCRay local_ray(const Copy& copy, RTCRayN* rays, unsigned count, unsigned lane) {
     const std::array<float, 12>& m = copy.inverse;
@@ -66,19 +60,59 @@ void set_lane(RTCRay16& rays, unsigned lane, const RTCRay& ray) {
     rays.flags[lane] = ray.flags;
 }
 
-/// Says which frame the callbacks are in while a copy is searched.
+}  // namespace
+
+/// Says which placed model the callbacks are in while a copy is searched.
 class InFrame {
   public:
-    InFrame(RTCIntersectContext& context, const Copy& copy) : context_(context) {
-        context_.instID[0] = static_cast<unsigned>(copy.frame) + 1;
+    InFrame(RTCIntersectContext& context, const Copy& copy)
+        : query_(static_cast<Query&>(context)),
+          copy_(copy),
+          outside_(query_.within),
+          frame_{(outside_ ? index(outside_->frame_) : index(kWorld)) + copy.first} {
+        query_.within = this;
     }
-    ~InFrame() { context_.instID[0] = RTC_INVALID_GEOMETRY_ID; }
+    ~InFrame() { query_.within = outside_; }
     InFrame(const InFrame&) = delete;
     InFrame& operator=(const InFrame&) = delete;
 
+    [[nodiscard]] FrameId frame() const { return frame_; }
+    /// Found out at the first call: most copies that are searched have nothing on the ray.
+    [[nodiscard]] const InnerSpace& space() {
+        if (!space_) space_ = find_space();
+        return *space_;
+    }
+
   private:
-    RTCIntersectContext& context_;
+    [[nodiscard]] InnerSpace find_space() const {
+        const Placement& placement = *copy_.placement;
+        const Transform& transform = placement.transform;
+        const SurfaceId own = placement.overrides ? placement.surface : kNoSurface;
+        if (!outside_) return {transform.inverse, transform.size(), placement.model, own};
+        const InnerSpace& around = outside_->space();
+        return {around.to_local * transform.inverse, transform.size() * around.size,
+                placement.model,
+                around.override_surface != kNoSurface ? around.override_surface : own};
+    }
+
+    Query& query_;
+    const Copy& copy_;
+    InFrame* outside_;
+    FrameId frame_;
+    std::optional<InnerSpace> space_;
 };
+
+namespace {
+
+FrameId frame_of(const Query& query) {
+    return query.within ? query.within->frame() : kWorld;
+}
+
+/// Before a primitive of the placed model that the search is in is proposed.
+void enter(const Query& query, TracedRay& ray, FrameId frame) {
+    if (query.within && ray.local_frame != frame)
+        PlacedScene::enter(ray, frame, query.within->space());
+}
 
 unsigned active_lanes(const int* valid, unsigned count) {
     return static_cast<unsigned>(std::count_if(valid, valid + count, [](int v) { return v != 0; }));
@@ -125,11 +159,12 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(args->context), model.primitive_of[args->primID]};
+    const PrimitiveRef what{frame_of(query), model.primitive_of[args->primID]};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
         NearestRay& ray = query.rays[i];
+        enter(query, ray, what.frame);
         if (query.placed->propose(ray, what)) {
             RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
         }
@@ -139,10 +174,11 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
 [[gnu::flatten]] void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(args->context), model.primitive_of[args->primID]};
+    const PrimitiveRef what{frame_of(query), model.primitive_of[args->primID]};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];
+        enter(query, ray, what.frame);
         if (query.placed->propose(ray, what)) {
             RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
         }
@@ -150,7 +186,8 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void copy_bounds(const RTCBoundsFunctionArguments* args) {
-    *args->bounds_o = static_cast<const Copies*>(args->geometryUserPtr)->boxes[args->primID];
+    *args->bounds_o =
+        rounded(static_cast<const Copies*>(args->geometryUserPtr)->boxes[args->primID]);
 }
 
 void intersect_copy(const RTCIntersectFunctionNArguments* args) {

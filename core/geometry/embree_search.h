@@ -20,35 +20,45 @@ using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 inline constexpr unsigned kPacket = 16;
 inline constexpr unsigned kOwnSurfaces = 0, kCopies = 1;  ///< geometry ids in Embree's scenes
 
-/// A model's primitives in an Embree scene.
+/// A model placed in another one, in whose search tree it is. An Embree instance would need half a
+/// kilobyte, and would know no more than one level.
+struct Copy {
+    std::array<float, 12> inverse{};  ///< images of the axes and of the origin, into the model
+    RTCSceneTy* scene = nullptr;
+    const Placement* placement = nullptr;
+    std::int32_t first = 0;  ///< see PlacedChild
+};
+
+struct Copies {
+    std::vector<Copy> all;
+    std::vector<Bounds> boxes;  ///< in the search coordinates, while the tree is built
+};
+
+/// A model in an Embree scene: its primitives, and the models placed in it.
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
     std::vector<Piece> pieces;  ///< what Embree calls primitives; while the tree is built
     std::vector<std::uint32_t> primitive_of;  ///< each piece
+    Copies copies;
     ScenePtr scene;
+    std::vector<Bounds> outline;  ///< of all in the tree, in the search coordinates; while trees
+                                  ///< are built
 };
 
-/// A placed model in the scene's search tree. An Embree instance each would need half a kilobyte.
-struct Copy {
-    std::array<float, 12> inverse{};  ///< images of the axes and of the origin, scene to model
-    RTCSceneTy* scene = nullptr;
-    std::int32_t frame = 0;
-};
+class InFrame;
 
-struct Copies {
-    std::vector<Copy> all;
-    std::vector<RTCBounds> boxes;  ///< in the scene's search coordinates, while the tree is built
-};
-
-/// One traversal: what Embree hands to the callbacks. Ray i of a packet has the id i.
-struct NearestQuery : RTCIntersectContext {
+/// One traversal: what Embree hands to the callbacks.
+struct Query : RTCIntersectContext {
     const PlacedScene* placed = nullptr;
+    InFrame* within = nullptr;  ///< the placed model that the search is in; null: the scene itself
+};
+/// Ray i of a packet has the id i.
+struct NearestQuery : Query {
     NearestRay* rays = nullptr;
     std::array<double, kPacket> start{};  ///< distance of Embree's origin from the true one [m]
 };
-struct ShadowQueries : RTCIntersectContext {
-    const PlacedScene* placed = nullptr;
+struct ShadowQueries : Query {
     ShadowRay* rays = nullptr;
 };
 

@@ -47,6 +47,13 @@ struct EmbreeRay {
     double start = 0;
 };
 
+std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
+    std::vector<Bounds> boxes = model.copies.boxes;
+    boxes.reserve(boxes.size() + model.pieces.size());
+    for (const Piece& piece : model.pieces) boxes.push_back(model.space.box(piece.box));
+    return outline_of(boxes);
+}
+
 }  // namespace
 
 struct Geometry::Impl {
@@ -64,43 +71,43 @@ struct Geometry::Impl {
     PlacedScene placed;
     DevicePtr device;  ///< outlives the scenes below
     std::vector<Hierarchy> models;
-    Copies copies;
     Bounds box;  ///< of all geometry, relative to models[0].space.center, margins included
 
   private:
     void open_device(const std::string& options);
     void check(const char* doing) const;
-    void build(Hierarchy& model);
-    [[nodiscard]] std::optional<Copy> copy_of(std::size_t frame) const;
-    [[nodiscard]] RTCBounds box_of(const PlacedModel& frame) const;
-    void add_copies();
+    void add_surfaces(Hierarchy& model);
+    void add_copies(std::uint32_t model);
+    [[nodiscard]] std::optional<Copy> copy_of(const PlacedChild& child,
+                                              const Hierarchy& around) const;
+    [[nodiscard]] Bounds box_of(const Placement& placement, const Hierarchy& around) const;
 };
 
 Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options)
     : placed(std::move(input)) {
     open_device(embree_options);
     models.resize(placed.model_count());
-    std::vector<bool> used(models.size(), false);
-    used[0] = true;
-    for (const PlacedModel& frame : placed.frames()) used[frame.model] = true;
     const std::vector<SearchSpace> spaces = search_spaces(placed);
     for (std::size_t i = 0; i < models.size(); ++i) {
         models[i].primitives = &placed.primitives(static_cast<std::uint32_t>(i));
         models[i].space = spaces[i];
     }
-    for (std::size_t i = 1; i < models.size(); ++i) {
-        if (!used[i] || models[i].primitives->size() == 0) continue;
-        build(models[i]);
-        rtcCommitScene(models[i].scene.get());
-        check("building a model's search tree");
+    const std::span<const std::uint32_t> order = placed.paths().order();
+    for (auto model = order.rbegin(); model != order.rend(); ++model) {
+        Hierarchy& built = models[*model];
+        built.scene.reset(rtcNewScene(device.get()));
+        check("creating a scene");
+        rtcSetSceneBuildQuality(built.scene.get(), RTC_BUILD_QUALITY_HIGH);
+        add_surfaces(built);
+        add_copies(*model);
+        rtcCommitScene(built.scene.get());
+        check("building a search tree");
+        built.outline = outline_of_tree(built);
+        built.pieces = {};
+        built.copies.boxes = {};
     }
-    build(models[0]);
-    add_copies();
-    rtcCommitScene(models[0].scene.get());
-    check("building the scene's search tree");
-    copies.boxes = {};
-    for (Hierarchy& model : models) model.pieces = {};
     box = bounds_of_tree(models[0].scene.get());
+    for (Hierarchy& model : models) model.outline = {};
 }
 
 /// Embree's own default for threads: a number would limit oneTBB in the whole process.
@@ -131,10 +138,7 @@ void Geometry::Impl::check(const char* doing) const {
     throw std::runtime_error(std::string("Embree failed while ") + doing + ": " + embree_message);
 }
 
-void Geometry::Impl::build(Hierarchy& model) {
-    model.scene.reset(rtcNewScene(device.get()));
-    check("creating a scene");
-    rtcSetSceneBuildQuality(model.scene.get(), RTC_BUILD_QUALITY_HIGH);
+void Geometry::Impl::add_surfaces(Hierarchy& model) {
     if (model.primitives->size() == 0) return;
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
@@ -151,14 +155,14 @@ void Geometry::Impl::build(Hierarchy& model) {
     check("adding the surfaces");
 }
 
-/// From the scene's search coordinates to those of a placed model; nothing when it is too far away.
-std::optional<Copy> Geometry::Impl::copy_of(std::size_t i) const {
-    const PlacedModel& frame = placed.frames()[i];
-    const Hierarchy& model = models[frame.model];
-    if (!model.scene) return std::nullopt;
-    const Vec3 center = frame.to_world.forward.point(model.space.center) - models[0].space.center;
-    if (!is_within_reach(center)) return std::nullopt;
-    const Matrix& inverse = frame.to_world.inverse;
+/// From the search coordinates around it to its own; nothing when it is empty or too far away.
+std::optional<Copy> Geometry::Impl::copy_of(const PlacedChild& child,
+                                            const Hierarchy& around) const {
+    const Placement& placement = *child.placement;
+    const Hierarchy& model = models[placement.model];
+    const Vec3 center = placement.transform.forward.point(model.space.center) - around.space.center;
+    if (model.outline.empty() || !is_within_reach(center)) return std::nullopt;
+    const Matrix& inverse = placement.transform.inverse;
     const std::array<Vec3, 4> rows{inverse.row[0], inverse.row[1], inverse.row[2],
                                    -inverse.vector(center)};
     Copy copy;
@@ -167,25 +171,29 @@ std::optional<Copy> Geometry::Impl::copy_of(std::size_t i) const {
             copy.inverse[3 * row + k] = static_cast<float>(rows[row][k]);
     }
     copy.scene = model.scene.get();
-    copy.frame = static_cast<std::int32_t>(i);
+    copy.placement = child.placement;
+    copy.first = child.first;
     return copy;
 }
 
-/// In the scene's search coordinates: around what the model's own search tree can find.
-RTCBounds Geometry::Impl::box_of(const PlacedModel& frame) const {
-    const Hierarchy& model = models[frame.model];
-    Matrix matrix = frame.to_world.forward;
-    matrix.row[3] = matrix.point(model.space.center) - models[0].space.center;
-    const Bounds bounds = transformed(bounds_of_tree(model.scene.get()), matrix);
-    return rounded(grown(bounds, models[0].space.relative * magnitude(bounds)));
+/// In the search coordinates around it: what the model's own search tree can find.
+Bounds Geometry::Impl::box_of(const Placement& placement, const Hierarchy& around) const {
+    const Hierarchy& model = models[placement.model];
+    Matrix matrix = placement.transform.forward;
+    matrix.row[3] = matrix.point(model.space.center) - around.space.center;
+    Bounds bounds;
+    for (const Bounds& part : model.outline) extend(bounds, transformed(part, matrix));
+    return grown(bounds, around.space.relative * magnitude(bounds));
 }
 
-void Geometry::Impl::add_copies() {
-    for (std::size_t i = 0; i < placed.frames().size(); ++i) {
-        const std::optional<Copy> copy = copy_of(i);
+void Geometry::Impl::add_copies(std::uint32_t model) {
+    Hierarchy& around = models[model];
+    Copies& copies = around.copies;
+    for (const PlacedChild& child : placed.paths().children(model)) {
+        const std::optional<Copy> copy = copy_of(child, around);
         if (!copy) continue;
         copies.all.push_back(*copy);
-        copies.boxes.push_back(box_of(placed.frames()[i]));
+        copies.boxes.push_back(box_of(*child.placement, around));
     }
     if (copies.all.empty()) return;
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
@@ -196,7 +204,7 @@ void Geometry::Impl::add_copies() {
     rtcSetGeometryIntersectFunction(geometry.get(), intersect_copy);
     rtcSetGeometryOccludedFunction(geometry.get(), occlude_copy);
     rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(models[0].scene.get(), geometry.get(), kCopies);
+    rtcAttachGeometryByID(around.scene.get(), geometry.get(), kCopies);
     check("adding the instances");
 }
 
@@ -261,21 +269,22 @@ Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
-const Transform& Geometry::frame(FrameId id) const {
+Transform Geometry::frame(FrameId id) const {
     return impl_->placed.transform(id);
 }
 Bounds Geometry::bounds() const {
     return impl_->placed.bounds();
 }
 std::size_t Geometry::frame_count() const {
-    return impl_->placed.frames().size();
+    return impl_->placed.paths().count();
 }
 std::size_t Geometry::memory_bytes() const {
     const std::ptrdiff_t embree = impl_->embree_bytes.load(std::memory_order_relaxed);
     std::size_t bytes = impl_->placed.memory_bytes() +
                         static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
     for (const Hierarchy& model : impl_->models)
-        bytes += model.primitive_of.capacity() * sizeof(std::uint32_t);
+        bytes += model.primitive_of.capacity() * sizeof(std::uint32_t) +
+                 model.copies.all.capacity() * sizeof(Copy);
     return bytes;
 }
 

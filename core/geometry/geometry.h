@@ -85,12 +85,13 @@ struct Blocker {
 /// Immutable after building; every method may be called from many threads at once.
 class Geometry {
   public:
-    /// Throws InputError when nested placements multiply to more than 2^22 flattened instances,
-    /// when one scales by less than 1e-7 or more than 1e7 in all, and for damaged meshes. Builds on
-    /// oneTBB's default threads. Answers are bit-identical for single rays and packets; they need
-    /// no flush-to-zero mode of the caller. A placed model wins over what is not in it only where
-    /// it is strictly nearer; inside it has its own ties. `embree_options` configures the search,
-    /// for tests: with "isa=avx2" it does what machines without AVX-512 do.
+    /// Throws InputError when nested placements multiply to more than 2^22 instances or are nested
+    /// more than 32 deep, when one scales by less than 1e-7 or more than 1e7 in all, and for
+    /// damaged meshes. Builds on oneTBB's default threads. Answers are bit-identical for single
+    /// rays and packets; they need no flush-to-zero mode of the caller. A placed model wins over
+    /// what is not in it only where it is strictly nearer; inside it has its own ties.
+    /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines
+    /// without AVX-512 do.
     explicit Geometry(GeometryInput input, const std::string& embree_options = {});
     ~Geometry();
     Geometry(Geometry&&) noexcept;
@@ -113,10 +114,10 @@ class Geometry {
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
     void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;
 
-    [[nodiscard]] const Transform& frame(FrameId id) const;  ///< local -> world of an instance path
-    [[nodiscard]] Bounds bounds() const;                     ///< of everything finite, world
-    [[nodiscard]] std::size_t frame_count() const;           ///< flattened instances
-    [[nodiscard]] std::size_t memory_bytes() const;          ///< Embree's and our tables
+    [[nodiscard]] Transform frame(FrameId id) const;  ///< local -> world of an instance path
+    [[nodiscard]] Bounds bounds() const;              ///< of everything finite, world
+    [[nodiscard]] std::size_t frame_count() const;    ///< instances, one a path
+    [[nodiscard]] std::size_t memory_bytes() const;   ///< Embree's and our tables
 
   private:
     struct Impl;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace lightwalk {
 namespace {
-
-constexpr int kMaxDepth = 1000;
 
 SourceLocation location(const GeometryInput& input, SurfaceId surface) {
     const auto i = static_cast<std::size_t>(index(surface));
@@ -15,97 +14,133 @@ SourceLocation location(const GeometryInput& input, SurfaceId surface) {
                                                                : input.surfaces[i].where;
 }
 
-bool is_finite(const Matrix& matrix) {
-    return std::all_of(matrix.row.begin(), matrix.row.end(), [](const Vec3& row) {
-        return std::isfinite(row.x) && std::isfinite(row.y) && std::isfinite(row.z);
-    });
+/// Largest magnitude of an element; infinite where one is not a number.
+double largest(const Matrix& matrix) {
+    double most = 0;
+    for (const Vec3& row : matrix.row) {
+        for (const double x : {row.x, row.y, row.z}) {
+            if (!std::isfinite(x)) return std::numeric_limits<double>::infinity();
+            most = std::max(most, std::abs(x));
+        }
+    }
+    return most;
 }
 
-/// Number of paths below each model, to be known before any of them is built.
-class PathCounter {
-  public:
-    explicit PathCounter(const GeometryInput& input)
-        : input_(input), paths_(input.models.size()), known_(input.models.size(), false) {}
-
-    /// Frames that a model's placements need, itself not counted; at most kMaxInstances + 1.
-    std::size_t below(std::uint32_t model, int depth) {
-        if (known_[model]) return paths_[model];
-        std::size_t sum = 0;
-        for (const Placement& placement : input_.models[model].placements) {
-            if (depth >= kMaxDepth)
-                throw InputError(location(input_, placement.surface), "nested too deeply");
-            sum = std::min(sum + with(placement.model, depth + 1), kMaxInstances + 1);
-        }
-        known_[model] = true;
-        return paths_[model] = sum;
-    }
-    /// The same with the model itself; 0 when there is nothing to see in it.
-    std::size_t with(std::uint32_t model, int depth) {
-        const ModelGeometry& contents = input_.models[model];
-        const std::size_t inside = below(model, depth);
-        return inside == 0 && contents.surfaces.empty() && contents.meshes.empty() ? 0 : inside + 1;
-    }
-
-  private:
-    const GeometryInput& input_;
-    std::vector<std::size_t> paths_;
-    std::vector<bool> known_;
+/// What the elements of matrices along any path to a model are at most.
+struct ElementBounds {
+    double forward = 1, inverse = 1;
 };
 
-class Flattener {
-  public:
-    explicit Flattener(const GeometryInput& input) : input_(input), counter_(input) {
-        const std::size_t count = counter_.below(0, 0);
-        if (count > kMaxInstances) {
-            throw InputError("instances inside instances multiply to more than " +
-                             std::to_string(kMaxInstances) +
-                             " copies, the most that are supported");
-        }
-        frames.reserve(count);
-        add_children(0, PlacedModel{}, kWorld);
-    }
-    std::vector<PlacedModel> frames;
-
-  private:
-    void add_children(std::uint32_t model, const PlacedModel& parent, FrameId parent_frame) {
-        for (const Placement& placement : input_.models[model].placements) {
-            if (counter_.with(placement.model, 0) == 0) continue;
-            PlacedModel child = parent;
-            child.model = placement.model;
-            child.to_world = placement.transform * parent.to_world;
-            if (!is_finite(child.to_world.forward) || !is_finite(child.to_world.inverse) ||
-                !(child.to_world.size() >= kSmallestScale &&
-                  child.to_world.size() <= kLargestScale)) {
-                throw InputError(location(input_, placement.surface),
-                                 "bad transform: expected a total scale between 1e-7 and 1e7");
-            }
-            if (placement.overrides && child.override_surface == kNoSurface) {
-                child.override_surface = placement.surface;
-                child.override_frame = parent_frame;
-            }
-            frames.push_back(child);
-            const FrameId frame{static_cast<std::int32_t>(frames.size()) - 1};
-            add_children(placement.model, child, frame);
-        }
-    }
-
-    const GeometryInput& input_;
-    PathCounter counter_;
-};
+/// Of an element of the product of two matrices.
+double product_bound(double a, double b) {
+    return 3 * a * b + b;
+}
 
 }  // namespace
 
-std::vector<PlacedModel> flatten_placements(const GeometryInput& input) {
-    if (input.models.empty()) return {};
+InstancePaths::InstancePaths(const GeometryInput& input)
+    : children_(input.models.size()),
+      counts_(input.models.size(), 0),
+      heights_(input.models.size(), -1),
+      uses_(input.models.size()) {
     for (const ModelGeometry& model : input.models) {
         for (const Placement& placement : model.placements) {
-            if (placement.model >= input.models.size()) {
+            if (placement.model >= input.models.size())
                 throw InputError(location(input, placement.surface),
                                  "placement of an unknown model");
-            }
         }
     }
-    return std::move(Flattener(input).frames);
+    if (input.models.empty()) return;
+    visit(input, 0, 0);
+    std::reverse(order_.begin(), order_.end());
+    if (count() > kMaxInstances) {
+        throw InputError("instances inside instances multiply to more than " +
+                         std::to_string(kMaxInstances) + " copies, the most that are supported");
+    }
+    find_uses(input);
+}
+
+/// Models are left in order_ after all that stand in them.
+void InstancePaths::visit(const GeometryInput& input, std::uint32_t model, int depth) {
+    int height = 0;
+    std::size_t frames = 0;
+    for (const Placement& placement : input.models[model].placements) {
+        if (depth >= kMaxNesting)
+            throw InputError(location(input, placement.surface), "nested too deeply");
+        const std::uint32_t inside = placement.model;
+        if (heights_[inside] < 0) visit(input, inside, depth + 1);
+        if (depth + 1 + heights_[inside] > kMaxNesting)
+            throw InputError(location(input, placement.surface), "nested too deeply");
+        height = std::max(height, heights_[inside] + 1);
+        const ModelGeometry& contents = input.models[inside];
+        if (counts_[inside] == 0 && contents.surfaces.empty() && contents.meshes.empty()) continue;
+        any_override_ = any_override_ || placement.overrides;
+        children_[model].push_back({&placement, static_cast<std::int32_t>(frames) + 1});
+        frames = std::min(frames + 1 + counts_[inside], kMaxInstances + 1);
+    }
+    heights_[model] = height;
+    counts_[model] = frames;
+    order_.push_back(model);
+}
+
+void InstancePaths::find_uses(const GeometryInput& input) {
+    std::vector<ElementBounds> elements(children_.size());
+    uses_[0].used = true;
+    for (const std::uint32_t model : order_) {
+        if (!uses_[model].used) continue;
+        for (const PlacedChild& child : children_[model]) {
+            const Transform& transform = child.placement->transform;
+            const double least = uses_[model].least_size * transform.size(),
+                         most = uses_[model].most_size * transform.size();
+            const ElementBounds reach{
+                product_bound(largest(transform.forward), elements[model].forward),
+                product_bound(elements[model].inverse, largest(transform.inverse))};
+            if (!std::isfinite(reach.forward) || !std::isfinite(reach.inverse) ||
+                !(least >= kSmallestScale && most <= kLargestScale)) {
+                throw InputError(location(input, child.placement->surface),
+                                 "bad transform: expected a total scale between 1e-7 and 1e7");
+            }
+            ModelUse& use = uses_[child.placement->model];
+            ElementBounds& element = elements[child.placement->model];
+            use.least_size = use.used ? std::min(use.least_size, least) : least;
+            use.most_size = use.used ? std::max(use.most_size, most) : most;
+            use.used = true;
+            element.forward = std::max(element.forward, reach.forward);
+            element.inverse = std::max(element.inverse, reach.inverse);
+        }
+    }
+    std::erase_if(order_, [&](std::uint32_t model) { return !uses_[model].used; });
+}
+
+/// Of the placements in `model` that whose frames hold the `left`-th one inside it. Where all hold
+/// as many the first guess is right.
+const PlacedChild& InstancePaths::child_with(std::uint32_t model, std::int32_t left) const {
+    const std::vector<PlacedChild>& all = children_[model];
+    const auto guess = static_cast<std::size_t>(left - 1) * all.size() / counts_[model];
+    if (all[guess].first <= left && (guess + 1 == all.size() || left < all[guess + 1].first))
+        return all[guess];
+    return *std::prev(std::upper_bound(
+        all.begin(), all.end(), left,
+        [](std::int32_t value, const PlacedChild& child) { return value < child.first; }));
+}
+
+PlacedModel InstancePaths::at(FrameId frame) const {
+    PlacedModel placed;
+    std::int32_t left = index(frame) + 1;
+    for (FrameId here = kWorld; left > 0;) {
+        const PlacedChild& child = child_with(placed.model, left);
+        const Placement& placement = *child.placement;
+        if (placement.overrides && placed.override_surface == kNoSurface) {
+            placed.override_surface = placement.surface;
+            placed.override_frame = here;
+        }
+        placed.to_world =
+            here == kWorld ? placement.transform : placement.transform * placed.to_world;
+        placed.model = placement.model;
+        left -= child.first;
+        here = FrameId{index(here) + child.first};
+    }
+    return placed;
 }
 
 }  // namespace lightwalk

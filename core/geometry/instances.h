@@ -1,15 +1,16 @@
 #pragma once
-// Nested placements, flattened: one frame for every path of placements that leads from the scene to
-// a model.
+// Nested placements: one frame for every path of placements that leads from the scene to a model.
+// Frames are numbered, not stored: a model of a million leaves may stand a thousand times.
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/geometry/geometry.h"
 
 namespace lightwalk {
 
-/// A model as one path of placements shows it. Parents come before their children.
+/// A model as one path of placements shows it.
 struct PlacedModel {
     Transform to_world;
     std::uint32_t model = 0;
@@ -19,15 +20,64 @@ struct PlacedModel {
     FrameId override_frame = kWorld;
 };
 
-/// Paths that a scene may hold: each costs about half a kilobyte.
+/// A placement in a model, of a model that holds something.
+struct PlacedChild {
+    const Placement* placement = nullptr;
+    /// Its frame, less that of the placement of the model that it stands in.
+    std::int32_t first = 0;
+};
+
+/// How often and how large a model stands in the scene.
+struct ModelUse {
+    bool used = false;
+    double least_size = 1, most_size = 1;  ///< total scales of its placements
+};
+
+/// Paths that a scene may hold.
 inline constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
+
+/// Placements in one path: each takes a part of the stack while rays are cast.
+inline constexpr int kMaxNesting = 32;
 
 /// Total scale of a path of placements.
 inline constexpr double kSmallestScale = 1e-7, kLargestScale = 1e7;
 
-/// Frames of all paths that lead to geometry, indexed by FrameId. Throws InputError for more than
-/// kMaxInstances paths, for models nested deeper than 1000, and for transforms that are not finite
-/// or scale beyond these.
-[[nodiscard]] std::vector<PlacedModel> flatten_placements(const GeometryInput& input);
+/// The paths that lead to geometry. A path's frame is followed by those of the paths that go on
+/// from it. Immutable.
+class InstancePaths {
+  public:
+    /// The input must outlive this. Throws InputError for more than kMaxInstances paths, for models
+    /// nested deeper than kMaxNesting, and for transforms that are not finite or scale beyond the
+    /// limits above.
+    explicit InstancePaths(const GeometryInput& input);
+
+    /// Frames in all.
+    [[nodiscard]] std::size_t count() const { return counts_.empty() ? 0 : counts_[0]; }
+    /// Frames inside a placement of a model, its own not counted.
+    [[nodiscard]] std::size_t count_inside(std::uint32_t model) const { return counts_[model]; }
+    /// A model's placements, in the order of their frames.
+    [[nodiscard]] std::span<const PlacedChild> children(std::uint32_t model) const {
+        return children_[model];
+    }
+    [[nodiscard]] const ModelUse& use(std::uint32_t model) const { return uses_[model]; }
+    /// Of all models that are used: each before those that stand in it.
+    [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+    /// Whether the modifier of any placement shades what is inside.
+    [[nodiscard]] bool any_override() const { return any_override_; }
+    /// @param frame  less than count(), or kWorld
+    [[nodiscard]] PlacedModel at(FrameId frame) const;
+
+  private:
+    [[nodiscard]] const PlacedChild& child_with(std::uint32_t model, std::int32_t left) const;
+    void visit(const GeometryInput& input, std::uint32_t model, int depth);
+    void find_uses(const GeometryInput& input);
+
+    std::vector<std::vector<PlacedChild>> children_;  ///< by model
+    std::vector<std::size_t> counts_;
+    std::vector<int> heights_;  ///< longest path from each model; -1: not visited
+    std::vector<ModelUse> uses_;
+    std::vector<std::uint32_t> order_;
+    bool any_override_ = false;
+};
 
 }  // namespace lightwalk

@@ -100,6 +100,8 @@ std::optional<ShapeHit> ModelPrimitives::intersect_surface(SurfaceId surface, co
                                                            const Vec3& direction,
                                                            double t_max) const {
     const Shape& shape = surfaces_[static_cast<std::size_t>(index(surface))].shape;
+    if (const auto* cone = std::get_if<ConeShape>(&shape))  // trees are made of these
+        return lightwalk::intersect(*cone, origin, direction, t_max);
     const auto* polygon = std::get_if<PolygonShape>(&shape);
     if (!polygon) return lightwalk::intersect(shape, origin, direction, t_max);
     const EdgeIndex* edges = nullptr;

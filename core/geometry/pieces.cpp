@@ -36,9 +36,9 @@ double cross(const Point& a, const Point& b, const Point& p) {
 }
 
 /// Sutherland & Hodgman: the part of the polygon with sign * coordinate <= sign * limit.
-std::vector<Point> clipped(const std::vector<Point>& polygon, std::size_t k, double limit,
-                           double sign) {
-    std::vector<Point> out;
+void clip(const std::vector<Point>& polygon, std::size_t k, double limit, double sign,
+          std::vector<Point>& out) {
+    out.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Point &a = polygon[i == 0 ? polygon.size() - 1 : i - 1], &b = polygon[i];
         const double da = sign * (limit - a.at[k]), db = sign * (limit - b.at[k]);
@@ -51,8 +51,13 @@ std::vector<Point> clipped(const std::vector<Point>& polygon, std::size_t k, dou
         }
         if (db >= 0) out.push_back(b);
     }
-    return out;
 }
+
+/// A polygon while it is clipped. Kept from one to the next: thousands are clipped while a scene is
+/// built.
+struct Clipping {
+    std::vector<Point> part, next;
+};
 
 double area_of(const std::vector<Point>& polygon) {
     double twice = 0;
@@ -100,13 +105,13 @@ class Projection {
     }
 
     /// Area of the cell that the polygon leaves free. A guess for polygons that cross themselves.
-    [[nodiscard]] double waste(const Cell& cell) const {
-        std::vector<Point> part = points_;
+    [[nodiscard]] double waste(const Cell& cell, Clipping& scratch) const {
+        scratch.part = points_;
         for (std::size_t k = 0; k < 2; ++k) {
-            part = clipped(part, k, cell.upper[k], 1);
-            part = clipped(part, k, cell.lower[k], -1);
+            clip(scratch.part, k, cell.upper[k], 1, scratch.next);
+            clip(scratch.next, k, cell.lower[k], -1, scratch.part);
         }
-        const double free = cell.area() - area_of(part);
+        const double free = cell.area() - area_of(scratch.part);
         return free > 1e-6 * cell.area() ? free : 0;
     }
 
@@ -179,7 +184,7 @@ std::array<Cell, 2> halves(const Cell& cell, const Cut& cut) {
 
 /// The cut at a vertex that settles most (parts without waste, or without any of the polygon);
 /// where none does, the middle.
-Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful) {
+Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful, Clipping& scratch) {
     Cut best;
     const std::array<double, 2> steep{cell.side(0) * (1 + polygon.slope(0)),
                                       cell.side(1) * (1 + polygon.slope(1))};
@@ -189,17 +194,22 @@ Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful) {
     best.at = 0.5 * (cell.lower[best.axis] + cell.upper[best.axis]);
     if (!wasteful) return best;
     double settled = 0;
-    for (const Point& p : polygon.points()) {
+    const std::vector<Point>& points = polygon.points();
+    for (auto p = points.begin(); p != points.end(); ++p) {
         for (std::size_t k = 0; k < 2; ++k) {
-            const double sliver = 0.01 * cell.side(k);
-            if (!(p.at[k] > cell.lower[k] + sliver && p.at[k] < cell.upper[k] - sliver)) continue;
+            const double at = p->at[k], sliver = 0.01 * cell.side(k);
+            if (!(at > cell.lower[k] + sliver && at < cell.upper[k] - sliver)) continue;
+            // Walls have many corners at one height.
+            if (std::any_of(points.begin(), p, [&](const Point& q) { return q.at[k] == at; }))
+                continue;
             double gain = 0;
-            for (const Cell& part : halves(cell, {k, p.at[k]})) {
-                if (polygon.waste(part) == 0 || polygon.is_empty(part)) gain += part.area();
+            for (const Cell& part : halves(cell, {k, at})) {
+                if (polygon.waste(part, scratch) == 0 || polygon.is_empty(part))
+                    gain += part.area();
             }
             if (gain > settled) {
                 settled = gain;
-                best = {k, p.at[k]};
+                best = {k, at};
             }
         }
     }
@@ -215,9 +225,9 @@ struct Task {
     friend bool operator<(const Task& a, const Task& b) { return a.gain < b.gain; }
 };
 
-Task task_for(const Projection& polygon, std::size_t number, const Cell& cell) {
+Task task_for(const Projection& polygon, std::size_t number, const Cell& cell, Clipping& scratch) {
     Task task{0, number, cell, false};
-    const double waste = polygon.waste(cell);
+    const double waste = polygon.waste(cell, scratch);
     const double thickness = polygon.thickness(cell);
     const double allowed = kThickness * std::max(polygon.whole().side(0), polygon.whole().side(1));
     task.wasteful = waste > 0.1 * cell.area();
@@ -255,7 +265,7 @@ class Division {
             half_area(model_.hit_bounds(primitive)) <= least_)
             return false;
         Projection polygon(*shape);
-        const Task task = task_for(polygon, polygons_.size(), polygon.whole());
+        const Task task = task_for(polygon, polygons_.size(), polygon.whole(), scratch_);
         if (task.gain <= least_) return false;
         polygons_.push_back({std::move(polygon), primitive, 1});
         tasks_.push(task);
@@ -286,10 +296,10 @@ class Division {
     void divide(const Task& task, Divided& polygon) {
         --budget_;
         --polygon.pieces;
-        const Cut cut = best_cut(polygon.projection, task.cell, task.wasteful);
+        const Cut cut = best_cut(polygon.projection, task.cell, task.wasteful, scratch_);
         for (const Cell& part : halves(task.cell, cut)) {
             if (polygon.projection.is_empty(part)) continue;
-            tasks_.push(task_for(polygon.projection, task.polygon, part));
+            tasks_.push(task_for(polygon.projection, task.polygon, part, scratch_));
             ++polygon.pieces;
         }
     }
@@ -299,6 +309,7 @@ class Division {
     std::size_t budget_;
     std::vector<Divided> polygons_;
     std::priority_queue<Task> tasks_;
+    Clipping scratch_;
 };
 
 }  // namespace

@@ -16,16 +16,23 @@ void begin_tracing(TracedRay& ray, const RaySegment& segment) {
     ray.local_frame = kWorld;
 }
 
+GeometryInput with_a_model(GeometryInput input) {
+    if (input.models.empty()) input.models.emplace_back();
+    return input;
+}
+
+LocalRay local_ray(const Vec3& origin, const Vec3& direction, const Matrix& to_local, double size) {
+    return {to_local.point(origin), to_local.vector(direction) * size, size};
+}
+
 }  // namespace
 
-PlacedScene::PlacedScene(GeometryInput input) : input_(std::move(input)) {
-    if (input_.models.empty()) input_.models.emplace_back();
-    frames_ = flatten_placements(input_);
+PlacedScene::PlacedScene(GeometryInput input)
+    : input_(with_a_model(std::move(input))), paths_(input_) {
     models_.reserve(input_.models.size());
     for (const ModelGeometry& model : input_.models) models_.emplace_back(input_.surfaces, model);
-    for (const PlacedModel& frame : frames_) {
-        coincidence_ = std::max(coincidence_, kEpsilon * frame.to_world.size());
-    }
+    for (const std::uint32_t model : paths_.order())
+        coincidence_ = std::max(coincidence_, kEpsilon * paths_.use(model).most_size);
     std::vector<std::optional<Bounds>> cubes(input_.models.size());
     bounds_ = model_bounds(0, cubes);
 }
@@ -44,20 +51,17 @@ Bounds PlacedScene::model_bounds(std::uint32_t model,
     return bounds;
 }
 
-const Transform& PlacedScene::transform(FrameId frame) const {
-    return frame == kWorld ? identity_ : frames_[static_cast<std::size_t>(index(frame))].to_world;
-}
-
 std::size_t PlacedScene::memory_bytes() const {
-    std::size_t bytes = frames_.capacity() * sizeof(PlacedModel);
+    std::size_t bytes = 0;
     for (const ModelPrimitives& model : models_) bytes += sizeof(model) + model.memory_bytes();
     return bytes;
 }
 
-LocalRay PlacedScene::local_ray(const Vec3& origin, const Vec3& direction, FrameId frame) const {
-    if (frame == kWorld) return {origin, direction, 1};
-    const Transform& t = transform(frame);
-    return {t.inverse.point(origin), t.inverse.vector(direction) * t.size(), t.size()};
+void PlacedScene::enter(TracedRay& ray, FrameId frame, const InnerSpace& space) {
+    ray.local = local_ray(ray.origin, ray.direction, space.to_local, space.size);
+    ray.local_model = space.model;
+    ray.local_override = space.override_surface;
+    ray.local_frame = frame;
 }
 
 std::optional<Candidate> PlacedScene::cross(TracedRay& ray, PrimitiveRef what) const {
@@ -66,15 +70,11 @@ std::optional<Candidate> PlacedScene::cross(TracedRay& ray, PrimitiveRef what) c
         if (!hit) return std::nullopt;
         return Candidate{hit->t, what, *hit};
     }
-    if (ray.local_frame != what.frame) {
-        ray.local = local_ray(ray.origin, ray.direction, what.frame);
-        ray.local_frame = what.frame;
-    }
+    enter(ray, what.frame);
     constexpr double kRoundUp = 1 + 1e-12;  // the limit holds in the world, exactly: see below
     const double local_limit = ray.limit / ray.local.size * kRoundUp;
-    const auto hit =
-        model_of(what.frame)
-            .intersect(what.primitive, ray.local.origin, ray.local.direction, local_limit);
+    const auto hit = models_[ray.local_model].intersect(what.primitive, ray.local.origin,
+                                                        ray.local.direction, local_limit);
     if (!hit) return std::nullopt;
     const double t = hit->t * ray.local.size;
     if (!(t <= ray.limit)) return std::nullopt;
@@ -115,9 +115,11 @@ bool PlacedScene::propose(NearestRay& ray, PrimitiveRef what) const {
 bool PlacedScene::is_ambiguous(const NearestRay& ray) const {
     if (!ray.nearest) return false;
     const PrimitiveRef what = ray.nearest->what;
-    if (model_of(what.frame).is_triangle(what.primitive))
+    if (ray.second > ray.nearest->t + coincidence_) return false;
+    const PlacedModel placed = paths_.at(what.frame);
+    if (models_[placed.model].is_triangle(what.primitive))
         return false;  // in meshes the nearest wins
-    return ray.second <= ray.nearest->t + kEpsilon * transform(what.frame).size();
+    return ray.second <= ray.nearest->t + kEpsilon * placed.to_world.size();
 }
 
 void PlacedScene::begin_gathering(NearestRay& ray, const RaySegment& segment,
@@ -143,8 +145,9 @@ Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
     Candidate winner;
     for (auto group = all.cbegin(); group != all.cend();) {
         const FrameId frame = group->what.frame;
-        const ModelPrimitives& model = model_of(frame);
-        const double tied = group->t + kEpsilon * transform(frame).size();
+        const PlacedModel placed = paths_.at(frame);
+        const ModelPrimitives& model = models_[placed.model];
+        const double tied = group->t + kEpsilon * placed.to_world.size();
         Candidate best = *group;
         const bool has_ties = !model.is_triangle(best.what.primitive);
         for (; group != all.cend() && group->what.frame == frame; ++group) {
@@ -160,8 +163,9 @@ Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
 
 Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) const {
     const auto [frame, primitive] = winner.what;
-    const ModelPrimitives& model = model_of(frame);
-    const Transform& to_world = transform(frame);
+    const PlacedModel placed = paths_.at(frame);
+    const ModelPrimitives& model = models_[placed.model];
+    const Transform& to_world = placed.to_world;
     Hit hit;
     hit.t = winner.t;
     hit.position = fused_advance(segment.origin, segment.direction, winner.t);
@@ -172,15 +176,14 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
     hit.modifier = model.modifier(primitive);
     hit.frame = frame;
     if (model.is_triangle(primitive)) {
-        const LocalRay local = local_ray(segment.origin, segment.direction, frame);
+        const LocalRay local =
+            local_ray(segment.origin, segment.direction, to_world.inverse, to_world.size());
         const Vec3 position = local.origin + local.direction * winner.local.t;
         const auto smoothing = model.smoothing(primitive, position, winner.local.normal);
         hit.perturbation = to_world.forward.vector(smoothing.perturbation) / to_world.size();
         hit.u = smoothing.u;
         hit.v = smoothing.v;
     }
-    if (frame == kWorld) return hit;
-    const PlacedModel& placed = frames_[static_cast<std::size_t>(index(frame))];
     if (placed.override_surface != kNoSurface) {
         hit.surface = placed.override_surface;
         hit.modifier = surface(placed.override_surface).modifier;
@@ -212,13 +215,10 @@ void PlacedScene::begin(ShadowRay& ray, const RaySegment& segment, SurfaceId tar
     ray.target_precedence.reset();
 }
 
-ShadowClass PlacedScene::shadow_class(PrimitiveRef what) const {
-    if (what.frame != kWorld) {
-        const PlacedModel& placed = frames_[static_cast<std::size_t>(index(what.frame))];
-        if (placed.override_surface != kNoSurface)
-            return surface(placed.override_surface).traits.shadow;
-    }
-    return model_of(what.frame).shadow(what.primitive);
+ShadowClass PlacedScene::shadow_class(const ShadowRay& ray, PrimitiveRef what) const {
+    if (what.frame == kWorld) return models_[0].shadow(what.primitive);
+    return ray.local_override != kNoSurface ? surface(ray.local_override).traits.shadow
+                                            : models_[ray.local_model].shadow(what.primitive);
 }
 
 bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) const {
@@ -235,7 +235,8 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
 
 bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
-    const ShadowClass shadow = shadow_class(what);
+    if (what.frame != kWorld) enter(ray, what.frame);
+    const ShadowClass shadow = shadow_class(ray, what);
     if (shadow == ShadowClass::ignored) return false;
     if (shadow == ShadowClass::special && ray.result == Visibility::special) return false;
     const std::optional<Candidate> candidate = cross(ray, what);

@@ -20,6 +20,14 @@ struct LocalRay {
     double size = 1;
 };
 
+/// What a search needs of a placed model.
+struct InnerSpace {
+    Matrix to_local;  ///< from the world
+    double size = 1;  ///< of what is 1 long inside [m]
+    std::uint32_t model = 0;
+    SurfaceId override_surface = kNoSurface;  ///< see PlacedModel
+};
+
 /// A primitive of a placed model.
 struct PrimitiveRef {
     FrameId frame = kWorld;
@@ -42,7 +50,10 @@ struct TracedRay {
     Vec3 origin, direction;
     double limit = kHuge;  ///< candidates beyond cannot matter any more; only ever falls [m]
     FrameId local_frame = kWorld;
-    LocalRay local;  ///< valid where local_frame is not kWorld
+    // Of that placed model, where local_frame is not kWorld:
+    LocalRay local;
+    std::uint32_t local_model = 0;
+    SurfaceId local_override = kNoSurface;  ///< see PlacedModel
 };
 
 /// The search for the nearest hit: the nearest crossing, and how near the next one is.
@@ -66,10 +77,10 @@ struct ShadowRay : TracedRay {
 
 class PlacedScene {
   public:
-    /// Throws InputError as flatten_placements and ModelPrimitives do.
+    /// Throws InputError as InstancePaths and ModelPrimitives do.
     explicit PlacedScene(GeometryInput input);
 
-    [[nodiscard]] const std::vector<PlacedModel>& frames() const { return frames_; }
+    [[nodiscard]] const InstancePaths& paths() const { return paths_; }
     [[nodiscard]] const ModelPrimitives& primitives(std::uint32_t model) const {
         return models_[model];
     }
@@ -77,8 +88,11 @@ class PlacedScene {
     [[nodiscard]] Bounds bounds() const {
         return bounds_;
     }  ///< of everything, placed models by their cubes
-    [[nodiscard]] const Transform& transform(FrameId frame) const;
+    [[nodiscard]] Transform transform(FrameId frame) const { return paths_.at(frame).to_world; }
     [[nodiscard]] std::size_t memory_bytes() const;
+
+    /// Make `ray.local` the ray in a placed model's space.
+    static void enter(TracedRay& ray, FrameId frame, const InnerSpace& space);
 
     /// Start a search; whatever `ray` held before is forgotten.
     static void begin(NearestRay& ray, const RaySegment& segment);
@@ -100,26 +114,30 @@ class PlacedScene {
 
   private:
     [[nodiscard]] const ModelPrimitives& model_of(FrameId frame) const {
-        return models_[frame == kWorld ? 0 : frames_[static_cast<std::size_t>(index(frame))].model];
+        return models_[frame == kWorld ? 0 : paths_.at(frame).model];
     }
     [[nodiscard]] const Surface& surface(SurfaceId id) const {
         return input_.surfaces[static_cast<std::size_t>(index(id))];
     }
-    [[nodiscard]] LocalRay local_ray(const Vec3& origin, const Vec3& direction,
-                                     FrameId frame) const;
+    void enter(TracedRay& ray, FrameId frame) const {
+        if (ray.local_frame == frame) return;
+        const PlacedModel placed = paths_.at(frame);
+        enter(ray, frame,
+              {placed.to_world.inverse, placed.to_world.size(), placed.model,
+               placed.override_surface});
+    }
     [[nodiscard]] std::optional<Candidate> cross(TracedRay& ray, PrimitiveRef what) const;
     [[nodiscard]] Precedence precedence(const Candidate& candidate) const;
-    [[nodiscard]] ShadowClass shadow_class(PrimitiveRef what) const;
+    [[nodiscard]] ShadowClass shadow_class(const ShadowRay& ray, PrimitiveRef what) const;
     [[nodiscard]] bool is_in_the_way(ShadowRay& ray, const Candidate& candidate) const;
     [[nodiscard]] Bounds model_bounds(std::uint32_t model,
                                       std::vector<std::optional<Bounds>>& cubes) const;
 
     GeometryInput input_;
+    InstancePaths paths_;
     std::vector<ModelPrimitives> models_;
-    std::vector<PlacedModel> frames_;
     Bounds bounds_;
     double coincidence_ = kEpsilon;  ///< of the most enlarged placed model [m]
-    Transform identity_;
 };
 
 }  // namespace lightwalk

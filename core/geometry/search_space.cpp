@@ -13,15 +13,31 @@ namespace {
 /// twice that through an instance's matrix.
 constexpr double kRounding = 0x1p-20;
 constexpr double kInstanceRounding = 2 * kRounding;
+constexpr double kMatrixRounding = 1.1 * kRounding;  ///< by one more matrix
 constexpr double kRegion = 4;    ///< rays start within this many times the scene's reach
 constexpr double kMostOf = 0.9;  ///< part of the scene that the reach holds
 
-double quantile(std::vector<double> values, double part) {
-    if (values.empty()) return 0;
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * part);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
+/// A box among others, and how many it stands for.
+struct WeightedBox {
+    Bounds bounds;
+    double weight = 1;
+};
+
+struct WeightedValue {
+    double value = 0, weight = 1;
+};
+
+/// The least value that has `part` of the weight up to it.
+double quantile(std::vector<WeightedValue> values, double part) {
+    std::sort(values.begin(), values.end(),
+              [](const WeightedValue& a, const WeightedValue& b) { return a.value < b.value; });
+    double all = 0, so_far = 0;
+    for (const WeightedValue& value : values) all += value.weight;
+    for (const WeightedValue& value : values) {
+        so_far += value.weight;
+        if (so_far >= part * all) return value.value;
+    }
+    return values.empty() ? 0 : values.back().value;
 }
 
 Vec3 center_of(const Bounds& bounds) {
@@ -35,33 +51,38 @@ Bounds moved(Bounds bounds, const Vec3& by) {
 }
 
 /// Where most of the boxes are: an enormous ground plane or one stray surface does not matter.
-Vec3 middle_of(const std::vector<Bounds>& boxes) {
+Vec3 middle_of(const std::vector<WeightedBox>& boxes) {
     Vec3 middle;
-    std::vector<double> values(boxes.size());
+    std::vector<WeightedValue> values(boxes.size());
     for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t i = 0; i < boxes.size(); ++i) values[i] = center_of(boxes[i])[k];
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            values[i] = {center_of(boxes[i].bounds)[k], boxes[i].weight};
         middle[k] = quantile(values, 0.5);
     }
     return middle;
 }
 
-std::vector<Bounds> own_boxes(const ModelPrimitives& model) {
-    std::vector<Bounds> boxes(model.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) boxes[i] = model.hit_bounds(i);
+/// Boxes in a model: first its own primitives, then what is placed in it.
+/// @param inside  the boxes of the models that stand in it
+std::vector<WeightedBox> boxes_in(const PlacedScene& scene, std::uint32_t model,
+                                  const std::vector<Bounds>& inside) {
+    const ModelPrimitives& own = scene.primitives(model);
+    std::vector<WeightedBox> boxes(own.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) boxes[i].bounds = own.hit_bounds(i);
+    for (const PlacedChild& child : scene.paths().children(model)) {
+        const Matrix& matrix = child.placement->transform.forward;
+        const std::uint32_t placed = child.placement->model;
+        const Bounds bounds = inside[placed].empty() ? Bounds{matrix.row[3], matrix.row[3]}
+                                                     : transformed(inside[placed], matrix);
+        boxes.push_back({bounds, 1 + static_cast<double>(scene.paths().count_inside(placed))});
+    }
     return boxes;
 }
 
-/// Boxes in the world: first the scene's own primitives, then one for each placed model.
-std::vector<Bounds> world_boxes(const PlacedScene& scene, const std::vector<Bounds>& model_boxes) {
-    std::vector<Bounds> boxes = own_boxes(scene.primitives(0));
-    boxes.reserve(boxes.size() + scene.frames().size());
-    for (const PlacedModel& frame : scene.frames()) {
-        const Matrix& matrix = frame.to_world.forward;
-        const Bounds& inside = model_boxes[frame.model];
-        boxes.push_back(inside.empty() ? Bounds{matrix.row[3], matrix.row[3]}
-                                       : transformed(inside, matrix));
-    }
-    return boxes;
+Bounds union_of(const std::vector<WeightedBox>& boxes) {
+    Bounds all;
+    for (const WeightedBox& box : boxes) extend(all, box.bounds);
+    return all;
 }
 
 }  // namespace
@@ -72,34 +93,41 @@ Bounds SearchSpace::box(Bounds bounds) const {
 }
 
 std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
+    const InstancePaths& paths = scene.paths();
     std::vector<SearchSpace> spaces(scene.model_count());
-    std::vector<Bounds> model_boxes(scene.model_count());
-    for (std::uint32_t m = 0; m < scene.model_count(); ++m) {
-        model_boxes[m] = scene.primitives(m).bounds();
-        if (m > 0) spaces[m].center = middle_of(own_boxes(scene.primitives(m)));
+    std::vector<Bounds> inside(scene.model_count());
+    std::vector<std::vector<WeightedBox>> boxes(scene.model_count());
+    const std::span<const std::uint32_t> order = paths.order();
+    for (auto model = order.rbegin(); model != order.rend(); ++model) {
+        boxes[*model] = boxes_in(scene, *model, inside);
+        inside[*model] = union_of(boxes[*model]);
+        spaces[*model].center = middle_of(boxes[*model]);
     }
-    const std::vector<Bounds> boxes = world_boxes(scene, model_boxes);
-    spaces[0].center = middle_of(boxes);
-    std::vector<double> reach;
-    reach.reserve(boxes.size());
-    for (const Bounds& box : boxes) reach.push_back(magnitude(moved(box, -spaces[0].center)));
-    const double region = kRegion * quantile(reach, kMostOf);
-    spaces[0].margin = kRounding * region;
+    std::vector<double> region(scene.model_count(), 0);  // that rays in a model start within
+    const auto reach = [&](std::uint32_t model, const Bounds& box) {
+        return magnitude(moved(box, -spaces[model].center));
+    };
+    std::vector<WeightedValue> reaches;
+    for (const WeightedBox& box : boxes[0]) reaches.push_back({reach(0, box.bounds), box.weight});
+    region[0] = kRegion * quantile(std::move(reaches), kMostOf);
+    spaces[0].margin = kRounding * region[0];
     spaces[0].relative = kRounding;
-
-    const std::size_t own = scene.primitives(0).size();
-    for (std::size_t i = 0; i < scene.frames().size(); ++i) {
-        const PlacedModel& frame = scene.frames()[i];
-        SearchSpace& space = spaces[frame.model];
-        const double margin = kInstanceRounding * (region + reach[own + i]) / frame.to_world.size();
-        space.margin = std::max(space.margin, margin);
-        space.relative = kInstanceRounding;
-    }
-    for (std::size_t m = 1; m < spaces.size();
-         ++m) {  // copies that shrink to nothing must not spoil the others
-        if (model_boxes[m].empty()) continue;
-        const Vec3 size = model_boxes[m].upper - model_boxes[m].lower;
-        spaces[m].margin = std::min(spaces[m].margin, 0.01 * std::max({size.x, size.y, size.z}));
+    for (const std::uint32_t model : order) {
+        const Vec3 size = inside[model].upper - inside[model].lower;
+        // Copies that shrink to nothing must not spoil the others.
+        if (model != 0 && !inside[model].empty())
+            spaces[model].margin =
+                std::min(spaces[model].margin, 0.01 * std::max({size.x, size.y, size.z}));
+        std::size_t i = scene.primitives(model).size();
+        for (const PlacedChild& child : paths.children(model)) {
+            const double scale = child.placement->transform.size();
+            const double around = region[model] + reach(model, boxes[model][i++].bounds);
+            const std::uint32_t placed = child.placement->model;
+            region[placed] = std::max(region[placed], around / scale);
+            spaces[placed].margin = std::max(
+                spaces[placed].margin, (spaces[model].margin + kMatrixRounding * around) / scale);
+            spaces[placed].relative = kInstanceRounding;
+        }
     }
     return spaces;
 }

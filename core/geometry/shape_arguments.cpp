@@ -152,6 +152,7 @@ ValidatedShape make_cone_shape(const ConeArguments& ends, ValidatedShape result)
     cone.axis = normalize(cone.p1 - cone.p0);
     cone.length = length(cone.p1 - cone.p0);
     if (cone.axis == Vec3{}) return ignored(result.type, "unknown orientation");
+    cone.slope = (cone.r1 - cone.r0) / cone.length;
     result.shape = cone;
     return result;
 }

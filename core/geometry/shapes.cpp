@@ -63,6 +63,20 @@ Vec3 cone_normal(const ConeShape& cone, const Vec3& from_p0, double height) {
     return cone.inward ? -outward : outward;
 }
 
+std::optional<ShapeHit> intersect(const RingShape& ring, const Vec3& origin, const Vec3& direction,
+                                  double t_max) {
+    const double cosine = dot(ring.normal, direction);
+    if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
+    const double t = dot(ring.normal, ring.center - origin) / cosine;
+    if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
+    const double distance_squared = length_squared(origin + direction * t - ring.center);
+    if (!(distance_squared >= ring.r0 * ring.r0 && distance_squared <= ring.r1 * ring.r1))
+        return std::nullopt;
+    return ShapeHit{t, ring.normal, cosine < 0};
+}
+
+}  // namespace
+
 std::optional<ShapeHit> intersect(const ConeShape& cone, const Vec3& origin, const Vec3& direction,
                                   double t_max) {
     // Measured from the line's point nearest to p0, so that a far origin costs no precision.
@@ -70,8 +84,7 @@ std::optional<ShapeHit> intersect(const ConeShape& cone, const Vec3& origin, con
     const Vec3 start = origin + direction * t_near - cone.p0;
     const double height = dot(start, cone.axis), climb = dot(direction, cone.axis);
     const Vec3 radial = start - cone.axis * height, spread = direction - cone.axis * climb;
-    const double slope = (cone.r1 - cone.r0) / cone.length;
-    const double radius = cone.r0 + slope * height, growth = slope * climb;
+    const double radius = cone.r0 + cone.slope * height, growth = cone.slope * climb;
     const double a = length_squared(spread) - growth * growth;
     const double h = dot(radial, spread) - radius * growth;
     const double c = length_squared(radial) - radius * radius;
@@ -88,20 +101,6 @@ std::optional<ShapeHit> intersect(const ConeShape& cone, const Vec3& origin, con
     }
     return std::nullopt;
 }
-
-std::optional<ShapeHit> intersect(const RingShape& ring, const Vec3& origin, const Vec3& direction,
-                                  double t_max) {
-    const double cosine = dot(ring.normal, direction);
-    if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
-    const double t = dot(ring.normal, ring.center - origin) / cosine;
-    if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
-    const double distance_squared = length_squared(origin + direction * t - ring.center);
-    if (!(distance_squared >= ring.r0 * ring.r0 && distance_squared <= ring.r1 * ring.r1))
-        return std::nullopt;
-    return ShapeHit{t, ring.normal, cosine < 0};
-}
-
-}  // namespace
 
 std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin, const Vec3& direction,
                                   double t_max) {

@@ -44,6 +44,7 @@ struct ConeShape {
     Vec3 axis;              ///< unit, from p0 to p1
     double length = 0;      ///< [m]
     bool inward = false;    ///< cup, tube
+    double slope = 0;       ///< of the radius along the axis
 };
 
 struct RingShape {
@@ -82,6 +83,10 @@ struct ValidatedShape {
 /// Nearest crossing with t in (kEpsilon, t_max], or nothing. Exact: double precision, the inside
 /// rules of Radiance (even-odd with tolerance for polygons, closed intervals for rings and cones).
 [[nodiscard]] std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin,
+                                                const Vec3& direction, double t_max);
+
+/// The same, for cones.
+[[nodiscard]] std::optional<ShapeHit> intersect(const ConeShape& cone, const Vec3& origin,
                                                 const Vec3& direction, double t_max);
 
 /// Whether a direction lies inside a source at infinity: 2π(1 - s·v) <= Ω.

@@ -53,7 +53,7 @@ ToFunction world_to_function(const Transform& own, bool transformed, FrameId fra
         if (!transformed) return {};
         return {own.inverse, 1 / own.size(), false};
     }
-    const Transform& placed = geometry.frame(frame);
+    const Transform placed = geometry.frame(frame);
     if (!transformed) return {placed.inverse, 1 / placed.size(), false};
     return {placed.inverse * own.inverse, 1 / (placed.size() * own.size()), false};
 }
@@ -98,8 +98,8 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
     require_arguments(primitive, std::max(file + 1, first_transform_word));
     const std::string& name = primitive.strings[file];
     load_functions(build, name);
-    program_ = build.functions.compile(name, requests, primitive.reals, material_channels,
-                                       primitive.where);
+    program_ = build.functions.shared_program(name, requests, primitive.reals, material_channels,
+                                              primitive.where);
     channels_ = program_.channels();
 
     std::size_t word = first_transform_word;
@@ -147,7 +147,7 @@ std::optional<Lanes> FunctionBinding::evaluate_lanes(const Ray& ray, std::span<c
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {
     Vec3 v = transformed_ ? transform_.forward.vector(d) * (1 / transform_.size()) : d;
     if (ray.hit.frame != kWorld) {
-        const Transform& placed = context.tracer.scene().geometry().frame(ray.hit.frame);
+        const Transform placed = context.tracer.scene().geometry().frame(ray.hit.frame);
         v = placed.forward.vector(v) * (1 / placed.size());
     }
     return v;

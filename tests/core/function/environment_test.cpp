@@ -220,4 +220,27 @@ TEST_CASE("generators have the core library and no ray") {
     }
 }
 
+TEST_CASE("function environment: the same request shares a program, unless it can throw") {
+    FunctionEnvironment environment;
+    environment.load("f.cal", "v = A1 * Px; w = unknown_name; f(x) = if(x, f(x - 1), A1);");
+    const auto program = [&](const char* text, double real) {
+        const ExpressionRequest request[] = {{text, -1}};
+        const double reals[] = {real};
+        return environment.shared_program("f.cal", request, reals, 0, {"scene.rad", 7});
+    };
+    CHECK(program("v", 2) == program("v", 2));
+    CHECK_FALSE(program("v", 2) == program("v", 3));
+    CHECK_FALSE(program("v", 2) == program("v + 0", 2));
+    CHECK_FALSE(program("v", 2).can_throw());
+    for (const char* text : {"w", "f(Px)"}) {
+        CAPTURE(text);
+        CHECK(program(text, 2).can_throw());
+        CHECK_FALSE(program(text, 2) == program(text, 2));
+    }
+    const Program before = program("v", 2);
+    environment.load("g.cal", "v = 3;");
+    environment.define("A2 = 4;", {"scene.rad", 1});
+    CHECK_FALSE(program("v", 2) == before);
+}
+
 }  // namespace lightwalk::test
