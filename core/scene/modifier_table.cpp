@@ -38,6 +38,9 @@ ModifierId global(std::int32_t base, std::int32_t local) {
 }  // namespace
 
 ModifierTable::ModifierTable(const std::vector<LoadedModel>& models) {
+    std::size_t count = 1;  // of the irradiance modes
+    for (const LoadedModel& loaded : models) count += loaded.contents().primitives.size();
+    records_.reserve(count);
     for (const LoadedModel& loaded : models) {
         const Model& model = loaded.contents();
         for (const Primitive& primitive : model.primitives) {

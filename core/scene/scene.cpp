@@ -65,6 +65,13 @@ Transform placement_transform(const Primitive& primitive) {
 }  // namespace
 
 void Scene::Impl::collect_surfaces(WarningSink& warnings) {
+    std::size_t count = 1;  // add_lambertian's
+    for (const LoadedModel& loaded : models)
+        count += loaded.mesh ? 1
+                             : static_cast<std::size_t>(std::count_if(
+                                   loaded.model->primitives.begin(), loaded.model->primitives.end(),
+                                   [](const Primitive& p) { return is_surface(p.type); }));
+    surfaces.reserve(count);
     for (const LoadedModel& loaded : models) {
         if (loaded.mesh) {
             Surface triangles;

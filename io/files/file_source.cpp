@@ -1,5 +1,7 @@
 #include "io/files/file_source.h"
 
+#include <xxhash.h>
+
 #include <array>
 #include <cstdio>
 #include <cstring>
@@ -11,10 +13,12 @@
 namespace lightwalk {
 namespace {
 
-/// FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923), as hexadecimal digits.
-std::string digest_of(std::string_view bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+/// XXH3 with 64 bits (Collet; in the format of its reference implementation), as hexadecimal
+/// digits.
+/// @param kind  of bytes: equal ones of different kinds have different digests
+std::string digest_of(std::string_view bytes, char kind) {
+    const XXH64_hash_t hash =
+        XXH3_64bits_withSeed(bytes.data(), bytes.size(), static_cast<unsigned char>(kind));
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
     return text.data();
@@ -76,36 +80,49 @@ std::optional<std::string> FileSource::place(const std::string& name) {
     return answer(Question::place, name, 0);
 }
 
-std::string FileRecorder::ask(Question question, const std::string& text, std::size_t limit) {
+/// @param kind  '1' of contents, '0' where there is no file, 'x' of an error's message
+void FileRecorder::note(Question question, const std::string& text, char kind,
+                        std::string_view said) {
+    const bool is_content =
+        question == Question::bytes || question == Question::input || question == Question::script;
+    if (!is_content || !digested_.emplace(key_of(question, text), true).second) return;
+    const bool is_file = question == Question::bytes;
+    const std::string name = is_file ? text.substr(text.rfind('/') + 1) : printable(text);
+    digests_.push_back(name.substr(0, name.find('\n')) + ' ' + digest_of(said, kind));
+}
+
+std::optional<std::string> FileRecorder::ask(Question question, const std::string& text,
+                                             std::size_t limit) {
     try {
         std::optional<std::string> found = source_->answer(question, text, limit);
-        return found ? '1' + *std::move(found) : std::string("0");
+        note(question, text, found ? '1' : '0', found ? std::string_view(*found) : "");
+        return found;
     } catch (const InputError& error) {
-        return std::string("x") + error.what();
+        note(question, text, 'x', error.what());
+        throw;
     }
 }
 
 std::optional<std::string> FileRecorder::answer(Question question, const std::string& text,
                                                 std::size_t limit) {
+    if (!keep_) return ask(question, text, limit);
     std::string key = key_of(question, text);
     if (const auto known = answers_.find(key); known != answers_.end())
         return answer_of(known->second);
-    std::string said = ask(question, text, limit);
-    const bool is_content =
-        question == Question::bytes || question == Question::input || question == Question::script;
-    if (is_content && digested_.emplace(key, true).second) {
-        const bool is_file = question == Question::bytes;
-        const std::string name = is_file ? text.substr(text.rfind('/') + 1) : printable(text);
-        digests_.push_back(name.substr(0, name.find('\n')) + ' ' + digest_of(said));
+    std::string said;
+    try {
+        const std::optional<std::string> found = ask(question, text, limit);
+        said = found ? '1' + *found : std::string("0");
+    } catch (const InputError& error) {
+        said = std::string("x") + error.what();
     }
-    if (!keep_) return answer_of(said);
     return answer_of(answers_.emplace(std::move(key), std::move(said)).first->second);
 }
 
 std::string FileRecorder::digest() const {
     std::string all;
     for (const std::string& line : digests_) all += line + '\n';
-    return digest_of(all);
+    return digest_of(all, '1');
 }
 
 std::string FileRecorder::take() {

@@ -67,7 +67,9 @@ class FileRecorder final : public FileSource {
     [[nodiscard]] std::string take();
 
   private:
-    [[nodiscard]] std::string ask(Question question, const std::string& text, std::size_t limit);
+    void note(Question question, const std::string& text, char kind, std::string_view said);
+    [[nodiscard]] std::optional<std::string> ask(Question question, const std::string& text,
+                                                 std::size_t limit);
 
     std::shared_ptr<FileSource> source_;
     bool keep_;
