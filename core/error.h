@@ -1,6 +1,7 @@
 #pragma once
 // Errors that a user can cause, and the place where he can mend them.
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -8,18 +9,36 @@
 
 namespace lightwalk {
 
+/// The name of an input file, in memory once for all that stands in it.
+class FileName {
+  public:
+    FileName() = default;
+    FileName(std::string name)  // NOLINT(google-explicit-constructor): a name is a string
+        : name_(name.empty() ? nullptr : std::make_shared<const std::string>(std::move(name))) {}
+    FileName(const char* name) : FileName(std::string(name)) {}  // NOLINT: the same
+
+    [[nodiscard]] bool empty() const { return !name_; }
+    [[nodiscard]] std::string text() const { return name_ ? *name_ : std::string(); }
+    friend bool operator==(const FileName& a, const FileName& b) {
+        return a.name_ == b.name_ || a.text() == b.text();
+    }
+
+  private:
+    std::shared_ptr<const std::string> name_;
+};
+
 /// Where something stands in an input file. `line` counts from 1; 0 means "no line" (binary file,
 /// option).
 struct SourceLocation {
-    std::string file;
+    FileName file;
     std::int32_t line = 0;
 };
 
 /// "file:line: ", or "file: " without a line, or "" without a file.
 [[nodiscard]] inline std::string to_prefix(const SourceLocation& where) {
     if (where.file.empty()) return {};
-    if (where.line <= 0) return where.file + ": ";
-    return where.file + ":" + std::to_string(where.line) + ": ";
+    if (where.line <= 0) return where.file.text() + ": ";
+    return where.file.text() + ":" + std::to_string(where.line) + ": ";
 }
 
 /// `text` as a terminal may show it: bytes that are neither white space, printable ASCII nor a

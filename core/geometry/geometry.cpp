@@ -47,6 +47,20 @@ struct EmbreeRay {
     double start = 0;
 };
 
+/// Extend by a transformed box that is not empty. Of these there are millions where a model stands
+/// thousands of times, so by its centre and half its size; what this rounds is in the margins.
+void extend_transformed(Bounds& bounds, const Bounds& box, const Matrix& matrix) {
+    const Vec3 center = matrix.point((box.lower + box.upper) * 0.5),
+               half = (box.upper - box.lower) * 0.5;
+    const auto absolute = [](const Vec3& v) {
+        return Vec3{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+    };
+    const Vec3 reach = absolute(matrix.row[0]) * half.x + absolute(matrix.row[1]) * half.y +
+                       absolute(matrix.row[2]) * half.z;
+    bounds.extend(center - reach);
+    bounds.extend(center + reach);
+}
+
 std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
     std::vector<Bounds> boxes = model.copies.boxes;
     boxes.reserve(boxes.size() + model.pieces.size());
@@ -182,7 +196,7 @@ Bounds Geometry::Impl::box_of(const Placement& placement, const Hierarchy& aroun
     Matrix matrix = placement.transform.forward;
     matrix.row[3] = matrix.point(model.space.center) - around.space.center;
     Bounds bounds;
-    for (const Bounds& part : model.outline) extend(bounds, transformed(part, matrix));
+    for (const Bounds& part : model.outline) extend_transformed(bounds, part, matrix);
     return grown(bounds, around.space.relative * magnitude(bounds));
 }
 

@@ -63,6 +63,7 @@ Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId mod
 
 ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelGeometry& model)
     : surfaces_(surfaces), meshes_(model.meshes) {
+    reserve(model);
     for (const SurfaceId id : model.surfaces) {
         const Shape& shape = surfaces[static_cast<std::size_t>(index(id))].shape;
         if (std::holds_alternative<std::monostate>(shape) ||
@@ -83,6 +84,19 @@ ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelG
     }
     if (size_ > std::numeric_limits<std::int32_t>::max())
         throw InputError("too many surfaces in one model");
+}
+
+void ModelPrimitives::reserve(const ModelGeometry& model) {
+    std::size_t polygons = 0, vertices = 0;
+    for (const SurfaceId id : model.surfaces) {
+        const auto* polygon =
+            std::get_if<PolygonShape>(&surfaces_[static_cast<std::size_t>(index(id))].shape);
+        if (!polygon || polygon->vertices.size() > kLargePolygon) continue;
+        ++polygons;
+        vertices += polygon->vertices.size();
+    }
+    own_.reserve(model.surfaces.size());
+    packed_.reserve(polygons, vertices);
 }
 
 Vec3 ModelPrimitives::TriangleRef::corner(int i) const {

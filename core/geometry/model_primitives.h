@@ -90,6 +90,7 @@ class ModelPrimitives {
     [[nodiscard]] const Surface& own_surface(std::uint32_t primitive) const {
         return surfaces_[static_cast<std::size_t>(index(own_[primitive].surface))];
     }
+    void reserve(const ModelGeometry& model);
     [[nodiscard]] TriangleRef triangle(std::uint32_t primitive) const;
     [[nodiscard]] std::optional<ShapeHit> intersect_triangle(std::uint32_t primitive,
                                                              const Vec3& origin,

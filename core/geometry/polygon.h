@@ -53,6 +53,12 @@ inline constexpr std::size_t kLargePolygon = 64;
 /// an index.
 class PackedPolygons {
   public:
+    /// Memory for so many polygons, and their vertices in all.
+    void reserve(std::size_t polygons, std::size_t vertices) {
+        planes_.reserve(polygons);
+        ends_.reserve(polygons + 1);
+        points_.reserve(vertices);
+    }
     /// The handle by which the polygon is asked for.
     std::uint32_t add(const PolygonShape& polygon);
     [[nodiscard]] std::optional<ShapeHit> intersect(std::uint32_t handle, const Vec3& origin,

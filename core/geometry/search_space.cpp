@@ -8,12 +8,13 @@
 namespace lightwalk {
 namespace {
 
-/// How far single precision may be off, relative to the numbers involved: origin, direction and box
-/// test of a ray (Embree's fast one: four half units), 16 half units in the last place altogether;
-/// twice that through an instance's matrix.
+/// How far single precision may be off, relative to the numbers involved. Of rays in the world:
+/// origin, direction and box test (Embree's fast one: four half units), 16 half units in the last
+/// place altogether. By each matrix on the way into a model: five half units of the sum of three
+/// coordinates at most, for origin and direction each.
 constexpr double kRounding = 0x1p-20;
-constexpr double kInstanceRounding = 2 * kRounding;
-constexpr double kMatrixRounding = 1.1 * kRounding;  ///< by one more matrix
+constexpr double kMatrixRounding = 1.1 * kRounding;
+constexpr double kInstanceRounding = 2 * kRounding;  ///< of boxes in placed models
 constexpr double kRegion = 4;    ///< rays start within this many times the scene's reach
 constexpr double kMostOf = 0.9;  ///< part of the scene that the reach holds
 
@@ -94,22 +95,25 @@ Bounds SearchSpace::box(Bounds bounds) const {
 
 std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
     const InstancePaths& paths = scene.paths();
-    std::vector<SearchSpace> spaces(scene.model_count());
-    std::vector<Bounds> inside(scene.model_count());
-    std::vector<std::vector<WeightedBox>> boxes(scene.model_count());
+    const std::size_t count = scene.model_count();
+    std::vector<SearchSpace> spaces(count);
+    std::vector<Bounds> inside(count);
+    std::vector<std::vector<WeightedValue>> reaches(count);  // from the centre, of what is placed
+    std::vector<double> region(count, 0);                    // that rays in a model start within
     const std::span<const std::uint32_t> order = paths.order();
-    for (auto model = order.rbegin(); model != order.rend(); ++model) {
-        boxes[*model] = boxes_in(scene, *model, inside);
-        inside[*model] = union_of(boxes[*model]);
-        spaces[*model].center = middle_of(boxes[*model]);
+    for (auto at = order.rbegin(); at != order.rend(); ++at) {
+        const std::uint32_t model = *at;
+        const std::vector<WeightedBox> boxes = boxes_in(scene, model, inside);
+        inside[model] = union_of(boxes);
+        spaces[model].center = middle_of(boxes);
+        const std::size_t own = model == 0 ? 0 : scene.primitives(model).size();
+        for (const WeightedBox& box : std::span(boxes).subspan(own))
+            reaches[model].push_back(
+                {magnitude(moved(box.bounds, -spaces[model].center)), box.weight});
     }
-    std::vector<double> region(scene.model_count(), 0);  // that rays in a model start within
-    const auto reach = [&](std::uint32_t model, const Bounds& box) {
-        return magnitude(moved(box, -spaces[model].center));
-    };
-    std::vector<WeightedValue> reaches;
-    for (const WeightedBox& box : boxes[0]) reaches.push_back({reach(0, box.bounds), box.weight});
-    region[0] = kRegion * quantile(std::move(reaches), kMostOf);
+    region[0] = kRegion * quantile(reaches[0], kMostOf);
+    reaches[0].erase(reaches[0].begin(),
+                     reaches[0].begin() + static_cast<std::ptrdiff_t>(scene.primitives(0).size()));
     spaces[0].margin = kRounding * region[0];
     spaces[0].relative = kRounding;
     for (const std::uint32_t model : order) {
@@ -118,11 +122,11 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
         if (model != 0 && !inside[model].empty())
             spaces[model].margin =
                 std::min(spaces[model].margin, 0.01 * std::max({size.x, size.y, size.z}));
-        std::size_t i = scene.primitives(model).size();
-        for (const PlacedChild& child : paths.children(model)) {
-            const double scale = child.placement->transform.size();
-            const double around = region[model] + reach(model, boxes[model][i++].bounds);
-            const std::uint32_t placed = child.placement->model;
+        const std::span<const PlacedChild> children = paths.children(model);
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            const double scale = children[i].placement->transform.size();
+            const double around = region[model] + reaches[model][i].value;
+            const std::uint32_t placed = children[i].placement->model;
             region[placed] = std::max(region[placed], around / scale);
             spaces[placed].margin = std::max(
                 spaces[placed].margin, (spaces[model].margin + kMatrixRounding * around) / scale);

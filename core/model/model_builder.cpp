@@ -201,6 +201,7 @@ std::int32_t ModelBuilder::rename(const std::string& name, std::int32_t target,
 std::shared_ptr<Model> ModelBuilder::take() {
     std::shared_ptr<Model> result = std::exchange(model_, std::make_shared<Model>());
     names_.clear();
+    result->primitives.shrink_to_fit();
     return result;
 }
 

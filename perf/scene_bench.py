@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+"""What large models cost before the first picture: seconds to read and to build, and memory; then their rays.
+
+  perf/run.sh scene [--sides 100,316,1000]                                   builds, then this
+  scene_bench.py --lightwalk PROGRAM [--sides 100,316,1000] [--runs 3] [--threads N] [--reference FOLDER] [--size N]
+
+A surface of side x side quadrilaterals (gensurf's) under one lamp, for each side; a hundred times side / 100 instances of a
+patch of 10,000 quadrilaterals, each row of them an instance itself, where an oconv is found (in FOLDER, with the other
+programs of Radiance, or on PATH); and the summer cabin (--scenes DIR, Radiance's sample models). One line a scene, tab-separated:
+
+  scene, polygons
+  read, build     medians [s]
+  MB, bytes       at the peak; a polygon of it, less what a scene of one polygon takes
+  Mrays/s         of a picture of N x N (1000) pixels, shadow rays included
+  oconv, rpict    of the same surface, whole processes [s], where --reference has them and gensurf is on PATH
+"""
+import argparse, json, math, os, pathlib, shutil, statistics, subprocess, sys, tempfile, time
+
+LAMP = """void plastic stuff 0 0 5 .5 .5 .5 0 0
+void light shine 0 0 3 100 100 100
+shine sphere lamp 0 0 4 0 0 10 1
+"""
+SURFACE = "!gensurf stuff wave '10*(s-.5)' '10*(t-.5)' 'sin(20*s)*cos(23*t)' {0} {0}\n"
+CABIN = "pattmats cabin bathroom furniture winpanes.rad mirrors.rad summerday landscape lights.off daywindows".split()
+VIEW = "-vp 0 -12 9 -vd 0 12 -9 -vh 50 -vv 50 -ps 1 -ab 0 -av .1 .1 .1".split()
+PATCH = 100  # quadrilaterals along each side
+
+
+def patch_text():
+    """The same wave, a metre wide, as polygons: oconv needs no gensurf for it."""
+    def point(i, j):
+        s, t = i / PATCH, j / PATCH
+        return f"{s - 0.5:.6f} {t - 0.5:.6f} {0.1 * math.sin(20 * s) * math.cos(23 * t):.6f}"
+    lines = []
+    for i in range(PATCH):
+        for j in range(PATCH):
+            corners = " ".join(point(i + a, j + b) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
+            lines.append(f"stuff polygon q.{i}.{j} 0 0 12 {corners}\n")
+    return LAMP.splitlines()[0] + "\n" + "".join(lines)
+
+
+def run(command, folder, **options):
+    done = subprocess.run(command, cwd=folder, stderr=subprocess.PIPE, **options)
+    if done.returncode != 0:
+        sys.exit(f"{command[0]} failed: {done.stderr.decode(errors='replace')[-500:]}")
+
+
+def measure(arguments, folder, scene, view=VIEW, environment=None):
+    """Medians of seconds to read, build and render; rays and bytes of the last run."""
+    stats, runs = os.path.join(arguments.scratch, "stats.json"), []
+    for _ in range(arguments.runs):
+        threads = ["-n", str(arguments.threads)] if arguments.threads else []
+        run([arguments.lightwalk, "render", "--quiet", *threads, *view, "-x", str(arguments.size), "-y", str(arguments.size),
+             "--stats", stats, "-o", os.path.join(arguments.scratch, "picture.hdr"), *scene], folder, env=environment)
+        runs.append(json.loads(pathlib.Path(stats).read_text()))
+    seconds = {step: statistics.median(r["seconds"][step] for r in runs) for step in ("read", "build", "render")}
+    return seconds, runs[-1]["rays"]["total"], runs[-1]["peak_memory_bytes"]
+
+
+def tool(arguments, name):
+    inside = os.path.join(arguments.reference, name)
+    return inside if arguments.reference and os.access(inside, os.X_OK) else shutil.which(name)
+
+
+def timed(command, folder, out):
+    start = time.perf_counter()
+    with open(out, "wb") as file:
+        run(command, folder, stdout=file)
+    return time.perf_counter() - start
+
+
+def reference_seconds(arguments, scene):
+    oconv, rpict = tool(arguments, "oconv"), tool(arguments, "rpict")
+    if not (oconv and rpict and shutil.which("gensurf")):
+        return "", ""
+    octree = os.path.join(arguments.scratch, "scene.oct")
+    built = timed([oconv, "-w", scene], arguments.scratch, octree)
+    size = str(arguments.size)
+    drawn = timed([rpict, *VIEW, "-x", size, "-y", size, octree], arguments.scratch, os.path.join(arguments.scratch, "r.hdr"))
+    return f"{built:.2f}", f"{drawn:.2f}"
+
+
+def tell(name, polygons, result, least, reference=("", "")):
+    seconds, rays, peak = result
+    print(name, polygons, f"{seconds['read']:.3f}", f"{seconds['build']:.3f}", f"{peak / 1e6:.1f}",
+          f"{max(peak - least, 0) / polygons:.0f}" if polygons else "", f"{rays / seconds['render'] * 1e-6:.2f}", *reference,
+          sep="\t", flush=True)
+
+
+def instanced_scene(arguments, rows):
+    """rows x 100 instances of the patch, nested; None without oconv."""
+    oconv = tool(arguments, "oconv")
+    if not oconv:
+        return None
+    scratch = pathlib.Path(arguments.scratch)
+    (scratch / "patch.rad").write_text(patch_text())
+    timed([oconv, "-w", "patch.rad"], scratch, scratch / "patch.oct")
+    (scratch / "row.rad").write_text("".join(f"void instance patch.{i} 5 patch.oct -t {i - 50} 0 0 0 0\n" for i in range(100)))
+    timed([oconv, "-w", "row.rad"], scratch, scratch / "row.oct")
+    scene = scratch / "instances.rad"
+    scene.write_text(LAMP + "".join(f"void instance row.{i} 7 row.oct -t 0 {i} 0 -s .1 0 0\n" for i in range(rows)))
+    return str(scene)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lightwalk", default=str(pathlib.Path(__file__).resolve().parent.parent / "build/release/lightwalk"),
+                        metavar="PROGRAM")
+    parser.add_argument("--sides", default="100,316,1000", metavar="N,N,...")
+    parser.add_argument("--size", type=int, default=1000, metavar="N")
+    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--threads", type=int, default=0, metavar="N")
+    parser.add_argument("--reference", default="", metavar="FOLDER")
+    parser.add_argument("--scenes", metavar="DIR")
+    arguments = parser.parse_args()
+    if os.sep in arguments.lightwalk:
+        arguments.lightwalk = os.path.abspath(arguments.lightwalk)
+    with tempfile.TemporaryDirectory() as arguments.scratch:
+        print("scene\tpolygons\tread s\tbuild s\tMB\tbytes\tMrays/s\toconv s\trpict s", flush=True)
+        scene = os.path.join(arguments.scratch, "scene.rad")
+        pathlib.Path(scene).write_text(LAMP + SURFACE.format(1))
+        result = measure(arguments, arguments.scratch, [scene])
+        least = result[2]
+        tell("surface", 1, result, least)
+        for side in map(int, arguments.sides.split(",")):
+            pathlib.Path(scene).write_text(LAMP + SURFACE.format(side))
+            tell("surface", side * side, measure(arguments, arguments.scratch, [scene]), least, reference_seconds(arguments, scene))
+        for side in map(int, arguments.sides.split(",")):
+            rows = max(side // 10, 1)
+            instances = instanced_scene(arguments, rows)
+            if instances:
+                tell("instances", rows * 100 * PATCH * PATCH, measure(arguments, arguments.scratch, [instances]), least)
+        if arguments.scenes:
+            folder = os.path.join(os.path.abspath(arguments.scenes), "cabin")
+            view = "-vf vf/living -ps 1 -ab 0 -av .1 .1 .1".split()
+            tell("cabin", 0, measure(arguments, folder, CABIN, view, dict(os.environ, RAYPATH=".:../lib")), least)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
