@@ -20,7 +20,7 @@ class FileName {
     [[nodiscard]] bool empty() const { return !name_; }
     [[nodiscard]] std::string text() const { return name_ ? *name_ : std::string(); }
     friend bool operator==(const FileName& a, const FileName& b) {
-        return a.name_ == b.name_ || a.text() == b.text();
+        return a.name_ == b.name_ || (a.name_ && b.name_ && *a.name_ == *b.name_);
     }
 
   private:

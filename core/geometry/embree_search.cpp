@@ -79,22 +79,11 @@ class InFrame {
     [[nodiscard]] FrameId frame() const { return frame_; }
     /// Found out at the first call: most copies that are searched have nothing on the ray.
     [[nodiscard]] const InnerSpace& space() {
-        if (!space_) space_ = find_space();
+        if (!space_) space_ = space_in(outside_ ? &outside_->space() : nullptr, *copy_.placement);
         return *space_;
     }
 
   private:
-    [[nodiscard]] InnerSpace find_space() const {
-        const Placement& placement = *copy_.placement;
-        const Transform& transform = placement.transform;
-        const SurfaceId own = placement.overrides ? placement.surface : kNoSurface;
-        if (!outside_) return {transform.inverse, transform.size(), placement.model, own};
-        const InnerSpace& around = outside_->space();
-        return {around.to_local * transform.inverse, transform.size() * around.size,
-                placement.model,
-                around.override_surface != kNoSurface ? around.override_surface : own};
-    }
-
     Query& query_;
     const Copy& copy_;
     InFrame* outside_;

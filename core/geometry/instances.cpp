@@ -38,6 +38,14 @@ double product_bound(double a, double b) {
 
 }  // namespace
 
+InnerSpace space_in(const InnerSpace* around, const Placement& placement) {
+    const Transform& transform = placement.transform;
+    const SurfaceId own = placement.overrides ? placement.surface : kNoSurface;
+    if (!around) return {transform.inverse, transform.size(), placement.model, own};
+    return {around->to_local * transform.inverse, transform.size() * around->size, placement.model,
+            around->override_surface != kNoSurface ? around->override_surface : own};
+}
+
 InstancePaths::InstancePaths(const GeometryInput& input)
     : children_(input.models.size()),
       counts_(input.models.size(), 0),
@@ -74,7 +82,6 @@ void InstancePaths::visit(const GeometryInput& input, std::uint32_t model, int d
         height = std::max(height, heights_[inside] + 1);
         const ModelGeometry& contents = input.models[inside];
         if (counts_[inside] == 0 && contents.surfaces.empty() && contents.meshes.empty()) continue;
-        any_override_ = any_override_ || placement.overrides;
         children_[model].push_back({&placement, static_cast<std::int32_t>(frames) + 1});
         frames = std::min(frames + 1 + counts_[inside], kMaxInstances + 1);
     }
@@ -124,23 +131,40 @@ const PlacedChild& InstancePaths::child_with(std::uint32_t model, std::int32_t l
         [](std::int32_t value, const PlacedChild& child) { return value < child.first; }));
 }
 
+/// visit(placement, frame around it) for each placement on the way to `frame`.
+template <class Visit>
+void InstancePaths::follow(FrameId frame, const Visit& visit) const {
+    std::uint32_t model = 0;
+    std::int32_t left = index(frame) - index(kWorld);
+    for (FrameId around = kWorld; left > 0;) {
+        const PlacedChild& child = child_with(model, left);
+        visit(*child.placement, around);
+        model = child.placement->model;
+        left -= child.first;
+        around = FrameId{index(around) + child.first};
+    }
+}
+
 PlacedModel InstancePaths::at(FrameId frame) const {
     PlacedModel placed;
-    std::int32_t left = index(frame) + 1;
-    for (FrameId here = kWorld; left > 0;) {
-        const PlacedChild& child = child_with(placed.model, left);
-        const Placement& placement = *child.placement;
+    follow(frame, [&placed](const Placement& placement, FrameId around) {
         if (placement.overrides && placed.override_surface == kNoSurface) {
             placed.override_surface = placement.surface;
-            placed.override_frame = here;
+            placed.override_frame = around;
         }
         placed.to_world =
-            here == kWorld ? placement.transform : placement.transform * placed.to_world;
+            around == kWorld ? placement.transform : placement.transform * placed.to_world;
         placed.model = placement.model;
-        left -= child.first;
-        here = FrameId{index(here) + child.first};
-    }
+    });
     return placed;
+}
+
+InnerSpace InstancePaths::space_at(FrameId frame) const {
+    InnerSpace space;
+    follow(frame, [&space](const Placement& placement, FrameId around) {
+        space = space_in(around == kWorld ? nullptr : &space, placement);
+    });
+    return space;
 }
 
 }  // namespace lightwalk

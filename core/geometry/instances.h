@@ -20,6 +20,17 @@ struct PlacedModel {
     FrameId override_frame = kWorld;
 };
 
+/// What a search needs of a placed model.
+struct InnerSpace {
+    Matrix to_local;  ///< from the world
+    double size = 1;  ///< of what is 1 long inside [m]
+    std::uint32_t model = 0;
+    SurfaceId override_surface = kNoSurface;  ///< see PlacedModel
+};
+
+/// Of what a placement shows in a placed model; in the scene itself, where `around` is null.
+[[nodiscard]] InnerSpace space_in(const InnerSpace* around, const Placement& placement);
+
 /// A placement in a model, of a model that holds something.
 struct PlacedChild {
     const Placement* placement = nullptr;
@@ -62,13 +73,15 @@ class InstancePaths {
     [[nodiscard]] const ModelUse& use(std::uint32_t model) const { return uses_[model]; }
     /// Of all models that are used: each before those that stand in it.
     [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
-    /// Whether the modifier of any placement shades what is inside.
-    [[nodiscard]] bool any_override() const { return any_override_; }
     /// @param frame  less than count(), or kWorld
     [[nodiscard]] PlacedModel at(FrameId frame) const;
+    /// Of at(frame), for less; the frame is not kWorld.
+    [[nodiscard]] InnerSpace space_at(FrameId frame) const;
 
   private:
     [[nodiscard]] const PlacedChild& child_with(std::uint32_t model, std::int32_t left) const;
+    template <class Visit>
+    void follow(FrameId frame, const Visit& visit) const;
     void visit(const GeometryInput& input, std::uint32_t model, int depth);
     void find_uses(const GeometryInput& input);
 
@@ -77,7 +90,6 @@ class InstancePaths {
     std::vector<int> heights_;  ///< longest path from each model; -1: not visited
     std::vector<ModelUse> uses_;
     std::vector<std::uint32_t> order_;
-    bool any_override_ = false;
 };
 
 }  // namespace lightwalk

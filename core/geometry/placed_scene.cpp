@@ -163,7 +163,9 @@ Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
 
 Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) const {
     const auto [frame, primitive] = winner.what;
-    const PlacedModel placed = paths_.at(frame);
+    std::optional<PlacedModel> inside;
+    if (frame != kWorld) inside = paths_.at(frame);
+    const PlacedModel& placed = inside ? *inside : world_;
     const ModelPrimitives& model = models_[placed.model];
     const Transform& to_world = placed.to_world;
     Hit hit;

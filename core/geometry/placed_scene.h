@@ -20,14 +20,6 @@ struct LocalRay {
     double size = 1;
 };
 
-/// What a search needs of a placed model.
-struct InnerSpace {
-    Matrix to_local;  ///< from the world
-    double size = 1;  ///< of what is 1 long inside [m]
-    std::uint32_t model = 0;
-    SurfaceId override_surface = kNoSurface;  ///< see PlacedModel
-};
-
 /// A primitive of a placed model.
 struct PrimitiveRef {
     FrameId frame = kWorld;
@@ -114,17 +106,13 @@ class PlacedScene {
 
   private:
     [[nodiscard]] const ModelPrimitives& model_of(FrameId frame) const {
-        return models_[frame == kWorld ? 0 : paths_.at(frame).model];
+        return models_[frame == kWorld ? 0 : paths_.space_at(frame).model];
     }
     [[nodiscard]] const Surface& surface(SurfaceId id) const {
         return input_.surfaces[static_cast<std::size_t>(index(id))];
     }
     void enter(TracedRay& ray, FrameId frame) const {
-        if (ray.local_frame == frame) return;
-        const PlacedModel placed = paths_.at(frame);
-        enter(ray, frame,
-              {placed.to_world.inverse, placed.to_world.size(), placed.model,
-               placed.override_surface});
+        if (ray.local_frame != frame) enter(ray, frame, paths_.space_at(frame));
     }
     [[nodiscard]] std::optional<Candidate> cross(TracedRay& ray, PrimitiveRef what) const;
     [[nodiscard]] Precedence precedence(const Candidate& candidate) const;
@@ -135,6 +123,7 @@ class PlacedScene {
 
     GeometryInput input_;
     InstancePaths paths_;
+    PlacedModel world_;  ///< the scene itself
     std::vector<ModelPrimitives> models_;
     Bounds bounds_;
     double coincidence_ = kEpsilon;  ///< of the most enlarged placed model [m]

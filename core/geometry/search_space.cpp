@@ -98,7 +98,7 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
     const std::size_t count = scene.model_count();
     std::vector<SearchSpace> spaces(count);
     std::vector<Bounds> inside(count);
-    std::vector<std::vector<WeightedValue>> reaches(count);  // from the centre, of what is placed
+    std::vector<std::vector<WeightedValue>> reaches(count);  // from the centre, of all boxes
     std::vector<double> region(count, 0);                    // that rays in a model start within
     const std::span<const std::uint32_t> order = paths.order();
     for (auto at = order.rbegin(); at != order.rend(); ++at) {
@@ -106,14 +106,11 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
         const std::vector<WeightedBox> boxes = boxes_in(scene, model, inside);
         inside[model] = union_of(boxes);
         spaces[model].center = middle_of(boxes);
-        const std::size_t own = model == 0 ? 0 : scene.primitives(model).size();
-        for (const WeightedBox& box : std::span(boxes).subspan(own))
+        for (const WeightedBox& box : boxes)
             reaches[model].push_back(
                 {magnitude(moved(box.bounds, -spaces[model].center)), box.weight});
     }
     region[0] = kRegion * quantile(reaches[0], kMostOf);
-    reaches[0].erase(reaches[0].begin(),
-                     reaches[0].begin() + static_cast<std::ptrdiff_t>(scene.primitives(0).size()));
     spaces[0].margin = kRounding * region[0];
     spaces[0].relative = kRounding;
     for (const std::uint32_t model : order) {
@@ -122,11 +119,11 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
         if (model != 0 && !inside[model].empty())
             spaces[model].margin =
                 std::min(spaces[model].margin, 0.01 * std::max({size.x, size.y, size.z}));
-        const std::span<const PlacedChild> children = paths.children(model);
-        for (std::size_t i = 0; i < children.size(); ++i) {
-            const double scale = children[i].placement->transform.size();
-            const double around = region[model] + reaches[model][i].value;
-            const std::uint32_t placed = children[i].placement->model;
+        std::size_t box = scene.primitives(model).size();  // see boxes_in
+        for (const PlacedChild& child : paths.children(model)) {
+            const double scale = child.placement->transform.size();
+            const double around = region[model] + reaches[model][box++].value;
+            const std::uint32_t placed = child.placement->model;
             region[placed] = std::max(region[placed], around / scale);
             spaces[placed].margin = std::max(
                 spaces[placed].margin, (spaces[model].margin + kMatrixRounding * around) / scale);
