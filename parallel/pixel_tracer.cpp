@@ -37,9 +37,10 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
     }
     hits_.assign(rays_.size(), Hit{});
     tracer_.scene().geometry().intersect(segments_, hits_);
-    for (std::size_t k = 0; k < rays_.size() && !stop_.requested(); ++k) {
-        Ray& ray = rays_[k];
-        tracer_.shade_hit(ray, hits_[k], context_);
+    if (stop_.requested()) return;
+    tracer_.shade_hits(rays_, hits_, context_);
+    for (std::size_t k = 0; k < rays_.size(); ++k) {
+        const Ray& ray = rays_[k];
         values[targets_[k]] = {ray.value, static_cast<float>(ray.effective_distance())};
         if (hits.empty()) continue;
         // Shading finds sources at infinity; what is nearer was known before.

@@ -83,6 +83,61 @@ class AtLevel {
     int before_;
 };
 
+/// The rays of one value's hemisphere.
+class AmbientRays final : public HemisphereRays {
+  public:
+    /// @param coef   what the rays are weighed by, for their limits
+    /// @param share  of each in the sum, beside that
+    AmbientRays(const Tracer& tracer, Ray& parent, RayKind kind, const Rgb& coef, float share,
+                TraceContext& context)
+        : tracer_(tracer),
+          parent_(parent),
+          kind_(kind),
+          coef_(coef),
+          share_(share),
+          context_(context) {
+        rays_.reserve(kTogether);
+    }
+
+    bool start(const Vec3& direction) override {
+        Ray& child = rays_.emplace_back();
+        if (!tracer_.spawn(child, kind_, parent_, &coef_)) {
+            rays_.pop_back();
+            return false;
+        }
+        child.coef *= share_;
+        child.direction = direction;
+        return true;
+    }
+
+    std::span<const HemisphereAnswer> trace() override {
+        // One by one: they diverge too much for packets (measured in an interior: a tenth slower).
+        const Geometry& geometry = tracer_.scene().geometry();
+        hits_.clear();
+        for (const Ray& ray : rays_) {
+            const double limit = ray.limit > kEpsilon ? ray.limit : kHuge;
+            hits_.push_back(geometry.intersect({ray.origin, ray.direction, limit}));
+        }
+        tracer_.shade_hits(rays_, hits_, context_);
+        answers_.clear();
+        for (const Ray& ray : rays_)
+            answers_.push_back({ray.value * ray.coef, ray.effective_distance()});
+        rays_.clear();
+        return answers_;
+    }
+
+  private:
+    const Tracer& tracer_;
+    Ray& parent_;
+    RayKind kind_;
+    Rgb coef_;
+    float share_;
+    TraceContext& context_;
+    std::vector<Ray> rays_;
+    std::vector<Hit> hits_;
+    std::vector<HemisphereAnswer> answers_;
+};
+
 }  // namespace
 
 /// One ambient value that a surface asks for.
@@ -164,22 +219,15 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     sampling.share = static_cast<double>(brightness(coef) * share);
     sampling.farthest = 10 * tracer_.scene().cube().size + 1000;
     const RayKind kind = request.far_side ? kAmbientThrough : kAmbientSame;
+    // Cached values weigh their rays by the assumed reflectance alone, whatever the surface.
     const Rgb part = coef * share;
-    const auto trace = [&](const Vec3& direction) -> std::optional<HemisphereAnswer> {
-        Ray child;
-        // Cached values weigh their rays by the assumed reflectance alone, whatever the surface.
-        if (!tracer_.spawn(child, kind, ray, cached ? &coef : &part)) return std::nullopt;
-        if (cached) child.coef *= share;
-        child.direction = direction;
-        tracer_.trace(child, request.context);
-        return HemisphereAnswer{child.value * child.coef, child.effective_distance()};
-    };
+    AmbientRays rays(tracer_, ray, kind, cached ? coef : part, cached ? share : 1, request.context);
     const RandomStream before = ray.random;
     RandomStream stream = cached ? stream_of(request.query, options.seed) : ray.random.child();
     if (cached) ray.random = stream.child();
     ++request.context.ambient_level;
     if (request.context.misses == nullptr) ++request.context.ambient.computed;
-    Hemisphere hemisphere = sample_hemisphere(request.query.normal, sampling, stream, trace);
+    Hemisphere hemisphere = sample_hemisphere(request.query.normal, sampling, stream, rays);
     --request.context.ambient_level;
     if (cached) ray.random = before;
     if (!hemisphere.complete() && request.context.misses == nullptr)

@@ -17,13 +17,14 @@ constexpr int kFewestForExtras = 7;   ///< divisions above which extra samples m
 class Sampler {
   public:
     Sampler(Hemisphere& hemisphere, const HemisphereSampling& sampling, RandomStream& random,
-            HemisphereTracer trace)
+            HemisphereRays& rays)
         : h_(hemisphere),
           sampling_(sampling),
           random_(random),
-          trace_(trace),
+          rays_(rays),
           pool_(random.child()),
-          places_(hemisphere.cells.size()) {}
+          places_(hemisphere.cells.size()),
+          started_(hemisphere.cells.size()) {}
 
     void first_pass() {
         for (int i = h_.divisions - 1; i >= 0; --i) {
@@ -31,9 +32,10 @@ class Sampler {
                 const SquarePosition s{random_.next(), random_.next()};
                 const DiskPoint place =
                     h_.divisions >= kFewestForTrading ? apart(i, j, s) : disk(i, j, s);
-                if (sample(i, j, place, 0)) ++h_.succeeded;
+                (void)start(i, j, place, 0);
             }
         }
+        finish();
     }
 
     void extra_pass() {
@@ -44,14 +46,15 @@ class Sampler {
         std::size_t k = 0;
         for (int i = 0; i < h_.divisions; ++i) {
             for (int j = 0; j < h_.divisions; ++j, ++k) {
-                if (left <= kEpsilon || budget <= 0) return;
+                if (left <= kEpsilon || budget <= 0) return finish();
                 const auto wanted = static_cast<int>(errors[k] * budget / left + random_.next());
                 for (int m = 1; m <= wanted && budget > 0; ++m, --budget) {
-                    if (!sample(i, j, disk(i, j, {random_.next(), random_.next()}), m)) break;
+                    if (!start(i, j, disk(i, j, {random_.next(), random_.next()}), m)) break;
                 }
                 left -= errors[k];
             }
         }
+        finish();
     }
 
   private:
@@ -69,7 +72,7 @@ class Sampler {
         const double least = kPi * 0.04 / (static_cast<double>(h_.divisions) * h_.divisions);
         for (int a = std::max(i - 1, 0); a <= std::min(i + 1, h_.divisions - 1); ++a) {
             for (int b = std::max(j - 1, 0); b <= std::min(j + 1, h_.divisions - 1); ++b) {
-                if ((a == i && b == j) || h_.cells[at(a, b)].nearness <= 0.5 / kHuge) continue;
+                if ((a == i && b == j) || !started_[at(a, b)]) continue;
                 const DiskPoint& other = places_[at(a, b)];
                 const double x = other.x - d.x, y = other.y - d.y;
                 if (x * x + y * y < least) return true;
@@ -86,25 +89,48 @@ class Sampler {
         return disk(i, j, {0.2 + 0.6 * random_.next(), 0.2 + 0.6 * random_.next()});
     }
 
-    /// Sample number `m` of a cell.
-    bool sample(int i, int j, const DiskPoint& d, int m) {
+    /// A ray that was started: sample number `m` of a cell.
+    struct Sample {
+        std::size_t cell = 0;
+        int m = 0;
+        Vec3 direction;
+    };
+
+    /// False: the ray may not start.
+    bool start(int i, int j, const DiskPoint& d, int m) {
         const Vec3 direction = h_.u * d.x + h_.v * d.y +
                                h_.normal * std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
-        const std::optional<HemisphereAnswer> answer = trace_(direction);
-        if (!answer || answer->distance <= kEpsilon) return false;
-        HemisphereCell& c = h_.cells[at(i, j)];
-        c.nearness = std::max(c.nearness, 1 / answer->distance);
-        h_.sum -= c.value;
+        if (!rays_.start(direction)) return false;
         if (m == 0) {
             places_[at(i, j)] = d;
-            c.vertex = direction * std::min(answer->distance, sampling_.farthest);
-            c.value = answer->value;
+            started_[at(i, j)] = true;
+        }
+        pending_.push_back({at(i, j), m, direction});
+        if (pending_.size() == HemisphereRays::kTogether) finish();
+        return true;
+    }
+
+    void finish() {
+        if (pending_.empty()) return;
+        const std::span<const HemisphereAnswer> answers = rays_.trace();
+        for (std::size_t k = 0; k < pending_.size(); ++k) take(pending_[k], answers[k]);
+        pending_.clear();
+    }
+
+    void take(const Sample& sample, const HemisphereAnswer& answer) {
+        if (answer.distance <= kEpsilon) return;
+        HemisphereCell& c = h_.cells[sample.cell];
+        c.nearness = std::max(c.nearness, 1 / answer.distance);
+        h_.sum -= c.value;
+        if (sample.m == 0) {
+            c.vertex = sample.direction * std::min(answer.distance, sampling_.farthest);
+            c.value = answer.value;
+            ++h_.succeeded;
         } else {
-            const auto share = 1 / static_cast<float>(m + 1);
-            c.value = c.value * (static_cast<float>(m) * share) + answer->value * share;
+            const auto share = 1 / static_cast<float>(sample.m + 1);
+            c.value = c.value * (static_cast<float>(sample.m) * share) + answer.value * share;
         }
         h_.sum += c.value;
-        return true;
     }
 
     /// Where more samples are worth their while: differences of neighbours, scaled at the rim,
@@ -114,9 +140,11 @@ class Sampler {
     Hemisphere& h_;
     const HemisphereSampling& sampling_;
     RandomStream& random_;
-    HemisphereTracer trace_;
+    HemisphereRays& rays_;
     PositionPool pool_;
-    std::vector<DiskPoint> places_;  ///< of the cells' first samples
+    std::vector<DiskPoint> places_;      ///< of the cells' first samples
+    std::vector<std::uint8_t> started_;  ///< cells whose first sample has started
+    std::vector<Sample> pending_;
 };
 
 std::vector<double> Sampler::error_map() const {
@@ -191,14 +219,14 @@ DiskPoint square_to_disk(double x, double y) {
 }
 
 Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,
-                             RandomStream random, HemisphereTracer trace) {
+                             RandomStream random, HemisphereRays& rays) {
     Hemisphere h;
     h.normal = normal;
     h.u = random_tangent(normal, random);
     h.v = cross(normal, h.u);
     h.divisions = sampling.divisions;
     h.cells.resize(static_cast<std::size_t>(h.divisions) * static_cast<std::size_t>(h.divisions));
-    Sampler sampler(h, sampling, random, trace);
+    Sampler sampler(h, sampling, random, rays);
     sampler.first_pass();
     if (h.complete() && h.divisions > kFewestForExtras && sampling.extra >= 4 * h.divisions)
         sampler.extra_pass();

@@ -2,10 +2,9 @@
 // What is seen from a surface point: stratified samples of its hemisphere, and the change of their
 // sum with place and tilt.
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <vector>
 
-#include "core/math/function_ref.h"
 #include "core/math/random.h"
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
@@ -17,8 +16,18 @@ struct HemisphereAnswer {
     Rgb value;
     double distance = 0;
 };
-/// Traces a ray into a direction; nothing when it may not start.
-using HemisphereTracer = FunctionRef<std::optional<HemisphereAnswer>(const Vec3& direction)>;
+
+/// Traces the rays of a hemisphere, some at a time.
+class HemisphereRays {
+  public:
+    static constexpr std::size_t kTogether = 64;  ///< at most so many are traced together
+    virtual ~HemisphereRays() = default;
+    /// Prepare a ray into a direction. False: it may not start.
+    virtual bool start(const Vec3& direction) = 0;
+    /// The answers to all that were started since the last call, in that order; valid until the
+    /// next call.
+    virtual std::span<const HemisphereAnswer> trace() = 0;
+};
 
 /// A cell of the hemisphere.
 struct HemisphereCell {
@@ -53,7 +62,7 @@ struct HemisphereSampling {
 /// Sample the hemisphere about the unit vector `normal`. Map: Shirley & Chiu, "A Low Distortion Map
 /// Between Disk and Square", JGT 1997. `random` alone decides the directions.
 [[nodiscard]] Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,
-                                           RandomStream random, HemisphereTracer trace);
+                                           RandomStream random, HemisphereRays& rays);
 
 /// Point of the unit disk for a point of the unit square (Shirley & Chiu); areas keep their ratio.
 struct DiskPoint {

@@ -62,7 +62,7 @@ LightOnSurface::LightOnSurface(const LightSource& light, const SeenPoint& at,
     : light_(light), at_(at), ratio_(lobe.rho / std::max(lobe.diffuse, kEpsilon)) {
     if (out_of_reach(light, at.position) || is_behind(light, at.position, at.normal)) return;
     SourceParts parts;
-    partition(light, at.position, size_over_distance, parts);
+    Partition{light}(at.position, size_over_distance, parts);
     RandomStream random;
     for (int i = 0; i < parts.count; ++i) {
         const auto sample = sample_part(light, parts.part[static_cast<std::size_t>(i)], parts.count,

@@ -1,7 +1,12 @@
 // Evaluation of a program for several rays side by side. Most operations of a program wait for the
 // one before; those of other rays fill the gaps.
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <vector>
 
 #include "core/function/code.h"
 #include "core/function/library.h"
@@ -19,11 +24,12 @@ template <class F, class... Operands>
     return result;
 }
 
+/// The lanes for which it holds.
 template <class F>
-[[gnu::always_inline]] inline std::size_t count(const F& holds, const Lanes& x) {
-    std::size_t n = 0;
-    for (const double v : x.value) n += holds(v) ? 1 : 0;
-    return n;
+[[gnu::always_inline]] inline LaneMask which(const F& holds, const Lanes& x) {
+    LaneMask mask = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) mask |= (holds(x.value[k]) ? 1U : 0U) << k;
+    return mask;
 }
 
 constexpr auto is_zero = [](double x) { return x == 0; };
@@ -43,8 +49,9 @@ constexpr auto absolute = [](double x) { return -x > x ? -x : x; };
 constexpr auto reciprocal = [](double x) { return 1 / x; };
 constexpr auto root = [](double x) { return std::sqrt(x); };
 
-/// One evaluation of all lanes, as long as they take the same way and none has an error: the error
-/// flag is always clear. Operations are those of the interpreter for one ray, to the bit.
+/// One evaluation of all lanes. Where they part those go on that go the way of the first; those
+/// with an error stay behind, too: the error flag is always clear. Operations are those of the
+/// interpreter for one ray, to the bit.
 class LaneMachine {
   public:
     LaneMachine(const Program::Code& code, EvalState& state, std::uint32_t entry, std::size_t used)
@@ -52,8 +59,8 @@ class LaneMachine {
           state_(state),
           i_(code.instructions.data() + entry),
           cells_(state.lanes.data()),
-          used_(used) {}
-    [[nodiscard]] std::optional<Lanes> run();
+          going_((LaneMask{1} << used) - 1) {}
+    [[nodiscard]] LaneValues run();
 
   private:
     [[nodiscard]] const Lanes& a() const { return cells_[i_->a]; }
@@ -69,16 +76,19 @@ class LaneMachine {
         return v;
     }
     void checked(const Lanes& v) { plain(tested(v)); }
-    /// A function that takes long: of the lanes in use only; the others are as the first. Results
-    /// are put together in registers: a vector that was stored by parts is slow to load.
+    [[nodiscard]] std::size_t first() const {
+        return static_cast<std::size_t>(std::countr_zero(going_));
+    }
+    /// A function that takes long: of the lanes that go on only; the others are as the first.
     template <class F, class... Operands>
     void call(const F& f, const Operands&... operands) {
-        static_assert(kLanes == 4);
-        const double first = f(operands.value[0]...);
-        const double second = used_ > 1 ? f(operands.value[1]...) : first;
-        const double third = used_ > 2 ? f(operands.value[2]...) : first;
-        const double fourth = used_ > 3 ? f(operands.value[3]...) : first;
-        checked({{first, second, third, fourth}});
+        const double at_first = f(operands.value[first()]...);
+        Lanes result;
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const bool wanted = k != first() && (going_ >> k & 1) != 0;
+            result.value[k] = wanted ? f(operands.value[k]...) : at_first;
+        }
+        checked(result);
     }
     template <LibraryFunction f>
     [[nodiscard]] Lanes vector_value() const {
@@ -100,7 +110,11 @@ class LaneMachine {
     /// As half_power of one number.
     [[nodiscard]] static Lanes half_power(const Lanes& x, std::int32_t n) {
         const auto halves = static_cast<std::uint32_t>(n < 0 ? -n : n);
-        Lanes result = (halves & 1) != 0 ? each(root, x) : Lanes{{1, 1, 1, 1}};
+        Lanes result;
+        if ((halves & 1) != 0)
+            result = each(root, x);
+        else
+            result.value.fill(1);
         Lanes square = x;
         for (std::uint32_t k = halves >> 1; k > 0; k >>= 1) {
             if ((k & 1) != 0) result = each(multiply, result, square);
@@ -109,42 +123,47 @@ class LaneMachine {
         return n < 0 ? each(reciprocal, result) : result;
     }
     [[nodiscard]] Lanes floor_ratio() { return tested(each(floor_of, each(divide, a(), b()))); }
-    [[nodiscard]] static std::size_t count_above(const Lanes& x, const Lanes& y) {
-        return count(is_positive, each(subtract, x, y));
+    [[nodiscard]] static LaneMask above(const Lanes& x, const Lanes& y) {
+        return which(is_positive, each(subtract, x, y));
     }
-    [[nodiscard]] static bool divides(const Lanes& x) { return count(is_zero, x) == 0; }
+    /// Divisors of 0 are errors. False: no lane is left.
+    [[nodiscard]] bool divides(const Lanes& x) {
+        going_ &= ~which(is_zero, x);
+        return going_ != 0;
+    }
     void jump(std::uint32_t target) { i_ = code_.instructions.data() + target; }
-    /// False: some lanes stay, others jump.
-    [[nodiscard]] bool jump_unless(std::size_t staying) {
-        if (staying != 0 && staying != kLanes) return false;
-        if (staying == 0) {
-            jump(i_->b);
-        } else {
+    void jump_unless(LaneMask staying) {
+        const bool stays = (staying >> first() & 1) != 0;
+        going_ &= stays ? staying : ~staying;
+        if (stays)
             ++i_;
-        }
-        return true;
+        else
+            jump(i_->b);
     }
+    /// False: no lane is left.
     [[nodiscard]] bool choose() {
         const auto cases = static_cast<int>(i_->c);
-        const int chosen = selected_case(a().value[0], cases);
-        if (chosen < 0) return false;
-        for (const double x : a().value) {
-            if (selected_case(x, cases) != chosen) return false;
+        int chosen = -1;
+        for (std::size_t k = first(); k < kLanes; ++k) {
+            if ((going_ >> k & 1) == 0) continue;
+            const int one = selected_case(a().value[k], cases);
+            if (chosen < 0) chosen = one;
+            if (one < 0 || one != chosen) going_ &= ~(LaneMask{1} << k);
         }
-        jump(code_.targets[i_->b + static_cast<std::uint32_t>(chosen)]);
-        return true;
+        if (going_ != 0) jump(code_.targets[i_->b + static_cast<std::uint32_t>(chosen)]);
+        return going_ != 0;
     }
 
     const Program::Code& code_;
     EvalState& state_;
     const Instruction* i_;  ///< the present instruction
     Lanes* cells_;
-    std::size_t used_;  ///< lanes
-    Lanes errors_;      ///< not 0 where a checked result was not finite
+    LaneMask going_;  ///< lanes that take this way
+    Lanes errors_;    ///< not 0 where a checked result was not finite
 };
 
-std::optional<Lanes> LaneMachine::run() {
-    constexpr std::nullopt_t kDiverged = std::nullopt;
+LaneValues LaneMachine::run() {
+    constexpr LaneValues kNone;
     for (;;) {
         // A line an instruction.
         // clang-format off
@@ -159,8 +178,8 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::add_product: plain(each(add_product, a(), b(), c())); break;
             case Op::subtract_product: plain(each(subtract_product, a(), b(), c())); break;
             case Op::divide: plain(each(divide, a(), b())); break;
-            case Op::divide_tested: if (!divides(b())) return kDiverged; plain(each(divide, a(), b())); break;
-            case Op::guard_divisor: if (!divides(a())) return kDiverged; ++i_; break;
+            case Op::divide_tested: if (!divides(b())) return kNone; plain(each(divide, a(), b())); break;
+            case Op::guard_divisor: if (!divides(a())) return kNone; ++i_; break;
             case Op::half_power: checked(half_power(a(), static_cast<std::int32_t>(i_->b))); break;
             case Op::power: call([](double x, double y) { return std::pow(x, y); }, a(), b()); break;
             case Op::modulo: plain(each(subtract_product, floor_ratio(), b(), a())); break;
@@ -172,14 +191,14 @@ std::optional<Lanes> LaneMachine::run() {
             case Op::clear_error_once:
             case Op::clear_error_once_global: ++i_; break;
             case Op::jump: jump(i_->a); break;
-            case Op::jump_unless_positive: if (!jump_unless(count(is_positive, a()))) return kDiverged; break;
-            case Op::jump_unless_above: if (!jump_unless(count_above(a(), c()))) return kDiverged; break;
-            case Op::jump_table: if (!choose()) return kDiverged; break;
-            case Op::halt: return count(is_zero, errors_) == kLanes ? std::optional(a()) : std::nullopt;
-#define FUNCTION(name, arguments, part, lanes, value) case Op::name: if (!library<LibraryFunction::name, LaneSupport::lanes>()) return kDiverged; break;
+            case Op::jump_unless_positive: jump_unless(which(is_positive, a())); break;
+            case Op::jump_unless_above: jump_unless(above(a(), c())); break;
+            case Op::jump_table: if (!choose()) return kNone; break;
+            case Op::halt: return {a(), going_ & which(is_zero, errors_)};
+#define FUNCTION(name, arguments, part, lanes, value) case Op::name: if (!library<LibraryFunction::name, LaneSupport::lanes>()) return kNone; break;
 #define REDUCTION(name, value) FUNCTION(name, 2, core, vector, value) case Op::name##_step: plain(vector_value<LibraryFunction::name>()); break;
 #include "core/function/library.def"
-            default: return kDiverged;  // OpEntry::lanes is false
+            default: return kNone;  // OpEntry::lanes is false
         }
         // clang-format on
     }
@@ -193,20 +212,59 @@ bool Program::has_lanes() const {
     return code_ && code_->has_lanes;
 }
 
-std::optional<Lanes> Program::evaluate_lanes(std::size_t output,
-                                             std::span<const ChannelValues> rays,
-                                             EvalState& state) const {
-    const Code& code = *code_;
+namespace {
+
+void load_constants(const Program::Code& code, EvalState& state) {
     if (state.lanes.size() < code.cells) state.lanes.resize(code.cells);
-    const auto lane = [&](std::size_t k) -> const ChannelValues& {
-        return rays[k < rays.size() ? k : 0];
-    };
-    for (const std::uint8_t c : code.used_channels)
-        state.lanes[c] = {{lane(0)[c], lane(1)[c], lane(2)[c], lane(3)[c]}};
     Lanes* constant = state.lanes.data() + kChannelCount;
     for (const double value : code.constants) (constant++)->value.fill(value);
+}
+
+/// Rays of these numbers, 1 to kLanes; lanes that are left over are as the first.
+LaneValues run_lanes(const Program::Code& code, std::size_t output,
+                     std::span<const ChannelValues> rays, std::span<const std::uint32_t> numbers,
+                     EvalState& state) {
+    std::array<const ChannelValues*, kLanes> lane{};
+    for (std::size_t k = 0; k < kLanes; ++k) lane[k] = &rays[numbers[k < numbers.size() ? k : 0]];
+    for (const std::uint8_t c : code.used_channels) {
+        for (std::size_t k = 0; k < kLanes; ++k) state.lanes[c].value[k] = (*lane[k])[c];
+    }
     const std::uint32_t entry = code.outputs[output].entry;
-    return function::LaneMachine(code, state, entry, rays.size()).run();
+    return function::LaneMachine(code, state, entry, numbers.size()).run();
+}
+
+}  // namespace
+
+LaneValues Program::evaluate_lanes(std::size_t output, std::span<const ChannelValues> rays,
+                                   EvalState& state) const {
+    std::array<std::uint32_t, kLanes> numbers{};
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    load_constants(*code_, state);
+    return run_lanes(*code_, output, rays, std::span(numbers).first(rays.size()), state);
+}
+
+void Program::evaluate_all(std::size_t output, std::span<const ChannelValues> rays,
+                           std::span<std::optional<double>> values, EvalState& state) const {
+    load_constants(*code_, state);
+    std::vector<std::uint32_t>& queue = state.lane_queue;
+    queue.resize(rays.size());
+    std::iota(queue.begin(), queue.end(), 0U);
+    for (std::size_t next = 0; next < queue.size();) {
+        std::array<std::uint32_t, kLanes> group{};
+        const std::size_t size = std::min(kLanes, queue.size() - next);
+        std::copy_n(queue.begin() + static_cast<std::ptrdiff_t>(next), size, group.begin());
+        next += size;
+        const LaneValues found =
+            run_lanes(*code_, output, rays, std::span(group).first(size), state);
+        for (std::size_t k = 0; k < size; ++k) {
+            if (found.has(k))
+                values[group[k]] = found.lanes.value[k];
+            else if (k == 0)
+                values[group[k]] = std::nullopt;
+            else
+                queue.push_back(group[k]);  // with others that went another way
+        }
+    }
 }
 
 }  // namespace lightwalk

@@ -68,9 +68,17 @@ using ChannelValues = std::array<double, kChannelCount>;  ///< indexed by Channe
 enum class EvalError : std::uint8_t { none, domain, range };
 
 /// A number in each of several evaluations that go side by side.
-inline constexpr std::size_t kLanes = 4;
-struct alignas(32) Lanes {
+inline constexpr std::size_t kLanes = 8;
+struct alignas(64) Lanes {
     std::array<double, kLanes> value{};
+};
+using LaneMask = std::uint32_t;  ///< bit k: lane k
+
+/// Results of evaluations side by side.
+struct LaneValues {
+    Lanes lanes;
+    LaneMask done = 0;  ///< lanes that have a result
+    [[nodiscard]] bool has(std::size_t lane) const { return (done >> lane & 1) != 0; }
 };
 
 /// Caches and scratch of one evaluation at a time; one per thread, reused without allocation after
@@ -92,8 +100,9 @@ struct EvalState {
         std::vector<double> rays;  ///< direction and energy each
         bool valid = false;        ///< whether they are this epoch's
     };
-    std::uint64_t operations = 0;  ///< done by calls in this epoch; bounded
-    std::vector<Lanes> lanes;      ///< registers of evaluations side by side
+    std::uint64_t operations = 0;           ///< done by calls in this epoch; bounded
+    std::vector<Lanes> lanes;               ///< registers of evaluations side by side
+    std::vector<std::uint32_t> lane_queue;  ///< rays that are still to be evaluated side by side
     function::NoiseMemory noise;
     function::FractalMemory fractal;
     PrismRays prism;
@@ -141,11 +150,14 @@ class Program {
     /// nor more of the ray than its channels. Inputs (`parameters` > 0) have no lanes.
     [[nodiscard]] bool has_lanes() const;
     /// Output k for 1 to kLanes rays side by side, each an epoch of its own. Same values as
-    /// evaluate(), to the bit; those of further lanes mean nothing. Nothing where rays take
-    /// different branches or one meets a numeric error: they have to be evaluated one by one then.
-    [[nodiscard]] std::optional<Lanes> evaluate_lanes(std::size_t output,
-                                                      std::span<const ChannelValues> rays,
-                                                      EvalState& state) const;
+    /// evaluate(), to the bit, for those that take the same branches as the first of them; not for
+    /// those that meet a numeric error.
+    [[nodiscard]] LaneValues evaluate_lanes(std::size_t output, std::span<const ChannelValues> rays,
+                                            EvalState& state) const;
+    /// The same for any number of rays, all but those that meet a numeric error: these get nothing,
+    /// and have to be evaluated one by one. values.size() == rays.size().
+    void evaluate_all(std::size_t output, std::span<const ChannelValues> rays,
+                      std::span<std::optional<double>> values, EvalState& state) const;
 
     /// When output k is the same number whatever the channels: that number.
     [[nodiscard]] const double* constant(std::size_t output) const;

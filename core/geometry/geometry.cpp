@@ -77,6 +77,8 @@ struct Geometry::Impl {
     void trace(NearestRay& ray) const;
     void trace(std::span<NearestRay> rays) const;
     void trace(ShadowRay& ray) const;
+    void trace(std::span<ShadowRay> rays) const;
+    [[nodiscard]] bool is_blocked_again(ShadowRay& ray, const Blocker* last) const;
     [[nodiscard]] Hit finish(const RaySegment& segment, const NearestRay& ray) const;
 
     std::atomic<std::ptrdiff_t> embree_bytes{
@@ -351,6 +353,30 @@ void Geometry::Impl::trace(ShadowRay& ray) const {
     rtcOccluded1(models[0].scene.get(), &query, &embree);
 }
 
+void Geometry::Impl::trace(std::span<ShadowRay> rays) const {
+    assert(rays.size() <= kPacket);
+    alignas(64) std::array<int, kPacket> valid{};
+    RTCRayHit16 hits;
+    ShadowQueries query;
+    rtcInitIntersectContext(&query);
+    query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    query.placed = &placed;
+    query.rays = rays.data();
+    close_lanes(hits);
+    for (unsigned i = 0; i < rays.size(); ++i) {
+        const std::optional<EmbreeRay> from = embree_ray(rays[i]);
+        if (!from) continue;
+        set_ray(hits.ray, i, *from);
+        valid[i] = -1;
+    }
+    rtcOccluded16(valid.data(), models[0].scene.get(), &query, &hits.ray);
+}
+
+bool Geometry::Impl::is_blocked_again(ShadowRay& ray, const Blocker* last) const {
+    return last && last->primitive != Blocker::kNone &&
+           placed.propose(ray, {last->frame, last->primitive});
+}
+
 Hit Geometry::Impl::finish(const RaySegment& segment, const NearestRay& ray) const {
     if (!ray.nearest) return {};
     if (!placed.is_ambiguous(ray)) return placed.hit_of(segment, *ray.nearest);
@@ -385,13 +411,39 @@ void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) c
                                                  Blocker* last) const {
     ShadowRay search;
     impl_->placed.begin(search, ray, target);
-    if (last && last->primitive != Blocker::kNone &&
-        impl_->placed.propose(search, {last->frame, last->primitive}))
-        return Visibility::blocked;
+    if (impl_->is_blocked_again(search, last)) return Visibility::blocked;
     impl_->trace(search);
     if (last && search.result == Visibility::blocked)
         *last = {search.blocker.frame, search.blocker.primitive};
     return search.result;
+}
+
+void Geometry::visibility(std::span<const ShadowQuery> queries,
+                          std::span<Visibility> answers) const {
+    assert(queries.size() == answers.size());
+    std::array<ShadowRay, kPacket> rays;
+    std::array<std::size_t, kPacket> numbers{};
+    std::size_t count = 0;
+    const auto trace_packet = [&] {
+        impl_->trace(std::span(rays).first(count));
+        for (std::size_t k = 0; k < count; ++k) {
+            const ShadowRay& ray = rays[k];
+            answers[numbers[k]] = ray.result;
+            if (ray.result == Visibility::blocked && queries[numbers[k]].last)
+                *queries[numbers[k]].last = {ray.blocker.frame, ray.blocker.primitive};
+        }
+        count = 0;
+    };
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        impl_->placed.begin(rays[count], queries[i].ray, queries[i].target);
+        if (impl_->is_blocked_again(rays[count], queries[i].last)) {
+            answers[i] = Visibility::blocked;
+            continue;
+        }
+        numbers[count++] = i;
+        if (count == kPacket) trace_packet();
+    }
+    if (count > 0) trace_packet();
 }
 
 }  // namespace lightwalk

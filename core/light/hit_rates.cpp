@@ -72,18 +72,22 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
     Ray ray = context.tracer.primary(hit.position + hit.normal, -hit.normal, 0, random);
     ray.hit = hit;
     ray.hit.t = ray.hit.cos_out = 1;
-    DirectCalculation direct(lights, ray, context);
-    direct.gather(
-        [&hit](const Vec3& l, double omega) {
-            const double cosine = dot(hit.normal, l);
-            return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
-        },
-        nullptr);
+    const auto coefficient = [&hit](const Vec3& l, double omega) {
+        const double cosine = dot(hit.normal, l);
+        return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
+    };
+    DirectCalculation direct(lights, context);
+    const DirectRequest request{&ray, coefficient};
+    direct.gather({&request, 1});
+    LitPoint& lit = direct.point(0);
+    lit.adaptive = true;
     direct.sort();
-    direct.test(0, direct.count());
+    lit.block_end = lit.count;
+    direct.test();
     MeasuredPoint point;
-    const float total = direct.tails()[0];
-    for (const LightCandidate& c : direct.candidates()) {
+    const float total = direct.tails(lit)[0];
+    for (std::size_t i = 0; i < lit.count; ++i) {
+        const LightCandidate& c = direct.ranked(lit, i);
         point.push_back({c.source, c.brightness / total, brightness(c.contribution) / total});
     }
     return point;

@@ -1,12 +1,14 @@
 #pragma once
-// The direct calculation's buffers: one set per thread, used as a stack, so that they allocate only
-// while growing.
+// The direct calculation's buffers: one set per thread, which allocates only while growing.
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "core/geometry/geometry.h"
 #include "core/light/partition.h"
+#include "core/light/shadow_order.h"
 #include "core/math/rgb.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 
@@ -19,26 +21,66 @@ enum class CandidateState : std::uint8_t {
     dark,     ///< tested: blocked, or the source sends nothing this way; the contribution is 0
 };
 
-/// A sample of a source that could light the point.
+/// A sample of a source that could light a point.
 struct LightCandidate {
     std::int32_t source = 0;  ///< into LightSources
-    std::uint32_t order = 0;  ///< in which it was gathered
+    std::uint32_t point = 0;  ///< into DirectScratch::points
     Vec3 direction;           ///< unit, from the point
     double distance = kHuge;  ///< to the source's own surface [m]
     Rgb coefficient;          ///< K = f cosθ ω
     Rgb contribution;         ///< V = K E, as `state` says
     float brightness = 0;     ///< of the contribution, for the order of tests
     CandidateState state = CandidateState::unknown;
+    bool special = false;  ///< a ray has to be followed through what is in the way
 };
 
-/// Each calculation uses what lies above the sizes that it found, and truncates to them when it
-/// ends.
+/// A shaded point whose direct light is being calculated. What every candidate asks of it stands
+/// here, together: the rays of a wave are too many for the nearest cache.
+struct LitPoint {
+    explicit LitPoint(const DirectRequest& request);
+
+    Vec3 position;
+    Vec3 front;              ///< see Tracer::add_direct, where `one_sided`
+    double part_size = 0;    ///< of sources, relative to their distance
+    bool one_sided = false;  ///< no light from behind `front`
+    bool clear_air = false;  ///< the medium takes nothing
+    bool clipped = false;    ///< antimatter: every light has to be followed by a ray
+    bool limited = false;    ///< an aft clipping plane cuts rays that go through the surface
+    bool adaptive = false;   ///< tested brightest first, until the others cannot matter
+    DirectCoefficient coefficient;
+    Ray* ray;
+    Tracer::ShadowStart start;  ///< of rays to the sources; its random numbers place the samples
+    std::size_t first = 0;      ///< of the ranks of its candidates
+    std::size_t count = 0;      ///< of candidates that are left
+    std::size_t ahead = 0;      ///< see next_block()
+    std::size_t tested = 0, block_end = 0;  ///< ranks
+    ShadowTally tally;                      ///< adaptive
+};
+
+/// The buffers of one calculation.
+struct DirectScratch {
+    SourceParts parts;    ///< of the source being sampled, seen from one point
+    SourcePlaces places;  ///< of all points on it
+    std::vector<LitPoint> points;
+    std::vector<LightCandidate> candidates;   ///< of one source after the other
+    std::vector<std::uint32_t> ranks;         ///< candidates of one point after the other, in the
+                                              ///< order of tests
+    std::vector<std::uint64_t> keys;          ///< of the candidates that are being ranked
+    std::vector<float> tails;                 ///< by rank, and one more a point: see next_block()
+    std::vector<std::uint32_t> tests;         ///< candidates that are being tested
+    std::vector<std::uint32_t> by_source;     ///< of these, those that plain visibility decides
+    std::vector<std::uint32_t> source_ends;   ///< in by_source
+    std::vector<ShadowQuery> shadow_queries;  ///< of these
+    std::vector<Visibility> answers;          ///< to these
+    std::vector<std::uint32_t> side_by_side;  ///< candidates whose patterns go side by side
+};
+
 struct LightScratch {
-    SourceParts parts;                  ///< of the source being sampled
-    std::vector<SourceSample> samples;  ///< of the source being looked at
-    std::vector<LightCandidate> candidates;
-    std::vector<Blocker> blockers;  ///< what hid each source last; stays
-    std::vector<float> tails;       ///< brightness still untested, by candidate
+    std::deque<DirectScratch> nested;  ///< a shadow ray may meet what wants direct light, too
+    std::size_t open = 0;              ///< of these: in use
+    std::vector<Blocker> blockers;     ///< what hid each source last
+    /// Of late: shows whether points have so many candidates that waves are worth their while.
+    std::size_t points = 0, candidates = 0;
 };
 
 }  // namespace lightwalk

@@ -49,9 +49,9 @@ class LightSources {
     [[nodiscard]] bool inside_spot(const LightSource& source, const Vec3& origin,
                                    const Vec3& direction) const;
 
-    /// Add direct light to ray.value (source loop, candidates, shadow tests).
-    void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
-                    const Vec3* front) const;
+    /// Add direct light to the values of rays. What one gets does not depend on the others; many
+    /// whose points lie near each other are faster together.
+    void add_direct(std::span<const DirectRequest> requests, TraceContext& context) const;
 
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;

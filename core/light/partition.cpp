@@ -1,5 +1,7 @@
 #include "core/light/partition.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/light/spot.h"
@@ -10,7 +12,6 @@ namespace {
 constexpr SourcePart kWholeBox{{0, 0, 0}, {1, 1, 1}};
 constexpr double kSquareToDisk =
     1.12837917;  ///< 2/√π: half width of the disk around a square of equal area
-constexpr double kLeastFormFactor = 1e-4;  ///< of a local source's part: less is grazing
 /// Squared radius of a cylinder over the squared half width of its box: 1 / kCylinderBox² to
 /// Radiance's digits.
 constexpr double kCylinderOverBoxSquared = 1.365;
@@ -19,11 +20,11 @@ constexpr double kFullJitter = 0.7;  ///< above it single samples fill round sou
 /// Flat sources: halve the longer side until both are short for their distance.
 class FlatPartition {
   public:
-    FlatPartition(const LightSource& source, const Vec3& to_center, double size_over_distance,
+    /// @param u_reach, v_reach  how far away half axes of these lengths need not be halved [m]
+    FlatPartition(const LightSource& source, const Vec3& to_center, double u_reach, double v_reach,
                   SourceParts& parts)
         : to_center_(to_center), u_(source.u), v_(source.v), parts_(parts) {
-        const double scale = 2 / size_over_distance;
-        split(kWholeBox, scale * length(u_), scale * length(v_), kMaxParts);
+        split(kWholeBox, u_reach, v_reach, kMaxParts);
     }
 
   private:
@@ -47,14 +48,6 @@ class FlatPartition {
     Vec3 to_center_, u_, v_;
     SourceParts& parts_;
 };
-
-/// Whether a flat source need not be divided. May be false though it need not.
-bool is_far(const LightSource& source, const Vec3& to_center, double size_over_distance) {
-    constexpr double kRound = 1 + 1e-12;
-    const double longest_squared = std::max(length_squared(source.u), length_squared(source.v));
-    return length_squared(to_center) * size_over_distance * size_over_distance >
-           4 * kRound * longest_squared;
-}
 
 /// Cylinders: halve along the axis.
 class CylinderPartition {
@@ -107,27 +100,6 @@ Vec3 squeeze(const LightSource& source, const Vec3& a) {
     return a * (longest / (kSphereBox * std::sqrt(squared)));
 }
 
-Vec3 position_in_box(const LightSource& source, const SourcePart& part, int parts, double jitter,
-                     RandomStream& random) {
-    Vec3 a = part.center;
-    if (jitter > 0) {
-        const std::size_t axes = source.flat || source.distant ? 2 : 3;
-        for (std::size_t i = 0; i < axes; ++i)
-            a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
-    }
-    return source.round && (parts > 1 || jitter > kFullJitter) ? squeeze(source, a) : a;
-}
-
-/// Share of the source's projected area that the part shows in a direction.
-double form_factor(const LightSource& source, const SourcePart& part, const Vec3& direction) {
-    if (source.flat) return -dot(source.normal, direction) * part.size.x * part.size.y;
-    if (source.cylinder) {
-        const double along = dot(direction, normalize(source.u));
-        return std::sqrt(std::max(0.0, 1 - along * along)) * part.size.x;
-    }
-    return part.size.x * part.size.y * part.size.z;
-}
-
 }  // namespace
 
 bool out_of_reach(const LightSource& source, const Vec3& point) {
@@ -151,19 +123,43 @@ double partition_size(double subdivision, double weight) {
     return subdivision > kEpsilon && weight > 0 ? subdivision / weight : 0;
 }
 
-void partition(const LightSource& source, const Vec3& point, double size_over_distance,
-               SourceParts& parts) {
+Vec3 position_in_box(const LightSource& source, const SourcePart& part, int parts, double jitter,
+                     RandomStream& random) {
+    Vec3 a = part.center;
+    if (jitter > 0) {
+        const std::size_t axes = source.flat || source.distant ? 2 : 3;
+        for (std::size_t i = 0; i < axes; ++i)
+            a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
+    }
+    return source.round && (parts > 1 || jitter > kFullJitter) ? squeeze(source, a) : a;
+}
+
+Partition::Partition(const LightSource& source)
+    : source_(source),
+      u_length_(source.flat ? length(source.u) : 0),
+      v_length_(source.flat ? length(source.v) : 0) {}
+
+/// Whether a flat source need not be divided. May be false though it need not.
+bool Partition::is_far(const Vec3& to_center, double size_over_distance) const {
+    constexpr double kRound = 1 + 1e-12;
+    const double longest = std::max(u_length_, v_length_);
+    return length_squared(to_center) * size_over_distance * size_over_distance >
+           4 * kRound * longest * longest;
+}
+
+void Partition::operator()(const Vec3& point, double size_over_distance, SourceParts& parts) const {
     parts.count = 0;
     if (size_over_distance > 0) {
-        if (source.flat) {
-            const Vec3 to_center = point - source.center;
-            if (!(dot(to_center, source.normal) > 0)) return;
-            if (!is_far(source, to_center, size_over_distance)) {
-                FlatPartition(source, to_center, size_over_distance, parts);
+        if (source_.flat) {
+            const Vec3 to_center = point - source_.center;
+            if (!(dot(to_center, source_.normal) > 0)) return;
+            if (!is_far(to_center, size_over_distance)) {
+                const double scale = 2 / size_over_distance;
+                FlatPartition(source_, to_center, scale * u_length_, scale * v_length_, parts);
                 return;
             }
-        } else if (source.cylinder) {
-            CylinderPartition(source, point, size_over_distance, parts);
+        } else if (source_.cylinder) {
+            CylinderPartition(source_, point, size_over_distance, parts);
             return;
         }
     }
@@ -174,42 +170,10 @@ void partition(const LightSource& source, const Vec3& point, double size_over_di
 std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part,
                                         int parts, const Vec3& point, double jitter,
                                         RandomStream& random) {
-    const Vec3 a = position_in_box(source, part, parts, jitter, random);
-    const Vec3 target = source.center + source.u * a.x + source.v * a.y + source.w * a.z;
-    SourceSample sample;
-    const Vec3 towards = source.distant ? target : target - point;
-    const double distance = length(towards);
-    if (distance <= 0) return std::nullopt;
-    sample.direction = towards / distance;
-    const double s = form_factor(source, part, sample.direction);
-    if (source.distant) {
-        if (source.spot && outside_spot(*source.spot, point, sample.direction)) return std::nullopt;
-        sample.solid_angle = s * static_cast<double>(source.size);
-        return sample;
-    }
-    if (s <= kLeastFormFactor) return std::nullopt;
-    if (source.material_type == PrimitiveType::glow &&
-        distance > static_cast<double>(source.proximity)) {
-        return std::nullopt;
-    }
-    sample.distance = distance;
-    double apex_distance = distance;
-    if (source.spot) {
-        if (outside_spot(*source.spot, point, sample.direction)) return std::nullopt;
-        apex_distance += static_cast<double>(source.spot->focal_length);
-    }
-    sample.solid_angle = s * static_cast<double>(source.size) / (apex_distance * apex_distance);
-    return sample;
-}
-
-[[gnu::flatten]] void sample_parts(const LightSource& source, const SourceParts& parts,
-                                   const Vec3& point, double jitter, RandomStream& random,
-                                   std::vector<SourceSample>& samples) {
-    for (int i = 0; i < parts.count; ++i) {
-        const auto sample = sample_part(source, parts.part[static_cast<std::size_t>(i)],
-                                        parts.count, point, jitter, random);
-        if (sample) samples.push_back(*sample);
-    }
+    SourcePlaces places;
+    places.add(source, part, parts, point, 0, jitter, random);
+    places.sample(source);
+    return places[0];
 }
 
 std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,

@@ -3,6 +3,7 @@
 // each. Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994
 // ("adaptive source subdivision"); the -ds and -dj options of rpict(1).
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -45,22 +46,85 @@ struct SourceSample {
 /// are not divided.
 [[nodiscard]] double partition_size(double subdivision, double weight);
 
-/// Cut a source into parts no larger than `size_over_distance` times their distance from `point`.
-/// No parts when the source turns away (flat sources) or the point is in it (cylinders); always one
-/// when the size is 0.
-void partition(const LightSource& source, const Vec3& point, double size_over_distance,
-               SourceParts& parts);
+/// Cuts a source into parts for points that look at it.
+class Partition {
+  public:
+    explicit Partition(const LightSource& source);  ///< which must outlive this
+    /// Parts no larger than `size_over_distance` times their distance from `point`. None when the
+    /// source turns away (flat sources) or the point is in it (cylinders); always one when the size
+    /// is 0.
+    void operator()(const Vec3& point, double size_over_distance, SourceParts& parts) const;
 
-/// Sample one of `parts` parts. Nothing when the part turns away, is out of reach, or is seen from
-/// outside the source's spot.
+  private:
+    [[nodiscard]] bool is_far(const Vec3& to_center, double size_over_distance) const;
+
+    const LightSource& source_;
+    double u_length_, v_length_;  ///< of a flat source's half axes [m]
+};
+
+/// Where to sample one of `parts` parts, in units of the source's half axes.
+[[nodiscard]] Vec3 position_in_box(const LightSource& source, const SourcePart& part, int parts,
+                                   double jitter, RandomStream& random);
+
+/// Places in a source's sampling box that points look at, and the samples there: an array a number,
+/// so that they are computed side by side.
+class SourcePlaces {
+  public:
+    void clear() { count_ = 0; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    /// Add a part of a source, of `parts` that it has from `point`.
+    /// @param number  of the point, for who reads the samples
+    void add(const LightSource& source, const SourcePart& part, int parts, const Vec3& point,
+             std::uint32_t number, double jitter, RandomStream& random);
+    /// Sample the source at all places.
+    void sample(const LightSource& source);
+
+    [[nodiscard]] std::uint32_t number(std::size_t i) const { return numbers_[i]; }
+    /// Sample i. Nothing when the part turns away, is out of reach, or is seen from outside the
+    /// source's spot.
+    [[nodiscard]] std::optional<SourceSample> operator[](std::size_t i) const {
+        if (!(row(kSolidAngle)[i] >= 0)) return std::nullopt;
+        return SourceSample{
+            {row(kX)[i], row(kY)[i], row(kZ)[i]}, row(kDistance)[i], row(kSolidAngle)[i]};
+    }
+
+  private:
+    // What is known of a place, one row of numbers each: the point, the place in the box, the
+    // part's share of the box; then the sample. Without one the solid angle is -1.
+    enum Row {
+        kFromX,
+        kFromY,
+        kFromZ,
+        kPlaceX,
+        kPlaceY,
+        kPlaceZ,
+        kShare,
+        kX,
+        kY,
+        kZ,
+        kDistance,
+        kSolidAngle,
+        kRows
+    };
+    [[nodiscard]] double* row(Row r) { return rows_.data() + r * capacity_; }
+    [[nodiscard]] const double* row(Row r) const { return rows_.data() + r * capacity_; }
+    void grow();
+    void aim(const LightSource& source);
+    void weigh_flat(const LightSource& source);
+    void weigh_distant(const LightSource& source);
+    void weigh_solid(const LightSource& source);
+    void leave_spot(const LightSource& source);
+
+    std::size_t count_ = 0, capacity_ = 0;
+    std::vector<double> rows_;
+    std::vector<std::uint32_t> numbers_;
+};
+
+/// Sample one of `parts` parts, as SourcePlaces does.
 [[nodiscard]] std::optional<SourceSample> sample_part(const LightSource& source,
                                                       const SourcePart& part, int parts,
                                                       const Vec3& point, double jitter,
                                                       RandomStream& random);
-
-/// Sample all parts; `samples` grows by those that may bring light.
-void sample_parts(const LightSource& source, const SourceParts& parts, const Vec3& point,
-                  double jitter, RandomStream& random, std::vector<SourceSample>& samples);
 
 /// Sample the whole source as one part.
 [[nodiscard]] std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,

@@ -36,42 +36,51 @@ void set(ChannelValues& out, Channel channel, double v) {
 }
 
 /// World -> function space: M, and sigma, function-space units per world unit.
-struct ToFunction {
-    Matrix matrix;
-    double sigma = 1;
-    bool identity = true;
-
-    [[nodiscard]] Vec3 direction(const Vec3& v) const {
-        return identity ? v : matrix.vector(v) * (1 / sigma);
+class ToFunction {
+  public:
+    ToFunction(const Transform& own, bool transformed, FrameId frame, const Geometry& geometry) {
+        if (frame == kWorld) {
+            if (transformed) set(own.inverse, own.size());
+            return;
+        }
+        const Transform placed = geometry.frame(frame);
+        if (transformed)
+            set(placed.inverse * own.inverse, placed.size() * own.size());
+        else
+            set(placed.inverse, placed.size());
     }
-    [[nodiscard]] Vec3 point(const Vec3& p) const { return identity ? p : matrix.point(p); }
+    [[nodiscard]] double sigma() const { return sigma_; }
+    [[nodiscard]] Matrix matrix() const { return matrix_.value_or(Matrix{}); }
+    [[nodiscard]] Vec3 direction(const Vec3& v) const {
+        return matrix_ ? matrix_->vector(v) * (1 / sigma_) : v;
+    }
+    [[nodiscard]] Vec3 point(const Vec3& p) const { return matrix_ ? matrix_->point(p) : p; }
+
+  private:
+    void set(const Matrix& matrix, double size) {
+        matrix_ = matrix;
+        sigma_ = 1 / size;
+    }
+    std::optional<Matrix> matrix_;  ///< nothing: the identity, as for most
+    double sigma_ = 1;
 };
 
-ToFunction world_to_function(const Transform& own, bool transformed, FrameId frame,
-                             const Geometry& geometry) {
-    if (frame == kWorld) {
-        if (!transformed) return {};
-        return {own.inverse, 1 / own.size(), false};
-    }
-    const Transform placed = geometry.frame(frame);
-    if (!transformed) return {placed.inverse, 1 / placed.size(), false};
-    return {placed.inverse * own.inverse, 1 / (placed.size() * own.size()), false};
-}
-
-void fill_scalars(ChannelValues& out, const Ray& ray, const Hit& hit, double sigma) {
-    set(out, Channel::T, sigma * (ray.path_length + hit.t));
-    set(out, Channel::Ts, sigma * (ray.shadow_length + hit.t));
+void fill_scalars(ChannelValues& out, const RayWay& way, const Hit& hit, double sigma) {
+    set(out, Channel::T, sigma * (way.path_length + hit.t));
+    set(out, Channel::Ts, sigma * (way.shadow_length + hit.t));
     set(out, Channel::Rdot, std::clamp(hit.cos_out, -1.0, 1.0));
     set(out, Channel::Lu, hit.u);
     set(out, Channel::Lv, hit.v);
 }
 
 void fill_space(ChannelValues& out, const ToFunction& space) {
-    set(out, Channel::S, space.sigma);
-    set(out, Channel::Tx, space.matrix.row[3]);
-    set(out, Channel::Ix, space.matrix.row[0] * (1 / space.sigma));
-    set(out, Channel::Jx, space.matrix.row[1] * (1 / space.sigma));
-    set(out, Channel::Kx, space.matrix.row[2] * (1 / space.sigma));
+    const Matrix matrix = space.matrix();
+    const double size = 1 / space.sigma();
+    set(out, Channel::S, space.sigma());
+    set(out, Channel::Tx, matrix.row[3]);
+    set(out, Channel::Ix, matrix.row[0] * size);
+    set(out, Channel::Jx, matrix.row[1] * size);
+    set(out, Channel::Kx, matrix.row[2] * size);
 }
 
 void fill_material(ChannelValues& out, const ToFunction& space, const MaterialVariables& material) {
@@ -112,16 +121,14 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
     transformed_ = !transform_.is_identity();
 }
 
-/// The channels that the program reads; `direction` and `hit` stand for the ray's own.
-void FunctionBinding::fill(ChannelValues& out, const Ray& ray, const Vec3& direction,
-                           const Hit& hit, const Tracer& tracer,
-                           const MaterialVariables* material) const {
-    const ToFunction space =
-        world_to_function(transform_, transformed_, hit.frame, tracer.scene().geometry());
-    if (channels_ & kDirection) set(out, Channel::Dx, space.direction(direction));
+/// The channels that the program reads.
+void FunctionBinding::fill(ChannelValues& out, const RayWay& way, const Hit& hit,
+                           const Tracer& tracer, const MaterialVariables* material) const {
+    const ToFunction space(transform_, transformed_, hit.frame, tracer.scene().geometry());
+    if (channels_ & kDirection) set(out, Channel::Dx, space.direction(way.direction));
     if (channels_ & kNormal) set(out, Channel::Nx, space.direction(hit.normal));
     if (channels_ & kPoint) set(out, Channel::Px, space.point(hit.position));
-    if (channels_ & kScalars) fill_scalars(out, ray, hit, space.sigma);
+    if (channels_ & kScalars) fill_scalars(out, way, hit, space.sigma());
     if (channels_ & kSpace) fill_space(out, space);
     if (material) fill_material(out, space, *material);
 }
@@ -129,19 +136,20 @@ void FunctionBinding::fill(ChannelValues& out, const Ray& ray, const Vec3& direc
 EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
                                   const MaterialVariables* material) const {
     ChannelValues& out = context.channels;
-    fill(out, ray, ray.direction, ray.hit, context.tracer, material);
+    fill(out, {ray.direction, ray.path_length, ray.shadow_length}, ray.hit, context.tracer,
+         material);
     program_.begin(context.eval, out);
     context.eval.clear_error();
     return context.eval;
 }
 
-std::optional<Lanes> FunctionBinding::evaluate_lanes(const Ray& ray, std::span<const RayHit> hits,
-                                                     TraceContext& context) const {
+void FunctionBinding::evaluate_all(std::span<const RayHit> hits,
+                                   std::span<std::optional<double>> values,
+                                   TraceContext& context) const {
     for (std::size_t k = 0; k < hits.size(); ++k)
-        fill(context.lane_channels[k], ray, hits[k].direction, hits[k].hit, context.tracer,
-             nullptr);
+        fill(context.lane_channels[k], hits[k].way, hits[k].hit, context.tracer, nullptr);
     const auto channels = std::span(context.lane_channels).first(hits.size());
-    return program_.evaluate_lanes(0, channels, context.eval);
+    program_.evaluate_all(0, channels, values, context.eval);
 }
 
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {
@@ -155,8 +163,7 @@ Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext
 
 Vec3 FunctionBinding::to_function(const Vec3& d, const Ray& ray,
                                   const TraceContext& context) const {
-    return world_to_function(transform_, transformed_, ray.hit.frame,
-                             context.tracer.scene().geometry())
+    return ToFunction(transform_, transformed_, ray.hit.frame, context.tracer.scene().geometry())
         .direction(d);
 }
 

@@ -33,9 +33,13 @@ inline constexpr ChannelMask kAimChannels =
 /// the primitive's place.
 void load_functions(const ModifierBuild& build, const std::string& file);
 
-/// Where a ray met a surface, and whence.
-struct RayHit {
+/// What a function may ask of a ray, but for where it met a surface.
+struct RayWay {
     Vec3 direction;
+    double path_length = 0, shadow_length = 0;  ///< see Ray [m]
+};
+struct RayHit {
+    RayWay way;
     Hit hit;
 };
 
@@ -57,11 +61,10 @@ class FunctionBinding {
     EvalState& begin(const Ray& ray, TraceContext& context,
                      const MaterialVariables* material = nullptr) const;
 
-    /// Output 0 for rays that differ from `ray` in direction and hit only, side by side; 1 to
-    /// kLanes of them. Nothing when it takes one evaluation after the other, see
-    /// Program::evaluate_lanes.
-    [[nodiscard]] std::optional<Lanes> evaluate_lanes(const Ray& ray, std::span<const RayHit> hits,
-                                                      TraceContext& context) const;
+    /// Output 0 for up to kSideBySide rays side by side, of a program that has lanes. Those get
+    /// nothing that take an evaluation of their own, see Program::evaluate_all.
+    void evaluate_all(std::span<const RayHit> hits, std::span<std::optional<double>> values,
+                      TraceContext& context) const;
 
     [[nodiscard]] const Program& program() const { return program_; }
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const {
@@ -81,8 +84,8 @@ class FunctionBinding {
     [[nodiscard]] const Transform& transform() const { return transform_; }
 
   private:
-    void fill(ChannelValues& out, const Ray& ray, const Vec3& direction, const Hit& hit,
-              const Tracer& tracer, const MaterialVariables* material) const;
+    void fill(ChannelValues& out, const RayWay& way, const Hit& hit, const Tracer& tracer,
+              const MaterialVariables* material) const;
 
     Program program_;
     Transform transform_;  ///< of the primitive's own transform words

@@ -73,12 +73,14 @@ bool shade_mixed(const MixedPair& pair, double coefficient, Ray& ray, TraceConte
     if (run_fore) {
         fore.weight *= c;
         fore.coef *= static_cast<float>(c);
-        fore_material = context.tracer.shade_chain(fore, pair.fore, context);
+        Tracer::go_deeper(
+            context, [&] { fore_material = context.tracer.shade_chain(fore, pair.fore, context); });
     }
     if (run_back) {
         back.weight *= 1 - c;
         back.coef *= static_cast<float>(1 - c);
-        back_material = context.tracer.shade_chain(back, pair.back, context);
+        Tracer::go_deeper(
+            context, [&] { back_material = context.tracer.shade_chain(back, pair.back, context); });
     }
     if (fore_material != back_material) {
         if (run_fore && !fore_material) context.tracer.pass_through(fore, context);
@@ -149,7 +151,10 @@ class TextMixture final : public Modifier {
 
     bool shade(Ray& ray, TraceContext& context) const override {
         const ModifierId chosen = inside_text(layout_, ray, context) ? pair_.fore : pair_.back;
-        if (!context.tracer.shade_chain(ray, chosen, context)) return false;
+        bool has_material = false;
+        Tracer::go_deeper(context,
+                          [&] { has_material = context.tracer.shade_chain(ray, chosen, context); });
+        if (!has_material) return false;
         pair_.require_void_modifier();
         return true;
     }

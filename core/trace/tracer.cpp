@@ -7,6 +7,7 @@
 #include "core/light/light_sources.h"
 #include "core/relay/virtual_sources.h"
 #include "core/transport/tracer.h"
+#include "core/wave/ray_wave.h"
 
 namespace lightwalk {
 namespace {
@@ -31,11 +32,36 @@ bool is_finite(const Rgb& c) {
 class OpenRay {
   public:
     explicit OpenRay(TraceContext& context) : context_(context) {
-        if (context_.depth++ == 0) context_.start_path();
+        if (context_.depth++ == 0 && !context_.wave) context_.start_path();
     }
     ~OpenRay() { --context_.depth; }
     OpenRay(const OpenRay&) = delete;
     OpenRay& operator=(const OpenRay&) = delete;
+
+  private:
+    TraceContext& context_;
+};
+
+/// Waves of ambient rays are within those of the rays that ask. Deeper than this there are few.
+constexpr std::size_t kMostWaves = 3;
+/// Rays of a wave: those of pixels lie near each other, ambient ones do not. Each costs two of the
+/// mappings of memory of which a process has some 65,000.
+constexpr std::size_t kPixelRays = 64, kAmbientRays = 16;
+/// Candidates a point from which waves are faster (measured on seven models).
+constexpr std::size_t kWorthWaiting = 2;
+
+class OpenWave {
+  public:
+    explicit OpenWave(TraceContext& context) : context_(context) {
+        if (context.open_waves == context.waves.size())
+            context.waves.push_back(
+                std::make_unique<RayWave>(context.waves.empty() ? kPixelRays : kAmbientRays));
+        ++context.open_waves;
+    }
+    ~OpenWave() { --context_.open_waves; }
+    OpenWave(const OpenWave&) = delete;
+    OpenWave& operator=(const OpenWave&) = delete;
+    RayWave* operator->() const { return context_.waves[context_.open_waves - 1].get(); }
 
   private:
     TraceContext& context_;
@@ -85,8 +111,37 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
     shade_hit(ray, scene_.geometry().intersect({ray.origin, ray.direction, limit}), context);
 }
 
+void Tracer::go_deeper(TraceContext& context, FunctionRef<void()> deeper) {
+    if (context.wave && !context.wave->has_room())
+        context.wave->outside(deeper, context);
+    else
+        deeper();
+}
+
+void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
+                        TraceContext& context) const {
+    const auto shade = [&](std::size_t i) { shade_hit(rays[i], hits[i], context); };
+    // To wait and go on costs a ray as much as some candidates gain by going side by side.
+    const bool few = context.light->candidates < kWorthWaiting * context.light->points;
+    const bool alone = few || rays.size() == 1 || context.open_waves == kMostWaves ||
+                       context.observer || context.misses || lights_->sampled().empty();
+    if (alone) {
+        for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
+        return;
+    }
+    const OpenWave wave(context);
+    const auto serve = [&](std::span<const DirectRequest> requests) {
+        lights_->add_direct(requests, context);
+    };
+    wave->run(rays.size(), shade, serve, context);
+}
+
 void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
     if (context.depth >= kMaxDepth) return;
+    if (context.wave && !context.wave->has_room()) {
+        context.wave->outside([&] { shade_hit(ray, hit, context); }, context);
+        return;
+    }
     const OpenRay open(context);
     count(ray, context.counters);
     ray.hit = hit;
@@ -146,7 +201,12 @@ void Tracer::use_ambient_cache(AmbientCache* cache) {
 
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                         const Vec3* front) const {
-    lights_->add_direct(ray, coefficient, context, front);
+    if (context.misses != nullptr || lights_->sampled().empty()) return;
+    const DirectRequest request{&ray, coefficient, front};
+    if (context.wave && context.wave->level() == context.ambient_level)
+        context.wave->wait(request, context);
+    else
+        lights_->add_direct({&request, 1}, context);
 }
 
 void Tracer::apply_medium(Ray& ray, TraceContext& context) const {

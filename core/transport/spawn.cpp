@@ -109,6 +109,13 @@ bool Tracer::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const
     return within_limits(child, coef != nullptr, options_);
 }
 
+Tracer::ShadowStart Tracer::start_shadow(Ray& parent) {
+    if (parent.hit.t >= kFar) return {};
+    return {parent.weight * medium_estimate(parent.medium, parent.hit.t),
+            parent.path_length + parent.hit.t,
+            parent.in(kShadow) ? parent.shadow_length + parent.hit.t : 0, parent.random.child()};
+}
+
 Rgb Tracer::accumulate(Ray& parent, const Ray& child) {
     const Rgb contribution = child.value * child.coef;
     parent.value += contribution;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/function/program.h"
@@ -20,6 +21,7 @@ class AmbientCalculation;
 struct AmbientFinds;
 struct AmbientMisses;
 class LightSources;
+class RayWave;
 class Tracer;
 
 /// Rays traced, by purpose.
@@ -53,6 +55,8 @@ struct ScatterList {
     [[nodiscard]] bool contains(std::int32_t source) const;
 };
 
+inline constexpr std::size_t kSideBySide = 64;  ///< evaluations of one function at a time
+
 struct LightScratch;  ///< the direct calculation's buffers (core/light)
 
 /// Watches rays as they are finished, children before their parents. It is not told of rays that
@@ -81,10 +85,14 @@ struct TraceContext {
     RayCounters counters;
     EvalState eval;
     ChannelValues channels{};
-    std::array<ChannelValues, kLanes> lane_channels{};  ///< of evaluations side by side
+    std::array<ChannelValues, kSideBySide> lane_channels{};  ///< of evaluations side by side
     std::unique_ptr<LightScratch> light;
-    int depth = 0;          ///< nesting of rays, bounded by Tracer::kMaxDepth
-    int ambient_level = 0;  ///< ambient evaluations that are open
+    /// Of shade_hits(), one inside the other; made when first needed.
+    std::vector<std::unique_ptr<RayWave>> waves;
+    std::size_t open_waves = 0;  ///< of these: in use
+    RayWave* wave = nullptr;     ///< the one whose fiber this code runs on; null: on none
+    int depth = 0;               ///< nesting of rays, bounded by Tracer::kMaxDepth
+    int ambient_level = 0;       ///< ambient evaluations that are open
     AmbientCounters ambient;
     RayObserver* observer = nullptr;  ///< told of every ray; null: nobody watches
     /// Takes the ambient values that are missing, and there is no direct light; null: they are
@@ -99,6 +107,13 @@ struct TraceContext {
 /// What a surface sends towards the eye per unit radiance of a light in direction `l` (unit, away
 /// from the surface) of solid angle `omega` [sr]: f cosθ ω. Zero when it does not see that side.
 using DirectCoefficient = FunctionRef<Rgb(const Vec3& l, double omega)>;
+
+/// A shaded point that wants direct light.
+struct DirectRequest {
+    Ray* ray;  ///< whose hit it is; the light is added to its value
+    DirectCoefficient coefficient;
+    const Vec3* front = nullptr;  ///< see Tracer::add_direct
+};
 
 class Tracer {
   public:
@@ -129,6 +144,13 @@ class Tracer {
     /// The same when the nearest hit is known already (primary packets).
     void shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const;
 
+    /// The same for many rays, which go side by side where that is faster; what each brings back is
+    /// the same. hits.size() == rays.size().
+    void shade_hits(std::span<Ray> rays, std::span<const Hit> hits, TraceContext& context) const;
+
+    /// Call `deeper`, which goes deeper in rays or mixtures: on a stack that is large enough.
+    static void go_deeper(TraceContext& context, FunctionRef<void()> deeper);
+
     /// Irradiance at a sensor point facing `normal` (rtrace -I): the radiance of an ideal white
     /// surface there.
     [[nodiscard]] Ray irradiance(const Vec3& point, const Vec3& normal, RandomStream random,
@@ -138,6 +160,15 @@ class Tracer {
     /// trace. `coef` null: none given. False: the ray is not to be traced (limits); most callers
     /// then drop the component.
     [[nodiscard]] bool spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const;
+
+    /// What a ray to a light would inherit from `parent`: its weight and random numbers, and
+    /// lengths.
+    struct ShadowStart {
+        double weight = 1;
+        double path_length = 0, shadow_length = 0;  ///< see Ray [m]
+        RandomStream random;
+    };
+    [[nodiscard]] static ShadowStart start_shadow(Ray& parent);
 
     /// child.value times child.coef is added to parent.value; returns the contribution.
     static Rgb accumulate(Ray& parent, const Ray& child);

@@ -67,11 +67,11 @@ void print_values() {
         }
         if (!program.has_lanes()) continue;
         for (std::size_t i = 0; i + kLanes <= channels.size(); i += kLanes) {
-            const std::optional<Lanes> lanes =
+            const LaneValues lanes =
                 program.evaluate_lanes(0, std::span(channels).subspan(i, kLanes), state);
-            if (!lanes) continue;  // they part
-            for (const double value : lanes->value) {
-                std::printf("%s %zu side by side %a\n", name, i, value);
+            for (std::size_t k = 0; k < kLanes; ++k) {
+                if (lanes.has(k))
+                    std::printf("%s %zu side by side %a\n", name, i + k, lanes.lanes.value[k]);
             }
         }
     }

@@ -122,19 +122,37 @@ TEST_CASE("records of sampled hemispheres have Radiance's radii, axes, gradients
     }
 }
 
-TEST_CASE("a closed room of one brightness has no gradients, however the walls stand") {
-    // A box of 4 x 2 x 1 m; the point on its floor, off the middle.
-    const auto trace = [](const Vec3& d) -> std::optional<HemisphereAnswer> {
+namespace {
+
+/// A box of 4 x 2 x 1 m; the point on its floor, off the middle.
+class BrightRoom final : public HemisphereRays {
+  public:
+    bool start(const Vec3& d) override {
         const Vec3 p{1, 0.7, 0};
         double t = kHuge;
         const Vec3 size{4, 2, 1};
         for (std::size_t k = 0; k < 3; ++k) {
             if (d[k] != 0) t = std::min(t, ((d[k] > 0 ? size[k] : 0) - p[k]) / d[k]);
         }
-        return HemisphereAnswer{Rgb::grey(0.5f / 1024), t > 0 ? t : kHuge};
-    };
+        started_.push_back({Rgb::grey(0.5f / 1024), t > 0 ? t : kHuge});
+        return true;
+    }
+    std::span<const HemisphereAnswer> trace() override {
+        answers_.swap(started_);
+        started_.clear();
+        return answers_;
+    }
+
+  private:
+    std::vector<HemisphereAnswer> started_, answers_;
+};
+
+}  // namespace
+
+TEST_CASE("a closed room of one brightness has no gradients, however the walls stand") {
+    BrightRoom rays;
     const Hemisphere h =
-        sample_hemisphere({0, 0, 1}, {32, 0, 0.5 / 1024, 100}, RandomStream(5), trace);
+        sample_hemisphere({0, 0, 1}, {32, 0, 0.5 / 1024, 100}, RandomStream(5), rays);
     REQUIRE(h.complete());
     CHECK(static_cast<double>(h.sum.g) == rounded(0.5));
     const AmbientDerivatives d = derive(h, {0.1, 0.01, 1, 1});

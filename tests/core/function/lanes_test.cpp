@@ -3,7 +3,9 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,8 @@ ChannelValues at(double x, double y = 0, double z = 0) {
     return channels;
 }
 
-std::optional<Lanes> side_by_side(const Program& program, const std::vector<ChannelValues>& rays,
-                                  EvalState& state) {
+LaneValues side_by_side(const Program& program, const std::vector<ChannelValues>& rays,
+                        EvalState& state) {
     return program.evaluate_lanes(0, rays, state);
 }
 
@@ -53,10 +55,10 @@ void check_same(const Program& program, double low, double high) {
         std::vector<ChannelValues> rays;
         for (std::size_t k = 0; k < 1 + static_cast<std::size_t>(round) % kLanes; ++k)
             rays.push_back(at(coordinate(random), coordinate(random), coordinate(random)));
-        const auto values = side_by_side(program, rays, state);
-        REQUIRE(values);
+        const LaneValues values = side_by_side(program, rays, state);
         for (std::size_t k = 0; k < rays.size(); ++k) {
-            CHECK(bits(values->value[k]) == bits(alone(program, rays[k], state)));
+            REQUIRE(values.has(k));
+            CHECK(bits(values.lanes.value[k]) == bits(alone(program, rays[k], state)));
             CHECK(state.error == EvalError::none);
         }
     }
@@ -127,50 +129,78 @@ TEST_CASE("lanes: variables, arguments and functions of a file, as skies use the
     check_same(compiled("sky", sky, {0.23, -0.48, 0.84}), -0.6, -0.02);
 }
 
-TEST_CASE("lanes: nothing where rays take different branches") {
+TEST_CASE("lanes: where rays take different branches those go on that go with the first") {
     EvalState state;
     const Program program = compiled("if(Dx,sin(Dy),cos(Dy))");
-    CHECK(side_by_side(program, {at(1), at(2), at(3)}, state));
-    CHECK(side_by_side(program, {at(-1), at(-2)}, state));
-    CHECK_FALSE(side_by_side(program, {at(1), at(1), at(-1)}, state));
-    CHECK_FALSE(side_by_side(program, {at(-1), at(1), at(1), at(1)}, state));
+    CHECK(side_by_side(program, {at(1), at(2), at(3)}, state).done == 0b111);
+    CHECK(side_by_side(program, {at(-1), at(-2)}, state).done == 0b11);
+    CHECK(side_by_side(program, {at(1), at(1), at(-1)}, state).done == 0b011);
+    CHECK(side_by_side(program, {at(-1), at(1), at(1), at(-1)}, state).done == 0b1001);
     const Program choice = compiled("select(Dx,sin(Dy),cos(Dy),Dy)");
-    CHECK(side_by_side(choice, {at(2), at(2.2)}, state));
-    CHECK_FALSE(side_by_side(choice, {at(2), at(3)}, state));
-    CHECK_FALSE(side_by_side(choice, {at(9), at(9)}, state));
+    CHECK(side_by_side(choice, {at(2), at(2.2)}, state).done == 0b11);
+    CHECK(side_by_side(choice, {at(2), at(3), at(9), at(2)}, state).done == 0b1001);
+    CHECK(side_by_side(choice, {at(9), at(9)}, state).done == 0);
+    const Program twice = compiled("if(Dx,if(Dy,sin(Dz),Dz),cos(Dz))");
+    const LaneValues values =
+        side_by_side(twice, {at(1, 1, 2), at(-1, 1, 2), at(1, -1, 2), at(2, 3, 4)}, state);
+    CHECK(values.done == 0b1001);
+    CHECK(bits(values.lanes.value[3]) == bits(alone(twice, at(2, 3, 4), state)));
 }
 
-TEST_CASE("lanes: nothing where one ray meets a numeric error") {
+TEST_CASE("lanes: nothing for a ray that meets a numeric error") {
     struct Row {
         const char* expression;
         double good, bad;  // Dx
     };
+    constexpr LaneMask kAll = (1U << kLanes) - 1;
     EvalState state;
     for (const Row& row :
          {Row{"log(Dx)", 1, 0}, Row{"1/Dx", 1, 0}, Row{"sqrt(Dx)/sqrt(Dx)", 1, -1},
           Row{"exp(1000*Dx)", 0.1, 1}, Row{"Dx^-2", 1, 0}, Row{"select(Dx,1,2)", 1, 5}}) {
         CAPTURE(row.expression);
         const Program program = compiled(row.expression);
-        CHECK(side_by_side(program, std::vector(kLanes, at(row.good)), state));
+        CHECK(side_by_side(program, std::vector(kLanes, at(row.good)), state).done == kAll);
         (void)alone(program, at(row.bad), state);
         CHECK(state.error != EvalError::none);
         for (std::size_t bad = 0; bad < kLanes; ++bad) {
             std::vector<ChannelValues> rays(kLanes, at(row.good));
             rays[bad] = at(row.bad);
-            CHECK_FALSE(side_by_side(program, rays, state));
+            CHECK_FALSE(side_by_side(program, rays, state).has(bad));
         }
+    }
+}
+
+TEST_CASE("lanes: any number of rays, whatever way each takes") {
+    const Program program = compiled("if(Dx,if(Dy,sin(Dz),1/Dz),select(Dy+2,exp(Dz),log(Dz)))");
+    REQUIRE(program.has_lanes());
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> side(-1, 1);
+    std::vector<ChannelValues> rays;
+    for (int i = 0; i < 100; ++i) rays.push_back(at(side(random), side(random), side(random)));
+    EvalState state;
+    for (const std::size_t count : {0, 1, 7, 8, 9, 100}) {
+        std::vector<std::optional<double>> values(count, 4711.0);
+        program.evaluate_all(0, std::span(rays).first(count), values, state);
+        std::size_t errors = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double expected = alone(program, rays[i], state);
+            errors += state.error != EvalError::none ? 1 : 0;
+            REQUIRE(values[i].has_value() == (state.error == EvalError::none));
+            if (values[i]) CHECK(bits(*values[i]) == bits(expected));
+        }
+        if (count == 100) CHECK(errors > 5);
     }
 }
 
 TEST_CASE("lanes: what earlier evaluations left does not matter") {
     EvalState state;
     const Program reciprocal = compiled("1/Dx"), other = compiled("Dx+Dy*Dz-4");
-    CHECK_FALSE(side_by_side(reciprocal, {at(1), at(0), at(0), at(0)}, state));
-    const auto values = side_by_side(reciprocal, {at(4)}, state);  // the other lanes held zeros
-    REQUIRE(values);
-    CHECK(values->value[0] == 0.25);
-    CHECK(side_by_side(other, {at(1, 2, 3), at(2, 2, 3)}, state)->value[1] == 4);
-    CHECK(side_by_side(reciprocal, {at(4), at(8)}, state)->value[1] == 0.125);
+    CHECK(side_by_side(reciprocal, {at(1), at(0), at(0), at(0)}, state).done == 1);
+    const LaneValues values = side_by_side(reciprocal, {at(4)}, state);  // others held zeros
+    REQUIRE(values.has(0));
+    CHECK(values.lanes.value[0] == 0.25);
+    CHECK(side_by_side(other, {at(1, 2, 3), at(2, 2, 3)}, state).lanes.value[1] == 4);
+    CHECK(side_by_side(reciprocal, {at(4), at(8)}, state).lanes.value[1] == 0.125);
 }
 
 TEST_CASE("lanes: programs with noise, recursion or inputs have none") {

@@ -37,31 +37,34 @@ FunctionEnvironment rings() {
     return environment;
 }
 
-std::string row(const std::string& name, const std::array<double, kLanes>& values) {
-    std::string text = name;
-    for (const double x : values) {
-        std::array<char, 32> number{};
-        std::snprintf(number.data(), number.size(), "  %8.6f", x);
-        text += number.data();
-    }
-    return text + "\n";
+std::string number(double x) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "  %8.6f", x);
+    return text.data();
 }
 
 /// Rays that meet (x, 0, 0), and what they give side by side: as the README has it.
-std::string in_lanes(const Program& program, const std::array<double, kLanes>& x) {
-    std::vector<ChannelValues> rays(kLanes, straight_down());
-    for (std::size_t k = 0; k < kLanes; ++k) set(rays[k], Channel::Px, x[k]);
+std::string in_lanes(const Program& program, const std::vector<double>& x) {
+    std::vector<ChannelValues> rays(x.size(), straight_down());
+    for (std::size_t k = 0; k < x.size(); ++k) set(rays[k], Channel::Px, x[k]);
     EvalState state;
-    const auto values = program.evaluate_lanes(0, rays, state);
-    if (!values) return row("Px   ", x) + "rings  none\n";
-    for (std::size_t k = 0; k < kLanes; ++k) {
+    const LaneValues values = program.evaluate_lanes(0, rays, state);
+    std::string text = "rings";
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        if (!values.has(k)) {
+            text += "      none";
+            continue;
+        }
+        text += number(values.lanes.value[k]);
         program.begin(state, rays[k]);
         state.clear_error();
         const double alone = program.evaluate(0, state);
-        CHECK(std::bit_cast<std::uint64_t>(values->value[k]) ==
+        CHECK(std::bit_cast<std::uint64_t>(values.lanes.value[k]) ==
               std::bit_cast<std::uint64_t>(alone));
     }
-    return row("Px   ", x) + row("rings", values->value);
+    std::string head = "Px   ";
+    for (const double value : x) head += number(value);
+    return head + "\n" + text + "\n";
 }
 
 }  // namespace

@@ -183,6 +183,37 @@ TEST_CASE("visibility is what trying every surface gives") {
     for (const int count : found) CHECK(count > 100);
 }
 
+TEST_CASE("shadow rays in packets find what single ones find, whatever blocked earlier ones") {
+    int found[3] = {};
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        constexpr std::array<const char*, 3> kMachines{"", "isa=avx2", "isa=sse4.2"};
+        const TestModels scene = random_models(seed, seed < 3 ? 2 : 25);
+        const Geometry geometry = scene.build(kMachines[seed % kMachines.size()]);
+        Random random(seed);
+        std::array<Blocker, 3> last;
+        std::vector<ShadowQuery> queries;
+        for (RaySegment ray : test_rays(seed + 70, 803)) {
+            ray.t_max = random.uniform(0, 8);
+            ShadowQuery query{ray, kNoSurface, nullptr};
+            if (random.below(2) == 0) query.target = scene.models[0].surfaces[0];
+            if (const auto which = static_cast<std::size_t>(random.below(4)); which < last.size())
+                query.last = &last[which];
+            queries.push_back(query);
+        }
+        for (const std::size_t offset : {0U, 3U}) {
+            const auto some = std::span(queries).subspan(offset);
+            std::vector<Visibility> answers(some.size());
+            geometry.visibility(some, answers);
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                REQUIRE(answers[i] == geometry.visibility(some[i].ray, some[i].target));
+                ++found[static_cast<int>(answers[i])];
+            }
+        }
+        for (const Blocker& blocker : last) CHECK(blocker.primitive != Blocker::kNone);
+    }
+    for (const int count : found) CHECK(count > 100);
+}
+
 TEST_CASE(
     "of coincident surfaces a material beats none, then opaque beats transparent, then front beats "
     "back, "

@@ -269,10 +269,20 @@ TEST_CASE("-dj 1: in the mean over many samples a half hidden panel gives half i
     CHECK(std::abs(sum / all - 0.5) < 4 * 0.5 / std::sqrt(kSamples));
 }
 
-TEST_CASE("the scratch memory is as found after every calculation") {
+TEST_CASE("hit rates are measured where no source reaches the points") {
+    RenderOptions options = TestScene::exact();
+    options.shadow_threshold = 0.05;
+    options.source_subdivision = 0.02;
+    TestScene scene(kFloor +
+                        "void glow ember\n0\n0\n4 9 3 1 .5\n"
+                        "ember polygon panel\n0\n0\n12 -.5 -.5 2  -.5 .5 2  .5 .5 2  .5 -.5 2\n",
+                    options);
+    CHECK(floor_at(scene, 0, 0) == Rgb{});
+}
+
+TEST_CASE("the scratch memory is free after every calculation, and used again") {
     TestScene scene(many_lamps(12));
-    (void)floor_at(scene, 0, 0);
-    CHECK(scene.context.light->candidates.empty());
-    CHECK(scene.context.light->samples.empty());
-    CHECK(scene.context.light->tails.empty());
+    for (int i = 0; i < 3; ++i) (void)floor_at(scene, 0.1 * i, 0);
+    CHECK(scene.context.light->open == 0);
+    CHECK(scene.context.light->nested.size() == 1);
 }

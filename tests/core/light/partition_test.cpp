@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "tests/tolerance.h"
 
@@ -39,7 +41,7 @@ LightSource tube(double half_length, double radius) {
 int part_count(const LightSource& source, const Vec3& point, double subdivision,
                double weight = 1) {
     SourceParts parts;
-    partition(source, point, partition_size(subdivision, weight), parts);
+    Partition{source}(point, partition_size(subdivision, weight), parts);
     return parts.count;
 }
 
@@ -48,7 +50,7 @@ int part_count(const LightSource& source, const Vec3& point, double subdivision,
 double irradiance(const LightSource& source, const Vec3& point, double subdivision) {
     RandomStream random(1);
     SourceParts parts;
-    partition(source, point, partition_size(subdivision, 1), parts);
+    Partition{source}(point, partition_size(subdivision, 1), parts);
     double sum = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(parts.count); ++i) {
         if (const auto s = sample_part(source, parts.part[i], parts.count, point, 0, random))
@@ -73,7 +75,7 @@ TEST_CASE("parts of a panel: sizes add up to the whole, and each is small for it
         CAPTURE(ds);
         const LightSource source = panel(1);
         SourceParts parts;
-        partition(source, {0.3, 0.1, 0}, partition_size(ds, 1), parts);
+        Partition{source}({0.3, 0.1, 0}, partition_size(ds, 1), parts);
         double area = 0;
         for (int i = 0; i < parts.count; ++i) {
             const SourcePart& part = parts.part[static_cast<std::size_t>(i)];
@@ -98,7 +100,7 @@ TEST_CASE("parts of a panel: the count follows size over distance and the ray's 
     LightSource strip = panel(1);
     strip.v = {0, 0.01, 0};
     SourceParts parts;
-    partition(strip, {0, 0, 0}, 1.0, parts);
+    Partition{strip}({0, 0, 0}, 1.0, parts);
     CHECK(parts.count == 2);
     CHECK(parts.part[0].center.x == -0.5);  // the lower half first
     CHECK(parts.part[1].center.x == 0.5);
@@ -200,6 +202,47 @@ TEST_CASE("jitter: samples fill a panel's part, a disk and a sphere, and nothing
     CHECK(farthest_ball <= 1 + kFloatRounding);
     CHECK(farthest_ball > 0.97);
     CHECK(std::abs(mean_x) < 5 * 0.5 / std::sqrt(kSamples));
+}
+
+TEST_CASE("places that are sampled side by side give the samples that each gives alone") {
+    LightSource spot = panel(0.4), sun = panel(0.1), glow = panel(0.7), ball = panel(0.2);
+    spot.spot = SpotShape{{0, 0, -1}, 2.0f, 0.3f, false};
+    sun.distant = true;
+    sun.flat = false;
+    glow.material_type = PrimitiveType::glow;
+    glow.proximity = 1.3f;
+    ball.flat = false;
+    ball.round = true;
+    ball.w = {0, 0, 0.2};
+    for (const LightSource& source : {panel(0.5), tube(0.8, 0.1), spot, sun, glow, ball}) {
+        RandomStream together(3), alone(3);
+        SourcePlaces places;
+        std::vector<std::optional<SourceSample>> expected;
+        for (std::uint32_t i = 0; i < 150; ++i) {  // from above, too
+            const Vec3 point{0.02 * i - 1, 0.3, i % 5 == 0 ? 1.5 : 0.01 * i - 1};
+            SourceParts parts;
+            Partition{source}(point, 0.4, parts);
+            for (int k = 0; k < parts.count; ++k) {
+                const SourcePart& part = parts.part[static_cast<std::size_t>(k)];
+                places.add(source, part, parts.count, point, i, 0.9, together);
+                expected.push_back(sample_part(source, part, parts.count, point, 0.9, alone));
+            }
+        }
+        places.sample(source);
+        REQUIRE(places.size() == expected.size());
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const auto sample = places[i];
+            REQUIRE(sample.has_value() == expected[i].has_value());
+            if (!sample) continue;
+            ++found;
+            CHECK(sample->direction == expected[i]->direction);
+            CHECK(sample->distance == expected[i]->distance);
+            CHECK(sample->solid_angle == expected[i]->solid_angle);
+            CHECK(length(sample->direction) == rounded(1.0));
+        }
+        CHECK(found > 20);
+    }
 }
 
 TEST_CASE("without jitter no random numbers are drawn") {

@@ -1,0 +1,156 @@
+// The direct calculation's shadow tests.
+#include <algorithm>
+#include <numeric>
+
+#include "core/light/direct_calculation.h"
+
+namespace lightwalk {
+namespace {
+
+/// Whether the light is behind the true surface.
+bool goes_through(const Ray& ray, const Vec3& direction) {
+    return (ray.hit.cos_out > 0) != (dot(direction, ray.hit.normal) > 0);
+}
+
+void set_dark(LightCandidate& candidate) {
+    candidate.state = CandidateState::dark;
+    candidate.contribution = Rgb{};
+}
+
+void set_seen(LightCandidate& candidate) {
+    candidate.state =
+        candidate.state == CandidateState::unknown ? CandidateState::seen : CandidateState::lit;
+}
+
+}  // namespace
+
+void DirectCalculation::test() {
+    scratch_.tests.clear();
+    for (const LitPoint& point : scratch_.points) {
+        for (std::size_t i = point.tested; i < point.block_end; ++i)
+            scratch_.tests.push_back(scratch_.ranks[point.first + i]);
+    }
+    context_.counters.shadow += scratch_.tests.size();
+    test_plainly();
+    for (const std::uint32_t i : scratch_.tests) {
+        if (scratch_.candidates[i].special) trace_shadow(scratch_.candidates[i]);
+    }
+    find_radiances(scratch_.tests, CandidateState::seen);
+}
+
+/// What lies between, where a ray that only asks for opaque surfaces can tell; the other candidates
+/// become special.
+void DirectCalculation::test_plainly() {
+    const Geometry& geometry = tracer_.scene().geometry();
+    if (scratch_.points.size() == 1) {
+        for (const std::uint32_t i : scratch_.tests) {
+            LightCandidate& candidate = scratch_.candidates[i];
+            if (is_special(candidate)) continue;
+            const ShadowQuery query = shadow_query(candidate);
+            take(candidate, geometry.visibility(query.ray, query.target, query.last));
+        }
+        return;
+    }
+    sort_by_source();
+    scratch_.shadow_queries.clear();
+    for (const std::uint32_t i : scratch_.by_source)
+        scratch_.shadow_queries.push_back(shadow_query(scratch_.candidates[i]));
+    scratch_.answers.resize(scratch_.shadow_queries.size());
+    // Only rays from neighbouring points to the same source are coherent; what ambient rays meet
+    // lies anywhere.
+    constexpr std::size_t kWorthPackets = 8;
+    const bool coherent = !scratch_.points.front().ray->in(kAmbient);
+    std::size_t first = 0;
+    for (const std::uint32_t last : scratch_.source_ends) {
+        const auto queries = std::span(scratch_.shadow_queries).subspan(first, last - first);
+        const auto answers = std::span(scratch_.answers).subspan(first, last - first);
+        if (coherent && queries.size() >= kWorthPackets) {
+            geometry.visibility(queries, answers);
+        } else {
+            for (std::size_t i = 0; i < queries.size(); ++i)
+                answers[i] =
+                    geometry.visibility(queries[i].ray, queries[i].target, queries[i].last);
+        }
+        first = last;
+    }
+    for (std::size_t k = 0; k < scratch_.by_source.size(); ++k)
+        take(scratch_.candidates[scratch_.by_source[k]], scratch_.answers[k]);
+}
+
+/// Whether the candidate has to be traced in any case.
+bool DirectCalculation::is_special(LightCandidate& candidate) const {
+    candidate.special = needs_tracing(lights_[candidate.source], point_of(candidate));
+    return candidate.special;
+}
+
+/// Order the candidates that are tested by their source. Those that have to be traced in any case
+/// become special.
+void DirectCalculation::sort_by_source() {
+    std::vector<std::uint32_t>& ends = scratch_.source_ends;
+    ends.assign(lights_.all().size(), 0);
+    for (const std::uint32_t i : scratch_.tests) {
+        LightCandidate& candidate = scratch_.candidates[i];
+        if (!is_special(candidate)) ++ends[static_cast<std::size_t>(candidate.source)];
+    }
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
+    scratch_.by_source.resize(scratch_.tests.size());
+    std::size_t plain = 0;
+    for (const std::uint32_t i : scratch_.tests) {
+        const LightCandidate& candidate = scratch_.candidates[i];
+        if (candidate.special) continue;
+        scratch_.by_source[ends[static_cast<std::size_t>(candidate.source)]++] = i;
+        ++plain;
+    }
+    scratch_.by_source.resize(plain);
+}
+
+ShadowQuery DirectCalculation::shadow_query(const LightCandidate& candidate) {
+    const LightSource& source = lights_[candidate.source];
+    const LitPoint& point = point_of(candidate);
+    const bool local = !source.distant || source.is_virtual;
+    ShadowQuery query;
+    query.ray = {point.position, candidate.direction,
+                 local ? candidate.distance - kEpsilon : kHuge};
+    // Rays through the surface keep what is left to the aft clipping plane.
+    if (point.limited && goes_through(*point.ray, candidate.direction))
+        query.ray.t_max = std::min(query.ray.t_max, point.ray->limit - point.ray->hit.t);
+    query.target = local ? source.object : kNoSurface;
+    query.last = &shared_.blockers[static_cast<std::size_t>(candidate.source)];
+    return query;
+}
+
+void DirectCalculation::take(LightCandidate& candidate, Visibility found) const {
+    if (context_.observer && found == Visibility::clear) found = Visibility::special;
+    switch (found) {
+        case Visibility::clear:
+            set_seen(candidate);
+            break;
+        case Visibility::blocked:
+            set_dark(candidate);
+            break;
+        case Visibility::special:
+            candidate.special = true;
+    }
+}
+
+/// Follow one shadow ray through whatever is in the way.
+void DirectCalculation::trace_shadow(LightCandidate& candidate) {
+    Ray& ray = *point_of(candidate).ray;
+    Ray shadow;
+    const RayKind kind = goes_through(ray, candidate.direction) ? kShadowThrough : kShadowSame;
+    (void)tracer_.spawn(shadow, kind, ray, nullptr);
+    shadow.direction = candidate.direction;
+    shadow.coef = candidate.coefficient;
+    shadow.target = candidate.source;
+    tracer_.trace(shadow, context_);
+    if (!shadow.hit.exists()) {  // at the aft clipping plane: what lies beyond does not shadow
+        set_seen(candidate);
+    } else if (static_cast<double>(mean(shadow.value)) > kEpsilon) {
+        candidate.state = CandidateState::lit;
+        candidate.contribution = candidate.coefficient * shadow.value;
+    } else {
+        set_dark(candidate);
+    }
+}
+
+}  // namespace lightwalk

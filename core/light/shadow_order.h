@@ -1,0 +1,68 @@
+#pragma once
+// How many of a point's light candidates are tested for shadows, brightest first.
+// Source: Ward, "Adaptive shadow testing for ray tracing", Eurographics Workshop on Rendering 1991.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "core/math/vec3.h"
+
+namespace lightwalk {
+
+/// What the shadow tests of a point have found so far.
+struct ShadowTally {
+    double hits = 0;       ///< candidates that got through
+    double expected = 0;   ///< sum of their sources' hit rates, tested ones only
+    float brightness = 0;  ///< of the point's radiance, growing
+
+    /// Visibility of this point relative to what its tested sources usually have.
+    [[nodiscard]] double factor() const { return expected > kEpsilon ? hits / expected : 0.5; }
+};
+
+inline constexpr std::size_t kFirstBlock = 4;   ///< candidates that are always tested
+inline constexpr std::size_t kNextBlocks = 16;  ///< candidates per later block
+/// Up to so many candidates are all tested when some have patterns: to sort them all patterns would
+/// have to be evaluated, which costs more than a shadow test.
+inline constexpr std::size_t kFewPatterned = kFirstBlock + kNextBlocks;
+
+/// How many of `count` candidates are looked at ahead.
+/// @param certainty  -dc: the exponent
+[[nodiscard]] inline std::size_t look_ahead(std::size_t count, double certainty) {
+    const auto all = static_cast<double>(count);
+    return static_cast<std::size_t>(std::min(all, std::floor(std::pow(all, certainty) + 0.5)));
+}
+
+/// Where the block of candidates that begins with `first` ends; `first`: what is left cannot
+/// matter.
+/// @param tails      brightness[i] + brightness[i+1] + ... for each candidate, then 0
+/// @param ahead      of look_ahead()
+/// @param threshold  -dt over the ray's weight: ignore what is less than this share of the radiance
+/// @param so_far     brightness of that radiance
+[[nodiscard]] inline std::size_t next_block(std::span<const float> tails, std::size_t ahead,
+                                            double threshold, std::size_t first, float so_far) {
+    const std::size_t n = tails.size() - 1;
+    if (first >= n) return first;
+    const float rest = first + ahead >= n ? tails[first] : tails[first] - tails[first + ahead];
+    if (first > 0 && static_cast<double>(rest) < threshold * static_cast<double>(so_far))
+        return first;
+    return std::min(n, first + (first == 0 ? kFirstBlock : kNextBlocks));
+}
+
+/// Test candidates block by block until the next ones cannot matter; parameters as above.
+/// @param test  test(first, last): tests the candidates [first, last) and brings the tally up to
+/// date
+/// @return      how many were tested
+template <class Test>
+std::size_t test_brightest(std::span<const float> tails, double certainty, double threshold,
+                           const ShadowTally& tally, Test&& test) {
+    const std::size_t ahead = look_ahead(tails.size() - 1, certainty);
+    for (std::size_t first = 0;;) {
+        const std::size_t last = next_block(tails, ahead, threshold, first, tally.brightness);
+        if (last == first) return first;
+        test(first, last);
+        first = last;
+    }
+}
+
+}  // namespace lightwalk
