@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/transport/tracer.h"
+#include "parallel/fibers/context_fibers.h"
 
 namespace lightwalk {
 
@@ -17,7 +18,10 @@ class WorkerContexts {
 
     [[nodiscard]] TraceContext& operator[](int worker) {
         std::unique_ptr<TraceContext>& context = contexts_[static_cast<std::size_t>(worker)];
-        if (!context) context = std::make_unique<TraceContext>(tracer_, warnings_);
+        if (!context) {
+            context = std::make_unique<TraceContext>(tracer_, warnings_);
+            context->make_fibers = make_context_fibers;
+        }
         return *context;
     }
 

@@ -9,7 +9,7 @@ import pathlib, re, sys, tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FORBIDDEN_FOLDERS = {"core": {"io", "parallel", "apps"}, "io": {"parallel", "apps"}, "parallel": {"io", "apps"}, "apps": set()}
 FORBIDDEN_HEADERS = {
-    "core": r"<(thread|mutex|shared_mutex|condition_variable|future|fstream|iostream|filesystem|mpi\.h|tbb/.*|oneapi/.*|boost/(?!context/).*|sys/.*)>",
+    "core": r"<(thread|mutex|shared_mutex|condition_variable|future|fstream|iostream|filesystem|mpi\.h|tbb/.*|oneapi/.*|boost/.*|sys/.*)>",
     "io": r"<(thread|mpi\.h|tbb/.*|oneapi/.*)>",
     "parallel": r"<(fstream|filesystem)>",
     "apps": r"(?!)",

@@ -54,8 +54,8 @@ class OpenWave {
   public:
     explicit OpenWave(TraceContext& context) : context_(context) {
         if (context.open_waves == context.waves.size())
-            context.waves.push_back(
-                std::make_unique<RayWave>(context.waves.empty() ? kPixelRays : kAmbientRays));
+            context.waves.push_back(std::make_unique<RayWave>(
+                context.make_fibers(context.waves.empty() ? kPixelRays : kAmbientRays)));
         ++context.open_waves;
     }
     ~OpenWave() { --context_.open_waves; }
@@ -123,8 +123,9 @@ void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
     const auto shade = [&](std::size_t i) { shade_hit(rays[i], hits[i], context); };
     // To wait and go on costs a ray as much as some candidates gain by going side by side.
     const bool few = context.light->candidates < kWorthWaiting * context.light->points;
-    const bool alone = few || rays.size() == 1 || context.open_waves == kMostWaves ||
-                       context.observer || context.misses || lights_->sampled().empty();
+    const bool alone = few || !context.make_fibers || rays.size() == 1 ||
+                       context.open_waves == kMostWaves || context.observer || context.misses ||
+                       lights_->sampled().empty();
     if (alone) {
         for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
         return;

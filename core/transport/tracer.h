@@ -21,8 +21,11 @@ class AmbientCalculation;
 struct AmbientFinds;
 struct AmbientMisses;
 class LightSources;
+class Fibers;
 class RayWave;
 class Tracer;
+
+using MakeFibers = std::unique_ptr<Fibers> (*)(std::size_t count);  ///< see core/wave/fibers.h
 
 /// Rays traced, by purpose.
 struct RayCounters {
@@ -87,6 +90,7 @@ struct TraceContext {
     ChannelValues channels{};
     std::array<ChannelValues, kSideBySide> lane_channels{};  ///< of evaluations side by side
     std::unique_ptr<LightScratch> light;
+    MakeFibers make_fibers = nullptr;  ///< for rays that wait for each other; null: none wait
     /// Of shade_hits(), one inside the other; made when first needed.
     std::vector<std::unique_ptr<RayWave>> waves;
     std::size_t open_waves = 0;  ///< of these: in use

@@ -51,22 +51,22 @@ void RayWave::run_part(std::size_t first, std::size_t count, FunctionRef<void(st
         while (!done && strands_[i].outside) {
             go_outside(strands_[i], context);
             context.depth = strands_[i].depth;
-            done = fibers_.resume(i);
+            done = fibers_->resume(i);
         }
         if (!done) waiting_.push_back(i);
         context.depth = depth;
     };
     waiting_.clear();
     std::size_t begun = 0;
-    for (; begun < count && fibers_.prepare(begun); ++begun) {
+    for (; begun < count && fibers_->prepare(begun); ++begun) {
         strands_[begun] = {nullptr, nullptr, depth, nullptr};
-        run_on(begun, [&] { return fibers_.start(begun, work_ref); });
+        run_on(begun, [&] { return fibers_->start(begun, work_ref); });
     }
     while (!waiting_.empty()) {
         serve_all(serve, context);
         served_.swap(waiting_);
         waiting_.clear();
-        for (const std::size_t i : served_) run_on(i, [&] { return fibers_.resume(i); });
+        for (const std::size_t i : served_) run_on(i, [&] { return fibers_->resume(i); });
     }
     for (std::size_t i = 0; i < begun; ++i)
         if (strands_[i].failed) std::rethrow_exception(std::exchange(strands_[i].failed, nullptr));
@@ -102,7 +102,7 @@ void RayWave::go_outside(Strand& strand, TraceContext& context) {
 void RayWave::leave(TraceContext& context) {
     const std::size_t own = running_;
     strands_[own].depth = context.depth;
-    fibers_.wait();
+    fibers_->wait();
     if (strands_[own].failed) std::rethrow_exception(std::exchange(strands_[own].failed, nullptr));
 }
 

@@ -3,7 +3,9 @@
 // calculated at once. What a ray brings back is the same as when it is shaded alone.
 #include <cstddef>
 #include <exception>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/transport/tracer.h"
@@ -18,8 +20,9 @@ class RayWave {
     /// Calculates direct light of several points.
     using Serve = FunctionRef<void(std::span<const DirectRequest> requests)>;
 
-    /// @param rays  side by side; the others follow
-    explicit RayWave(std::size_t rays) : fibers_(rays), strands_(rays) {}
+    /// @param fibers  for as many rays side by side; the others follow
+    explicit RayWave(std::unique_ptr<Fibers> fibers)
+        : fibers_(std::move(fibers)), strands_(fibers_->size()) {}
 
     /// body(i) for i = 0 ... count - 1, in which context.wave is this; `serve` runs outside. What a
     /// body throws ends the run when all have ended: the first one's exception goes on.
@@ -34,7 +37,7 @@ class RayWave {
     /// Wait until the request has been served.
     void wait(const DirectRequest& request, TraceContext& context);
     /// Whether the stack suffices for going deeper by a ray or a mixture; if not: outside().
-    [[nodiscard]] bool has_room() const { return fibers_.has_room(); }
+    [[nodiscard]] bool has_room() const { return fibers_->has_room(); }
     /// Do `work` on the stack that runs the wave: the thread's, or that of the wave around it.
     void outside(FunctionRef<void()> work, TraceContext& context);
 
@@ -53,7 +56,7 @@ class RayWave {
 
     int level_ = 0;
     RayWave* around_ = nullptr;  ///< the wave whose fiber runs this one
-    Fibers fibers_;
+    std::unique_ptr<Fibers> fibers_;
     std::vector<Strand> strands_;
     std::size_t running_ = 0;
     std::vector<std::size_t> waiting_, served_;

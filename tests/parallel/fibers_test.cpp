@@ -1,7 +1,12 @@
 // Work that waits in the middle, on stacks of its own.
-#include "core/wave/fibers.h"
+#include "parallel/fibers/context_fibers.h"
 
 #include <doctest/doctest.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#include <sys/mman.h>
+#endif
 
 #include <array>
 #include <cstddef>
@@ -21,7 +26,8 @@ std::size_t steps_down(const Fibers& fibers) {
 }  // namespace
 
 TEST_CASE("fibers: work waits where it likes and goes on with what it had") {
-    Fibers fibers(3);
+    const auto made = make_context_fibers(3);
+    Fibers& fibers = *made;
     std::string told;
     const auto work = [&] {
         const std::string own = told.empty() ? "a" : "b";
@@ -43,7 +49,8 @@ TEST_CASE("fibers: work waits where it likes and goes on with what it had") {
 }
 
 TEST_CASE("fibers: one is used again and again, for work that waits or does not") {
-    Fibers fibers(1);
+    const auto made = make_context_fibers(1);
+    Fibers& fibers = *made;
     REQUIRE(fibers.prepare(0));
     int sum = 0;
     for (int i = 0; i < 1000; ++i) {
@@ -57,7 +64,8 @@ TEST_CASE("fibers: one is used again and again, for work that waits or does not"
 }
 
 TEST_CASE("fibers: exceptions that stay within the work are no one else's") {
-    Fibers fibers(2);
+    const auto made = make_context_fibers(2);
+    Fibers& fibers = *made;
     int caught = 0;
     const auto work = [&] {
         try {
@@ -76,12 +84,32 @@ TEST_CASE("fibers: exceptions that stay within the work are no one else's") {
 }
 
 TEST_CASE("fibers: there is room for half of the stack") {
-    Fibers fibers(1);
+    const auto made = make_context_fibers(1);
+    Fibers& fibers = *made;
     REQUIRE(fibers.prepare(0));
     std::size_t steps = 0;
     CHECK(fibers.start(0, [&] { steps = steps_down(fibers); }));
     CHECK(steps > 100);
-    CHECK(steps < Fibers::kStackBytes / 2 / 200);
+    CHECK(steps < kFiberStackBytes / 2 / 200);
 }
+
+#if defined(__SANITIZE_ADDRESS__)
+TEST_CASE("fibers: marks that an earlier stack left at their addresses are none of theirs") {
+    for (int pages = 0; pages < 3; ++pages) {  // the next mapping takes the gap
+        const std::size_t size = kFiberStackBytes + static_cast<std::size_t>(pages) * 4096;
+        void* earlier =
+            mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        REQUIRE(earlier != MAP_FAILED);
+        ASAN_POISON_MEMORY_REGION(earlier, size);
+        REQUIRE(munmap(earlier, size) == 0);
+        const auto made = make_context_fibers(1);
+        Fibers& fibers = *made;
+        REQUIRE(fibers.prepare(0));
+        std::size_t steps = 0;
+        CHECK(fibers.start(0, [&] { steps = steps_down(fibers); }));
+        CHECK(steps > 100);
+    }
+}
+#endif
 
 }  // namespace lightwalk

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #elif defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
@@ -15,7 +16,11 @@ namespace lightwalk {
 
 class AddressNotes {
   public:
-    AddressNotes(void* bottom, std::size_t size) : bottom_(bottom), size_(size) {}
+    /// What stood at these addresses before may have been left in the middle of functions: marks
+    /// around their variables would be taken for those of the new ones.
+    AddressNotes(void* bottom, std::size_t size) : bottom_(bottom), size_(size) {
+        ASAN_UNPOISON_MEMORY_REGION(bottom, size);
+    }
     void entering() { __sanitizer_start_switch_fiber(&outer_fake_, bottom_, size_); }
     void entered() { __sanitizer_finish_switch_fiber(inner_fake_, &outer_bottom_, &outer_size_); }
     void leaving(bool for_good) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/fibers/context_fibers.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk {
@@ -38,7 +39,7 @@ struct Asking {
         wave.wait({&ray, none}, scene.context);
     }
     TestScene scene;
-    RayWave wave{kRays};
+    RayWave wave{make_context_fibers(kRays)};
     std::vector<std::size_t> served;
 };
 
@@ -181,6 +182,7 @@ TEST_CASE("ray waves: rays that go side by side bring back the bits that they br
         RenderOptions options = usual();
         if (every_shadow) options.shadow_threshold = 0;
         TestScene scene(room(), options);
+        scene.context.make_fibers = make_context_fibers;
         std::vector<Ray> together = looking_down(scene, 20), alone = together;
         const std::vector<Hit> hits = hits_of(scene, together);
         for (std::size_t i = 0; i < alone.size(); ++i)
@@ -209,6 +211,7 @@ TEST_CASE("ray waves: the same with so many lights that a wave is calculated in 
                 " 4.5 .01\n";
     }
     TestScene scene(text, usual());
+    scene.context.make_fibers = make_context_fibers;
     std::vector<Ray> together = looking_down(scene, 6), alone = together;
     const std::vector<Hit> hits = hits_of(scene, together);
     for (std::size_t i = 0; i < alone.size(); ++i)
@@ -224,6 +227,7 @@ TEST_CASE("ray waves: ambient rays go side by side, too, within those that ask")
     options.ambient_divisions = 64;
     options.ambient_accuracy = 0;  // every value is computed anew
     TestScene scene(room(), options);
+    scene.context.make_fibers = make_context_fibers;
     std::vector<Ray> together = looking_down(scene, 3), alone = together;
     const std::vector<Hit> hits = hits_of(scene, together);
     for (std::size_t i = 0; i < alone.size(); ++i)
@@ -254,6 +258,7 @@ TEST_CASE("ray waves: rays and mixtures may be nested as deep as elsewhere") {
     }
     text += modifier + " ring mixed 0 0 8 20 0 0 0 0 1 0 9\n";
     TestScene scene(text);
+    scene.context.make_fibers = make_context_fibers;
     std::vector<Ray> together;
     for (const double x : {0.0, 0.1, 20.0, 20.1})
         together.push_back(scene.tracer.primary({x, 0, 1}, {0, 0, -1}, 0, RandomStream(1)));

@@ -1,4 +1,4 @@
-#include "core/wave/fibers.h"
+#include "parallel/fibers/context_fibers.h"
 
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
@@ -6,12 +6,14 @@
 #include <new>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "core/wave/stack_notes.h"
+#include "parallel/fibers/stack_notes.h"
 
 namespace lightwalk {
+namespace {
 
-class Fibers::Fiber {
+class Fiber {
   public:
     Fiber()
         : stack_(allocator_.allocate()),
@@ -55,7 +57,7 @@ class Fibers::Fiber {
   private:
     [[nodiscard]] char* bottom() const { return static_cast<char*>(stack_.sp) - stack_.size; }
 
-    boost::context::protected_fixedsize_stack allocator_{kStackBytes};
+    boost::context::protected_fixedsize_stack allocator_{kFiberStackBytes};
     boost::context::stack_context stack_;  ///< freed with inside_
     StackNotes notes_;
     std::optional<FunctionRef<void()>> work_;
@@ -63,43 +65,48 @@ class Fibers::Fiber {
     boost::context::fiber inside_;
 };
 
-Fibers::Fibers(std::size_t count) : all_(count) {}
-Fibers::~Fibers() = default;
+class ContextFibers final : public Fibers {
+  public:
+    explicit ContextFibers(std::size_t count) : all_(count) {}
 
-bool Fibers::prepare(std::size_t i) {
-    try {
-        if (!all_[i]) all_[i] = std::make_unique<Fiber>();
-        return true;
-    } catch (const std::bad_alloc&) {
-        return false;
+    [[nodiscard]] std::size_t size() const override { return all_.size(); }
+    [[nodiscard]] bool prepare(std::size_t i) override {
+        try {
+            if (!all_[i]) all_[i] = std::make_unique<Fiber>();
+            return true;
+        } catch (const std::bad_alloc&) {
+            return false;
+        }
     }
-}
+    bool start(std::size_t i, FunctionRef<void()> work) override {
+        assert(all_[i]->is_idle());
+        all_[i]->set_work(work);
+        return enter(i);
+    }
+    bool resume(std::size_t i) override {
+        assert(!all_[i]->is_idle());
+        return enter(i);
+    }
+    void wait() override { running_->leave(false); }
+    [[nodiscard]] bool has_room() const override { return running_->room() > kFiberStackBytes / 2; }
 
-bool Fibers::start(std::size_t i, FunctionRef<void()> work) {
-    assert(all_[i]->is_idle());
-    all_[i]->set_work(work);
-    return enter(i);
-}
+  private:
+    bool enter(std::size_t i) {
+        assert(running_ == nullptr);
+        running_ = all_[i].get();
+        running_->go_on();
+        running_ = nullptr;
+        return all_[i]->is_idle();
+    }
 
-bool Fibers::resume(std::size_t i) {
-    assert(!all_[i]->is_idle());
-    return enter(i);
-}
+    std::vector<std::unique_ptr<Fiber>> all_;
+    Fiber* running_ = nullptr;
+};
 
-bool Fibers::enter(std::size_t i) {
-    assert(running_ == nullptr);
-    running_ = all_[i].get();
-    running_->go_on();
-    running_ = nullptr;
-    return all_[i]->is_idle();
-}
+}  // namespace
 
-bool Fibers::has_room() const {
-    return running_->room() > kStackBytes / 2;
-}
-
-void Fibers::wait() {
-    running_->leave(false);
+std::unique_ptr<Fibers> make_context_fibers(std::size_t count) {
+    return std::make_unique<ContextFibers>(count);
 }
 
 }  // namespace lightwalk
