@@ -2,17 +2,17 @@
 """Error against time of indirect light in the summer cabin; needs python3-numpy.
 
   ambient_bench.py --scenes DIR [--lightwalk PROGRAM] [--converged FILE.hdr] [--threads 1,2] [--bounces 1] [--runs 1]
-                   [--accuracy A] [--size 320x240]
+                   [--accuracy A] [--size 320x240] [--rpict PROGRAM --octree FILE]
 
 DIR holds Radiance's sample models: DIR/cabin and DIR/lib. FILE.hdr is the picture without cache (-aa 0) that the others are
 compared with: for one bounce tests/reference/summer-living-converged.hdr. Where it is missing it is made, with --divisions hemisphere
 samples (default 4096: ten minutes on two cores for one bounce). Without --converged only the time is measured.
---accuracy leaves one setting: with --accuracy 0.15 --size 640x480 this is the scene, and these are the options, of which
-Radiance 6.1 needs 49.8 s (--bounces 2: 143.8 s) on one core of the machine that we measured on.
-One line a picture, tab-separated: threads, -aa, -ad, seconds to render, values in the cache, 95th percentile of the relative
-error of 4x4 blocks, mean ratio. One curve is the lines of one number of threads.
+--accuracy leaves one setting. With --rpict the same pictures by an installed Radiance stand beside, in turns: FILE is what its oconv
+makes of the same words, which need its generators.
+One line a picture, tab-separated: program, threads, -aa, -ad, seconds of the whole process, values in the cache, 95th percentile and
+mean of the relative error of 4x4 blocks, mean ratio. One curve is the lines of one program and number of threads.
 """
-import argparse, json, math, os, pathlib, statistics, subprocess, sys, tempfile
+import argparse, json, math, os, pathlib, statistics, subprocess, sys, tempfile, time
 
 import numpy as np
 
@@ -56,17 +56,35 @@ def blocks(picture):
 def compare(picture, reference):
     a, b = blocks(picture), blocks(reference)
     error = np.abs(a - b).max(2) / np.maximum(b.max(2), 0.02 * b.mean())
-    return float(np.percentile(error, 95)), float(picture.mean() / reference.mean())
+    return float(np.percentile(error, 95)), float(error.mean()), float(picture.mean() / reference.mean())
+
+
+def run(arguments, command, **where):
+    """Seconds of the whole process."""
+    start = time.monotonic()
+    subprocess.run(command, check=True, cwd=os.path.join(arguments.scenes, "cabin"),
+                   env=dict(os.environ, RAYPATH=".:../lib:" + os.environ.get("RAYPATH", "")), **where)
+    return time.monotonic() - start
+
+
+def view_options(arguments, options):
+    width, height = arguments.size.split("x")
+    return [*VIEW, "-x", width, "-y", height, "-ab", str(arguments.bounces), *options]
 
 
 def render(arguments, options, path):
+    """Seconds, and values in the cache."""
     with tempfile.TemporaryDirectory() as scratch:
         stats = os.path.join(scratch, "stats.json")
-        width, height = arguments.size.split("x")
-        subprocess.run([os.path.abspath(arguments.lightwalk), "render", "--quiet", *VIEW, "-x", width, "-y", height, "-ab", str(arguments.bounces), *options,
-                        "--stats", stats, "-o", os.path.abspath(path), *SCENE], check=True,
-                       cwd=os.path.join(arguments.scenes, "cabin"), env=dict(os.environ, RAYPATH=".:../lib"))
-        return json.loads(pathlib.Path(stats).read_text())
+        seconds = run(arguments, [os.path.abspath(arguments.lightwalk), "render", "--quiet", *view_options(arguments, options),
+                                  "--stats", stats, "-o", os.path.abspath(path), *SCENE])
+        return seconds, json.loads(pathlib.Path(stats).read_text()).get("ambient", {}).get("cached", 0)
+
+
+def render_by_rpict(arguments, options, path):
+    with open(path, "wb") as picture:
+        seconds = run(arguments, [arguments.rpict, *view_options(arguments, options), os.path.abspath(arguments.octree)], stdout=picture)
+    return seconds, ""
 
 
 def main():
@@ -80,21 +98,26 @@ def main():
     parser.add_argument("--bounces", type=int, default=1)
     parser.add_argument("--threads", default="1,2")
     parser.add_argument("--runs", type=int, default=1)
+    parser.add_argument("--rpict", metavar="PROGRAM")
+    parser.add_argument("--octree", metavar="FILE")
     arguments = parser.parse_args()
     if arguments.converged and not os.path.exists(arguments.converged):
         render(arguments, ["-aa", "0", "-ad", str(arguments.divisions), "-as", "0"], arguments.converged)
     reference = read_hdr(arguments.converged) if arguments.converged else None
     settings = [s for s in SETTINGS if arguments.accuracy in (None, s[0])]
-    print("threads\t-aa\t-ad\tseconds\tvalues\tblock p95\tmean ratio", flush=True)
+    programs = [("lightwalk", n, render, ["-n", n]) for n in arguments.threads.split(",")]
+    if arguments.rpict:
+        programs.append(("rpict", 1, render_by_rpict, []))
+    print("program\tthreads\t-aa\t-ad\tseconds\tvalues\tblock p95\tblock mean\tmean ratio", flush=True)
     with tempfile.TemporaryDirectory() as scratch:
-        for threads in arguments.threads.split(","):
-            for aa, ad, extra, ar in settings:
-                path = os.path.join(scratch, "picture.hdr")
-                options = ["-aa", str(aa), "-ad", str(ad), "-as", str(extra), "-ar", str(ar), "-n", threads]
-                runs = [render(arguments, options, path) for _ in range(arguments.runs)]
-                p95, mean = compare(read_hdr(path), reference) if reference is not None else (math.nan, math.nan)
-                seconds = statistics.median(r["seconds"]["render"] for r in runs)
-                print(threads, aa, ad, f"{seconds:.2f}", runs[-1]["ambient"]["cached"], f"{p95:.4f}", f"{mean:.4f}", sep="\t", flush=True)
+        path = os.path.join(scratch, "picture.hdr")
+        for aa, ad, extra, ar in settings:
+            for name, threads, draw, more in programs:
+                options = ["-aa", str(aa), "-ad", str(ad), "-as", str(extra), "-ar", str(ar), *more]
+                runs = [draw(arguments, options, path) for _ in range(arguments.runs)]
+                errors = compare(read_hdr(path), reference) if reference is not None else (math.nan,) * 3
+                print(name, threads, aa, ad, f"{statistics.median(r[0] for r in runs):.2f}", runs[-1][1], *(f"{e:.4f}" for e in errors),
+                      sep="\t", flush=True)
     return 0
 
 

@@ -9,6 +9,7 @@
 #include "core/function/prism.h"
 #include "core/function/program.h"
 #include "core/function/ray_functions.h"
+#include "core/math/elementary.h"
 
 namespace lightwalk::function {
 

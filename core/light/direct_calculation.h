@@ -46,17 +46,17 @@ class DirectCalculation {
         double distance = kHuge;  ///< to the source's surface [m]
     };
     // direct_gather.cpp
-    void find_places(std::int32_t source);
-    void number_candidates();
+    void find_samples(LitPoint& point);
+    void consider_samples(std::uint32_t point);
     [[nodiscard]] const PolygonShape* polygon_of(const LightSource& source) const;
     void consider(std::uint32_t point, std::int32_t source, const PolygonShape* polygon,
-                  const SourceSample& sample);
-    void add_candidate(std::uint32_t point, std::int32_t source, const SourceSample& sample,
+                  const Vec3& direction, const Rgb& k);
+    void add_candidate(std::uint32_t point, std::int32_t source, const Vec3& direction,
                        const Rgb& coefficient, const Emission& emitted);
-    void add_unknown(std::uint32_t point, std::int32_t source, const SourceSample& sample,
+    void add_unknown(std::uint32_t point, std::int32_t source, const Vec3& direction,
                      const Rgb& coefficient, double distance);
-    [[nodiscard]] bool meets_relay(const LightSource& source, const SourceSample& sample,
-                                   const Vec3& origin) const;
+    [[nodiscard]] bool meets_relay(const LightSource& source, const Vec3& origin,
+                                   const Vec3& direction) const;
     [[nodiscard]] static bool is_constant(const LightSource& source);
     [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
                                                        const Vec3& origin,

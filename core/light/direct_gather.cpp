@@ -1,6 +1,6 @@
 // The first stage of the direct calculation: which samples of which sources could light a point.
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "core/geometry/polygon.h"
 #include "core/light/direct_calculation.h"
@@ -29,17 +29,15 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
         LitPoint& point = scratch_.points.emplace_back(request);
         point.part_size = partition_size(tracer_.options().source_subdivision, point.start.weight);
     }
-    SourcePlaces& places = scratch_.places;
-    for (const std::int32_t source : lights_.sampled()) {
-        find_places(source);
-        if (places.size() == 0) continue;
-        places.sample(lights_[source]);
-        const PolygonShape* polygon = polygon_of(lights_[source]);
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            if (const auto sample = places[i]) consider(places.number(i), source, polygon, *sample);
-        }
+    for (std::uint32_t number = 0; number < scratch_.points.size(); ++number) {
+        LitPoint& point = scratch_.points[number];
+        point.first = scratch_.candidates.size();
+        find_samples(point);
+        consider_samples(number);
+        point.count = scratch_.candidates.size() - point.first;
     }
-    number_candidates();
+    scratch_.ranks.resize(scratch_.candidates.size());
+    std::iota(scratch_.ranks.begin(), scratch_.ranks.end(), 0U);
     shared_.points += scratch_.points.size();
     shared_.candidates += scratch_.candidates.size();
     if (shared_.points > kLate) {
@@ -48,39 +46,57 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
     }
 }
 
-/// Where the points look at a source.
-void DirectCalculation::find_places(std::int32_t index) {
-    const LightSource& source = lights_[index];
+/// What a point sees of all sources, as far as these alone can tell.
+void DirectCalculation::find_samples(LitPoint& point) {
     const double jitter = tracer_.options().source_jitter;
-    const Partition divide(source);
-    scratch_.places.clear();
-    for (std::size_t number = 0; number < scratch_.points.size(); ++number) {
-        LitPoint& point = scratch_.points[number];
+    const bool divided = point.part_size > 0;
+    const std::span<const std::int32_t> sampled = lights_.sampled();
+    const SourceViews& views = scratch_.views;
+    lights_.boxes().look(point.position, point.one_sided ? &point.front : nullptr, point.part_size,
+                         scratch_.views);
+    scratch_.samples.clear();
+    for (std::size_t k = 0; k < sampled.size(); ++k) {
+        if (point.one_sided && views.is_behind(k)) continue;
+        if (divided && views.turns_away(k)) continue;
+        const LightSource& source = lights_[sampled[k]];
         if (out_of_reach(source, point.position)) continue;
-        if (point.one_sided && is_behind(source, point.position, point.front)) continue;
-        divide(point.position, point.part_size, scratch_.parts);
+        if ((!divided || views.is_far(k)) && !(jitter > 0)) {
+            lights_.boxes().add_whole(k, sampled[k], views, scratch_.samples);
+            continue;
+        }
+        Partition{source}(point.position, point.part_size, scratch_.parts);
         const int parts = scratch_.parts.count;
         for (int i = 0; i < parts; ++i) {
             const SourcePart& part = scratch_.parts.part[static_cast<std::size_t>(i)];
-            scratch_.places.add(source, part, parts, point.position,
-                                static_cast<std::uint32_t>(number), jitter, point.start.random);
+            scratch_.samples.add(source, sampled[k], part, parts, point.position, jitter,
+                                 point.start.random);
         }
     }
+    scratch_.samples.sample(lights_.all(), point.position);
+    if (lights_.virtual_count() == 0) return;
+    scratch_.samples.retain([&](std::size_t i) {
+        const LightSource& source = lights_[scratch_.samples.source(i)];
+        return !source.is_virtual ||
+               meets_relay(source, point.position, scratch_.samples.lights().direction(i));
+    });
 }
 
-/// Candidates were found source by source: bring those of each point together.
-void DirectCalculation::number_candidates() {
-    for (const LightCandidate& candidate : scratch_.candidates)
-        ++scratch_.points[candidate.point].count;
-    std::size_t first = 0;
-    for (LitPoint& point : scratch_.points) {
-        point.first = first;
-        first += std::exchange(point.count, 0);
-    }
-    scratch_.ranks.resize(first);
-    for (std::size_t i = 0; i < first; ++i) {
-        LitPoint& point = scratch_.points[scratch_.candidates[i].point];
-        scratch_.ranks[point.first + point.count++] = static_cast<std::uint32_t>(i);
+/// Candidates of the samples that the surface sends on.
+void DirectCalculation::consider_samples(std::uint32_t number) {
+    const LitPoint& point = scratch_.points[number];
+    const LightSamples lights = scratch_.samples.lights();
+    if (lights.count == 0) return;
+    if (scratch_.coefficients.size() < lights.count) scratch_.coefficients.resize(lights.count);
+    const std::span k = std::span(scratch_.coefficients).first(lights.count);
+    point.coefficient(lights, k);
+    std::int32_t last = -1;
+    const PolygonShape* polygon = nullptr;
+    for (std::size_t i = 0; i < lights.count; ++i) {
+        if (!(max_component(k[i]) > 0)) continue;
+        const std::int32_t source = scratch_.samples.source(i);
+        if (source != last) polygon = polygon_of(lights_[source]);
+        last = source;
+        consider(number, source, polygon, lights.direction(i), k[i]);
     }
 }
 
@@ -91,58 +107,47 @@ const PolygonShape* DirectCalculation::polygon_of(const LightSource& source) con
                : std::get_if<PolygonShape>(&tracer_.scene().surface(source.object).shape);
 }
 
-/// Make a candidate of a sample that can bring light.
+/// Make a candidate of a sample that can bring light, of which the surface sends on `k`.
 void DirectCalculation::consider(std::uint32_t number, std::int32_t index,
-                                 const PolygonShape* polygon, const SourceSample& sample) {
+                                 const PolygonShape* polygon, const Vec3& direction, const Rgb& k) {
     const LightSource& source = lights_[index];
     const LitPoint& point = scratch_.points[number];
-    if (source.is_virtual && !meets_relay(source, sample, point.position)) return;
-    const Rgb k = point.coefficient(sample.direction, sample.solid_angle);
-    if (!(max_component(k) > 0)) return;
     if (is_constant(source) && point.clear_air) {
-        if (const auto distance = front_distance(source, point.position, sample.direction))
-            add_candidate(number, index, sample, k, {source.radiance, *distance});
+        if (const auto distance = front_distance(source, point.position, direction))
+            add_candidate(number, index, direction, k, {source.radiance, *distance});
     } else if (!source.is_virtual && !needs_tracing(source, point)) {
-        const auto distance = polygon ? plane_distance(*polygon, point.position, sample.direction)
-                                      : front_distance(source, point.position, sample.direction);
-        if (distance) add_unknown(number, index, sample, k, *distance);
+        const auto distance = polygon ? plane_distance(*polygon, point.position, direction)
+                                      : front_distance(source, point.position, direction);
+        if (distance) add_unknown(number, index, direction, k, *distance);
     } else {
-        add_candidate(number, index, sample, k, traced_emission(point, index, sample.direction));
+        add_candidate(number, index, direction, k, traced_emission(point, index, direction));
     }
 }
 
 /// A candidate whose radiance is not known yet.
-void DirectCalculation::add_unknown(std::uint32_t point, std::int32_t source,
-                                    const SourceSample& sample, const Rgb& coefficient,
-                                    double distance) {
-    scratch_.candidates.push_back({source,
-                                   point,
-                                   sample.direction,
-                                   distance,
-                                   coefficient,
-                                   {},
-                                   0,
-                                   CandidateState::unknown,
-                                   false});
+void DirectCalculation::add_unknown(std::uint32_t point, std::int32_t source, const Vec3& direction,
+                                    const Rgb& coefficient, double distance) {
+    scratch_.candidates.push_back(
+        {source, point, direction, distance, coefficient, {}, 0, CandidateState::unknown, false});
 }
 
 /// Unless nothing arrives.
 void DirectCalculation::add_candidate(std::uint32_t point, std::int32_t source,
-                                      const SourceSample& sample, const Rgb& coefficient,
+                                      const Vec3& direction, const Rgb& coefficient,
                                       const Emission& emitted) {
     const Rgb contribution = coefficient * emitted.radiance;
     const float b = brightness(contribution);
     if (!brings_light(b)) return;
-    scratch_.candidates.push_back({source, point, sample.direction, emitted.distance, coefficient,
+    scratch_.candidates.push_back({source, point, direction, emitted.distance, coefficient,
                                    contribution, b, CandidateState::known, false});
 }
 
 /// Most samples of a virtual source pass its mirror by: the outline says so before a ray is traced.
-bool DirectCalculation::meets_relay(const LightSource& source, const SourceSample& sample,
-                                    const Vec3& origin) const {
+bool DirectCalculation::meets_relay(const LightSource& source, const Vec3& origin,
+                                    const Vec3& direction) const {
     return tracer_.scene()
         .geometry()
-        .intersect_surface(source.object, {origin, sample.direction, kHuge})
+        .intersect_surface(source.object, {origin, direction, kHuge})
         .exists();
 }
 

@@ -72,10 +72,10 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
     Ray ray = context.tracer.primary(hit.position + hit.normal, -hit.normal, 0, random);
     ray.hit = hit;
     ray.hit.t = ray.hit.cos_out = 1;
-    const auto coefficient = [&hit](const Vec3& l, double omega) {
+    const auto coefficient = one_by_one([&hit](const Vec3& l, double omega) {
         const double cosine = dot(hit.normal, l);
         return cosine > 0 ? Rgb::grey(static_cast<float>(cosine * omega)) : Rgb{};
-    };
+    });
     DirectCalculation direct(lights, context);
     const DirectRequest request{&ray, coefficient};
     direct.gather({&request, 1});

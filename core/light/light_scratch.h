@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/geometry/geometry.h"
-#include "core/light/partition.h"
 #include "core/light/shadow_order.h"
+#include "core/light/source_samples.h"
 #include "core/math/rgb.h"
 #include "core/transport/tracer.h"
 
@@ -59,10 +59,12 @@ struct LitPoint {
 
 /// The buffers of one calculation.
 struct DirectScratch {
-    SourceParts parts;    ///< of the source being sampled, seen from one point
-    SourcePlaces places;  ///< of all points on it
+    SourceViews views;              ///< of all sources, seen from one point
+    SourceParts parts;              ///< of one of them
+    SourceSamples samples;          ///< of all
+    std::vector<Rgb> coefficients;  ///< of these
     std::vector<LitPoint> points;
-    std::vector<LightCandidate> candidates;   ///< of one source after the other
+    std::vector<LightCandidate> candidates;   ///< of one point after the other
     std::vector<std::uint32_t> ranks;         ///< candidates of one point after the other, in the
                                               ///< order of tests
     std::vector<std::uint64_t> keys;          ///< of the candidates that are being ranked

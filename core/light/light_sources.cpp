@@ -21,6 +21,9 @@ void LightSources::index_sources() {
         if (!source.unusable) sampled_.push_back(static_cast<std::int32_t>(i));
         if (source.distant && !source.is_virtual) distant_.push_back(static_cast<std::int32_t>(i));
     }
+    boxes_ = SourceBoxes(sources_, sampled_);
+    virtual_count_ = static_cast<std::size_t>(std::count_if(
+        sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
 void LightSources::settle(const Tracer& tracer, WarningSink& warnings) {
@@ -31,11 +34,6 @@ void LightSources::settle(const Tracer& tracer, WarningSink& warnings) {
         const std::vector<float> rates = measure_hit_rates(*this, context);
         for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
     }
-}
-
-std::size_t LightSources::virtual_count() const {
-    return static_cast<std::size_t>(std::count_if(
-        sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
 bool LightSources::shine() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/light/light_source.h"
+#include "core/light/source_samples.h"
 #include "core/scene/scene.h"
 #include "core/transport/options.h"
 #include "core/transport/ray.h"
@@ -24,12 +25,14 @@ class LightSources {
     [[nodiscard]] const LightSource& operator[](std::int32_t i) const {
         return sources_[static_cast<std::size_t>(i)];
     }
-    [[nodiscard]] std::size_t virtual_count() const;
+    [[nodiscard]] std::size_t virtual_count() const { return virtual_count_; }
     /// Whether anything in the scene shines on surfaces: a source that is sampled, or, when there
     /// are ambient bounces, a glow. Surfaces inside instances do not count, as in Radiance.
     [[nodiscard]] bool shine() const;
     /// Indices of the sources that the direct calculation samples, ascending.
     [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
+    /// The boxes of these.
+    [[nodiscard]] const SourceBoxes& boxes() const { return boxes_; }
 
     /// Add a virtual source; sampled() does not hold it before settle(). While the tracer is set
     /// up only.
@@ -72,6 +75,8 @@ class LightSources {
     RenderOptions options_;
     std::vector<LightSource> sources_;
     std::vector<std::int32_t> sampled_;
+    SourceBoxes boxes_;
+    std::size_t virtual_count_ = 0;
     std::vector<std::int32_t> distant_;                        ///< real sources at infinity
     std::unordered_map<std::int32_t, ScatterList> scattered_;  ///< by the mist's modifier
 };

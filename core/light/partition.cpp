@@ -9,7 +9,6 @@
 namespace lightwalk {
 namespace {
 
-constexpr SourcePart kWholeBox{{0, 0, 0}, {1, 1, 1}};
 constexpr double kSquareToDisk =
     1.12837917;  ///< 2/√π: half width of the disk around a square of equal area
 /// Squared radius of a cylinder over the squared half width of its box: 1 / kCylinderBox² to
@@ -110,13 +109,12 @@ bool out_of_reach(const LightSource& source, const Vec3& point) {
 }
 
 bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal) {
-    constexpr double kRound = 1.5;  // squeezed samples leave the box by less
     const double height =
         dot(normal, source.distant ? source.center : source.center - point);  // of the centre
     if (height >= 0) return false;
     const double reach = std::abs(dot(normal, source.u)) + std::abs(dot(normal, source.v)) +
                          std::abs(dot(normal, source.w));
-    return height + kRound * reach < 0;
+    return height + kBoxMargin * reach < 0;
 }
 
 double partition_size(double subdivision, double weight) {
@@ -136,15 +134,13 @@ Vec3 position_in_box(const LightSource& source, const SourcePart& part, int part
 
 Partition::Partition(const LightSource& source)
     : source_(source),
-      u_length_(source.flat ? length(source.u) : 0),
-      v_length_(source.flat ? length(source.v) : 0) {}
+      longest_squared_(std::max(length_squared(source.u), length_squared(source.v))) {}
 
 /// Whether a flat source need not be divided. May be false though it need not.
 bool Partition::is_far(const Vec3& to_center, double size_over_distance) const {
     constexpr double kRound = 1 + 1e-12;
-    const double longest = std::max(u_length_, v_length_);
     return length_squared(to_center) * size_over_distance * size_over_distance >
-           4 * kRound * longest * longest;
+           4 * kRound * longest_squared_;
 }
 
 void Partition::operator()(const Vec3& point, double size_over_distance, SourceParts& parts) const {
@@ -155,7 +151,8 @@ void Partition::operator()(const Vec3& point, double size_over_distance, SourceP
             if (!(dot(to_center, source_.normal) > 0)) return;
             if (!is_far(to_center, size_over_distance)) {
                 const double scale = 2 / size_over_distance;
-                FlatPartition(source_, to_center, scale * u_length_, scale * v_length_, parts);
+                FlatPartition(source_, to_center, scale * length(source_.u),
+                              scale * length(source_.v), parts);
                 return;
             }
         } else if (source_.cylinder) {
@@ -165,20 +162,6 @@ void Partition::operator()(const Vec3& point, double size_over_distance, SourceP
     }
     parts.part[0] = kWholeBox;
     parts.count = 1;
-}
-
-std::optional<SourceSample> sample_part(const LightSource& source, const SourcePart& part,
-                                        int parts, const Vec3& point, double jitter,
-                                        RandomStream& random) {
-    SourcePlaces places;
-    places.add(source, part, parts, point, 0, jitter, random);
-    places.sample(source);
-    return places[0];
-}
-
-std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& point,
-                                         double jitter, RandomStream& random) {
-    return sample_part(source, kWholeBox, 1, point, jitter, random);
 }
 
 }  // namespace lightwalk

@@ -3,9 +3,7 @@
 // each. Source: Ward, "The RADIANCE lighting simulation and rendering system", SIGGRAPH 1994
 // ("adaptive source subdivision"); the -ds and -dj options of rpict(1).
 #include <array>
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/light/light_source.h"
 #include "core/math/random.h"
@@ -19,6 +17,8 @@ struct SourcePart {
     Vec3 center;  ///< the whole box: 0
     Vec3 size;    ///< half widths; the whole box: 1
 };
+
+inline constexpr SourcePart kWholeBox{{0, 0, 0}, {1, 1, 1}};
 
 struct SourceParts {
     std::array<SourcePart, kMaxParts> part;
@@ -37,6 +37,9 @@ struct SourceSample {
 /// Whether the point is beyond a local glow's radius of influence, or beside the beam of a virtual
 /// source's relay.
 [[nodiscard]] bool out_of_reach(const LightSource& source, const Vec3& point);
+
+/// Samples of round sources leave the box, by less than this times its size.
+inline constexpr double kBoxMargin = 1.5;
 
 /// Whether all samples of a source lie behind the plane through `point`. May be false though they
 /// do.
@@ -59,68 +62,15 @@ class Partition {
     [[nodiscard]] bool is_far(const Vec3& to_center, double size_over_distance) const;
 
     const LightSource& source_;
-    double u_length_, v_length_;  ///< of a flat source's half axes [m]
+    double longest_squared_;  ///< of the half axes [m²]
 };
 
 /// Where to sample one of `parts` parts, in units of the source's half axes.
 [[nodiscard]] Vec3 position_in_box(const LightSource& source, const SourcePart& part, int parts,
                                    double jitter, RandomStream& random);
 
-/// Places in a source's sampling box that points look at, and the samples there: an array a number,
-/// so that they are computed side by side.
-class SourcePlaces {
-  public:
-    void clear() { count_ = 0; }
-    [[nodiscard]] std::size_t size() const { return count_; }
-    /// Add a part of a source, of `parts` that it has from `point`.
-    /// @param number  of the point, for who reads the samples
-    void add(const LightSource& source, const SourcePart& part, int parts, const Vec3& point,
-             std::uint32_t number, double jitter, RandomStream& random);
-    /// Sample the source at all places.
-    void sample(const LightSource& source);
-
-    [[nodiscard]] std::uint32_t number(std::size_t i) const { return numbers_[i]; }
-    /// Sample i. Nothing when the part turns away, is out of reach, or is seen from outside the
-    /// source's spot.
-    [[nodiscard]] std::optional<SourceSample> operator[](std::size_t i) const {
-        if (!(row(kSolidAngle)[i] >= 0)) return std::nullopt;
-        return SourceSample{
-            {row(kX)[i], row(kY)[i], row(kZ)[i]}, row(kDistance)[i], row(kSolidAngle)[i]};
-    }
-
-  private:
-    // What is known of a place, one row of numbers each: the point, the place in the box, the
-    // part's share of the box; then the sample. Without one the solid angle is -1.
-    enum Row {
-        kFromX,
-        kFromY,
-        kFromZ,
-        kPlaceX,
-        kPlaceY,
-        kPlaceZ,
-        kShare,
-        kX,
-        kY,
-        kZ,
-        kDistance,
-        kSolidAngle,
-        kRows
-    };
-    [[nodiscard]] double* row(Row r) { return rows_.data() + r * capacity_; }
-    [[nodiscard]] const double* row(Row r) const { return rows_.data() + r * capacity_; }
-    void grow();
-    void aim(const LightSource& source);
-    void weigh_flat(const LightSource& source);
-    void weigh_distant(const LightSource& source);
-    void weigh_solid(const LightSource& source);
-    void leave_spot(const LightSource& source);
-
-    std::size_t count_ = 0, capacity_ = 0;
-    std::vector<double> rows_;
-    std::vector<std::uint32_t> numbers_;
-};
-
-/// Sample one of `parts` parts, as SourcePlaces does.
+/// Sample one of `parts` parts. Nothing when it turns away, is out of reach, or is seen from
+/// outside the source's spot.
 [[nodiscard]] std::optional<SourceSample> sample_part(const LightSource& source,
                                                       const SourcePart& part, int parts,
                                                       const Vec3& point, double jitter,

@@ -93,8 +93,10 @@ bool Anisotropic::shade(Ray& ray, TraceContext& context) const {
     }
     const double jitter = options.source_jitter;
     const Vec3 v = ray.direction;
-    tracer.add_direct(
-        ray, [&](const Vec3& l, double omega) { return direct(s, v, l, omega, jitter); }, context);
+    tracer.add_direct(ray, one_by_one([&](const Vec3& l, double omega) {
+                          return direct(s, v, l, omega, jitter);
+                      }),
+                      context);
     return true;
 }
 

@@ -69,7 +69,8 @@ bool Ashikhmin::shade(Ray& ray, TraceContext& context) const {
     }
     const Vec3 v = ray.direction;
     tracer.add_direct(
-        ray, [&](const Vec3& l, double omega) { return direct(s, v, l, omega); }, context);
+        ray, one_by_one([&](const Vec3& l, double omega) { return direct(s, v, l, omega); }),
+        context);
     return true;
 }
 

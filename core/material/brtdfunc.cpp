@@ -113,9 +113,10 @@ bool BrtdFunction::shade(Ray& ray, TraceContext& context) const {
     if (diffuse_reflection) ray.value += tracer.ambient(ray, s.reflected, n, context);
     if (diffuse_transmission) ray.value += tracer.ambient(ray, s.transmitted, -n, context);
     if (!diffuse_reflection && !diffuse_transmission && !directional_first_) return true;
-    tracer.add_direct(
-        ray, [&](const Vec3& l, double omega) { return direct(ray, s, l, omega, context); },
-        context);
+    tracer.add_direct(ray, one_by_one([&](const Vec3& l, double omega) {
+                          return direct(ray, s, l, omega, context);
+                      }),
+                      context);
     return true;
 }
 

@@ -139,9 +139,10 @@ bool FunctionBrdf::shade(Ray& ray, TraceContext& context) const {
         const Rgb coef = variables.color * static_cast<float>(tau_);
         ray.value += tracer.ambient(ray, coef, -facing.normal, context);
     }
-    tracer.add_direct(
-        ray, [&](const Vec3& l, double omega) { return direct(ray, variables, l, omega, context); },
-        context);
+    tracer.add_direct(ray, one_by_one([&](const Vec3& l, double omega) {
+                          return direct(ray, variables, l, omega, context);
+                      }),
+                      context);
     return true;
 }
 

@@ -11,6 +11,7 @@
 #include "core/function/program.h"
 #include "core/math/function_ref.h"
 #include "core/scene/scene.h"
+#include "core/transport/light_samples.h"
 #include "core/transport/options.h"
 #include "core/transport/ray.h"
 
@@ -107,10 +108,6 @@ struct TraceContext {
     std::deque<ClipSet> clip_sets;
     std::deque<ScatterList> scatter_lists;
 };
-
-/// What a surface sends towards the eye per unit radiance of a light in direction `l` (unit, away
-/// from the surface) of solid angle `omega` [sr]: f cosθ ω. Zero when it does not see that side.
-using DirectCoefficient = FunctionRef<Rgb(const Vec3& l, double omega)>;
 
 /// A shaded point that wants direct light.
 struct DirectRequest {

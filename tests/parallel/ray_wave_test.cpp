@@ -35,7 +35,7 @@ struct Asking {
         CHECK(scene.context.depth == 0);
     }
     void ask(Ray& ray) {
-        const auto none = [](const Vec3&, double) { return Rgb{}; };
+        const auto none = one_by_one([](const Vec3&, double) { return Rgb{}; });
         wave.wait({&ray, none}, scene.context);
     }
     TestScene scene;

@@ -150,7 +150,7 @@ class Reference {
         const double v = x(0);
         if (t.op == "sqrt" || t.op == "apply_sqrt") return std::sqrt(v);
         if (t.op == "log") return std::log(v);
-        if (t.op == "exp") return std::exp(v);
+        if (t.op == "exp") return elementary::exp(v);
         return t.op == "sin" ? std::sin(v) : std::floor(v);
     }
 

@@ -162,6 +162,33 @@ TEST_CASE(
     CHECK(floor_at(quick, 0.3, 0.2) == floor_at(again, 0.3, 0.2));
 }
 
+TEST_CASE("many lamps at once give what single lamps give, on both sides and in the lobe") {
+    const auto lamp = [](int i) {
+        const std::string n = std::to_string(i), above = i % 2 == 0 ? "3" : "-2";
+        return "lamp sphere s" + n + "\n0\n0\n4 " + std::to_string(0.1 * i - 1) + " " +
+               std::to_string(0.05 * (i % 7)) + " " + above + " .05\n";
+    };
+    for (const std::string material :
+         {"void plastic m\n0\n0\n5 .5 .4 .3 .05 .2\n", "void plastic m\n0\n0\n5 .5 .4 .3 .2 0\n",
+          "void metal m\n0\n0\n5 .5 .4 .3 .9 .3\n", "void trans m\n0\n0\n7 .5 .4 .3 .05 .2 .6 .3\n",
+          "void trans m\n0\n0\n7 .5 .4 .3 .05 0 1 .3\n"}) {
+        CAPTURE(material);
+        const std::string sheet =
+            material + "m polygon sheet\n0\n0\n12 -9 -9 0 9 -9 0 9 9 0 -9 9 0\n" + kLamp;
+        std::string all = sheet;
+        Rgb sum;
+        for (int i = 0; i < 21; ++i) {
+            all += lamp(i);
+            TestScene one(sheet + lamp(i));
+            sum += floor_at(one, 0.1, 0.2);
+        }
+        TestScene together(all);
+        const Rgb value = floor_at(together, 0.1, 0.2);
+        REQUIRE(sum.r > 0);
+        for (std::size_t c = 0; c < 3; ++c) CHECK(value[c] == within(1e-5, sum[c]));
+    }
+}
+
 TEST_CASE("-dt: lamps with patterns bring half of what they bring without, few or many") {
     RenderOptions options = TestScene::exact();
     options.shadow_threshold = 0.05;

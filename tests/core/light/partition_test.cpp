@@ -6,37 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "tests/core/light/source_examples.h"
 #include "tests/tolerance.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
 
 namespace {
-
-/// A square panel of the given half width at height 1, facing down.
-LightSource panel(double half) {
-    LightSource source;
-    source.shape = PrimitiveType::polygon;
-    source.flat = true;
-    source.center = {0, 0, 1};
-    source.normal = {0, 0, -1};
-    source.u = {half, 0, 0};
-    source.v = {0, half, 0};
-    source.size = static_cast<float>(4 * half * half);
-    return source;
-}
-
-LightSource tube(double half_length, double radius) {
-    LightSource source;
-    source.shape = PrimitiveType::cylinder;
-    source.cylinder = true;
-    source.center = {0, 0, 1};
-    source.u = {half_length, 0, 0};
-    source.v = {0, kCylinderBox * radius, 0};
-    source.w = {0, 0, kCylinderBox * radius};
-    source.size = static_cast<float>(4 * radius * half_length);
-    return source;
-}
 
 int part_count(const LightSource& source, const Vec3& point, double subdivision,
                double weight = 1) {
@@ -202,47 +178,6 @@ TEST_CASE("jitter: samples fill a panel's part, a disk and a sphere, and nothing
     CHECK(farthest_ball <= 1 + kFloatRounding);
     CHECK(farthest_ball > 0.97);
     CHECK(std::abs(mean_x) < 5 * 0.5 / std::sqrt(kSamples));
-}
-
-TEST_CASE("places that are sampled side by side give the samples that each gives alone") {
-    LightSource spot = panel(0.4), sun = panel(0.1), glow = panel(0.7), ball = panel(0.2);
-    spot.spot = SpotShape{{0, 0, -1}, 2.0f, 0.3f, false};
-    sun.distant = true;
-    sun.flat = false;
-    glow.material_type = PrimitiveType::glow;
-    glow.proximity = 1.3f;
-    ball.flat = false;
-    ball.round = true;
-    ball.w = {0, 0, 0.2};
-    for (const LightSource& source : {panel(0.5), tube(0.8, 0.1), spot, sun, glow, ball}) {
-        RandomStream together(3), alone(3);
-        SourcePlaces places;
-        std::vector<std::optional<SourceSample>> expected;
-        for (std::uint32_t i = 0; i < 150; ++i) {  // from above, too
-            const Vec3 point{0.02 * i - 1, 0.3, i % 5 == 0 ? 1.5 : 0.01 * i - 1};
-            SourceParts parts;
-            Partition{source}(point, 0.4, parts);
-            for (int k = 0; k < parts.count; ++k) {
-                const SourcePart& part = parts.part[static_cast<std::size_t>(k)];
-                places.add(source, part, parts.count, point, i, 0.9, together);
-                expected.push_back(sample_part(source, part, parts.count, point, 0.9, alone));
-            }
-        }
-        places.sample(source);
-        REQUIRE(places.size() == expected.size());
-        std::size_t found = 0;
-        for (std::size_t i = 0; i < expected.size(); ++i) {
-            const auto sample = places[i];
-            REQUIRE(sample.has_value() == expected[i].has_value());
-            if (!sample) continue;
-            ++found;
-            CHECK(sample->direction == expected[i]->direction);
-            CHECK(sample->distance == expected[i]->distance);
-            CHECK(sample->solid_angle == expected[i]->solid_angle);
-            CHECK(length(sample->direction) == rounded(1.0));
-        }
-        CHECK(found > 20);
-    }
 }
 
 TEST_CASE("without jitter no random numbers are drawn") {
