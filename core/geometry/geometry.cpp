@@ -70,6 +70,9 @@ std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
 
 }  // namespace
 
+/// Which lanes of a packet hold a ray: -1.
+using PacketLanes = std::array<int, kPacket>;
+
 struct Geometry::Impl {
     Impl(GeometryInput input, const std::string& embree_options);
 
@@ -78,6 +81,9 @@ struct Geometry::Impl {
     void trace(std::span<NearestRay> rays) const;
     void trace(ShadowRay& ray) const;
     void trace(std::span<ShadowRay> rays) const;
+    template <class Traced, class Starts>
+    void set_packet(std::span<Traced> rays, RTCRayHit16& packet, PacketLanes& valid,
+                    Starts note_start) const;
     [[nodiscard]] bool is_blocked_again(ShadowRay& ray, const Blocker* last) const;
     [[nodiscard]] Hit finish(const RaySegment& segment, const NearestRay& ray) const;
 
@@ -322,22 +328,29 @@ void Geometry::Impl::trace(NearestRay& ray) const {
     rtcIntersect1(models[0].scene.get(), &query, &hit);
 }
 
-void Geometry::Impl::trace(std::span<NearestRay> rays) const {
+/// Set up a packet of those rays that can meet the scene; note_start(lane, where it starts [m]).
+template <class Traced, class Starts>
+void Geometry::Impl::set_packet(std::span<Traced> rays, RTCRayHit16& packet, PacketLanes& valid,
+                                Starts note_start) const {
     assert(rays.size() <= kPacket);
-    alignas(64) std::array<int, kPacket> valid{};
+    close_lanes(packet);
+    for (unsigned i = 0; i < rays.size(); ++i) {
+        const std::optional<EmbreeRay> from = embree_ray(rays[i]);
+        if (!from) continue;
+        set_ray(packet.ray, i, *from);
+        valid[i] = -1;
+        note_start(i, from->start);
+    }
+}
+
+void Geometry::Impl::trace(std::span<NearestRay> rays) const {
+    alignas(64) PacketLanes valid{};
     RTCRayHit16 hits;
     NearestQuery query;
     rtcInitIntersectContext(&query);
     query.placed = &placed;
     query.rays = rays.data();
-    close_lanes(hits);
-    for (unsigned i = 0; i < rays.size(); ++i) {
-        const std::optional<EmbreeRay> from = embree_ray(rays[i]);
-        if (!from) continue;
-        set_ray(hits.ray, i, *from);
-        valid[i] = -1;
-        query.start[i] = from->start;
-    }
+    set_packet(rays, hits, valid, [&](unsigned i, double start) { query.start[i] = start; });
     rtcIntersect16(valid.data(), models[0].scene.get(), &query, &hits);
 }
 
@@ -354,21 +367,14 @@ void Geometry::Impl::trace(ShadowRay& ray) const {
 }
 
 void Geometry::Impl::trace(std::span<ShadowRay> rays) const {
-    assert(rays.size() <= kPacket);
-    alignas(64) std::array<int, kPacket> valid{};
+    alignas(64) PacketLanes valid{};
     RTCRayHit16 hits;
     ShadowQueries query;
     rtcInitIntersectContext(&query);
     query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query.placed = &placed;
     query.rays = rays.data();
-    close_lanes(hits);
-    for (unsigned i = 0; i < rays.size(); ++i) {
-        const std::optional<EmbreeRay> from = embree_ray(rays[i]);
-        if (!from) continue;
-        set_ray(hits.ray, i, *from);
-        valid[i] = -1;
-    }
+    set_packet(rays, hits, valid, [](unsigned, double) {});
     rtcOccluded16(valid.data(), models[0].scene.get(), &query, &hits.ray);
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/elementary.h"
 #include "tests/core/function/evaluate.h"
 
 namespace lightwalk::test {
