@@ -95,12 +95,12 @@ class BareScene {
         RTCScene scene = rtcNewScene(device_);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
         Soup soup;
-        for (const Primitive& primitive : model.primitives) {
-            if (primitive.type == PrimitiveType::instance) {
-                instance(scene, primitive, resources);
-            } else if (is_surface(primitive.type) && primitive.type != PrimitiveType::mesh) {
-                std::visit(AddShape{soup}, make_shape(primitive).shape);
-            }
+        for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
+            const SurfacePrimitive surface = model.surfaces[i];
+            if (surface.type == PrimitiveType::instance)
+                instance(scene, surface, resources);
+            else if (surface.type != PrimitiveType::mesh)
+                std::visit(AddShape{soup}, make_shape(surface).shape);
         }
         attach(scene, soup);
         rtcCommitScene(scene);
@@ -121,13 +121,14 @@ class BareScene {
         rtcReleaseGeometry(triangles);
     }
 
-    void instance(RTCScene scene, const Primitive& primitive, FileResources& resources) {
-        RTCScene& part = models_[primitive.strings.at(0)];
+    void instance(RTCScene scene, const SurfacePrimitive& surface, FileResources& resources) {
+        const std::vector<std::string> strings = surface.strings.to_strings();
+        RTCScene& part = models_[strings.at(0)];
         if (!part) {
-            const auto model = resources.octree(primitive.strings[0]);
+            const auto model = resources.octree(strings[0]);
             part = build(*model, resources);
         }
-        const Matrix m = parse_transform(std::span(primitive.strings).subspan(1)).transform.forward;
+        const Matrix m = parse_transform(std::span(strings).subspan(1)).transform.forward;
         float columns[12];
         for (std::size_t r = 0; r < 4; ++r) {
             for (std::size_t k = 0; k < 3; ++k)

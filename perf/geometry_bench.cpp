@@ -6,6 +6,7 @@
 
 #include "core/geometry/geometry.h"
 #include "core/math/random.h"
+#include "core/model/primitive.h"
 
 namespace {
 
@@ -29,14 +30,13 @@ class Room {
             if (i % 20 == 1) add(PrimitiveType::cylinder, {at.x, at.y, 0, at.x, at.y, 1, 0.03});
         }
     }
-    [[nodiscard]] Geometry build() const {
-        GeometryInput input;
-        input.surfaces = surfaces_;
-        input.models.resize(1);
-        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            input.models[0].surfaces.push_back(SurfaceId{static_cast<std::int32_t>(i)});
-        }
-        return Geometry(std::move(input));
+    /// While the room stays.
+    [[nodiscard]] Geometry build() {
+        shapes_ = make_shapes(list_, TeamOfOne());
+        table_ = SurfaceTable();
+        table_.add(list_, shapes_, 0);
+        table_.set_traits(ModifierTraits({}, {true, false, ShadowClass::blocks}));
+        return Geometry({&table_, std::vector<ModelGeometry>(1)});
     }
 
   private:
@@ -48,11 +48,7 @@ class Room {
         Primitive primitive;
         primitive.type = type;
         primitive.reals = std::move(reals);
-        Surface surface;
-        surface.type = type;
-        surface.traits = {true, false, ShadowClass::blocks};
-        surface.shape = make_shape(primitive).shape;
-        surfaces_.push_back(std::move(surface));
+        list_.add(primitive);
     }
     void add_box(const Vec3& center, const Vec3& half, double turn) {
         constexpr unsigned kFaces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
@@ -70,7 +66,9 @@ class Room {
         }
     }
     RandomStream random_;
-    std::vector<Surface> surfaces_;
+    SurfaceList list_;
+    SurfaceShapes shapes_;
+    SurfaceTable table_;
 };
 
 std::vector<RaySegment> primary_rays() {
@@ -132,25 +130,25 @@ void packet_hits(benchmark::State& state, const Geometry& geometry,
 }
 
 void primary_single(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
+    Room room(static_cast<int>(state.range(0)));
     single_hits(state, room.build(), primary_rays());
 }
 void primary_packet(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
+    Room room(static_cast<int>(state.range(0)));
     packet_hits(state, room.build(), primary_rays());
 }
 void diffuse_single(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
+    Room room(static_cast<int>(state.range(0)));
     const Geometry geometry = room.build();
     single_hits(state, geometry, secondary_rays(geometry, false));
 }
 void diffuse_packet(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
+    Room room(static_cast<int>(state.range(0)));
     const Geometry geometry = room.build();
     packet_hits(state, geometry, secondary_rays(geometry, false));
 }
 void shadow_single(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
+    Room room(static_cast<int>(state.range(0)));
     const Geometry geometry = room.build();
     const std::vector<RaySegment> rays = secondary_rays(geometry, true);
     for ([[maybe_unused]] auto iteration : state) {
@@ -160,7 +158,7 @@ void shadow_single(benchmark::State& state) {
     count_rays(state, rays);
 }
 void build_room(benchmark::State& state) {
-    const Room room(static_cast<int>(state.range(0)));
+    Room room(static_cast<int>(state.range(0)));
     std::size_t bytes = 0;
     for ([[maybe_unused]] auto iteration : state) bytes = room.build().memory_bytes();
     state.counters["bytes"] = static_cast<double>(bytes);
