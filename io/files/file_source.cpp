@@ -1,26 +1,23 @@
 #include "io/files/file_source.h"
 
-#include <xxhash.h>
-
 #include <array>
 #include <cstdio>
 #include <cstring>
 #include <utility>
 
 #include "core/error.h"
+#include "io/files/digest.h"
 #include "io/files/library_path.h"
 
 namespace lightwalk {
 namespace {
 
-/// XXH3 with 64 bits (Collet; in the format of its reference implementation), as hexadecimal
-/// digits.
+/// As hexadecimal digits.
 /// @param kind  of bytes: equal ones of different kinds have different digests
 std::string digest_of(std::string_view bytes, char kind) {
-    const XXH64_hash_t hash =
-        XXH3_64bits_withSeed(bytes.data(), bytes.size(), static_cast<unsigned char>(kind));
+    const std::uint64_t digest = digest_of_bytes(bytes, static_cast<unsigned char>(kind));
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(digest));
     return text.data();
 }
 
