@@ -21,8 +21,9 @@ void print_vector(const char* label, const Vec3& v) {
 
 void print_counts(const Model& model) {
     std::map<PrimitiveType, std::size_t> counts;
-    for (const Primitive& primitive : model.primitives) ++counts[primitive.type];
-    std::printf("primitives     %zu\n", model.primitives.size());
+    for (const Primitive& modifier : model.modifiers) ++counts[modifier.type];
+    for (std::size_t i = 0; i < model.surfaces.size(); ++i) ++counts[model.surfaces.type(i)];
+    std::printf("primitives     %zu\n", model.size());
     for (const auto& [type, count] : counts)
         std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
 }
@@ -34,10 +35,9 @@ void print_unsupported(const Model& model) {
         std::size_t count = 0;
     };
     std::map<PrimitiveType, Refused> types;
-    for (const Primitive& primitive : model.primitives) {
+    for (const Primitive& primitive : model.modifiers) {
         const PrimitiveType type = primitive.type;
-        const bool known =
-            is_surface(type) || type == PrimitiveType::alias || modifier_factory(type) != nullptr;
+        const bool known = type == PrimitiveType::alias || modifier_factory(type) != nullptr;
         if (known) continue;
         Refused& refused = types[type];
         if (refused.count++ == 0) refused.first = &primitive;
@@ -77,9 +77,9 @@ void print_lights(const Scene& scene, const LightSources& lights) {
             std::puts("  ...");
             return;
         }
-        const Surface& surface = scene.surface(light.object);
+        const Surface surface = scene.surface(light.object);
         std::printf("  %-12s %s (%s)%s\n", std::string(to_string(light.material_type)).c_str(),
-                    printable(surface.name).c_str(), std::string(to_string(surface.type)).c_str(),
+                    printable(surface.name()).c_str(), std::string(to_string(surface.type())).c_str(),
                     light.unusable ? ", not sampled" : "");
     }
 }

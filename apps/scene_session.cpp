@@ -11,6 +11,8 @@
 #include "core/material/modifier_factories.h"
 #include "io/files/atomic_file.h"
 #include "io/scene/scene_reader.h"
+#include "parallel/executor.h"
+#include "parallel/executor_team.h"
 
 namespace lightwalk {
 namespace {
@@ -33,7 +35,8 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink,
     : warnings(sink),
       files(std::move(source)),
       library(LibraryPath::from_environment(files)),
-      resources(library, options.allow_commands, sink) {
+      resources(library, options.allow_commands, sink),
+      workers(options.workers) {
     const Stopwatch watch;
     model = read_scene(options.scene_files, {library, options.allow_commands}, warnings, &problems);
     read_seconds = watch.seconds();
@@ -52,7 +55,9 @@ void SceneSession::raise_problems() {
 void SceneSession::build(const RenderSettings& settings, RankLink* link) {
     const Stopwatch watch;
     raise_problems();
-    built = std::make_unique<const Scene>(model, modifier_factory, resources, warnings);
+    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
+    built = std::make_unique<const Scene>(model, modifier_factory, resources, warnings,
+                                          ExecutorTeam(*executor));
     auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
     const RenderOptions& options = settings.light;
     if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {

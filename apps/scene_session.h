@@ -55,6 +55,7 @@ struct SceneSession {
     std::shared_ptr<FileRecorder> files;
     LibraryPath library;
     FileResources resources;
+    int workers = 1;       ///< that build the scene
     ProblemList problems;  ///< of the description, which `model` leaves out
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;

@@ -22,6 +22,8 @@ class FileName {
     friend bool operator==(const FileName& a, const FileName& b) {
         return a.name_ == b.name_ || (a.name_ && b.name_ && *a.name_ == *b.name_);
     }
+    /// Whether both are one string in memory: equal then, and found out at once.
+    [[nodiscard]] bool is(const FileName& other) const { return name_ == other.name_; }
 
   private:
     std::shared_ptr<const std::string> name_;

@@ -65,7 +65,7 @@ PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
     reply.illuminance = illuminance(reply.position, reply.normal);
     const std::optional<ModifierId> material = scene.material_of(hit.modifier);
     reply.material = material ? scene.modifier(*material).name : "void";
-    reply.surface = scene.surface(hit.surface).name;
+    reply.surface = scene.surface(hit.surface).name();
     return reply;
 }
 

@@ -33,7 +33,7 @@ void extend(Bounds& bounds, const Bounds& other) {
 Bounds bounds_of(const Shape& shape) {
     Bounds bounds;
     if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        for (const Vec3& vertex : polygon->vertices) bounds.extend(vertex);
+        for (const Vec3 vertex : polygon->vertices) bounds.extend(vertex);
     } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
         const Vec3 reach{sphere->radius, sphere->radius, sphere->radius};
         bounds.extend(sphere->center - reach);

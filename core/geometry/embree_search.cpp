@@ -140,7 +140,7 @@ Bounds bounds_of_tree(RTCSceneTy* scene) {
 
 void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    *args->bounds_o = rounded(model.space.box(model.pieces[args->primID].box));
+    *args->bounds_o = rounded(model.space.box(model.pieces.box(args->primID, *model.primitives)));
 }
 
 // Calls inside the callbacks cost as much as the tests themselves: flattened, rays are 3 % faster.
@@ -148,7 +148,7 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(query), model.primitive_of[args->primID]};
+    const PrimitiveRef what{frame_of(query), model.pieces.primitive(args->primID)};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
@@ -163,7 +163,7 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
 [[gnu::flatten]] void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(query), model.primitive_of[args->primID]};
+    const PrimitiveRef what{frame_of(query), model.pieces.primitive(args->primID)};
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];

@@ -38,8 +38,7 @@ struct Copies {
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
-    std::vector<Piece> pieces;  ///< what Embree calls primitives; while the tree is built
-    std::vector<std::uint32_t> primitive_of;  ///< each piece
+    Pieces pieces;  ///< what Embree calls primitives; their boxes only while the tree is built
     Copies copies;
     ScenePtr scene;
     std::vector<Bounds> outline;  ///< of all in the tree, in the search coordinates; while trees

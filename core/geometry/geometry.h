@@ -10,6 +10,7 @@
 #include "core/geometry/surface.h"
 #include "core/math/transform.h"
 #include "core/model/ids.h"
+#include "core/model/primitive.h"
 
 namespace lightwalk {
 
@@ -59,15 +60,15 @@ struct Placement {
 };
 
 struct ModelGeometry {
-    std::vector<SurfaceId> surfaces;  ///< finite surfaces with a shape
-    std::vector<MeshPart> meshes;     ///< 0 or 1: a compiled mesh as a model of its own
+    std::size_t part = 0;          ///< of the SurfaceTable: its surfaces
+    std::vector<MeshPart> meshes;  ///< 0 or 1: a compiled mesh as a model of its own
     std::vector<Placement> placements;
     std::optional<Bounds> cube;  ///< as the octree states it; else the smallest one is derived
 };
 
 struct GeometryInput {
-    std::span<const Surface> surfaces;  ///< must outlive the Geometry
-    std::vector<ModelGeometry> models;  ///< models[0] is the scene; placements form a DAG
+    const SurfaceTable* surfaces = nullptr;  ///< must outlive the Geometry
+    std::vector<ModelGeometry> models;       ///< models[0] is the scene; placements form a DAG
 };
 
 struct RaySegment {
@@ -95,12 +96,13 @@ class Geometry {
   public:
     /// Throws InputError when nested placements multiply to more than 2^22 instances or are nested
     /// more than 32 deep, when one scales by less than 1e-7 or more than 1e7 in all, and for
-    /// damaged meshes. Builds on oneTBB's default threads. Answers are bit-identical for single
+    /// damaged meshes. Embree builds on oneTBB's default threads. Answers are bit-identical for single
     /// rays and packets; they need no flush-to-zero mode of the caller. A placed model wins over
     /// what is not in it only where it is strictly nearer; inside it has its own ties.
     /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines
-    /// without AVX-512 do.
-    explicit Geometry(GeometryInput input, const std::string& embree_options = {});
+    /// without AVX-512 do. `team` helps to prepare what is not Embree's.
+    explicit Geometry(GeometryInput input, const std::string& embree_options = {},
+                      const Team& team = TeamOfOne());
     ~Geometry();
     Geometry(Geometry&&) noexcept;
     Geometry& operator=(Geometry&&) noexcept;

@@ -10,8 +10,15 @@ namespace {
 
 SourceLocation location(const GeometryInput& input, SurfaceId surface) {
     const auto i = static_cast<std::size_t>(index(surface));
-    return surface == kNoSurface || i >= input.surfaces.size() ? SourceLocation{}
-                                                               : input.surfaces[i].where;
+    return surface == kNoSurface || i >= input.surfaces->size() ? SourceLocation{}
+                                                                : (*input.surfaces)[surface].where();
+}
+
+/// Whether a ray can hit anything in a model but what is placed in it.
+bool holds_anything(const SurfacePart& part) {
+    for (std::size_t i = 0; i < part.shapes->size(); ++i)
+        if (part.shapes->is_finite(i)) return true;
+    return false;
 }
 
 /// Largest magnitude of an element; infinite where one is not a number.
@@ -81,7 +88,9 @@ void InstancePaths::visit(const GeometryInput& input, std::uint32_t model, int d
             throw InputError(location(input, placement.surface), "nested too deeply");
         height = std::max(height, heights_[inside] + 1);
         const ModelGeometry& contents = input.models[inside];
-        if (counts_[inside] == 0 && contents.surfaces.empty() && contents.meshes.empty()) continue;
+        if (counts_[inside] == 0 && contents.meshes.empty() &&
+            !holds_anything(input.surfaces->part(contents.part)))
+            continue;
         children_[model].push_back({&placement, static_cast<std::int32_t>(frames) + 1});
         frames = std::min(frames + 1 + counts_[inside], kMaxInstances + 1);
     }

@@ -20,14 +20,15 @@ bool is_usable(const MeshModel::Vertex& v) {
            std::abs(v.z) <= kLargestCoordinate;
 }
 
-[[noreturn]] void fail(const MeshPart& part, std::span<const Surface> surfaces,
-                       std::size_t triangle, const char* problem) {
+[[noreturn]] void fail(const MeshPart& part, const SurfaceTable& surfaces, std::size_t triangle,
+                       const char* problem) {
     const auto i = static_cast<std::size_t>(index(part.surface));
-    const SourceLocation where = i < surfaces.size() ? surfaces[i].where : SourceLocation{};
+    const SourceLocation where =
+        i < surfaces.size() ? surfaces[part.surface].where() : SourceLocation{};
     throw InputError(where, "mesh triangle " + std::to_string(triangle) + ": " + problem);
 }
 
-void validate(const MeshPart& part, std::span<const Surface> surfaces) {
+void validate(const MeshPart& part, const SurfaceTable& surfaces) {
     const MeshModel& mesh = *part.mesh;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const MeshModel::Triangle& t = mesh.triangles[i];
@@ -61,42 +62,43 @@ Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId mod
     return {traits.has_material, !traits.transparent, front, index(modifier), index(surface)};
 }
 
-ModelPrimitives::ModelPrimitives(std::span<const Surface> surfaces, const ModelGeometry& model)
-    : surfaces_(surfaces), meshes_(model.meshes) {
-    reserve(model);
-    for (const SurfaceId id : model.surfaces) {
-        const Shape& shape = surfaces[static_cast<std::size_t>(index(id))].shape;
-        if (std::holds_alternative<std::monostate>(shape) ||
-            std::holds_alternative<SourceShape>(shape))
-            continue;
-        const auto* polygon = std::get_if<PolygonShape>(&shape);
-        if (polygon && polygon->vertices.size() > kLargePolygon) {
-            large_polygons_.emplace(index(id), EdgeIndex(*polygon));
-        }
-        const bool packed = polygon && polygon->vertices.size() <= kLargePolygon;
-        own_.push_back({id, packed ? packed_.add(*polygon) : kNotPacked,
-                        surfaces[static_cast<std::size_t>(index(id))].traits.shadow});
+ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model,
+                                 const Team& team)
+    : part_(&surfaces.part(model.part)),
+      traits_(&surfaces.traits()),
+      rows_(part_->shapes->columns().rows.data()),
+      planes_(part_->shapes->columns().planes.data()),
+      reals_(part_->list->reals().data()),
+      own_(part_->shapes->size()),
+      meshes_(model.meshes),
+      size_(own_) {
+    for (std::uint32_t i = 0; i < own_; ++i) {
+        if (rows_[i].kind == ShapeKind::polygon && planes_[rows_[i].index].corners > kLargePolygon)
+            large_polygons_.emplace(i, EdgeIndex(part_->shapes->polygon(*part_->list, rows_[i])));
     }
-    size_ = own_.size();
     for (const MeshPart& part : meshes_) {
         validate(part, surfaces);
         size_ += part.mesh->triangles.size();
     }
     if (size_ > std::numeric_limits<std::int32_t>::max())
         throw InputError("too many surfaces in one model");
+    find_bounds(team);
 }
 
-void ModelPrimitives::reserve(const ModelGeometry& model) {
-    std::size_t polygons = 0, vertices = 0;
-    for (const SurfaceId id : model.surfaces) {
-        const auto* polygon =
-            std::get_if<PolygonShape>(&surfaces_[static_cast<std::size_t>(index(id))].shape);
-        if (!polygon || polygon->vertices.size() > kLargePolygon) continue;
-        ++polygons;
-        vertices += polygon->vertices.size();
+void ModelPrimitives::find_bounds(const Team& team) {
+    std::vector<Bounds> own(part_count(size_)), hits(own.size());
+    for_each_part(team, size_, [&](std::size_t part, std::size_t first, std::size_t last) {
+        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
+            extend(hits[part], hit_bounds(i));
+            if (i < own_) extend(own[part], bounds_of(part_->shapes->shape(*part_->list, i)));
+        }
+    });
+    for (const Bounds& part : own) extend(bounds_, part);
+    for (const Bounds& part : hits) extend(all_hit_bounds_, part);
+    for (const MeshPart& part : meshes_) {
+        for (const MeshModel::Vertex& vertex : part.mesh->positions)
+            if (is_usable(vertex)) bounds_.extend(to_vec3(vertex));
     }
-    own_.reserve(model.surfaces.size());
-    packed_.reserve(polygons, vertices);
 }
 
 Vec3 ModelPrimitives::TriangleRef::corner(int i) const {
@@ -104,26 +106,23 @@ Vec3 ModelPrimitives::TriangleRef::corner(int i) const {
 }
 
 ModelPrimitives::TriangleRef ModelPrimitives::triangle(std::uint32_t primitive) const {
-    std::size_t i = primitive - own_.size();
+    std::size_t i = primitive - own_;
     const MeshPart* part = meshes_.data();
     for (; i >= part->mesh->triangles.size(); ++part) i -= part->mesh->triangles.size();
     return {part, &part->mesh->triangles[i]};
 }
 
-std::optional<ShapeHit> ModelPrimitives::intersect_surface(SurfaceId surface, const Vec3& origin,
-                                                           const Vec3& direction,
-                                                           double t_max) const {
-    const Shape& shape = surfaces_[static_cast<std::size_t>(index(surface))].shape;
-    if (const auto* cone = std::get_if<ConeShape>(&shape))  // trees are made of these
-        return lightwalk::intersect(*cone, origin, direction, t_max);
-    const auto* polygon = std::get_if<PolygonShape>(&shape);
-    if (!polygon) return lightwalk::intersect(shape, origin, direction, t_max);
-    const EdgeIndex* edges = nullptr;
-    if (polygon->vertices.size() > kLargePolygon) {
-        const auto large = large_polygons_.find(index(surface));
-        if (large != large_polygons_.end()) edges = &large->second;
-    }
-    return lightwalk::intersect(*polygon, origin, direction, t_max, edges);
+std::optional<ShapeHit> ModelPrimitives::intersect_other(std::uint32_t primitive,
+                                                         const Vec3& origin, const Vec3& direction,
+                                                         double t_max) const {
+    const ShapeRow& row = rows_[primitive];
+    if (row.kind == ShapeKind::cone)  // trees are made of these
+        return lightwalk::intersect(part_->shapes->cone(row.index), origin, direction, t_max);
+    if (row.kind != ShapeKind::polygon)
+        return lightwalk::intersect(part_->shapes->shape(*part_->list, primitive), origin,
+                                    direction, t_max);
+    return lightwalk::intersect(part_->shapes->polygon(*part_->list, row), origin, direction, t_max,
+                                &large_polygons_.at(primitive));
 }
 
 std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primitive,
@@ -145,28 +144,22 @@ std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primit
     return ShapeHit{t, unit, facing < 0};
 }
 
+std::optional<PolygonShape> ModelPrimitives::polygon(std::uint32_t primitive) const {
+    if (is_triangle(primitive) || rows_[primitive].kind != ShapeKind::polygon) return std::nullopt;
+    return part_->shapes->polygon(*part_->list, rows_[primitive]);
+}
+
 Bounds ModelPrimitives::hit_bounds(std::uint32_t primitive) const {
-    if (!is_triangle(primitive)) return lightwalk::hit_bounds(own_surface(primitive).shape);
+    if (!is_triangle(primitive))
+        return lightwalk::hit_bounds(part_->shapes->shape(*part_->list, primitive));
     const TriangleRef ref = triangle(primitive);
     Bounds bounds;
     for (int i = 0; i < 3; ++i) bounds.extend(ref.corner(i));
     return bounds;
 }
 
-Bounds ModelPrimitives::bounds() const {
-    Bounds bounds;
-    for (const Own& own : own_) {
-        extend(bounds, bounds_of(surfaces_[static_cast<std::size_t>(index(own.surface))].shape));
-    }
-    for (const MeshPart& part : meshes_) {
-        for (const MeshModel::Vertex& vertex : part.mesh->positions)
-            if (is_usable(vertex)) bounds.extend(to_vec3(vertex));
-    }
-    return bounds;
-}
-
 const SurfaceTraits& ModelPrimitives::traits(std::uint32_t primitive) const {
-    if (!is_triangle(primitive)) return own_surface(primitive).traits;
+    if (!is_triangle(primitive)) return (*traits_)[part_->modifier(primitive)];
     const TriangleRef ref = triangle(primitive);
     const std::int32_t material = ref.triangle->material;
     return material < 0 ? ref.part->void_traits
@@ -174,7 +167,7 @@ const SurfaceTraits& ModelPrimitives::traits(std::uint32_t primitive) const {
 }
 
 ModifierId ModelPrimitives::modifier(std::uint32_t primitive) const {
-    if (!is_triangle(primitive)) return own_surface(primitive).modifier;
+    if (!is_triangle(primitive)) return part_->modifier(primitive);
     const TriangleRef ref = triangle(primitive);
     const std::int32_t material = ref.triangle->material;
     return material < 0 ? kVoid : ref.part->materials[static_cast<std::size_t>(material)];
@@ -206,7 +199,7 @@ ModelPrimitives::Smoothing ModelPrimitives::smoothing(std::uint32_t primitive, c
 }
 
 std::size_t ModelPrimitives::memory_bytes() const {
-    std::size_t bytes = own_.capacity() * sizeof(Own) + packed_.memory_bytes();
+    std::size_t bytes = 0;
     for (const auto& [surface, edges] : large_polygons_)
         bytes += sizeof(surface) + edges.memory_bytes();
     return bytes;

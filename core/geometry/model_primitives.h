@@ -29,46 +29,52 @@ struct Precedence {
 [[nodiscard]] Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId modifier,
                                        SurfaceId surface);
 
-/// Primitives of a model, numbered from 0. Keeps references to the surfaces and to the model's
-/// meshes.
+/// Primitives of a model, numbered from 0: its surfaces, in their order, then its meshes'
+/// triangles. Keeps references to the surfaces and to the model's meshes.
 class ModelPrimitives {
   public:
     /// Throws InputError for mesh triangles whose vertices or materials do not exist.
-    ModelPrimitives(std::span<const Surface> surfaces, const ModelGeometry& model);
+    ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model, const Team& team);
 
     [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] bool is_triangle(std::uint32_t primitive) const {
-        return primitive >= own_.size();
+    [[nodiscard]] bool is_triangle(std::uint32_t primitive) const { return primitive >= own_; }
+    /// Whether a ray can hit it: surfaces without a shape, and sources at infinity, are numbered
+    /// among the others.
+    [[nodiscard]] bool is_finite(std::uint32_t primitive) const {
+        return is_triangle(primitive) || part_->shapes->is_finite(primitive);
     }
 
     /// Nearest crossing with t in (kEpsilon, t_max]; the direction is unit.
     [[nodiscard]] std::optional<ShapeHit> intersect(std::uint32_t primitive, const Vec3& origin,
                                                     const Vec3& direction, double t_max) const {
         if (is_triangle(primitive)) return intersect_triangle(primitive, origin, direction, t_max);
-        const Own& own = own_[primitive];
-        return own.packed != kNotPacked ? packed_.intersect(own.packed, origin, direction, t_max)
-                                        : intersect_surface(own.surface, origin, direction, t_max);
+        const ShapeRow& row = rows_[primitive];
+        if (row.kind == ShapeKind::polygon) {
+            const PolygonPlane& plane = planes_[row.index];
+            if (plane.corners <= kLargePolygon)
+                return lightwalk::intersect(plane, row.manner, reals_, origin, direction, t_max);
+        }
+        return intersect_other(primitive, origin, direction, t_max);
     }
-    /// The same for a surface of this model.
-    [[nodiscard]] std::optional<ShapeHit> intersect_surface(SurfaceId surface, const Vec3& origin,
-                                                            const Vec3& direction,
-                                                            double t_max) const;
     /// Box of every point that `intersect` can report, before rounding.
     [[nodiscard]] Bounds hit_bounds(std::uint32_t primitive) const;
-    /// The primitive's shape where it is a polygon, else null.
-    [[nodiscard]] const PolygonShape* polygon(std::uint32_t primitive) const {
-        return is_triangle(primitive) ? nullptr
-                                      : std::get_if<PolygonShape>(&own_surface(primitive).shape);
-    }
+    /// The primitive's shape where it is a polygon.
+    [[nodiscard]] std::optional<PolygonShape> polygon(std::uint32_t primitive) const;
     /// Box around all surfaces and triangles themselves.
-    [[nodiscard]] Bounds bounds() const;
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    /// Box around what hit_bounds gives for all of them.
+    [[nodiscard]] const Bounds& all_hit_bounds() const { return all_hit_bounds_; }
 
     [[nodiscard]] const SurfaceTraits& traits(std::uint32_t primitive) const;
     [[nodiscard]] ShadowClass shadow(std::uint32_t primitive) const {
-        return is_triangle(primitive) ? traits(primitive).shadow : own_[primitive].shadow;
+        return traits(primitive).shadow;
     }
     [[nodiscard]] SurfaceId surface(std::uint32_t primitive) const {
-        return is_triangle(primitive) ? triangle(primitive).part->surface : own_[primitive].surface;
+        return is_triangle(primitive) ? triangle(primitive).part->surface : part_->id(primitive);
+    }
+    /// The primitive of a surface of this model.
+    [[nodiscard]] std::uint32_t primitive_of(SurfaceId surface) const {
+        return static_cast<std::uint32_t>(index(surface) - part_->first);
     }
     [[nodiscard]] ModifierId modifier(std::uint32_t primitive) const;
 
@@ -87,29 +93,28 @@ class ModelPrimitives {
         const MeshModel::Triangle* triangle;
         [[nodiscard]] Vec3 corner(int i) const;
     };
-    [[nodiscard]] const Surface& own_surface(std::uint32_t primitive) const {
-        return surfaces_[static_cast<std::size_t>(index(own_[primitive].surface))];
-    }
-    void reserve(const ModelGeometry& model);
+    void find_bounds(const Team& team);
     [[nodiscard]] TriangleRef triangle(std::uint32_t primitive) const;
     [[nodiscard]] std::optional<ShapeHit> intersect_triangle(std::uint32_t primitive,
                                                              const Vec3& origin,
                                                              const Vec3& direction,
                                                              double t_max) const;
 
-    std::span<const Surface> surfaces_;
-    static constexpr std::uint32_t kNotPacked = ~std::uint32_t{0};
-    /// What the search asks of every candidate, apart from the rest of its surface.
-    struct Own {
-        SurfaceId surface;
-        std::uint32_t packed;  ///< handle of a packed polygon
-        ShadowClass shadow;
-    };
-    std::vector<Own> own_;   ///< surfaces of this model that have a shape
-    PackedPolygons packed_;  ///< all polygons but the large ones
+    [[nodiscard]] std::optional<ShapeHit> intersect_other(std::uint32_t primitive,
+                                                          const Vec3& origin, const Vec3& direction,
+                                                          double t_max) const;
+
+    const SurfacePart* part_;
+    const ModifierTraits* traits_;
+    // What the search asks of every candidate, straight from the part's columns.
+    const ShapeRow* rows_;
+    const PolygonPlane* planes_;
+    const double* reals_;
+    std::size_t own_;  ///< surfaces of this model, those without a shape among them
     std::span<const MeshPart> meshes_;
-    std::unordered_map<std::int32_t, EdgeIndex> large_polygons_;  ///< by index of the surface
+    std::unordered_map<std::uint32_t, EdgeIndex> large_polygons_;  ///< by primitive
     std::size_t size_ = 0;
+    Bounds bounds_, all_hit_bounds_;
 };
 
 }  // namespace lightwalk

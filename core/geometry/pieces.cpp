@@ -70,11 +70,11 @@ double area_of(const std::vector<Point>& polygon) {
 class Projection {
   public:
     explicit Projection(const PolygonShape& polygon)
-        : polygon_(&polygon),
+        : polygon_(polygon),
           z_(static_cast<std::size_t>(polygon.drop_axis)),
           axes_{(z_ + 1) % 3, (z_ + 2) % 3} {
         points_.reserve(polygon.vertices.size());
-        for (const Vec3& v : polygon.vertices) points_.push_back({{v[axes_[0]], v[axes_[1]]}});
+        for (const Vec3 v : polygon.vertices) points_.push_back({{v[axes_[0]], v[axes_[1]]}});
         whole_.lower = whole_.upper = points_[0].at;
         for (const Point& p : points_) {
             for (std::size_t k = 0; k < 2; ++k) {
@@ -101,7 +101,7 @@ class Projection {
         }
         const double x = 0.5 * (cell.lower[0] + cell.upper[0]),
                      y = 0.5 * (cell.lower[1] + cell.upper[1]);
-        return !contains(*polygon_, on_plane(x, y), nullptr);
+        return !contains(polygon_, on_plane(x, y), nullptr);
     }
 
     /// Area of the cell that the polygon leaves free. A guess for polygons that cross themselves.
@@ -120,7 +120,7 @@ class Projection {
         return cell.side(0) * slope(0) + cell.side(1) * slope(1);
     }
     [[nodiscard]] double slope(std::size_t k) const {
-        return std::abs(polygon_->normal[axes_[k]] / polygon_->normal[z_]);
+        return std::abs(polygon_.normal[axes_[k]] / polygon_.normal[z_]);
     }
 
     /// Box of the hits in the cell.
@@ -138,7 +138,7 @@ class Projection {
         Vec3 p;
         p[axes_[0]] = x;
         p[axes_[1]] = y;
-        p[z_] = (polygon_->offset - dot(polygon_->normal, p)) / polygon_->normal[z_];
+        p[z_] = (polygon_.offset - dot(polygon_.normal, p)) / polygon_.normal[z_];
         return p;
     }
 
@@ -163,7 +163,7 @@ class Projection {
         return left < 4 && right < 4;
     }
 
-    const PolygonShape* polygon_;
+    PolygonShape polygon_;
     std::size_t z_;
     std::array<std::size_t, 2> axes_;
     std::vector<Point> points_;
@@ -258,13 +258,16 @@ class Division {
           least_(kLeastGain * half_area(model.bounds())),
           budget_(kDivisions + model.size() / 2) {}
 
-    /// False: the primitive is not worth dividing.
+    /// A first look, at any number of primitives at once: false for what is never divided.
+    [[nodiscard]] bool is_candidate(std::uint32_t primitive) const {
+        const std::optional<PolygonShape> shape = model_.polygon(primitive);
+        return shape && shape->vertices.size() <= kMostVertices &&
+               half_area(model_.hit_bounds(primitive)) > least_;
+    }
+
+    /// @param primitive  a candidate. False: it is not worth dividing.
     bool add(std::uint32_t primitive) {
-        const PolygonShape* shape = model_.polygon(primitive);
-        if (!shape || shape->vertices.size() > kMostVertices ||
-            half_area(model_.hit_bounds(primitive)) <= least_)
-            return false;
-        Projection polygon(*shape);
+        Projection polygon(*model_.polygon(primitive));
         const Task task = task_for(polygon, polygons_.size(), polygon.whole(), scratch_);
         if (task.gain <= least_) return false;
         polygons_.push_back({std::move(polygon), primitive, 1});
@@ -272,14 +275,15 @@ class Division {
         return true;
     }
 
-    void run(std::vector<Piece>& pieces) {
+    void run(Pieces& pieces) {
         while (!tasks_.empty()) {
             const Task task = tasks_.top();
             tasks_.pop();
             Divided& polygon = polygons_[task.polygon];
             if (budget_ == 0 || polygon.pieces >= kMostPieces || task.gain <= least_) {
-                pieces.push_back({polygon.primitive, common(polygon.projection.box(task.cell),
-                                                            model_.hit_bounds(polygon.primitive))});
+                pieces.primitive_of.push_back(polygon.primitive);
+                pieces.boxes.push_back(common(polygon.projection.box(task.cell),
+                                              model_.hit_bounds(polygon.primitive)));
                 continue;
             }
             divide(task, polygon);
@@ -312,15 +316,45 @@ class Division {
     Clipping scratch_;
 };
 
+/// The primitives that `is_wanted` wants, in their order.
+template <class IsWanted>
+std::vector<std::uint32_t> select_primitives(std::size_t count, const Team& team,
+                                             const IsWanted& is_wanted) {
+    std::vector<std::vector<std::uint32_t>> parts(part_count(count));
+    for_each_part(team, count, [&](std::size_t part, std::size_t first, std::size_t last) {
+        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
+            if (is_wanted(i)) parts[part].push_back(i);
+    });
+    std::vector<std::uint32_t> all;
+    for (const std::vector<std::uint32_t>& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// Whether they are all that is between the first of them and the last.
+bool are_consecutive(const std::vector<std::uint32_t>& numbers) {
+    return numbers.empty() || numbers.back() - numbers.front() + 1 == numbers.size();
+}
+
 }  // namespace
 
-std::vector<Piece> divide_primitives(const ModelPrimitives& model) {
-    std::vector<Piece> pieces;
+Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
     Division division(model);
-    for (std::uint32_t i = 0; i < model.size(); ++i) {
-        if (!division.add(i)) pieces.push_back({i, model.hit_bounds(i)});
+    std::vector<std::uint32_t> divided = select_primitives(
+        model.size(), team, [&](std::uint32_t i) { return division.is_candidate(i); });
+    std::erase_if(divided, [&](std::uint32_t i) { return !division.add(i); });
+    Pieces pieces;
+    pieces.primitive_of = select_primitives(model.size(), team, [&](std::uint32_t i) {
+        return model.is_finite(i) && !std::binary_search(divided.begin(), divided.end(), i);
+    });
+    pieces.whole = pieces.primitive_of.size();
+    if (divided.empty() && are_consecutive(pieces.primitive_of)) {
+        if (pieces.whole > 0) pieces.first = pieces.primitive_of.front();
+        pieces.primitive_of = {};
+        return pieces;
     }
     division.run(pieces);
+    pieces.primitive_of.shrink_to_fit();
     return pieces;
 }
 

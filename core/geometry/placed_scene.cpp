@@ -27,10 +27,11 @@ LocalRay local_ray(const Vec3& origin, const Vec3& direction, const Matrix& to_l
 
 }  // namespace
 
-PlacedScene::PlacedScene(GeometryInput input)
+PlacedScene::PlacedScene(GeometryInput input, const Team& team)
     : input_(with_a_model(std::move(input))), paths_(input_) {
     models_.reserve(input_.models.size());
-    for (const ModelGeometry& model : input_.models) models_.emplace_back(input_.surfaces, model);
+    for (const ModelGeometry& model : input_.models)
+        models_.emplace_back(*input_.surfaces, model, team);
     for (const std::uint32_t model : paths_.order())
         coincidence_ = std::max(coincidence_, kEpsilon * paths_.use(model).most_size);
     std::vector<std::optional<Bounds>> cubes(input_.models.size());
@@ -188,7 +189,7 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
     }
     if (placed.override_surface != kNoSurface) {
         hit.surface = placed.override_surface;
-        hit.modifier = surface(placed.override_surface).modifier;
+        hit.modifier = surface(placed.override_surface).modifier();
         hit.frame = placed.override_frame;
     }
     return hit;
@@ -196,15 +197,17 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
 
 Hit PlacedScene::intersect_surface(SurfaceId id, const RaySegment& segment) const {
     Hit hit;
-    const auto crossing = models_[0].intersect_surface(id, segment.origin, segment.direction,
-                                                       std::min(segment.t_max, kHuge));
+    const ModelPrimitives& own = models_[0];
+    if (!own.is_finite(own.primitive_of(id))) return hit;
+    const auto crossing = own.intersect(own.primitive_of(id), segment.origin, segment.direction,
+                                        std::min(segment.t_max, kHuge));
     if (!crossing) return hit;
     hit.t = crossing->t;
     hit.position = fused_advance(segment.origin, segment.direction, hit.t);
     hit.normal = crossing->normal;
     hit.cos_out = -fused_dot(segment.direction, hit.normal);
     hit.surface = id;
-    hit.modifier = surface(id).modifier;
+    hit.modifier = surface(id).modifier();
     return hit;
 }
 
@@ -219,7 +222,7 @@ void PlacedScene::begin(ShadowRay& ray, const RaySegment& segment, SurfaceId tar
 
 ShadowClass PlacedScene::shadow_class(const ShadowRay& ray, PrimitiveRef what) const {
     if (what.frame == kWorld) return models_[0].shadow(what.primitive);
-    return ray.local_override != kNoSurface ? surface(ray.local_override).traits.shadow
+    return ray.local_override != kNoSurface ? surface(ray.local_override).traits().shadow
                                             : models_[ray.local_model].shadow(what.primitive);
 }
 
@@ -228,9 +231,9 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
     if (candidate.t < ray.t_max - kEpsilon) return true;
     if (!ray.target_precedence) {
         const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});
-        const Surface& light = surface(ray.target);
+        const Surface light = surface(ray.target);
         ray.target_precedence =
-            precedence_of(light.traits, on_target.cos_out > 0, light.modifier, ray.target);
+            precedence_of(light.traits(), on_target.cos_out > 0, light.modifier(), ray.target);
     }
     return precedence(candidate) > *ray.target_precedence;
 }

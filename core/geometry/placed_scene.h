@@ -70,7 +70,7 @@ struct ShadowRay : TracedRay {
 class PlacedScene {
   public:
     /// Throws InputError as InstancePaths and ModelPrimitives do.
-    explicit PlacedScene(GeometryInput input);
+    PlacedScene(GeometryInput input, const Team& team);
 
     [[nodiscard]] const InstancePaths& paths() const { return paths_; }
     [[nodiscard]] const ModelPrimitives& primitives(std::uint32_t model) const {
@@ -108,9 +108,7 @@ class PlacedScene {
     [[nodiscard]] const ModelPrimitives& model_of(FrameId frame) const {
         return models_[frame == kWorld ? 0 : paths_.space_at(frame).model];
     }
-    [[nodiscard]] const Surface& surface(SurfaceId id) const {
-        return input_.surfaces[static_cast<std::size_t>(index(id))];
-    }
+    [[nodiscard]] Surface surface(SurfaceId id) const { return (*input_.surfaces)[id]; }
     void enter(TracedRay& ray, FrameId frame) const {
         if (ray.local_frame != frame) enter(ray, frame, paths_.space_at(frame));
     }

@@ -1,6 +1,7 @@
 #include "core/geometry/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -73,7 +74,7 @@ bool contains_by_all_edges(const PolygonShape& polygon, const Vec3& point) {
     const double x = point.*X, y = point.*Y;
     return is_inside(depth_in(polygon.rectangle, x, y), [&] {
         return holds_origin(polygon.vertices.size(), [&](std::size_t i) {
-            const Vec3& corner = polygon.vertices[i];
+            const Vec3 corner = polygon.vertices[i];
             return std::pair(corner.*X - x, corner.*Y - y);
         });
     });
@@ -82,11 +83,11 @@ bool contains_by_all_edges(const PolygonShape& polygon, const Vec3& point) {
 bool contains_by_index(const PolygonShape& polygon, const Vec3& point, const EdgeIndex& index) {
     const auto [x, y] = remaining_axes(polygon);
     const auto [first, last] = index.edges(point.*y);
-    const std::vector<Vec3>& vertices = polygon.vertices;
+    const PointList& vertices = polygon.vertices;
     bool inside = false;
     for (const std::uint32_t* edge = first; edge != last; ++edge) {
-        const Vec3& a = vertices[*edge == 0 ? vertices.size() - 1 : *edge - 1];
-        const Vec3& b = vertices[*edge];
+        const Vec3 a = vertices[*edge == 0 ? vertices.size() - 1 : *edge - 1];
+        const Vec3 b = vertices[*edge];
         const EdgeTest result =
             test_edge(a.*x - point.*x, a.*y - point.*y, b.*x - point.*x, b.*y - point.*y);
         if (result == EdgeTest::touches) return true;
@@ -99,8 +100,9 @@ bool contains_by_index(const PolygonShape& polygon, const Vec3& point, const Edg
 
 OutlineRectangle rectangle_of(const PolygonShape& polygon) {
     const auto [x, y] = remaining_axes(polygon);
-    const std::vector<Vec3>& v = polygon.vertices;
-    if (v.size() != 4) return {};
+    if (polygon.vertices.size() != 4) return {};
+    const PointList& points = polygon.vertices;
+    const std::array<Vec3, 4> v{points[0], points[1], points[2], points[3]};
     const Coordinate first = v[0].*y == v[1].*y ? x : y, second = first == x ? y : x;
     const bool straight = v[0].*second == v[1].*second && v[1].*first == v[2].*first &&
                           v[2].*second == v[3].*second && v[3].*first == v[0].*first;
@@ -111,12 +113,14 @@ OutlineRectangle rectangle_of(const PolygonShape& polygon) {
 
 EdgeIndex::EdgeIndex(const PolygonShape& polygon) {
     const Coordinate y = remaining_axes(polygon).y;
-    const std::vector<Vec3>& vertices = polygon.vertices;
-    const auto [low, high] =
-        std::minmax_element(vertices.begin(), vertices.end(),
-                            [y](const Vec3& a, const Vec3& b) { return a.*y < b.*y; });
-    lowest_ = (*low).*y;
-    const double height = (*high).*y - lowest_;
+    const PointList& vertices = polygon.vertices;
+    lowest_ = vertices[0].*y;
+    double highest = lowest_;
+    for (const Vec3 vertex : vertices) {
+        lowest_ = std::min(lowest_, vertex.*y);
+        highest = std::max(highest, vertex.*y);
+    }
+    const double height = highest - lowest_;
     const auto range =
         [&](std::size_t edge) {  // slabs that the edge reaches, with room for the tolerance
             const double a = vertices[edge == 0 ? vertices.size() - 1 : edge - 1].*y,
@@ -187,33 +191,30 @@ std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origi
     return ShapeHit{t, polygon.normal, cosine < 0};
 }
 
-std::uint32_t PackedPolygons::add(const PolygonShape& polygon) {
-    const auto [x, y] = remaining_axes(polygon);
-    const auto number = static_cast<std::uint32_t>(planes_.size());
-    planes_.push_back({polygon.normal, polygon.offset, polygon.rectangle});
-    for (const Vec3& v : polygon.vertices) points_.push_back({v.*x, v.*y});
-    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
-    return number << 2 | static_cast<std::uint32_t>(polygon.drop_axis);
-}
-
-bool PackedPolygons::contains(std::uint32_t number, double x, double y) const {
-    const Point* first = &points_[ends_[number]];
-    return holds_origin(ends_[number + 1] - ends_[number],
-                        [&](std::size_t i) { return std::pair(first[i].x - x, first[i].y - y); });
-}
-
-std::optional<ShapeHit> PackedPolygons::intersect(std::uint32_t handle, const Vec3& origin,
-                                                  const Vec3& direction, double t_max) const {
-    const Plane& plane = planes_[handle >> 2];
+std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manner,
+                                  const double* reals, const Vec3& origin, const Vec3& direction,
+                                  double t_max) {
     const double cosine = fused_dot(plane.normal, direction);
     if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
     const double t = (plane.offset - fused_dot(plane.normal, origin)) / cosine;
     if (!(t > kEpsilon && t <= t_max)) return std::nullopt;
-    const auto [x_axis, y_axis] = kRemaining[handle & 3];
+    const auto [x_axis, y_axis] = kRemaining[manner.drop_axis];
     const double x = origin.*x_axis + direction.*x_axis * t,
                  y = origin.*y_axis + direction.*y_axis * t;
-    const double depth = depth_in(plane.rectangle, x, y);
-    if (!is_inside(depth, [&] { return contains(handle >> 2, x, y); })) return std::nullopt;
+    const double* const corner = reals + plane.first_real;
+    const double *const xs = corner + (manner.drop_axis == 2 ? 0 : manner.drop_axis + 1),
+                        *const ys = corner + (manner.drop_axis == 0 ? 2 : manner.drop_axis - 1);
+    double depth = OutlineRectangle::kNone;
+    if (manner.is_rectangle)
+        depth = depth_in({std::min(xs[0], xs[6]), std::max(xs[0], xs[6]), std::min(ys[0], ys[6]),
+                          std::max(ys[0], ys[6])},
+                         x, y);
+    const bool inside = is_inside(depth, [&] {
+        return holds_origin(plane.corners, [&](std::size_t i) {
+            return std::pair(xs[3 * i] - x, ys[3 * i] - y);
+        });
+    });
+    if (!inside) return std::nullopt;
     return ShapeHit{t, plane.normal, cosine < 0};
 }
 

@@ -48,40 +48,26 @@ inline constexpr std::size_t kLargePolygon = 64;
                                                 const Vec3& direction, double t_max,
                                                 const EdgeIndex* index);
 
-/// Polygons as the search reads them: a cache line each; the corners lie apart, and rectangles
-/// along the axes need theirs only near an edge. Same answers, to the bit, as `intersect` without
-/// an index.
-class PackedPolygons {
-  public:
-    /// Memory for so many polygons, and their vertices in all.
-    void reserve(std::size_t polygons, std::size_t vertices) {
-        planes_.reserve(polygons);
-        ends_.reserve(polygons + 1);
-        points_.reserve(vertices);
-    }
-    /// The handle by which the polygon is asked for.
-    std::uint32_t add(const PolygonShape& polygon);
-    [[nodiscard]] std::optional<ShapeHit> intersect(std::uint32_t handle, const Vec3& origin,
-                                                    const Vec3& direction, double t_max) const;
-    [[nodiscard]] std::size_t memory_bytes() const {
-        return planes_.capacity() * (sizeof(Plane) + sizeof(std::uint32_t)) +
-               points_.capacity() * sizeof(Point);
-    }
-
-  private:
-    struct alignas(64) Plane {
-        Vec3 normal;
-        double offset = 0;
-        OutlineRectangle rectangle;
-    };
-    struct Point {
-        double x = 0, y = 0;  ///< the remaining coordinates, in cyclic order
-    };
-    [[nodiscard]] bool contains(std::uint32_t number, double x, double y) const;
-
-    std::vector<Plane> planes_;
-    std::vector<std::uint32_t> ends_{0};  ///< polygon i has the points from ends_[i] to ends_[i+1]
-    std::vector<Point> points_;
+/// A polygon as the search reads it. Its corners stay where they were read: rectangles along the
+/// axes look at two of them.
+struct PolygonPlane {
+    Vec3 normal;  ///< see PolygonShape
+    double offset = 0;
+    std::uint32_t first_real = 0;  ///< of its corners, among the reals of its model
+    std::uint32_t corners = 0;
 };
+
+/// What decides how a plane is searched, kept apart from it: it fits into the surface's row.
+struct PolygonManner {
+    std::uint8_t drop_axis = 2;
+    bool is_rectangle = false;  ///< its outline is one, along the coordinates of the inside test
+};
+
+/// Whether a packed polygon, any but a large one, is hit: the same answer, to the bit, as
+/// `intersect` without an index.
+/// @param reals  of the polygon's model
+[[nodiscard]] std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manner,
+                                                const double* reals, const Vec3& origin,
+                                                const Vec3& direction, double t_max);
 
 }  // namespace lightwalk

@@ -63,26 +63,37 @@ Vec3 middle_of(const std::vector<WeightedBox>& boxes) {
     return middle;
 }
 
-/// Boxes in a model: first its own primitives, then what is placed in it.
+/// Boxes in a model.
+struct BoxesIn {
+    std::vector<WeightedBox> all;
+    std::size_t own = 0;  ///< the first are of its own primitives, the others of what is placed
+};
+
+/// Of many primitives an even sample: where most of them are is what is asked.
 /// @param inside  the boxes of the models that stand in it
-std::vector<WeightedBox> boxes_in(const PlacedScene& scene, std::uint32_t model,
-                                  const std::vector<Bounds>& inside) {
+BoxesIn boxes_in(const PlacedScene& scene, std::uint32_t model, const std::vector<Bounds>& inside) {
+    constexpr std::size_t kSample = std::size_t{1} << 16;
     const ModelPrimitives& own = scene.primitives(model);
-    std::vector<WeightedBox> boxes(own.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) boxes[i].bounds = own.hit_bounds(i);
+    const std::size_t step = own.size() / kSample + 1;
+    BoxesIn boxes;
+    for (std::size_t i = 0; i < own.size(); i += step) {
+        const Bounds bounds = own.hit_bounds(static_cast<std::uint32_t>(i));
+        if (!bounds.empty()) boxes.all.push_back({bounds, static_cast<double>(step)});
+    }
+    boxes.own = boxes.all.size();
     for (const PlacedChild& child : scene.paths().children(model)) {
         const Matrix& matrix = child.placement->transform.forward;
         const std::uint32_t placed = child.placement->model;
         const Bounds bounds = inside[placed].empty() ? Bounds{matrix.row[3], matrix.row[3]}
                                                      : transformed(inside[placed], matrix);
-        boxes.push_back({bounds, 1 + static_cast<double>(scene.paths().count_inside(placed))});
+        boxes.all.push_back({bounds, 1 + static_cast<double>(scene.paths().count_inside(placed))});
     }
     return boxes;
 }
 
-Bounds union_of(const std::vector<WeightedBox>& boxes) {
-    Bounds all;
-    for (const WeightedBox& box : boxes) extend(all, box.bounds);
+Bounds union_of(const ModelPrimitives& own, const BoxesIn& boxes) {
+    Bounds all = own.all_hit_bounds();
+    for (std::size_t i = boxes.own; i < boxes.all.size(); ++i) extend(all, boxes.all[i].bounds);
     return all;
 }
 
@@ -99,14 +110,16 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
     std::vector<SearchSpace> spaces(count);
     std::vector<Bounds> inside(count);
     std::vector<std::vector<WeightedValue>> reaches(count);  // from the centre, of all boxes
+    std::vector<std::size_t> own_boxes(count);               // that come first among them
     std::vector<double> region(count, 0);                    // that rays in a model start within
     const std::span<const std::uint32_t> order = paths.order();
     for (auto at = order.rbegin(); at != order.rend(); ++at) {
         const std::uint32_t model = *at;
-        const std::vector<WeightedBox> boxes = boxes_in(scene, model, inside);
-        inside[model] = union_of(boxes);
-        spaces[model].center = middle_of(boxes);
-        for (const WeightedBox& box : boxes)
+        const BoxesIn boxes = boxes_in(scene, model, inside);
+        inside[model] = union_of(scene.primitives(model), boxes);
+        own_boxes[model] = boxes.own;
+        spaces[model].center = middle_of(boxes.all);
+        for (const WeightedBox& box : boxes.all)
             reaches[model].push_back(
                 {magnitude(moved(box.bounds, -spaces[model].center)), box.weight});
     }
@@ -119,7 +132,7 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
         if (model != 0 && !inside[model].empty())
             spaces[model].margin =
                 std::min(spaces[model].margin, 0.01 * std::max({size.x, size.y, size.z}));
-        std::size_t box = scene.primitives(model).size();  // see boxes_in
+        std::size_t box = own_boxes[model];
         for (const PlacedChild& child : paths.children(model)) {
             const double scale = child.placement->transform.size();
             const double around = region[model] + reaches[model][box++].value;

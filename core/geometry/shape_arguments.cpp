@@ -1,6 +1,7 @@
 // Shapes from the real arguments of scene primitives, degenerate input as Radiance takes it.
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/geometry/polygon.h"
@@ -9,18 +10,18 @@
 namespace lightwalk {
 namespace {
 
-[[noreturn]] void fail(const Primitive& primitive, const std::string& problem) {
-    throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" +
-                                          primitive.name + "\": " + problem);
+[[noreturn]] void fail(const SurfacePrimitive& primitive, const std::string& problem) {
+    throw InputError(primitive.where(), std::string(to_string(primitive.type)) + " \"" +
+                                            std::string(primitive.name) + "\": " + problem);
 }
 
-void expect_count(const Primitive& primitive, std::size_t count, const char* problem) {
+void expect_count(const SurfacePrimitive& primitive, std::size_t count, const char* problem) {
     if (primitive.reals.size() == count) return;
     fail(primitive, std::string(problem) + ": expected " + std::to_string(count) +
                         " real arguments, found " + std::to_string(primitive.reals.size()));
 }
 
-void expect_finite(const Primitive& primitive) {
+void expect_finite(const SurfacePrimitive& primitive) {
     for (std::size_t i = 0; i < primitive.reals.size(); ++i) {
         if (std::abs(primitive.reals[i]) <= kLargestCoordinate) continue;  // false for NaN
         fail(primitive, "real argument " + std::to_string(i + 1) +
@@ -28,7 +29,7 @@ void expect_finite(const Primitive& primitive) {
     }
 }
 
-Vec3 point_at(const std::vector<double>& reals, std::size_t i) {
+Vec3 point_at(std::span<const double> reals, std::size_t i) {
     return {reals[i], reals[i + 1], reals[i + 2]};
 }
 
@@ -63,7 +64,7 @@ ValidatedShape ignored(PrimitiveType type, std::string warning) {
     return {std::monostate{}, type, std::move(warning) + ", ignored"};
 }
 
-ValidatedShape make_sphere(const Primitive& primitive) {
+ValidatedShape make_sphere(const SurfacePrimitive& primitive) {
     expect_count(primitive, 4, "bad arguments");
     expect_finite(primitive);
     ValidatedShape result{std::monostate{}, primitive.type, {}};
@@ -79,7 +80,7 @@ ValidatedShape make_sphere(const Primitive& primitive) {
 }
 
 /// Tolerance 1e-5, relative to the plane's distance from the origin where that is larger.
-bool is_planar(const std::vector<Vec3>& vertices, const Vec3& normal) {
+bool is_planar(const PointList& vertices, const Vec3& normal) {
     constexpr double kTolerance = 1e-5;
     if (vertices.size() <= 3) return true;
     double sum = dot(normal, vertices[0]);
@@ -104,8 +105,8 @@ int longest_axis(const Vec3& normal) {
     return z > (axis == 0 ? x : y) ? 2 : axis;
 }
 
-ValidatedShape make_polygon(const Primitive& primitive) {
-    const std::vector<double>& reals = primitive.reals;
+ValidatedShape make_polygon(const SurfacePrimitive& primitive) {
+    const std::span<const double> reals = primitive.reals;
     if (reals.size() < 9 || reals.size() % 3 != 0) {
         fail(primitive,
              "bad # arguments: expected three coordinates for each of at least three vertices, "
@@ -114,26 +115,20 @@ ValidatedShape make_polygon(const Primitive& primitive) {
     }
     expect_finite(primitive);
     PolygonShape polygon;
-    polygon.vertices.reserve(reals.size() / 3);
-    for (std::size_t i = 0; i < reals.size(); i += 3)
-        polygon.vertices.push_back(point_at(reals, i));
-    std::vector<Vec3>& vertices = polygon.vertices;
-    if (vertices.size() > 3 && coincide(vertices.front(), vertices.back())) vertices.pop_back();
-
-    Vec3 twice_area;
-    for (std::size_t i = 2; i < vertices.size(); ++i) {
-        twice_area += cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
-    }
-    polygon.area = length(twice_area) / 2;
-    if (!(polygon.area > 0)) return ignored(primitive.type, "zero area");
+    PointList& vertices = polygon.vertices;
+    vertices = PointList(reals);
+    if (vertices.size() > 3 && coincide(vertices.front(), vertices.back()))
+        vertices = vertices.without_last();
+    const Vec3 twice_area = twice_area_of(vertices);
+    if (!(length(twice_area) / 2 > 0)) return ignored(primitive.type, "zero area");
     polygon.normal = normalize(twice_area);
-    for (const Vec3& vertex : vertices) polygon.offset += dot(polygon.normal, vertex);
+    for (const Vec3 vertex : vertices) polygon.offset += dot(polygon.normal, vertex);
     polygon.offset /= static_cast<double>(vertices.size());
     polygon.drop_axis = longest_axis(polygon.normal);
     polygon.rectangle = rectangle_of(polygon);
     ValidatedShape result{std::monostate{}, primitive.type, {}};
     if (!is_planar(vertices, polygon.normal)) result.warning = "non-planar vertex";
-    result.shape = std::move(polygon);
+    result.shape = polygon;
     return result;
 }
 
@@ -157,7 +152,7 @@ ValidatedShape make_cone_shape(const ConeArguments& ends, ValidatedShape result)
     return result;
 }
 
-ValidatedShape make_cylinder(const Primitive& primitive) {
+ValidatedShape make_cylinder(const SurfacePrimitive& primitive) {
     expect_count(primitive, 7, "bad # arguments");
     expect_finite(primitive);
     ValidatedShape result{std::monostate{}, primitive.type, {}};
@@ -172,7 +167,7 @@ ValidatedShape make_cylinder(const Primitive& primitive) {
                            std::move(result));
 }
 
-ValidatedShape make_cone(const Primitive& primitive) {
+ValidatedShape make_cone(const SurfacePrimitive& primitive) {
     expect_count(primitive, 8, "bad # arguments");
     expect_finite(primitive);
     ValidatedShape result{std::monostate{}, primitive.type, {}};
@@ -195,7 +190,7 @@ ValidatedShape make_cone(const Primitive& primitive) {
                            std::move(result));
 }
 
-ValidatedShape make_ring(const Primitive& primitive) {
+ValidatedShape make_ring(const SurfacePrimitive& primitive) {
     expect_count(primitive, 8, "bad # arguments");
     expect_finite(primitive);
     RingShape ring{point_at(primitive.reals, 0), normalize(point_at(primitive.reals, 3)),
@@ -209,7 +204,7 @@ ValidatedShape make_ring(const Primitive& primitive) {
 }
 
 /// A zero direction stays zero: such a source contains no direction unless it is the whole sphere.
-ValidatedShape make_source(const Primitive& primitive) {
+ValidatedShape make_source(const SurfacePrimitive& primitive) {
     expect_count(primitive, 4, "bad # arguments");
     expect_finite(primitive);
     const double half_angle = primitive.reals[3] * (kPi / 180) / 2;
@@ -219,7 +214,15 @@ ValidatedShape make_source(const Primitive& primitive) {
 
 }  // namespace
 
-ValidatedShape make_shape(const Primitive& primitive) {
+Vec3 twice_area_of(const PointList& vertices) {
+    Vec3 twice_area;
+    for (std::size_t i = 2; i < vertices.size(); ++i) {
+        twice_area += cross(vertices[i - 1] - vertices[0], vertices[i] - vertices[0]);
+    }
+    return twice_area;
+}
+
+ValidatedShape make_shape(const SurfacePrimitive& primitive) {
     switch (primitive.type) {
         case PrimitiveType::source:
             return make_source(primitive);

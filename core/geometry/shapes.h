@@ -2,13 +2,12 @@
 // The exact shapes of Radiance's surfaces in double precision, validated from their real arguments.
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <variant>
-#include <vector>
 
+#include "core/geometry/point_list.h"
 #include "core/math/vec3.h"
-#include "core/model/primitive.h"
+#include "core/model/surface_list.h"
 
 namespace lightwalk {
 
@@ -28,14 +27,20 @@ struct OutlineRectangle {
     double low_x = kNone, high_x = kNone, low_y = kNone, high_y = kNone;  ///< [m]
 };
 
+/// A view: the vertices stay where they were read.
 struct PolygonShape {
-    std::vector<Vec3> vertices;  ///< closing duplicate dropped
-    Vec3 normal;                 ///< unit, right-hand rule
-    double offset = 0;           ///< normal . p of the plane [m]
-    double area = 0;             ///< [m²]
-    int drop_axis = 2;           ///< coordinate that the inside test ignores
+    PointList vertices;  ///< closing duplicate dropped
+    Vec3 normal;         ///< unit, right-hand rule
+    double offset = 0;   ///< normal . p of the plane [m]
+    int drop_axis = 2;   ///< coordinate that the inside test ignores
     OutlineRectangle rectangle;
 };
+
+/// Sum of the polygon's triangles around its first vertex: along the normal, twice its area [m²].
+[[nodiscard]] Vec3 twice_area_of(const PointList& vertices);
+[[nodiscard]] inline double area_of(const PolygonShape& polygon) {  ///< [m²]
+    return length(twice_area_of(polygon.vertices)) / 2;
+}
 
 /// Cone, cup, cylinder, tube: an open surface of revolution with its smaller end first.
 struct ConeShape {
@@ -72,13 +77,14 @@ struct ShapeHit {
 /// Validate the arguments of a finite surface or source. Degenerate input follows Radiance: `type`
 /// may change (sphere <-> bubble, cone -> cylinder, ...), a useless surface becomes monostate; both
 /// report by `warning` (left empty otherwise). Throws InputError for wrong argument counts or
-/// numbers that are not finite or beyond kLargestCoordinate.
+/// numbers that are not finite or beyond kLargestCoordinate. A polygon's shape shows the reals of
+/// the primitive.
 struct ValidatedShape {
     Shape shape;
     PrimitiveType type{};
     std::string warning;
 };
-[[nodiscard]] ValidatedShape make_shape(const Primitive& primitive);
+[[nodiscard]] ValidatedShape make_shape(const SurfacePrimitive& primitive);
 
 /// Nearest crossing with t in (kEpsilon, t_max], or nothing. Exact: double precision, the inside
 /// rules of Radiance (even-odd with tolerance for polygons, closed intervals for rings and cones).

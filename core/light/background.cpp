@@ -49,7 +49,7 @@ bool LightSources::intersect_target(Ray& ray, const Tracer& tracer) const {
     ray.hit.position = ray.origin;
     ray.hit.normal = -ray.direction;
     ray.hit.surface = source.object;
-    ray.hit.modifier = tracer.scene().surface(source.object).modifier;
+    ray.hit.modifier = tracer.scene().surface(source.object).modifier();
     return true;
 }
 

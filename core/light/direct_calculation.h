@@ -48,7 +48,7 @@ class DirectCalculation {
     // direct_gather.cpp
     void find_samples(LitPoint& point);
     void consider_samples(std::uint32_t point);
-    [[nodiscard]] const PolygonShape* polygon_of(const LightSource& source) const;
+    [[nodiscard]] const PolygonShape* polygon_of(std::int32_t source) const;
     void consider(std::uint32_t point, std::int32_t source, const PolygonShape* polygon,
                   const Vec3& direction, const Rgb& k);
     void add_candidate(std::uint32_t point, std::int32_t source, const Vec3& direction,
@@ -58,8 +58,7 @@ class DirectCalculation {
     [[nodiscard]] bool meets_relay(const LightSource& source, const Vec3& origin,
                                    const Vec3& direction) const;
     [[nodiscard]] static bool is_constant(const LightSource& source);
-    [[nodiscard]] std::optional<double> front_distance(const LightSource& source,
-                                                       const Vec3& origin,
+    [[nodiscard]] std::optional<double> front_distance(std::int32_t source, const Vec3& origin,
                                                        const Vec3& direction) const;
     [[nodiscard]] static std::optional<double> plane_distance(const PolygonShape& polygon,
                                                               const Vec3& origin,

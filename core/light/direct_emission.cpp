@@ -33,11 +33,10 @@ Ray DirectCalculation::aimed_ray(const LitPoint& point, std::int32_t source,
 /// distance is known already, and only the outline remains to be asked.
 bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
     const LightSource& source = lights_[candidate.source];
-    const Surface& surface = tracer_.scene().surface(source.object);
     const LitPoint& point = point_of(candidate);
     const Vec3& direction = candidate.direction;
     const double t = candidate.distance;
-    const auto* polygon = source.distant ? nullptr : std::get_if<PolygonShape>(&surface.shape);
+    const auto* polygon = source.distant ? nullptr : std::get_if<PolygonShape>(&lights_.shape(candidate.source));
     if (!polygon || polygon->vertices.size() > kLargePolygon) {  // those have an index of their own
         Ray aimed = aimed_ray(point, candidate.source, direction);
         if (!lights_.intersect_target(aimed, tracer_) || aimed.hit.cos_out < 0) return false;
@@ -52,7 +51,7 @@ bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
     hit.normal = polygon->normal;
     hit.cos_out = -fused_dot(direction, hit.normal);
     hit.surface = source.object;
-    hit.modifier = surface.modifier;
+    hit.modifier = tracer_.scene().surface(source.object).modifier();
     return true;
 }
 

@@ -94,17 +94,15 @@ void DirectCalculation::consider_samples(std::uint32_t number) {
     for (std::size_t i = 0; i < lights.count; ++i) {
         if (!(max_component(k[i]) > 0)) continue;
         const std::int32_t source = scratch_.samples.source(i);
-        if (source != last) polygon = polygon_of(lights_[source]);
+        if (source != last) polygon = polygon_of(source);
         last = source;
         consider(number, source, polygon, lights.direction(i), k[i]);
     }
 }
 
 /// The outline of a local polygon.
-const PolygonShape* DirectCalculation::polygon_of(const LightSource& source) const {
-    return source.distant
-               ? nullptr
-               : std::get_if<PolygonShape>(&tracer_.scene().surface(source.object).shape);
+const PolygonShape* DirectCalculation::polygon_of(std::int32_t source) const {
+    return lights_[source].distant ? nullptr : std::get_if<PolygonShape>(&lights_.shape(source));
 }
 
 /// Make a candidate of a sample that can bring light, of which the surface sends on `k`.
@@ -113,11 +111,11 @@ void DirectCalculation::consider(std::uint32_t number, std::int32_t index,
     const LightSource& source = lights_[index];
     const LitPoint& point = scratch_.points[number];
     if (is_constant(source) && point.clear_air) {
-        if (const auto distance = front_distance(source, point.position, direction))
+        if (const auto distance = front_distance(index, point.position, direction))
             add_candidate(number, index, direction, k, {source.radiance, *distance});
     } else if (!source.is_virtual && !needs_tracing(source, point)) {
         const auto distance = polygon ? plane_distance(*polygon, point.position, direction)
-                                      : front_distance(source, point.position, direction);
+                                      : front_distance(index, point.position, direction);
         if (distance) add_unknown(number, index, direction, k, *distance);
     } else {
         add_candidate(number, index, direction, k, traced_emission(point, index, direction));
@@ -158,16 +156,15 @@ bool DirectCalculation::is_constant(const LightSource& source) {
 }
 
 /// How far the front of a source is; nothing when the direction misses it or meets its back.
-std::optional<double> DirectCalculation::front_distance(const LightSource& source,
-                                                        const Vec3& origin,
+std::optional<double> DirectCalculation::front_distance(std::int32_t number, const Vec3& origin,
                                                         const Vec3& direction) const {
+    const LightSource& source = lights_[number];
     if (source.distant) {
         const bool inside =
             2 * kPi * (1 - dot(source.center, direction)) <= static_cast<double>(source.size);
         return inside ? std::optional(kHuge) : std::nullopt;
     }
-    const Surface& surface = tracer_.scene().surface(source.object);
-    const auto hit = intersect(surface.shape, origin, direction, kHuge);
+    const auto hit = intersect(lights_.shape(number), origin, direction, kHuge);
     if (!hit || dot(hit->normal, direction) > 0) return std::nullopt;
     return hit->t;
 }

@@ -10,6 +10,8 @@ namespace lightwalk {
 
 LightSources::LightSources(const Scene& scene, const RenderOptions& options, WarningSink& warnings)
     : scene_(scene), options_(options), sources_(collect_sources(scene, warnings)) {
+    for (const LightSource& source : sources_)
+        shapes_.push_back(scene.surface(source.object).shape());
     index_sources();
 }
 
@@ -51,7 +53,7 @@ bool LightSources::inside_spot(const LightSource& source, const Vec3& origin,
 bool LightSources::answers_to(const LightSource& source, std::string_view identifier) const {
     const LightSource* at = &source;
     for (;; at = &(*this)[at->parent]) {
-        const std::string_view name = scene_.surface(at->object).name;
+        const std::string_view name = scene_.surface(at->object).name();
         if (!at->is_virtual) return identifier == name;
         if (!identifier.starts_with(name) || !identifier.substr(name.size()).starts_with('>'))
             return false;

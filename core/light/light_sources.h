@@ -25,6 +25,10 @@ class LightSources {
     [[nodiscard]] const LightSource& operator[](std::int32_t i) const {
         return sources_[static_cast<std::size_t>(i)];
     }
+    /// Of the surface of a source, which for a virtual one is its relay.
+    [[nodiscard]] const Shape& shape(std::int32_t source) const {
+        return shapes_[static_cast<std::size_t>(source)];
+    }
     [[nodiscard]] std::size_t virtual_count() const { return virtual_count_; }
     /// Whether anything in the scene shines on surfaces: a source that is sampled, or, when there
     /// are ambient bounces, a glow. Surfaces inside instances do not count, as in Radiance.
@@ -36,7 +40,10 @@ class LightSources {
 
     /// Add a virtual source; sampled() does not hold it before settle(). While the tracer is set
     /// up only.
-    void add(const LightSource& source) { sources_.push_back(source); }
+    void add(const LightSource& source) {
+        sources_.push_back(source);
+        shapes_.push_back(scene_.surface(source.object).shape());
+    }
     /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
     /// Called once by Tracer's constructor, with that tracer, before any rendering.
     void settle(const Tracer& tracer, WarningSink& warnings);
@@ -74,6 +81,7 @@ class LightSources {
     const Scene& scene_;
     RenderOptions options_;
     std::vector<LightSource> sources_;
+    std::vector<Shape> shapes_;  ///< of each source
     std::vector<std::int32_t> sampled_;
     SourceBoxes boxes_;
     std::size_t virtual_count_ = 0;

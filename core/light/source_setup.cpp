@@ -16,24 +16,24 @@ constexpr double kSlimCylinder = 0.2;   ///< largest radius over length
 
 /// The surface and material that a source is made from, and how to complain about them.
 struct Emitter {
-    const Surface& surface;
+    Surface surface;
     const ModifierRecord& material;
 
     [[nodiscard]] std::string described(const std::string& problem) const {
-        return std::string(to_string(surface.type)) + " \"" + surface.name + "\": " + problem;
+        return std::string(to_string(surface.type())) + " \"" + std::string(surface.name()) + "\": " + problem;
     }
     [[noreturn]] void fail(const std::string& problem) const {
-        throw InputError(surface.where, described(problem));
+        throw InputError(surface.where(), described(problem));
     }
     void warn(WarningSink& warnings, const std::string& problem) const {
-        warnings.warn(to_prefix(surface.where) + described(problem));
+        warnings.warn(to_prefix(surface.where()) + described(problem));
     }
     [[nodiscard]] const std::vector<double>& reals() const { return material.primitive->reals; }
 };
 
 Vec3 vertex_average(const PolygonShape& polygon) {
     Vec3 sum;
-    for (const Vec3& p : polygon.vertices) sum += p;
+    for (const Vec3 p : polygon.vertices) sum += p;
     return sum / static_cast<double>(polygon.vertices.size());
 }
 
@@ -60,22 +60,23 @@ void set_triangle(LightSource& source, const PolygonShape& polygon, const Emitte
     }
     source.u = nearest_edge * std::sqrt(std::max(0.0, nearest_squared));
     source.v = cross(source.normal, source.u);
-    if (nearest_squared < kSlimTriangle * polygon.area)
+    if (nearest_squared < kSlimTriangle * area_of(polygon))
         emitter.warn(warnings, "source aspect too small");
 }
 
 void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& emitter,
                WarningSink& warnings) {
-    if (polygon.area <= 0) emitter.fail("zero area");
+    const double area = area_of(polygon);
+    if (area <= 0) emitter.fail("zero area");
     source.flat = true;
     source.center = vertex_average(polygon);
     source.normal = polygon.normal;
-    source.size = static_cast<float>(polygon.area);
-    if (!intersect(emitter.surface.shape, source.center + source.normal, -source.normal, 2)) {
+    source.size = static_cast<float>(area);
+    if (!intersect(polygon, source.center + source.normal, -source.normal, 2, nullptr)) {
         emitter.fail("cannot hit source center");
     }
     double farthest = 0;
-    for (const Vec3& p : polygon.vertices)
+    for (const Vec3 p : polygon.vertices)
         farthest = std::max(farthest, length_squared(p - source.center));
     source.radius = static_cast<float>(std::sqrt(farthest));
     if (polygon.vertices.size() == 4) {
@@ -84,7 +85,7 @@ void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& 
     } else if (polygon.vertices.size() == 3) {
         set_triangle(source, polygon, emitter, warnings);
     } else {
-        set_square(source, source.normal, polygon.area);
+        set_square(source, source.normal, area);
     }
 }
 
@@ -141,7 +142,7 @@ void set_shape(LightSource& source, const SourceShape& at_infinity, const Emitte
 
 void set_shape(LightSource&, const std::monostate&, const Emitter& emitter, WarningSink&) {
     // Other degenerate surfaces never get here.
-    emitter.fail(emitter.surface.type == PrimitiveType::polygon ? "zero area" : "zero direction");
+    emitter.fail(emitter.surface.type() == PrimitiveType::polygon ? "zero area" : "zero direction");
 }
 
 void set_spot(LightSource& source, const Emitter& emitter, WarningSink& warnings) {
@@ -154,12 +155,10 @@ void set_spot(LightSource& source, const Emitter& emitter, WarningSink& warnings
     }
 }
 
-/// Light, illum, glow or spotlight at the end of the chain, when its colour is not black.
-std::optional<ModifierId> emitting_material(const Scene& scene, const Surface& surface) {
-    if (surface.modifier == kVoid) return std::nullopt;
-    if (surface.type == PrimitiveType::instance || surface.type == PrimitiveType::mesh)
-        return std::nullopt;
-    const auto id = scene.material_of(surface.modifier);
+/// Light, illum, glow or spotlight at the end of a modifier's chain, when its colour is not black.
+std::optional<ModifierId> emitting_material(const Scene& scene, ModifierId modifier) {
+    if (modifier == kVoid) return std::nullopt;
+    const auto id = scene.material_of(modifier);
     if (!id) return std::nullopt;
     const ModifierRecord& material = scene.modifier(*id);
     if (!is_light(material.type) || !material.primitive) return std::nullopt;
@@ -169,14 +168,13 @@ std::optional<ModifierId> emitting_material(const Scene& scene, const Surface& s
 }
 
 /// The same when it may light others: glows do so within their radius, or from infinity.
-std::optional<ModifierId> light_material(const Scene& scene, const Surface& surface) {
-    const auto id = emitting_material(scene, surface);
-    if (!id) return std::nullopt;
-    const ModifierRecord& material = scene.modifier(*id);
+std::optional<ModifierId> light_material(const Scene& scene, const Surface& surface,
+                                         ModifierId id) {
+    const ModifierRecord& material = scene.modifier(id);
     const bool near_only = material.type == PrimitiveType::glow &&
                            material.primitive->reals[3] <= kEpsilon &&
-                           surface.type != PrimitiveType::source;
-    return near_only ? std::nullopt : id;
+                           surface.type() != PrimitiveType::source;
+    return near_only ? std::nullopt : std::optional(id);
 }
 
 bool may_emit(PrimitiveType type) {
@@ -195,20 +193,20 @@ bool have_lanes(const Scene& scene, ModifierId patterns) {
 }
 
 LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink& warnings) {
-    if (!may_emit(emitter.surface.type)) {
+    if (!may_emit(emitter.surface.type())) {
         emitter.fail("illegal material \"" + emitter.material.name +
                      "\": only source, sphere, polygon, ring and cylinder can be light sources");
     }
     LightSource source;
     source.material = material;
     source.material_type = emitter.material.type;
-    source.shape = emitter.surface.type;
+    source.shape = emitter.surface.type();
     std::visit([&](const auto& shape) { set_shape(source, shape, emitter, warnings); },
-               emitter.surface.shape);
+               emitter.surface.shape());
     const std::vector<double>& reals = emitter.reals();
     source.radiance = {static_cast<float>(reals[0]), static_cast<float>(reals[1]),
                        static_cast<float>(reals[2])};
-    const bool alone = emitter.surface.modifier == material;
+    const bool alone = emitter.surface.modifier() == material;
     source.uniform = alone && emitter.material.next == kVoid;
     source.plain = alone && source.material_type != PrimitiveType::spotlight;
     source.patterns = emitter.material.next;
@@ -224,33 +222,50 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
     return source;
 }
 
+/// Calls visit(surface, id, material) for each of the scene's own surfaces that emits, until it
+/// returns false. Millions of surfaces may have one modifier in turn, which is asked once then.
+template <class Visit>
+void visit_emitters(const Scene& scene, const Visit& visit) {
+    ModifierId last = kVoid;
+    std::optional<ModifierId> material;
+    for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
+        const SurfaceId id{static_cast<std::int32_t>(i)};
+        const Surface surface = scene.surface(id);
+        if (surface.modifier() != last) {
+            last = surface.modifier();
+            material = emitting_material(scene, last);
+        }
+        if (material && !is_placement(surface.type()) && !visit(surface, id, *material)) return;
+    }
+}
+
 }  // namespace
 
 bool has_glow(const Scene& scene) {
-    const auto surfaces = scene.surfaces().first(scene.own_surfaces());
-    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& surface) {
-        const auto id = emitting_material(scene, surface);
-        return id && scene.modifier(*id).type == PrimitiveType::glow;
+    bool found = false;
+    visit_emitters(scene, [&](const Surface&, SurfaceId, ModifierId material) {
+        found = scene.modifier(material).type == PrimitiveType::glow;
+        return !found;
     });
+    return found;
 }
 
 std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnings) {
     std::vector<LightSource> sources;
-    for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
-        const SurfaceId id{static_cast<std::int32_t>(i)};
-        const Surface& surface = scene.surface(id);
-        const auto material = light_material(scene, surface);
-        if (!material) continue;
-        const bool degenerate = std::holds_alternative<std::monostate>(surface.shape);
+    visit_emitters(scene, [&](const Surface& surface, SurfaceId id, ModifierId emitting) {
+        const auto material = light_material(scene, surface, emitting);
+        if (!material) return true;
         const bool fatal =
-            surface.type == PrimitiveType::source || surface.type == PrimitiveType::polygon;
-        if (degenerate && !fatal) continue;  // ignored; the scene has warned of it
+            surface.type() == PrimitiveType::source || surface.type() == PrimitiveType::polygon;
+        // Other degenerate surfaces are ignored; the scene has warned of them.
+        if (!surface.has_shape() && !fatal) return true;
         const Emitter emitter{surface, scene.modifier(*material)};
         LightSource source = make_source(emitter, *material, warnings);
         source.object = id;
         source.side_by_side = source.plain && have_lanes(scene, source.patterns);
         sources.push_back(source);
-    }
+        return true;
+    });
     return sources;
 }
 

@@ -51,12 +51,12 @@ std::size_t count_references(const Primitive& primitive) {
     }
 }
 
-void check_name(const std::string& name, bool names_modifier, const SourceLocation& where) {
-    if (name.find('\t') != std::string::npos) {
-        throw InputError(where, "identifier \"" + name + "\" holds a tab");
+void check_name(std::string_view name, bool names_modifier, const SourceLocation& where) {
+    if (name.find('\t') != std::string_view::npos) {
+        throw InputError(where, "identifier \"" + std::string(name) + "\" holds a tab");
     }
     if (names_modifier && (name == "void" || name == "inherit")) {
-        throw InputError(where, "illegal modifier name \"" + name + "\"");
+        throw InputError(where, "illegal modifier name \"" + std::string(name) + "\"");
     }
 }
 
@@ -124,16 +124,10 @@ std::vector<std::int32_t> ModelBuilder::references(const Primitive& primitive) c
 }
 
 void ModelBuilder::check_modifier(std::int32_t modifier, const SourceLocation& where) const {
-    const std::vector<Primitive>& known = model_->primitives;
     if (modifier == kVoidIndex) return;
-    if (modifier < 0 || static_cast<std::size_t>(modifier) >= known.size()) {
+    if (modifier < 0 || static_cast<std::size_t>(modifier) >= model_->modifiers.size()) {
         throw InputError(where,
                          "modifier number " + std::to_string(modifier) + " is not defined yet");
-    }
-    const Primitive& named = known[static_cast<std::size_t>(modifier)];
-    if (is_surface(named.type)) {
-        throw InputError(where, "a surface cannot be a modifier: " +
-                                    std::string(to_string(named.type)) + " \"" + named.name + "\"");
     }
 }
 
@@ -145,8 +139,8 @@ bool ModelBuilder::equal(std::int32_t a, std::int32_t b) const {
         open.pop_back();
         if (pair.first == pair.second || !seen.insert(pair).second) continue;
         if (pair.first < 0 || pair.second < 0 || seen.size() > kMaxComparedPairs) return false;
-        const Primitive& p = model_->primitives[static_cast<std::size_t>(pair.first)];
-        const Primitive& q = model_->primitives[static_cast<std::size_t>(pair.second)];
+        const Primitive& p = model_->modifiers[static_cast<std::size_t>(pair.first)];
+        const Primitive& q = model_->modifiers[static_cast<std::size_t>(pair.second)];
         if (!same_arguments(p, q)) return false;
         open.emplace_back(p.modifier, q.modifier);
         for (std::size_t i = 0; i < p.references.size(); ++i) {
@@ -157,19 +151,31 @@ bool ModelBuilder::equal(std::int32_t a, std::int32_t b) const {
 }
 
 std::int32_t ModelBuilder::add(Primitive primitive) {
-    const bool names_modifier = !is_surface(primitive.type);
-    check_name(primitive.name, names_modifier, primitive.where);
+    if (is_surface(primitive.type)) {
+        check_name(primitive.name, false, primitive.where);
+        check_modifier(primitive.modifier, primitive.where);
+        return static_cast<std::int32_t>(model_->surfaces.add(primitive));
+    }
+    check_name(primitive.name, true, primitive.where);
     check_modifier(primitive.modifier, primitive.where);
-    if (model_->primitives.size() >= std::numeric_limits<std::int32_t>::max()) {
-        throw InputError(primitive.where, "too many primitives");
+    if (model_->modifiers.size() >= std::numeric_limits<std::int32_t>::max()) {
+        throw InputError(primitive.where, "too many modifiers");
     }
     if (primitive.references.empty()) primitive.references = references(primitive);
-    const auto index = static_cast<std::int32_t>(model_->primitives.size());
-    model_->primitives.push_back(std::move(primitive));
-    if (!names_modifier) return index;
-    const auto [entry, is_new] = names_.try_emplace(model_->primitives.back().name, index);
+    const auto index = static_cast<std::int32_t>(model_->modifiers.size());
+    model_->modifiers.push_back(std::move(primitive));
+    const auto [entry, is_new] = names_.try_emplace(model_->modifiers.back().name, index);
     if (!is_new && !equal(index, entry->second)) entry->second = index;
     return index;
+}
+
+std::int32_t ModelBuilder::add(const SurfacePrimitive& surface) {
+    const bool known = surface.modifier >= 0 &&
+                       static_cast<std::size_t>(surface.modifier) < model_->modifiers.size();
+    if (!known) check_modifier(surface.modifier, surface.where());
+    if (surface.name.find('\t') != std::string_view::npos)
+        check_name(surface.name, false, surface.where());
+    return static_cast<std::int32_t>(model_->surfaces.add(surface));
 }
 
 std::int32_t ModelBuilder::add_alias(std::int32_t modifier, const std::string& name,
@@ -178,13 +184,13 @@ std::int32_t ModelBuilder::add_alias(std::int32_t modifier, const std::string& n
     if (target == kVoidIndex) {
         throw InputError(where, "bad reference \"void\" in alias \"" + name + "\"");
     }
-    const Primitive& named = model_->primitives[static_cast<std::size_t>(target)];
+    const Primitive& named = model_->modifiers[static_cast<std::size_t>(target)];
     Primitive alias;
     alias.type = PrimitiveType::alias;
     alias.modifier = modifier;
     alias.name = name;
     alias.references = {named.type == PrimitiveType::alias ? named.references[0] : target};
-    alias.strings = {model_->primitives[static_cast<std::size_t>(alias.references[0])].name};
+    alias.strings = {model_->modifiers[static_cast<std::size_t>(alias.references[0])].name};
     alias.where = where;
     return add(std::move(alias));
 }
@@ -194,14 +200,15 @@ std::int32_t ModelBuilder::rename(const std::string& name, std::int32_t target,
     check_modifier(target, where);
     const std::int32_t own = target == kVoidIndex
                                  ? kVoidIndex
-                                 : model_->primitives[static_cast<std::size_t>(target)].modifier;
+                                 : model_->modifiers[static_cast<std::size_t>(target)].modifier;
     return add_alias(own, name, target, where);
 }
 
 std::shared_ptr<Model> ModelBuilder::take() {
     std::shared_ptr<Model> result = std::exchange(model_, std::make_shared<Model>());
     names_.clear();
-    result->primitives.shrink_to_fit();
+    result->modifiers.shrink_to_fit();
+    result->surfaces.trim();
     return result;
 }
 

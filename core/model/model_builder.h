@@ -1,6 +1,7 @@
 #pragma once
 // The name space of a scene while it is read: definitions, and what names mean at each point of the
 // file.
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -23,11 +24,18 @@ class ModelBuilder {
     /// "undefined modifier ..., did you mean ..." for a name that nothing has defined.
     [[nodiscard]] std::int32_t modifier(const std::string& name, const SourceLocation& where) const;
 
-    /// Add a primitive whose `modifier` is an index into this model (or void) and whose
-    /// `references` are still empty; returns its index. Throws InputError for an illegal name, and
-    /// for a modifier that is none. A modifier that equals the current one of its name is added,
-    /// but the name keeps its older meaning. An alias goes through add_alias.
+    /// Add a primitive whose `modifier` is an index into this model's modifiers (or void) and whose
+    /// `references` are still empty; returns its index among the modifiers or the surfaces. Throws
+    /// InputError for an illegal name, and for a modifier that is none. A modifier that equals the
+    /// current one of its name is added, but the name keeps its older meaning. An alias goes
+    /// through add_alias.
     std::int32_t add(Primitive primitive);
+    /// The same for a surface.
+    std::int32_t add(const SurfacePrimitive& surface);
+    /// Memory for so many surfaces, reals and bytes of text more; a guess.
+    void expect(std::size_t surfaces, std::size_t reals, std::size_t text) {
+        model_->surfaces.expect(surfaces, reals, text);
+    }
 
     /// Add `modifier alias name`, standing for the modifier with index `target`: its type and
     /// arguments with `modifier` in place of its own modifier; returns its index. The alias is a
@@ -44,7 +52,7 @@ class ModelBuilder {
     [[nodiscard]] std::int32_t alias_target(const std::string& name,
                                             const SourceLocation& where) const;
 
-    [[nodiscard]] const std::vector<Primitive>& primitives() const { return model_->primitives; }
+    [[nodiscard]] const Model& model() const { return *model_; }
 
     /// The model; the builder is empty afterwards.
     [[nodiscard]] std::shared_ptr<Model> take();

@@ -5,55 +5,19 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/error.h"
+#include "core/model/primitive_type.h"
+#include "core/model/surface_list.h"
 
 namespace lightwalk {
-
-enum class PrimitiveType : std::uint8_t {
-#define PRIMITIVE(id, word, kind) id,
-#include "core/model/primitive_types.def"
-};
-
-/// What a primitive type is for.
-enum class PrimitiveKind : std::uint8_t {
-    surface,
-    light,     ///< a material that emits
-    material,  ///< any other
-    texture,
-    pattern,
-    mixture,
-    spectrum,
-    alias,
-};
-
-/// The scene file's word for a type ("BRTDfunc"), and back; nothing for an unknown word.
-[[nodiscard]] std::string_view to_string(PrimitiveType type);
-[[nodiscard]] std::optional<PrimitiveType> primitive_type(std::string_view word);
-[[nodiscard]] PrimitiveKind kind_of(PrimitiveType type);
-[[nodiscard]] inline bool is_surface(PrimitiveType type) {
-    return kind_of(type) == PrimitiveKind::surface;
-}
-/// Materials that emit.
-[[nodiscard]] inline bool is_light(PrimitiveType type) {
-    return kind_of(type) == PrimitiveKind::light;
-}
-/// Materials of all kinds, lights among them.
-[[nodiscard]] inline bool is_material(PrimitiveType type) {
-    return is_light(type) || kind_of(type) == PrimitiveKind::material;
-}
-[[nodiscard]] inline bool is_mixture(PrimitiveType type) {
-    return kind_of(type) == PrimitiveKind::mixture;
-}
 
 inline constexpr std::int32_t kVoidIndex = -1;  ///< the modifier `void`
 inline constexpr std::int32_t kUndefinedIndex =
     -2;  ///< a name in a string argument that nothing defines
 
-/// One primitive. Modifiers are indices into the vector that holds the primitive, always of earlier
-/// ones.
+/// One primitive. Modifiers are indices into Model::modifiers, always of earlier ones.
 struct Primitive {
     PrimitiveType type{};
     std::int32_t modifier = kVoidIndex;
@@ -74,11 +38,20 @@ struct ModelCube {
     double size = 0;             ///< edge [m]
 };
 
-/// One name space: a scene, or the contents of one octree.
+class SurfaceShapes;
+
+/// One name space: a scene, or the contents of one octree. Modifiers and surfaces are numbered
+/// apart, each in the order of their definitions.
 struct Model {
-    std::vector<Primitive> primitives;
+    std::vector<Primitive> modifiers;
+    SurfaceList surfaces;
     std::vector<std::string> header;  ///< information header lines of an octree, without FORMAT
     std::optional<ModelCube> cube;    ///< as an octree states it; nothing for scene files
+    /// What make_shapes makes of `surfaces`, where it is known before; else null.
+    std::shared_ptr<const SurfaceShapes> shapes;
+
+    /// Primitives of all kinds.
+    [[nodiscard]] std::size_t size() const { return modifiers.size() + surfaces.size(); }
 };
 
 /// A compiled triangle mesh (.rtm): its materials and triangles.
@@ -89,7 +62,7 @@ struct MeshModel {
     struct Triangle {
         std::uint32_t v[3] =
             {};  ///< into `positions` (and `normals`, `uvs` where those are not empty)
-        std::int32_t material = kVoidIndex;  ///< into materials.primitives
+        std::int32_t material = kVoidIndex;  ///< into materials.modifiers
         bool has_normals = false, has_uvs = false;
     };
     Model materials;

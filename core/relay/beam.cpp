@@ -20,7 +20,7 @@ std::array<Vec3, 4> outline(const Shape& shape, const Plane& plane, const RelayD
         const Vec3 across = cross(plane.normal, along);
         low_a = low_b = kHuge;
         high_a = high_b = -kHuge;
-        for (const Vec3& vertex : polygon->vertices) {
+        for (const Vec3 vertex : polygon->vertices) {
             const Vec3 from_center = vertex - disk.center;
             const double a = dot(from_center, along), b = dot(from_center, across);
             low_a = std::min(low_a, a);

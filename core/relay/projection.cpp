@@ -115,10 +115,10 @@ std::optional<RelayDisk> relay_disk(const Shape& shape) {
     const auto* polygon = std::get_if<PolygonShape>(&shape);
     if (!polygon) return std::nullopt;
     RelayDisk disk;
-    for (const Vec3& p : polygon->vertices) disk.center += p;
+    for (const Vec3 p : polygon->vertices) disk.center += p;
     disk.center = disk.center / static_cast<double>(polygon->vertices.size());
     disk.center += polygon->normal * (polygon->offset - dot(polygon->normal, disk.center));
-    for (const Vec3& p : polygon->vertices)
+    for (const Vec3 p : polygon->vertices)
         disk.radius = std::max(disk.radius, length(p - disk.center));
     return disk;
 }

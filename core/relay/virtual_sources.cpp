@@ -13,9 +13,9 @@ bool relays_light(PrimitiveType type) {
            type == PrimitiveType::prism2;
 }
 
-/// The mirror or prism that a surface is made of, directly or as the alternate of an illum.
-std::optional<ModifierId> relay_material(const Scene& scene, const Surface& surface) {
-    auto id = scene.material_of(surface.modifier);
+/// The mirror or prism that a surface of this modifier is made of, directly or as the alternate of an illum.
+std::optional<ModifierId> relay_material(const Scene& scene, ModifierId modifier) {
+    auto id = scene.material_of(modifier);
     if (id && scene.modifier(*id).type == PrimitiveType::illum) {
         const std::vector<ModifierId>& alternate = scene.modifier(*id).references;
         if (alternate.empty() || alternate[0] == kVoid) return std::nullopt;
@@ -35,19 +35,20 @@ VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& t
 
 void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
     const Scene& scene = tracer_.scene();
+    ModifierId without = kVoid;  // relays nothing: millions of surfaces may have it in turn
     for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
         const SurfaceId id{static_cast<std::int32_t>(i)};
-        const Surface& surface = scene.surface(id);
-        const auto material = relay_material(scene, surface);
-        if (!material || surface.type == PrimitiveType::instance ||
-            surface.type == PrimitiveType::mesh)
-            continue;
-        if (std::holds_alternative<std::monostate>(surface.shape)) continue;
-        const auto plane = plane_of(surface.shape);
-        const auto disk = relay_disk(surface.shape);
+        const Surface surface = scene.surface(id);
+        if (surface.modifier() == without) continue;
+        const auto material = relay_material(scene, surface.modifier());
+        if (!material) without = surface.modifier();
+        if (!material || !surface.has_shape()) continue;
+        const Shape shape = surface.shape();
+        const auto plane = plane_of(shape);
+        const auto disk = relay_disk(shape);
         if (!plane || !disk) {
-            warnings.warn(to_prefix(surface.where) + std::string(to_string(surface.type)) + " \"" +
-                          surface.name + "\": only flat surfaces relay light to others");
+            warnings.warn(to_prefix(surface.where()) + std::string(to_string(surface.type())) +
+                          " \"" + std::string(surface.name()) + "\": only flat surfaces relay light to others");
             continue;
         }
         if (disk->radius * disk->radius <= kEpsilon) continue;
@@ -92,7 +93,7 @@ void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& nex
     made.is_virtual = made.follow = true;
     made.parent = parent_index;
     made.branch = branch;
-    made.beam = relay_beam(made, tracer_.scene().surface(next.surface).shape);
+    made.beam = relay_beam(made, tracer_.scene().surface(next.surface).shape());
     if (tracer_.options().relay_pretest > 0) {
         const Pretest outcome = pretest(parent_index, next, relayed.disk);
         if (outcome == Pretest::discard) return;
@@ -111,7 +112,7 @@ void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& nex
 /// there.
 bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Relay& next) const {
     if (!source.is_virtual) return true;
-    const auto plane = plane_of(tracer_.scene().surface(source.object).shape);
+    const auto plane = plane_of(tracer_.scene().surface(source.object).shape());
     if (!plane) return true;
     const double source_height =
         source.distant ? dot(plane->normal, source.center) : plane->height(source.center);

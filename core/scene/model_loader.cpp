@@ -7,10 +7,6 @@ namespace {
 
 constexpr std::size_t kMaxNesting = 64;  ///< instances inside instances
 
-bool is_placement(const Primitive& primitive) {
-    return primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh;
-}
-
 }  // namespace
 
 ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources)
@@ -19,42 +15,37 @@ ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resource
     root.model = std::move(scene);
     models.push_back(std::move(root));
     load_children(0, 0);
-    std::int32_t modifiers = 0, surfaces = 0;
+    std::int32_t modifiers = 0;
     for (LoadedModel& m : models) {
         m.modifier_base = modifiers;
-        m.surface_base = surfaces;
-        modifiers += static_cast<std::int32_t>(m.contents().primitives.size());
-        surfaces += m.mesh ? 1
-                           : static_cast<std::int32_t>(std::count_if(
-                                 m.model->primitives.begin(), m.model->primitives.end(),
-                                 [](const Primitive& p) { return is_surface(p.type); }));
+        modifiers += static_cast<std::int32_t>(m.contents().modifiers.size());
     }
 }
 
-std::uint32_t ModelLoader::load(const Primitive& placement, std::size_t depth) {
-    const std::string type(to_string(placement.type));
+std::uint32_t ModelLoader::load(const SurfacePrimitive& placement, std::size_t depth) {
+    const std::string type(to_string(placement.type)), name(placement.name);
     if (placement.strings.empty()) {
-        throw InputError(placement.where, type + " \"" + placement.name +
-                                              "\": bad number of arguments: "
-                                              "the name of a file is missing");
+        throw InputError(placement.where(), type + " \"" + name +
+                                                "\": bad number of arguments: "
+                                                "the name of a file is missing");
     }
-    const std::string key = type + " " + placement.strings[0];
+    const std::string file(placement.strings[0]), key = type + " " + file;
     if (std::find(open_.begin(), open_.end(), key) != open_.end()) {
-        throw InputError(placement.where, key + ": contains itself");
+        throw InputError(placement.where(), key + ": contains itself");
     }
     if (depth > kMaxNesting)
-        throw InputError(placement.where, key + ": instances nested too deeply");
+        throw InputError(placement.where(), key + ": instances nested too deeply");
     if (const auto known = loaded_.find(key); known != loaded_.end()) return known->second;
 
     LoadedModel loaded;
     try {
         if (placement.type == PrimitiveType::mesh) {
-            loaded.mesh = resources_.mesh(placement.strings[0]);
+            loaded.mesh = resources_.mesh(file);
         } else {
-            loaded.model = resources_.octree(placement.strings[0]);
+            loaded.model = resources_.octree(file);
         }
     } catch (const InputError& error) {
-        throw InputError(placement.where, type + " \"" + placement.name + "\": " + error.what());
+        throw InputError(placement.where(), type + " \"" + name + "\": " + error.what());
     }
     const auto id = static_cast<std::uint32_t>(models.size());
     models.push_back(std::move(loaded));
@@ -68,9 +59,10 @@ std::uint32_t ModelLoader::load(const Primitive& placement, std::size_t depth) {
 void ModelLoader::load_children(std::uint32_t model, std::size_t depth) {
     if (models[model].mesh) return;
     const std::shared_ptr<const Model> contents = models[model].model;  // `models` grows below
-    for (const Primitive& primitive : contents->primitives) {
-        if (!is_placement(primitive)) continue;
-        const std::uint32_t child = load(primitive, depth + 1);
+    const SurfaceList& surfaces = contents->surfaces;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (!is_placement(surfaces.type(i))) continue;
+        const std::uint32_t child = load(surfaces[i], depth + 1);
         models[model].children.push_back(child);
     }
 }

@@ -16,7 +16,7 @@ const Primitive& alias_target(const Model& model, const Primitive& primitive) {
         if (p->references.empty() || p->references[0] < 0) {
             throw InputError(p->where, "alias \"" + p->name + "\": bad reference");
         }
-        p = &model.primitives[static_cast<std::size_t>(p->references[0])];  // always an earlier one
+        p = &model.modifiers[static_cast<std::size_t>(p->references[0])];  // always an earlier one
     }
     return *p;
 }
@@ -39,25 +39,20 @@ ModifierId global(std::int32_t base, std::int32_t local) {
 
 ModifierTable::ModifierTable(const std::vector<LoadedModel>& models) {
     std::size_t count = 1;  // of the irradiance modes
-    for (const LoadedModel& loaded : models) count += loaded.contents().primitives.size();
+    for (const LoadedModel& loaded : models) count += loaded.contents().modifiers.size();
     records_.reserve(count);
     for (const LoadedModel& loaded : models) {
         const Model& model = loaded.contents();
-        for (const Primitive& primitive : model.primitives) {
+        for (const Primitive& primitive : model.modifiers) {
             ModifierRecord record;
-            record.type = primitive.type;
             record.name = primitive.name;
             record.named_phong = primitive.name == "Phong";
             record.next = global(loaded.modifier_base, primitive.modifier);
-            record.primitive = &primitive;
-            if (!is_surface(primitive.type)) {
-                const Primitive& acts_as = alias_target(model, primitive);
-                record.type = acts_as.type;
-                record.primitive = &acts_as;
-                for (const std::int32_t r : acts_as.references) {
-                    record.references.push_back(global(loaded.modifier_base, r));
-                }
-            }
+            const Primitive& acts_as = alias_target(model, primitive);
+            record.type = acts_as.type;
+            record.primitive = &acts_as;
+            for (const std::int32_t r : acts_as.references)
+                record.references.push_back(global(loaded.modifier_base, r));
             records_.push_back(std::move(record));
         }
     }
@@ -104,7 +99,7 @@ void ModifierTable::compile(const std::vector<LoadedModel>& models,
                             WarningSink& warnings) {
     unsupported(modifier_factory).raise();
     for (const LoadedModel& loaded : models) {
-        const auto count = static_cast<std::int32_t>(loaded.contents().primitives.size());
+        const auto count = static_cast<std::int32_t>(loaded.contents().modifiers.size());
         for (std::int32_t i = loaded.modifier_base; i < loaded.modifier_base + count; ++i) {
             ModifierRecord& record = records_[static_cast<std::size_t>(i)];
             if (!used_[static_cast<std::size_t>(i)]) continue;
@@ -160,6 +155,14 @@ SurfaceTraits ModifierTable::traits(ModifierId first) const {
     // Antimatter can cut any surface away.
     const bool blocks = traits.blocks_shadow_rays && !has_antimatter_;
     return {true, traits.transparent, blocks ? ShadowClass::blocks : ShadowClass::special};
+}
+
+ModifierTraits ModifierTable::all_traits() const {
+    std::vector<SurfaceTraits> all(records_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (used_[i]) all[i] = traits(ModifierId{static_cast<std::int32_t>(i)});
+    }
+    return {std::move(all), traits(kVoid)};
 }
 
 ModifierId ModifierTable::add(ModifierRecord record) {

@@ -8,10 +8,24 @@
 namespace lightwalk {
 
 struct Scene::Impl {
+    /// Surfaces that stand in no file: of one name, without shapes.
+    struct MadeSurfaces {
+        MadeSurfaces(PrimitiveType type, const char* name, std::int32_t modifier) {
+            list.add({type, modifier, name, {}, {}, nullptr, 0});
+            SurfaceShapes::Columns columns;
+            columns.rows.push_back({type, ShapeKind::none, {}, 0, modifier});
+            shapes = SurfaceShapes(std::move(columns));
+        }
+        SurfaceList list;
+        SurfaceShapes shapes;
+    };
+
     std::vector<LoadedModel> models;
     ModifierTable modifiers;
-    std::vector<Surface> surfaces;
-    std::size_t own_surfaces = 0;
+    SurfaceTable surfaces;  ///< part i: of model i; then the lambertian one
+    std::vector<std::shared_ptr<const SurfaceShapes>> shapes;  ///< of the parts
+    const MadeSurfaces triangles{PrimitiveType::mesh, "M-Tri", kVoidIndex};  ///< of each mesh
+    const MadeSurfaces lambertian_sphere{PrimitiveType::sphere, "irradiance", 0};
     std::unique_ptr<Primitive>
         lambertian;  ///< what irradiance modes put in place of every opaque material
     ModifierId lambertian_modifier = kVoid;
@@ -21,76 +35,54 @@ struct Scene::Impl {
     Impl(std::shared_ptr<const Model> model, Resources& resources)
         : models(std::move(ModelLoader(std::move(model), resources).models)), modifiers(models) {}
 
-    void collect_surfaces(WarningSink& warnings);
+    void collect_surfaces(WarningSink& warnings, const Team& team);
     void use_modifiers();
     void add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
                         WarningSink& warnings);
-    [[nodiscard]] ModelGeometry model_geometry(const LoadedModel& loaded) const;
-    void build_geometry();
+    [[nodiscard]] ModelGeometry model_geometry(std::size_t model) const;
+    void build_geometry(const Team& team);
 };
 
 namespace {
 
-Surface make_surface(const Primitive& primitive, std::int32_t modifier_base,
-                     WarningSink& warnings) {
-    Surface surface;
-    surface.type = primitive.type;
-    surface.modifier =
-        primitive.modifier < 0 ? kVoid : ModifierId{modifier_base + primitive.modifier};
-    surface.name = primitive.name;
-    surface.where = primitive.where;
-    if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh)
-        return surface;
-    ValidatedShape shape = make_shape(primitive);
-    if (!shape.warning.empty()) {
-        warnings.warn(to_prefix(primitive.where) + std::string(to_string(primitive.type)) + " \"" +
-                      primitive.name + "\": " + shape.warning);
-    }
-    surface.type = shape.type;
-    surface.shape = std::move(shape.shape);
-    return surface;
-}
-
-Transform placement_transform(const Primitive& primitive) {
-    const auto words = std::span(primitive.strings).subspan(1);
+Transform placement_transform(const SurfacePrimitive& primitive) {
+    const std::vector<std::string> strings = primitive.strings.to_strings();
+    const auto words = std::span(strings).subspan(1);
     const ParsedTransform parsed = parse_transform(words);
     if (parsed.words != words.size()) {
-        throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" +
-                                              primitive.name + "\": bad transform at \"" +
-                                              words[parsed.words] + "\"");
+        throw InputError(primitive.where(), std::string(to_string(primitive.type)) + " \"" +
+                                                std::string(primitive.name) +
+                                                "\": bad transform at \"" + words[parsed.words] +
+                                                "\"");
     }
     return parsed.transform;
 }
 
 }  // namespace
 
-void Scene::Impl::collect_surfaces(WarningSink& warnings) {
-    std::size_t count = 1;  // add_lambertian's
-    for (const LoadedModel& loaded : models)
-        count += loaded.mesh ? 1
-                             : static_cast<std::size_t>(std::count_if(
-                                   loaded.model->primitives.begin(), loaded.model->primitives.end(),
-                                   [](const Primitive& p) { return is_surface(p.type); }));
-    surfaces.reserve(count);
+void Scene::Impl::collect_surfaces(WarningSink& warnings, const Team& team) {
     for (const LoadedModel& loaded : models) {
         if (loaded.mesh) {
-            Surface triangles;
-            triangles.type = PrimitiveType::mesh;
-            triangles.name = "M-Tri";
-            surfaces.push_back(std::move(triangles));
+            surfaces.add(triangles.list, triangles.shapes, loaded.modifier_base);
             continue;
         }
-        for (const Primitive& primitive : loaded.model->primitives) {
-            if (is_surface(primitive.type)) {
-                surfaces.push_back(make_surface(primitive, loaded.modifier_base, warnings));
-            }
-        }
-        if (&loaded == models.data()) own_surfaces = surfaces.size();
+        const Model& model = *loaded.model;
+        shapes.push_back(model.shapes ? model.shapes
+                                      : std::make_shared<const SurfaceShapes>(
+                                            make_shapes(model.surfaces, team)));
+        for (const std::string& warning : shapes.back()->columns().warnings) warnings.warn(warning);
+        surfaces.add(model.surfaces, *shapes.back(), loaded.modifier_base);
     }
 }
 
 void Scene::Impl::use_modifiers() {
-    for (const Surface& surface : surfaces) modifiers.use(surface.modifier);
+    for (std::size_t m = 0; m < surfaces.part_count(); ++m) {
+        const SurfacePart& part = surfaces.part(m);
+        ModifierId last = kVoid;  // of millions of surfaces most have that of the one before
+        for (std::size_t i = 0; i < part.list->size(); ++i) {
+            if (part.modifier(i) != last) modifiers.use(last = part.modifier(i));
+        }
+    }
     for (const LoadedModel& loaded : models) {
         if (!loaded.mesh) continue;
         for (const MeshModel::Triangle& triangle : loaded.mesh->triangles) {
@@ -122,22 +114,21 @@ void Scene::Impl::add_lambertian(FindModifierFactory modifier_factory, Resources
     record.primitive = lambertian.get();
     record.node = modifier_factory(lambertian->type)(build);
     lambertian_modifier = modifiers.add(std::move(record));
-    Surface surface;
-    surface.type = PrimitiveType::sphere;  // not flat, and not in the geometry
-    surface.modifier = lambertian_modifier;
-    surface.traits = modifiers.traits(lambertian_modifier);
-    surface.name = lambertian->name;
-    surfaces.push_back(std::move(surface));
-    lambertian_surface = SurfaceId{static_cast<std::int32_t>(surfaces.size()) - 1};
+    const std::size_t part = surfaces.add(lambertian_sphere.list, lambertian_sphere.shapes,
+                                          index(lambertian_modifier));
+    lambertian_surface = surfaces.part(part).id(0);  // not flat, and not in the geometry
 }
 
-ModelGeometry Scene::Impl::model_geometry(const LoadedModel& loaded) const {
+ModelGeometry Scene::Impl::model_geometry(std::size_t model) const {
+    const LoadedModel& loaded = models[model];
+    const SurfacePart& own = surfaces.part(model);
     ModelGeometry geometry_of;
+    geometry_of.part = model;
     if (loaded.mesh) {
         MeshPart part;
         part.mesh = loaded.mesh.get();
-        part.surface = SurfaceId{loaded.surface_base};
-        for (std::size_t i = 0; i < loaded.mesh->materials.primitives.size(); ++i) {
+        part.surface = own.id(0);
+        for (std::size_t i = 0; i < loaded.mesh->materials.modifiers.size(); ++i) {
             part.materials.push_back(
                 ModifierId{loaded.modifier_base + static_cast<std::int32_t>(i)});
             part.traits.push_back(modifiers.traits(part.materials.back()));
@@ -149,48 +140,40 @@ ModelGeometry Scene::Impl::model_geometry(const LoadedModel& loaded) const {
         const Vec3 corner{cube->x, cube->y, cube->z};
         geometry_of.cube = Bounds{corner, corner + Vec3{cube->size, cube->size, cube->size}};
     }
-    std::int32_t next = loaded.surface_base;
+    const SurfaceList& list = *own.list;
     std::size_t placement = 0;
-    for (const Primitive& primitive : loaded.model->primitives) {
-        if (!is_surface(primitive.type)) continue;
-        const SurfaceId id{next++};
-        const Surface& surface = surfaces[static_cast<std::size_t>(index(id))];
-        if (primitive.type == PrimitiveType::instance || primitive.type == PrimitiveType::mesh) {
-            geometry_of.placements.push_back({loaded.children[placement++],
-                                              placement_transform(primitive), id,
-                                              surface.modifier != kVoid});
-        } else if (!std::holds_alternative<std::monostate>(surface.shape) &&
-                   !std::holds_alternative<SourceShape>(surface.shape)) {
-            geometry_of.surfaces.push_back(id);
-        }
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (!is_placement(list.type(i))) continue;
+        geometry_of.placements.push_back({loaded.children[placement++],
+                                          placement_transform(list[i]), own.id(i),
+                                          own.modifier(i) != kVoid});
     }
     return geometry_of;
 }
 
-void Scene::Impl::build_geometry() {
+void Scene::Impl::build_geometry(const Team& team) {
     GeometryInput input;
-    input.surfaces = surfaces;
-    for (const LoadedModel& loaded : models) input.models.push_back(model_geometry(loaded));
-    geometry = std::make_unique<Geometry>(std::move(input));
+    input.surfaces = &surfaces;
+    for (std::size_t i = 0; i < models.size(); ++i) input.models.push_back(model_geometry(i));
+    geometry = std::make_unique<Geometry>(std::move(input), std::string(), team);
 }
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-             Resources& resources, WarningSink& warnings)
+             Resources& resources, WarningSink& warnings, const Team& team)
     : impl_(std::make_unique<Impl>(std::move(model), resources)) {
-    impl_->collect_surfaces(warnings);
+    impl_->collect_surfaces(warnings, team);
     impl_->use_modifiers();
     impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings);
     impl_->add_lambertian(modifier_factory, resources, warnings);
-    for (Surface& surface : impl_->surfaces)
-        surface.traits = impl_->modifiers.traits(surface.modifier);
-    impl_->build_geometry();
+    impl_->surfaces.set_traits(impl_->modifiers.all_traits());
+    impl_->build_geometry(team);
 }
 
 ProblemList Scene::unsupported(std::shared_ptr<const Model> model,
                                FindModifierFactory modifier_factory, Resources& resources,
                                WarningSink& warnings) {
     Impl scene(std::move(model), resources);
-    scene.collect_surfaces(warnings);
+    scene.collect_surfaces(warnings, TeamOfOne());
     scene.use_modifiers();
     return scene.modifiers.unsupported(modifier_factory);
 }
@@ -200,11 +183,11 @@ Scene::~Scene() = default;
 const Geometry& Scene::geometry() const {
     return *impl_->geometry;
 }
-std::span<const Surface> Scene::surfaces() const {
+const SurfaceTable& Scene::surfaces() const {
     return impl_->surfaces;
 }
 std::size_t Scene::own_surfaces() const {
-    return impl_->own_surfaces;
+    return impl_->models[0].model->surfaces.size();
 }
 const ModifierRecord& Scene::modifier(ModifierId id) const {
     return impl_->modifiers[id];

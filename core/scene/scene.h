@@ -3,13 +3,13 @@
 // thread.
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/geometry/geometry.h"
 #include "core/model/resources.h"
 #include "core/problem_list.h"
 #include "core/scene/modifier.h"
+#include "core/team.h"
 
 namespace lightwalk {
 
@@ -25,9 +25,9 @@ class Scene {
     /// others are never reported. `modifier_factory` must know plastic. Throws InputError for bad
     /// surfaces, bad used modifiers, missing octrees and meshes, circular instances. A file that a
     /// modifier misses is a warning, and an InputError when a ray needs it. `model` and what
-    /// `resources` hands out are kept alive by the scene.
+    /// `resources` hands out are kept alive by the scene. `team` helps to build it.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-          Resources& resources, WarningSink& warnings);
+          Resources& resources, WarningSink& warnings, const Team& team = TeamOfOne());
     ~Scene();
     /// Of a scene that cannot be rendered anyway: every used modifier whose type is recognised but
     /// not supported, which would be refused as well. Throws InputError as the constructor does.
@@ -38,12 +38,10 @@ class Scene {
     Scene& operator=(const Scene&) = delete;
 
     [[nodiscard]] const Geometry& geometry() const;
-    [[nodiscard]] std::span<const Surface> surfaces()
+    [[nodiscard]] const SurfaceTable& surfaces()
         const;  ///< all models; the scene's own come first, in order
     [[nodiscard]] std::size_t own_surfaces() const;  ///< how many of them are the scene's own
-    [[nodiscard]] const Surface& surface(SurfaceId id) const {
-        return surfaces()[static_cast<std::size_t>(index(id))];
-    }
+    [[nodiscard]] Surface surface(SurfaceId id) const { return surfaces()[id]; }
     [[nodiscard]] const ModifierRecord& modifier(ModifierId id) const;  ///< id != kVoid
     [[nodiscard]] std::size_t modifier_count() const;
     [[nodiscard]] const Model& model() const;

@@ -19,7 +19,6 @@ struct LoadedModel {
     std::shared_ptr<const Model> model;     ///< the scene or an octree
     std::shared_ptr<const MeshModel> mesh;  ///< or a mesh, whose materials are its model
     std::int32_t modifier_base = 0;
-    std::int32_t surface_base = 0;
     std::vector<std::uint32_t> children;  ///< model of each instance or mesh primitive, in order
     [[nodiscard]] const Model& contents() const { return mesh ? mesh->materials : *model; }
 };
@@ -32,7 +31,7 @@ class ModelLoader {
     std::vector<LoadedModel> models;  ///< models[0] is the scene
 
   private:
-    std::uint32_t load(const Primitive& placement, std::size_t depth);
+    std::uint32_t load(const SurfacePrimitive& placement, std::size_t depth);
     void load_children(std::uint32_t model, std::size_t depth);
     Resources& resources_;
     std::map<std::string, std::uint32_t> loaded_;  ///< "instance NAME" / "mesh NAME"
@@ -59,6 +58,8 @@ class ModifierTable {
     [[nodiscard]] std::optional<ModifierId> material_of(ModifierId first) const;
     [[nodiscard]] bool is_transparent(ModifierId first) const;
     [[nodiscard]] SurfaceTraits traits(ModifierId first) const;
+    /// Of surfaces of each modifier that is in use.
+    [[nodiscard]] ModifierTraits all_traits() const;
     [[nodiscard]] bool has_antimatter() const { return has_antimatter_; }
     /// Add a modifier that no file holds; returns its id.
     ModifierId add(ModifierRecord record);

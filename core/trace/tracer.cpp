@@ -99,9 +99,9 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
         if (lights_->intersect_target(ray, *this)) {
             ray.unmirrored_distance = ray.hit.t;
             if (!shade_chain(ray, ray.hit.modifier, context)) {
-                throw InputError(scene_.surface(ray.hit.surface).where,
-                                 "light source \"" + scene_.surface(ray.hit.surface).name +
-                                     "\" has no material");
+                const Surface surface = scene_.surface(ray.hit.surface);
+                throw InputError(surface.where(), "light source \"" + std::string(surface.name()) +
+                                                      "\" has no material");
             }
             apply_medium(ray, context);
         }
@@ -163,7 +163,7 @@ void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
         if (ray.limit <= kEpsilon) {
             if (const std::optional<SurfaceId> seen = lights_->background(ray)) {
                 ray.hit.surface = *seen;
-                ray.hit.modifier = scene_.surface(*seen).modifier;
+                ray.hit.modifier = scene_.surface(*seen).modifier();
                 (void)shade_chain(ray, ray.hit.modifier, context);
             }
         }

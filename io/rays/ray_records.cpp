@@ -137,7 +137,7 @@ void RayRecords::append_field(char letter, const RayRecord& traced, const Scene&
                                        : Vec3{},
                                  output);
         case 's':
-            return name(hit ? scene.surface(ray.hit.surface).name : "");
+            return name(hit ? std::string(scene.surface(ray.hit.surface).name()) : "");
         case 'm':
             return name(hit && ray.hit.modifier != kVoid ? scene.modifier(ray.hit.modifier).name
                                                          : "void");

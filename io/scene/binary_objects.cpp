@@ -37,7 +37,32 @@ PrimitiveType type_of(BinaryReader& reader, const TypeTable& table, std::int64_t
     return *table.types[at];
 }
 
-Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type, std::size_t number) {
+/// What the numbers of objects mean in a model, which numbers modifiers apart.
+class ObjectNumbers {
+  public:
+    [[nodiscard]] std::size_t size() const { return modifiers_.size(); }
+    /// @param object  less than size(), or -1 for `void`
+    /// Throws InputError when it is a surface.
+    [[nodiscard]] std::int32_t modifier(std::int64_t object, const Model& model,
+                                        const BinaryReader& reader) const {
+        if (object < 0) return kVoidIndex;
+        const std::int32_t number = modifiers_[static_cast<std::size_t>(object)];
+        if (number >= 0) return number;
+        const SurfacePrimitive surface = model.surfaces[static_cast<std::size_t>(-1 - number)];
+        reader.fail("a surface cannot be a modifier: " + std::string(to_string(surface.type)) +
+                    " \"" + std::string(surface.name) + "\"");
+    }
+    void add(bool is_surface, std::int32_t number) {
+        modifiers_.push_back(is_surface ? -1 - number : number);
+    }
+
+  private:
+    std::vector<std::int32_t> modifiers_;  ///< by object; of surface i: -1 - i
+};
+
+Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type,
+                      const ObjectNumbers& numbers, const Model& model) {
+    const std::size_t number = numbers.size();
     Primitive object;
     object.type = type;
     object.where = {reader.name(), 0};
@@ -46,7 +71,7 @@ Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type, std
         reader.fail("object " + std::to_string(number) + " has modifier number " +
                     std::to_string(modifier) + ", expected that of an earlier object");
     }
-    object.modifier = static_cast<std::int32_t>(modifier);
+    object.modifier = numbers.modifier(modifier, model, reader);
     object.name = reader.string();
     const std::uint64_t strings = reader.unsigned_integer(2);
     reader.expect(strings, 1);
@@ -60,15 +85,11 @@ Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type, std
 }
 
 /// An alias without a string renames its modifier; with one it is an alias of the scene language.
-void add_object(ModelBuilder& builder, Primitive object) {
-    if (object.type != PrimitiveType::alias) {
-        builder.add(std::move(object));
-    } else if (object.strings.empty()) {
-        builder.rename(object.name, object.modifier, object.where);
-    } else {
-        const std::int32_t target = builder.alias_target(object.strings[0], object.where);
-        builder.add_alias(object.modifier, object.name, target, object.where);
-    }
+std::int32_t add_object(ModelBuilder& builder, Primitive object) {
+    if (object.type != PrimitiveType::alias) return builder.add(std::move(object));
+    if (object.strings.empty()) return builder.rename(object.name, object.modifier, object.where);
+    const std::int32_t target = builder.alias_target(object.strings[0], object.where);
+    return builder.add_alias(object.modifier, object.name, target, object.where);
 }
 
 }  // namespace
@@ -111,9 +132,12 @@ std::uint64_t skip_tree(BinaryReader& reader, int id_size) {
 
 void read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder) {
     const TypeTable table = read_type_table(reader);
+    ObjectNumbers numbers;
     for (std::int64_t type = reader.integer(1); type != -1; type = reader.integer(1)) {
         const PrimitiveType known = type_of(reader, table, type);
-        add_object(builder, read_object(reader, id_size, known, builder.primitives().size()));
+        numbers.add(is_surface(known),
+                    add_object(builder,
+                               read_object(reader, id_size, known, numbers, builder.model())));
     }
 }
 

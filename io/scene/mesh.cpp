@@ -62,10 +62,9 @@ class MeshDecoder {
     void read_materials(int id_size) {
         ModelBuilder builder;
         read_objects(reader_, id_size, builder);
-        for (const Primitive& object : builder.primitives()) {
-            if (is_surface(object.type))
-                reader_.fail("non-modifier \"" + object.name + "\" in mesh");
-        }
+        if (!builder.model().surfaces.empty())
+            reader_.fail("non-modifier \"" + std::string(builder.model().surfaces[0].name) +
+                         "\" in mesh");
         mesh_.materials = std::move(*builder.take());
     }
 
@@ -191,7 +190,7 @@ class MeshDecoder {
     }
 
     std::int32_t material_index(std::int32_t number) const {
-        const std::size_t count = mesh_.materials.primitives.size();
+        const std::size_t count = mesh_.materials.modifiers.size();
         if (count == 0) return kVoidIndex;
         if (number < 0 || static_cast<std::size_t>(number) >= count) {
             reader_.fail("bad triangle material " + std::to_string(number));

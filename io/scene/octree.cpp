@@ -50,7 +50,7 @@ OctreeContents decode_octree(std::string_view bytes, const std::string& name) {
 
     ModelBuilder builder;
     read_objects(reader, size, builder);
-    const std::size_t objects = builder.primitives().size();
+    const std::size_t objects = builder.model().size();
     if (objects < contents.objects) {
         reader.fail("holds " + std::to_string(objects) + " objects, expected " +
                     std::to_string(contents.objects));

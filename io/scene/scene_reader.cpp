@@ -48,14 +48,14 @@ class SceneReader {
         read_text(text, name, nullptr, 0);
     }
 
-    [[nodiscard]] std::size_t size() const { return builder_.primitives().size(); }
+    [[nodiscard]] std::size_t size() const { return builder_.model().size(); }
     [[nodiscard]] std::shared_ptr<Model> take() { return builder_.take(); }
 
   private:
     /// `outer` is where the command stands whose output this is; null for files.
     void read_text(std::string_view text, const std::string& name, const SourceLocation* outer,
                    int depth) {
-        const std::size_t before = builder_.primitives().size();
+        const std::size_t before = builder_.model().size();
         SceneTokenizer tokens(text, name);
         for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
             switch (item) {
@@ -69,7 +69,7 @@ class SceneReader {
                     read_item(tokens, outer);
             }
         }
-        if (builder_.primitives().size() == before && problems_.empty())
+        if (builder_.model().size() == before && problems_.empty())
             warnings_.warn(name + ": empty file");
     }
 

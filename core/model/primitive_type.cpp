@@ -1,4 +1,4 @@
-#include "core/model/primitive.h"
+#include "core/model/primitive_type.h"
 
 #include <algorithm>
 #include <array>
@@ -38,6 +38,10 @@ std::optional<PrimitiveType> primitive_type(std::string_view word) {
 
 PrimitiveKind kind_of(PrimitiveType type) {
     return row(type).kind;
+}
+
+std::size_t primitive_type_count() {
+    return kRows.size();
 }
 
 }  // namespace lightwalk

@@ -1,0 +1,239 @@
+#include "core/geometry/surface_shapes.h"
+
+#include <array>
+#include <cmath>
+#include <exception>
+#include <utility>
+#include <variant>
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kKinds = 6;
+
+/// Before it is validated.
+ShapeKind kind_of_type(PrimitiveType type) {
+    using enum PrimitiveType;
+    switch (type) {
+        case polygon:
+            return ShapeKind::polygon;
+        case sphere:
+        case bubble:
+            return ShapeKind::sphere;
+        case cone:
+        case cup:
+        case cylinder:
+        case tube:
+            return ShapeKind::cone;
+        case ring:
+            return ShapeKind::ring;
+        case source:
+            return ShapeKind::source;
+        default:
+            return ShapeKind::none;
+    }
+}
+
+using Counts = std::array<std::uint32_t, kKinds>;
+
+std::uint32_t& count_of(Counts& counts, ShapeKind kind) {
+    return counts[static_cast<std::size_t>(kind)];
+}
+
+/// What is known of a part of the list.
+struct Part {
+    Counts first{};  ///< where its shapes begin in each column
+    std::vector<std::string> warnings;
+    std::exception_ptr error;
+};
+
+/// The columns while they are filled. Each surface has a place in that of its kind, used or not, so
+/// that all parts of the list can be filled side by side.
+struct OpenColumns {
+    std::span<ShapeRow> rows;
+    std::span<PolygonPlane> planes;
+    std::span<SphereShape> spheres;
+    std::span<ConeShape> cones;
+    std::span<RingShape> rings;
+    std::span<SourceShape> sources;
+
+    void put(std::uint32_t at, const PolygonShape& polygon, std::uint32_t first_real,
+             ShapeRow& row) const {
+        planes[at] = {polygon.normal, polygon.offset, first_real,
+                      static_cast<std::uint32_t>(polygon.vertices.size())};
+        row.manner = {static_cast<std::uint8_t>(polygon.drop_axis),
+                      !std::isnan(polygon.rectangle.low_x)};
+    }
+    void put(std::uint32_t at, const Shape& shape, std::uint32_t first_real, ShapeRow& row) const {
+        if (const auto* polygon = std::get_if<PolygonShape>(&shape))
+            put(at, *polygon, first_real, row);
+        else if (const auto* sphere = std::get_if<SphereShape>(&shape))
+            spheres[at] = *sphere;
+        else if (const auto* cone = std::get_if<ConeShape>(&shape))
+            cones[at] = *cone;
+        else if (const auto* ring = std::get_if<RingShape>(&shape))
+            rings[at] = *ring;
+        else if (const auto* source = std::get_if<SourceShape>(&shape))
+            sources[at] = *source;
+    }
+};
+
+void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
+               const OpenColumns& columns, Part& part) {
+    Counts next = part.first;
+    for (std::size_t i = first; i < last; ++i) {
+        const SurfacePrimitive surface = list[i];
+        ShapeRow& row = columns.rows[i];
+        row.type = surface.type;
+        row.modifier = surface.modifier;
+        const ShapeKind kind = kind_of_type(surface.type);
+        if (kind == ShapeKind::none) continue;
+        row.index = count_of(next, kind)++;
+        const ValidatedShape valid = make_shape(surface);
+        if (!valid.warning.empty()) {
+            part.warnings.push_back(to_prefix(surface.where()) +
+                                    std::string(to_string(surface.type)) + " \"" +
+                                    std::string(surface.name) + "\": " + valid.warning);
+        }
+        row.type = valid.type;
+        if (std::holds_alternative<std::monostate>(valid.shape)) continue;
+        row.kind = kind;
+        columns.put(row.index, valid.shape, list.first_real(i), row);
+    }
+}
+
+/// Counts the shapes before each part; returns those of all.
+Counts count_shapes(const SurfaceList& list, const Team& team, std::vector<Part>& parts) {
+    for_each_part(team, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            ++count_of(parts[part].first, kind_of_type(list.type(i)));
+    });
+    Counts all{};
+    for (Part& part : parts) {
+        for (std::size_t k = 0; k < kKinds; ++k)
+            part.first[k] = std::exchange(all[k], all[k] + part.first[k]);
+    }
+    return all;
+}
+
+[[noreturn]] void refuse_shapes(const char* what) {
+    throw InputError(std::string("damaged shapes: ") + what);
+}
+
+bool is_usable(const Vec3& v) {
+    return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
+           std::abs(v.z) <= kLargestCoordinate;
+}
+
+/// That the search finds no more corners than there are, nor divides by zero.
+void check_polygon(const ShapeRow& row, const SurfaceShapes::Columns& columns,
+                   std::size_t first_real, std::size_t reals) {
+    const PolygonPlane& plane = columns.planes[row.index];
+    if (row.manner.drop_axis > 2) refuse_shapes("an axis that is none");
+    if (plane.first_real != first_real || plane.corners < 3 || plane.corners > reals / 3 ||
+        (row.manner.is_rectangle && plane.corners != 4))
+        refuse_shapes("a polygon with other corners");
+    if (!is_usable(plane.normal) || !(std::abs(plane.offset) <= 4 * kLargestCoordinate) ||
+        plane.normal[row.manner.drop_axis] == 0)
+        refuse_shapes("a polygon without a plane");
+}
+
+std::size_t column_size(const SurfaceShapes::Columns& columns, ShapeKind kind) {
+    switch (kind) {
+        case ShapeKind::polygon:
+            return columns.planes.size();
+        case ShapeKind::sphere:
+            return columns.spheres.size();
+        case ShapeKind::cone:
+            return columns.cones.size();
+        case ShapeKind::ring:
+            return columns.rings.size();
+        case ShapeKind::source:
+            return columns.sources.size();
+        default:
+            return 0;
+    }
+}
+
+}  // namespace
+
+SurfaceShapes::SurfaceShapes(Columns columns, const SurfaceList& list)
+    : columns_(std::move(columns)) {
+    if (size() != list.size()) refuse_shapes("not one a surface");
+    for (std::size_t i = 0; i < size(); ++i) {
+        const ShapeRow& own = row(i);
+        if (static_cast<std::size_t>(own.type) >= primitive_type_count() ||
+            own.modifier != list.modifier(i) || kind_of_type(own.type) != kind_of_type(list.type(i)))
+            refuse_shapes("another type or modifier");
+        if (own.kind == ShapeKind::none) continue;
+        if (own.kind != kind_of_type(own.type) || own.index >= column_size(columns_, own.kind))
+            refuse_shapes("a place that is none");
+        if (own.kind != ShapeKind::polygon) continue;
+        const std::size_t first = list.first_real(i),
+                          end = i + 1 < size() ? list.first_real(i + 1) : list.reals().size();
+        check_polygon(own, columns_, first, end - first);
+    }
+    for (const double real : list.reals())
+        if (!std::isfinite(real)) refuse_shapes("a number that is none");
+}
+
+Shape SurfaceShapes::shape(const SurfaceList& list, std::size_t i) const {
+    const ShapeRow& own = row(i);
+    switch (own.kind) {
+        case ShapeKind::polygon:
+            return polygon(list, own);
+        case ShapeKind::sphere:
+            return columns_.spheres[own.index];
+        case ShapeKind::cone:
+            return columns_.cones[own.index];
+        case ShapeKind::ring:
+            return columns_.rings[own.index];
+        case ShapeKind::source:
+            return columns_.sources[own.index];
+        default:
+            return std::monostate{};
+    }
+}
+
+PolygonShape SurfaceShapes::polygon(const SurfaceList& list, const ShapeRow& row) const {
+    const PolygonPlane& plane = columns_.planes[row.index];
+    PolygonShape polygon;
+    polygon.vertices = PointList(list.reals().values().subspan(
+        plane.first_real, std::size_t{3} * plane.corners));
+    polygon.normal = plane.normal;
+    polygon.offset = plane.offset;
+    polygon.drop_axis = row.manner.drop_axis;
+    if (row.manner.is_rectangle) polygon.rectangle = rectangle_of(polygon);
+    return polygon;
+}
+
+std::size_t SurfaceShapes::own_bytes() const {
+    return columns_.rows.own_bytes() + columns_.planes.own_bytes() + columns_.spheres.own_bytes() +
+           columns_.cones.own_bytes() + columns_.rings.own_bytes() + columns_.sources.own_bytes();
+}
+
+SurfaceShapes make_shapes(const SurfaceList& list, const Team& team) {
+    std::vector<Part> parts(part_count(list.size()));
+    Counts counts = count_shapes(list, team, parts);
+    SurfaceShapes::Columns columns;
+    const OpenColumns open{columns.rows.resize(list.size()),
+                           columns.planes.resize(count_of(counts, ShapeKind::polygon)),
+                           columns.spheres.resize(count_of(counts, ShapeKind::sphere)),
+                           columns.cones.resize(count_of(counts, ShapeKind::cone)),
+                           columns.rings.resize(count_of(counts, ShapeKind::ring)),
+                           columns.sources.resize(count_of(counts, ShapeKind::source))};
+    for_each_part(team, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+        try {
+            fill_part(list, first, last, open, parts[part]);
+        } catch (...) {
+            parts[part].error = std::current_exception();  // the first in the list's order counts
+        }
+    });
+    for (Part& part : parts) {
+        for (std::string& warning : part.warnings) columns.warnings.push_back(std::move(warning));
+        if (part.error) std::rethrow_exception(part.error);
+    }
+    return SurfaceShapes(std::move(columns));
+}
+
+}  // namespace lightwalk

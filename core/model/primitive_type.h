@@ -1,0 +1,53 @@
+#pragma once
+// The primitive types of the scene language. See "The Radiance 6.x Scene Description Language"
+// (Radiance's ray.pdf).
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace lightwalk {
+
+enum class PrimitiveType : std::uint8_t {
+#define PRIMITIVE(id, word, kind) id,
+#include "core/model/primitive_types.def"
+};
+
+/// What a primitive type is for.
+enum class PrimitiveKind : std::uint8_t {
+    surface,
+    light,     ///< a material that emits
+    material,  ///< any other
+    texture,
+    pattern,
+    mixture,
+    spectrum,
+    alias,
+};
+
+/// The scene file's word for a type ("BRTDfunc"), and back; nothing for an unknown word.
+[[nodiscard]] std::string_view to_string(PrimitiveType type);
+[[nodiscard]] std::optional<PrimitiveType> primitive_type(std::string_view word);
+[[nodiscard]] PrimitiveKind kind_of(PrimitiveType type);
+/// How many types there are; their numbers count from 0.
+[[nodiscard]] std::size_t primitive_type_count();
+[[nodiscard]] inline bool is_surface(PrimitiveType type) {
+    return kind_of(type) == PrimitiveKind::surface;
+}
+/// Materials that emit.
+[[nodiscard]] inline bool is_light(PrimitiveType type) {
+    return kind_of(type) == PrimitiveKind::light;
+}
+/// Materials of all kinds, lights among them.
+[[nodiscard]] inline bool is_material(PrimitiveType type) {
+    return is_light(type) || kind_of(type) == PrimitiveKind::material;
+}
+[[nodiscard]] inline bool is_mixture(PrimitiveType type) {
+    return kind_of(type) == PrimitiveKind::mixture;
+}
+/// Surfaces that place another model.
+[[nodiscard]] inline bool is_placement(PrimitiveType type) {
+    return type == PrimitiveType::instance || type == PrimitiveType::mesh;
+}
+
+}  // namespace lightwalk

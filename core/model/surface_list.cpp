@@ -1,0 +1,170 @@
+#include "core/model/surface_list.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "core/model/primitive.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+
+[[noreturn]] void refuse(const char* what) {
+    throw InputError(std::string("damaged surfaces: ") + what);
+}
+
+/// What can be said of one record without the others.
+void check_record(const SurfaceRecord& record, const SurfaceList::Columns& columns,
+                  std::size_t modifiers, unsigned file_bits) {
+    const std::size_t type = record.file_and_type >> file_bits,
+                      file = record.file_and_type & ((1U << file_bits) - 1);
+    if (type >= primitive_type_count() || !is_surface(static_cast<PrimitiveType>(type)))
+        refuse("a type that is none");
+    if (file >= columns.files.size()) refuse("a file that is none");
+    if (record.name >= columns.text.size()) refuse("a name beyond the text");
+    if (record.modifier < kVoidIndex ||
+        record.modifier >= static_cast<std::int64_t>(modifiers))
+        refuse("a modifier that is none");
+}
+
+/// In the order of the surfaces, and of the text: a look at every byte once settles it.
+void check_strings(const SurfaceList::Columns& columns) {
+    std::size_t surface = 0, at = 0;
+    for (const SurfaceStrings& strings : columns.strings) {
+        if (strings.surface < surface || strings.surface >= columns.records.size() ||
+            strings.text < at)
+            refuse("strings of no surface");
+        surface = std::size_t{strings.surface} + 1;
+        at = strings.text;
+        for (std::uint32_t i = 0; i < strings.count; ++i) {
+            if (at >= columns.text.size()) refuse("more strings than text");
+            at += std::strlen(columns.text.data() + at) + 1;
+        }
+    }
+}
+
+}  // namespace
+
+std::string_view StringArguments::operator[](std::size_t i) const {
+    const char* text = first_;
+    for (; i > 0; --i) text += std::strlen(text) + 1;
+    return text;
+}
+
+std::vector<std::string> StringArguments::to_strings() const {
+    std::vector<std::string> strings;
+    strings.reserve(count_);
+    const char* text = first_;
+    for (std::size_t i = 0; i < count_; ++i) {
+        strings.emplace_back(text);
+        text += strings.back().size() + 1;
+    }
+    return strings;
+}
+
+SurfaceList::SurfaceList(Columns columns, std::size_t modifiers) : columns_(std::move(columns)) {
+    const Columns& c = columns_;
+    if (c.records.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) ||
+        c.reals.size() > kMost || c.text.size() > kMost)
+        refuse("too many");
+    if (!c.text.empty() && c.text.back() != '\0') refuse("text without an end");
+    std::uint32_t from = 0;
+    for (const SurfaceRecord& record : c.records) {
+        check_record(record, c, modifiers, kFileBits);
+        if (record.first_real < from || record.first_real > c.reals.size())
+            refuse("numbers that are none");
+        from = record.first_real;
+    }
+    check_strings(c);
+}
+
+std::uint32_t SurfaceList::file_number(const FileName* file) {
+    std::vector<FileName>& files = columns_.files;
+    const FileName none;
+    const FileName& name = file != nullptr ? *file : none;
+    if (files.empty() || !(files.back().is(name) || files.back() == name)) files.push_back(name);
+    if (files.size() > std::size_t{1} << kFileBits) throw InputError("too many files in one model");
+    return static_cast<std::uint32_t>(files.size() - 1);
+}
+
+std::uint32_t SurfaceList::add_text(std::string_view text) {
+    const std::size_t at = columns_.text.size();
+    if (at + text.size() >= kMost) throw InputError("too many names in one model");
+    text = text.substr(0, text.find('\0'));
+    columns_.text.append(text);
+    columns_.text.push_back('\0');
+    return static_cast<std::uint32_t>(at);
+}
+
+std::size_t SurfaceList::add_record(const SurfacePrimitive& surface) {
+    const std::size_t number = size(), first = columns_.reals.size();
+    if (number >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) ||
+        first + surface.reals.size() >= kMost)
+        throw InputError(surface.where(), "too many surfaces in one model");
+    const std::uint32_t file = file_number(surface.file);
+    columns_.reals.append(surface.reals);
+    columns_.records.push_back({static_cast<std::uint32_t>(first), add_text(surface.name),
+                                surface.modifier, surface.line,
+                                static_cast<std::uint32_t>(surface.type) << kFileBits | file});
+    return number;
+}
+
+std::size_t SurfaceList::add(const SurfacePrimitive& surface) {
+    const std::size_t number = add_record(surface);
+    for (std::size_t i = 0; i < surface.strings.size(); ++i) {
+        const std::uint32_t at = add_text(surface.strings[i]);
+        if (i == 0)
+            columns_.strings.push_back({static_cast<std::uint32_t>(number), at,
+                                        static_cast<std::uint32_t>(surface.strings.size())});
+    }
+    return number;
+}
+
+std::size_t SurfaceList::add(const Primitive& surface) {
+    std::string text;
+    for (const std::string& argument : surface.strings) {
+        text.append(argument, 0, argument.find('\0'));
+        text.push_back('\0');
+    }
+    return add({surface.type, surface.modifier, surface.name,
+                StringArguments(text.c_str(), surface.strings.size()), surface.reals,
+                &surface.where.file, surface.where.line});
+}
+
+void SurfaceList::expect(std::size_t surfaces, std::size_t reals, std::size_t text) {
+    columns_.records.reserve(size() + surfaces);
+    columns_.reals.reserve(columns_.reals.size() + reals);
+    columns_.text.reserve(columns_.text.size() + text);
+}
+
+void SurfaceList::trim() {
+    columns_.records.trim();
+    columns_.reals.trim();
+    columns_.text.trim();
+    columns_.strings.trim();
+    columns_.files.shrink_to_fit();
+}
+
+SurfacePrimitive SurfaceList::operator[](std::size_t i) const {
+    const SurfaceRecord& record = columns_.records[i];
+    const std::size_t end = i + 1 < size() ? first_real(i + 1) : columns_.reals.size();
+    SurfacePrimitive surface{type(i), record.modifier, columns_.text.data() + record.name, {}, {},
+                             &columns_.files[record.file_and_type & ((1U << kFileBits) - 1)],
+                             record.line};
+    surface.reals = {columns_.reals.data() + record.first_real, end - record.first_real};
+    const auto* const strings = std::lower_bound(
+        columns_.strings.data(), columns_.strings.data() + columns_.strings.size(), i,
+        [](const SurfaceStrings& s, std::size_t number) { return s.surface < number; });
+    if (strings != columns_.strings.data() + columns_.strings.size() && strings->surface == i)
+        surface.strings = {columns_.text.data() + strings->text, strings->count};
+    return surface;
+}
+
+std::size_t SurfaceList::own_bytes() const {
+    return columns_.records.own_bytes() + columns_.reals.own_bytes() + columns_.text.own_bytes() +
+           columns_.strings.own_bytes() + columns_.files.capacity() * sizeof(FileName);
+}
+
+}  // namespace lightwalk
