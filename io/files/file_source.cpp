@@ -13,12 +13,15 @@ namespace lightwalk {
 namespace {
 
 /// As hexadecimal digits.
-/// @param kind  of bytes: equal ones of different kinds have different digests
-std::string digest_of(std::string_view bytes, char kind) {
-    const std::uint64_t digest = digest_of_bytes(bytes, static_cast<unsigned char>(kind));
+std::string digits_of(std::uint64_t digest) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(digest));
     return text.data();
+}
+
+/// @param kind  of bytes: equal ones of different kinds have different digests
+std::string digest_of(std::string_view bytes, char kind) {
+    return digits_of(digest_of_bytes(bytes, static_cast<unsigned char>(kind)));
 }
 
 void append_text(std::string& out, std::string_view text) {
@@ -86,6 +89,10 @@ void FileRecorder::note(Question question, const std::string& text, char kind,
     const bool is_file = question == Question::bytes;
     const std::string name = is_file ? text.substr(text.rfind('/') + 1) : printable(text);
     digests_.push_back(name.substr(0, name.find('\n')) + ' ' + digest_of(said, kind));
+}
+
+void FileRecorder::note_mapped(const std::string& path, std::uint64_t digest) {
+    digests_.push_back(path.substr(path.rfind('/') + 1) + ' ' + digits_of(digest));
 }
 
 std::optional<std::string> FileRecorder::ask(Question question, const std::string& text,
