@@ -141,6 +141,43 @@ SurfaceList thaw_surfaces(const FrozenFile& file, std::uint32_t number, std::vec
     return {std::move(columns), modifiers};
 }
 
+bool within_reach(double x) {
+    return std::abs(x) <= kLargestCoordinate;
+}
+bool within_reach(const Vec3& v) {
+    return within_reach(v.x) && within_reach(v.y) && within_reach(v.z);
+}
+bool is_usable(const SphereShape& sphere) {
+    return within_reach(sphere.center) && sphere.radius > 0 && within_reach(sphere.radius);
+}
+bool is_usable(const ConeShape& cone) {
+    return within_reach(cone.p0) && within_reach(cone.p1) && within_reach(cone.axis) &&
+           cone.r0 >= 0 && cone.r1 >= cone.r0 && within_reach(cone.r1) && cone.length > 0 &&
+           within_reach(cone.length) && std::isfinite(cone.slope);
+}
+bool is_usable(const RingShape& ring) {
+    return within_reach(ring.center) && within_reach(ring.normal) && ring.r0 >= 0 &&
+           ring.r1 >= ring.r0 && within_reach(ring.r1);
+}
+bool is_usable(const SourceShape& source) {
+    return within_reach(source.direction) && std::isfinite(source.solid_angle);
+}
+
+/// That the shapes that are in use, those of some row, hold numbers that a search can bear.
+void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns) {
+    for (const ShapeRow& row : columns.rows) {
+        const auto usable = [&](const auto& column) {
+            return row.index < column.size() && is_usable(column[row.index]);
+        };
+        const bool good = row.kind == ShapeKind::sphere   ? usable(columns.spheres)
+                          : row.kind == ShapeKind::cone   ? usable(columns.cones)
+                          : row.kind == ShapeKind::ring   ? usable(columns.rings)
+                          : row.kind == ShapeKind::source ? usable(columns.sources)
+                                                          : true;
+        if (!good) refuse_column(file, "a shape that is none");
+    }
+}
+
 SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const SurfaceList& list,
                           std::vector<std::string> warnings) {
     SurfaceShapes::Columns columns;
@@ -155,6 +192,7 @@ SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const Su
                 offsetof(ShapeRow, manner) + offsetof(PolygonManner, is_rectangle));
     check_bools(file, columns.spheres.values(), offsetof(SphereShape, inward));
     check_bools(file, columns.cones.values(), offsetof(ConeShape, inward));
+    check_shapes(file, columns);
     return {std::move(columns), list};
 }
 
