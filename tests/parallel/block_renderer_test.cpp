@@ -192,7 +192,7 @@ TEST_CASE(
     const Frame frame = room.frame(options);
     const auto name = [&](const PixelHit& hit) {
         return hit.surface == kNoSurface ? std::string()
-                                         : room.scene.scene.surface(hit.surface).name;
+                                         : std::string(room.scene.scene.surface(hit.surface).name());
     };
     std::vector<std::string> seen;
     for (int y = 0; y < 73; ++y) {
@@ -204,7 +204,7 @@ TEST_CASE(
                 CHECK(hit.position == room_view().position);
                 continue;
             }
-            CHECK(hit.modifier == room.scene.scene.surface(hit.surface).modifier);
+            CHECK(hit.modifier == room.scene.scene.surface(hit.surface).modifier());
             const Camera::ImagePosition image = room.camera.locate(hit.position);
             CHECK(image.h * 97 == doctest::Approx(x + 0.5).epsilon(1e-9));  // rounding of doubles
             CHECK(image.v * 73 == doctest::Approx(y + 0.5).epsilon(1e-9));

@@ -2,6 +2,8 @@
 // Random scenes for the ray casting tests, and the slow way to cast a ray through them.
 #include <cmath>
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +11,7 @@
 
 #include "core/geometry/geometry.h"
 #include "core/math/random.h"
+#include "tests/all_primitives.h"
 
 namespace lightwalk::test {
 
@@ -21,20 +24,41 @@ inline Primitive primitive(PrimitiveType type, std::vector<double> reals) {
     return result;
 }
 
-inline Surface surface(PrimitiveType type, std::vector<double> reals, int modifier,
-                       SurfaceTraits traits) {
-    ValidatedShape valid = make_shape(primitive(type, std::move(reals)));
-    Surface result;
-    result.type = valid.type;
-    result.shape = std::move(valid.shape);
-    result.modifier = ModifierId{modifier};
-    result.traits = traits;
-    return result;
+/// The same, kept until the program ends: shapes are views of its numbers.
+inline SurfacePrimitive kept_primitive(PrimitiveType type, std::vector<double> reals) {
+    static std::deque<Primitive> all;
+    return view_of(all.emplace_back(primitive(type, std::move(reals))));
 }
 
 inline constexpr SurfaceTraits kOpaque{true, false, ShadowClass::blocks};
 inline constexpr SurfaceTraits kGlass{true, true, ShadowClass::special};
 inline constexpr SurfaceTraits kNoMaterial{false, false, ShadowClass::ignored};
+
+/// Traits belong to modifiers: each number stands for three modifiers, one for each of the above.
+inline ModifierId modifier_of(int number, const SurfaceTraits& traits) {
+    const int kind = !traits.has_material ? 0 : traits.transparent ? 1 : 2;
+    return number < 0 ? kVoid : ModifierId{3 * number + kind};
+}
+/// Of all modifiers that modifier_of gives for numbers below 1000; void is none.
+inline ModifierTraits test_traits() {
+    std::vector<SurfaceTraits> traits;
+    for (int number = 0; number < 1000; ++number)
+        traits.insert(traits.end(), {kNoMaterial, kGlass, kOpaque});
+    return {traits, kNoMaterial};
+}
+
+/// A surface of a test scene.
+struct TestSurface : Primitive {
+    [[nodiscard]] SurfaceTraits traits() const { return test_traits()[ModifierId{modifier}]; }
+};
+
+inline TestSurface surface(PrimitiveType type, std::vector<double> reals, int number,
+                           SurfaceTraits traits) {
+    TestSurface result;
+    static_cast<Primitive&>(result) = primitive(type, std::move(reals));
+    result.modifier = index(modifier_of(number, traits));
+    return result;
+}
 
 /// A similarity: scale, mirror along x, turn about an axis, move.
 inline Transform similarity(double scale, bool mirror, const Vec3& axis, double angle,
@@ -55,34 +79,84 @@ inline Transform similarity(double scale, bool mirror, const Vec3& axis, double 
     return t;
 }
 
-/// Surfaces and models that outlive the Geometry built from them.
-struct TestModels {
-    std::vector<Surface> surfaces;
-    std::vector<ModelGeometry> models = std::vector<ModelGeometry>(1);
-    std::vector<MeshModel> meshes;
+class BuiltGeometry;
 
-    SurfaceId add(Surface s, std::size_t model = 0) {
-        const SurfaceId id{static_cast<std::int32_t>(surfaces.size())};
-        surfaces.push_back(std::move(s));
-        if (!std::holds_alternative<std::monostate>(surfaces.back().shape))
-            models[model].surfaces.push_back(id);
-        return id;
+/// Models, and what a Geometry is built from.
+struct TestModels {
+    struct Contents {
+        std::vector<TestSurface> surfaces;
+        ModelGeometry geometry;  ///< placements name surfaces by their numbers in this model
+    };
+    std::vector<Contents> models = std::vector<Contents>(1);
+
+    /// Returns the surface's id, as long as the model is the first, or no other grows before it.
+    SurfaceId add(TestSurface s, std::size_t model = 0) {
+        models[model].surfaces.push_back(std::move(s));
+        return SurfaceId{static_cast<std::int32_t>(models[model].surfaces.size()) - 1};
     }
     void place(std::size_t model, std::size_t in, const Transform& transform,
-               bool overrides = false, int modifier = -1) {
-        Surface s;
+               bool overrides = false, int modifier = 0) {
+        TestSurface s;
         s.type = PrimitiveType::instance;
-        s.modifier = ModifierId{modifier};
-        s.traits = overrides ? kOpaque : kNoMaterial;
-        const SurfaceId id{static_cast<std::int32_t>(surfaces.size())};
-        surfaces.push_back(s);
-        models[in].placements.push_back(
+        s.modifier = index(overrides ? modifier_of(modifier, kOpaque) : kVoid);
+        const SurfaceId id = add(std::move(s), in);
+        models[in].geometry.placements.push_back(
             {static_cast<std::uint32_t>(model), transform, id, overrides});
     }
-    [[nodiscard]] Geometry build(const std::string& embree_options = {}) const {
-        return Geometry({surfaces, models}, embree_options);
+    /// Id of the first surface of a model.
+    [[nodiscard]] std::int32_t first_of(std::size_t model) const {
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < model; ++i) first += models[i].surfaces.size();
+        return static_cast<std::int32_t>(first);
     }
+    /// The placements of a model, with the ids of their surfaces.
+    [[nodiscard]] std::vector<Placement> placements(std::size_t model) const {
+        std::vector<Placement> all = models[model].geometry.placements;
+        for (Placement& p : all) p.surface = SurfaceId{first_of(model) + index(p.surface)};
+        return all;
+    }
+
+    /// The tables that a Geometry looks at, and the Geometry's input.
+    struct Tables {
+        explicit Tables(const TestModels& scene)
+            : lists(scene.models.size()), shapes(scene.models.size()) {
+            for (std::size_t i = 0; i < scene.models.size(); ++i) {
+                for (const TestSurface& s : scene.models[i].surfaces) lists[i].add(s);
+                shapes[i] = make_shapes(lists[i], TeamOfOne());
+                ModelGeometry model = scene.models[i].geometry;
+                model.placements = scene.placements(i);
+                model.part = surfaces.add(lists[i], shapes[i], 0);
+                for (MeshPart& part : model.meshes)
+                    part.surface = surfaces.part(model.part).id(0);
+                input.models.push_back(std::move(model));
+            }
+            surfaces.set_traits(test_traits());
+            input.surfaces = &surfaces;
+        }
+        Tables(const Tables&) = delete;
+        Tables& operator=(const Tables&) = delete;
+
+        std::vector<SurfaceList> lists;
+        std::vector<SurfaceShapes> shapes;
+        SurfaceTable surfaces;
+        GeometryInput input;
+    };
+    [[nodiscard]] BuiltGeometry build(const std::string& embree_options = {}) const;
 };
+
+/// A Geometry with the tables that it looks at; it cannot be parted from them.
+class BuiltGeometry : private std::unique_ptr<TestModels::Tables>, private Geometry {
+  public:
+    BuiltGeometry(std::unique_ptr<TestModels::Tables> tables, const std::string& embree_options)
+        : std::unique_ptr<TestModels::Tables>(std::move(tables)),
+          Geometry((**this).input, embree_options) {}
+    using Geometry::bounds, Geometry::frame, Geometry::frame_count, Geometry::intersect,
+        Geometry::intersect_surface, Geometry::memory_bytes, Geometry::visibility;
+};
+
+inline BuiltGeometry TestModels::build(const std::string& embree_options) const {
+    return {std::make_unique<Tables>(*this), embree_options};
+}
 
 class Random {
   public:
@@ -144,7 +218,7 @@ inline std::vector<double> star_polygon(Random& random, int corners) {
     return reals;
 }
 
-inline Surface random_surface(Random& random) {
+inline TestSurface random_surface(Random& random) {
     const Vec3 p = random.on_grid(2), q = p + random.in_box(1), n = random.direction();
     const SurfaceTraits traits = random_traits(random);
     const int modifier = random.below(5);
@@ -195,7 +269,7 @@ inline TestModels random_models(std::uint64_t seed, int surfaces_per_model) {
 /// Casting rays by trying everything, recursively through the placements.
 class BruteForce {
   public:
-    explicit BruteForce(const TestModels& scene) : scene_(scene) {}
+    explicit BruteForce(const TestModels& scene) : scene_(scene), tables_(scene) {}
 
     struct Best {
         double t = kHuge;
@@ -224,9 +298,7 @@ class BruteForce {
         ShapeHit hit;
         SurfaceId id;
     };
-    [[nodiscard]] const Surface& at(SurfaceId id) const {
-        return scene_.surfaces[static_cast<std::size_t>(index(id))];
-    }
+    [[nodiscard]] Surface at(SurfaceId id) const { return tables_.surfaces[id]; }
 
     /// Every crossing of a model's own surfaces up to t_max.
     [[nodiscard]] std::vector<Crossing> crossings(std::size_t model, const Transform& place,
@@ -235,8 +307,9 @@ class BruteForce {
         const Vec3 o = moved ? place.inverse.point(ray.origin) : ray.origin;
         const Vec3 d = moved ? place.inverse.vector(ray.direction) * place.size() : ray.direction;
         std::vector<Crossing> all;
-        for (const SurfaceId id : scene_.models[model].surfaces) {
-            const auto hit = intersect(at(id).shape, o, d, kHuge);
+        for (std::size_t i = 0; i < scene_.models[model].surfaces.size(); ++i) {
+            const SurfaceId id = tables_.surfaces.part(model).id(i);
+            const auto hit = intersect(at(id).shape(), o, d, kHuge);
             if (hit && hit->t * place.size() <= ray.t_max)
                 all.push_back({hit->t * place.size(), *hit, id});
         }
@@ -244,11 +317,11 @@ class BruteForce {
     }
     /// Whether the first of two coincident crossings is seen.
     [[nodiscard]] bool beats(const Crossing& a, const Crossing& b) const {
-        const Surface &s = at(a.id), &r = at(b.id);
-        if (s.traits.has_material != r.traits.has_material) return s.traits.has_material;
-        if (s.traits.transparent != r.traits.transparent) return r.traits.transparent;
+        const Surface s = at(a.id), r = at(b.id);
+        if (s.traits().has_material != r.traits().has_material) return s.traits().has_material;
+        if (s.traits().transparent != r.traits().transparent) return r.traits().transparent;
         if (a.hit.front != b.hit.front) return a.hit.front;
-        if (s.modifier != r.modifier) return index(s.modifier) > index(r.modifier);
+        if (s.modifier() != r.modifier()) return index(s.modifier()) > index(r.modifier());
         return index(a.id) > index(b.id);
     }
     void visit(std::size_t model, const Transform& place, FrameId frame,
@@ -264,9 +337,9 @@ class BruteForce {
         if (winner && winner->t < best_.t) {
             const SurfaceId seen = override_by ? override_by->surface : winner->id;
             best_ = {winner->t, place.forward.vector(winner->hit.normal) / place.size(), seen,
-                     at(seen).modifier, override_by ? override_frame : frame};
+                     at(seen).modifier(), override_by ? override_frame : frame};
         }
-        for (const Placement& p : scene_.models[model].placements) {
+        for (const Placement& p : tables_.input.models[model].placements) {
             const FrameId inner{next_frame_++};
             const bool overrides = !override_by && p.overrides;
             visit(p.model, p.transform * place, inner, overrides ? &p : override_by,
@@ -276,20 +349,21 @@ class BruteForce {
     void visit_shadow(std::size_t model, const Transform& place, const Placement* override_by,
                       const RaySegment& ray, SurfaceId target, Visibility& result) const {
         for (const Crossing& c : crossings(model, place, ray)) {
-            const ShadowClass shadow = at(override_by ? override_by->surface : c.id).traits.shadow;
+            const ShadowClass shadow = at(override_by ? override_by->surface : c.id).traits().shadow;
             if (c.id == target || c.t >= ray.t_max || shadow == ShadowClass::ignored) continue;
             if (shadow == ShadowClass::blocks)
                 result = Visibility::blocked;
             else if (result == Visibility::clear)
                 result = Visibility::special;
         }
-        for (const Placement& p : scene_.models[model].placements) {
+        for (const Placement& p : tables_.input.models[model].placements) {
             visit_shadow(p.model, p.transform * place,
                          !override_by && p.overrides ? &p : override_by, ray, target, result);
         }
     }
 
     const TestModels& scene_;
+    const TestModels::Tables tables_;
     std::int32_t next_frame_ = 0;
     Best best_;
 };

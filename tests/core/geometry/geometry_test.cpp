@@ -61,7 +61,7 @@ bool same_bits(const Hit& a, const Hit& b) {
 
 /// With the instructions that Embree would use on another processor; nothing where this one lacks
 /// them.
-std::optional<Geometry> built_for(const TestModels& scene, const std::string& instructions) {
+std::optional<BuiltGeometry> built_for(const TestModels& scene, const std::string& instructions) {
     try {
         return scene.build("isa=" + instructions);
     } catch (const std::runtime_error& error) {
@@ -80,7 +80,7 @@ std::vector<double> facing_down(double z) {
 }
 const RaySegment kDown{{0.3, 0.4, 5}, {0, 0, -1}};
 
-SurfaceId seen_of(const Surface& first, const Surface& second) {
+SurfaceId seen_of(const TestSurface& first, const TestSurface& second) {
     TestModels scene;
     scene.add(first);
     scene.add(second);
@@ -95,7 +95,7 @@ TEST_CASE("the nearest hit is the one that trying every surface gives") {
             CAPTURE(surfaces);
             CAPTURE(seed);
             const TestModels scene = random_models(seed, surfaces);
-            const Geometry geometry = scene.build();
+            const BuiltGeometry geometry = scene.build();
             BruteForce brute(scene);
             int hits = 0;
             for (const RaySegment& ray : test_rays(seed + 100, 700)) {
@@ -124,9 +124,9 @@ TEST_CASE("Embree proposes, doubles decide: hits are the same bits whatever inst
         CAPTURE(instructions);
         for (std::uint64_t seed = 20; seed < 24; ++seed) {
             const TestModels scene = random_models(seed, 40);
-            const std::optional<Geometry> other = built_for(scene, instructions);
+            const std::optional<BuiltGeometry> other = built_for(scene, instructions);
             if (!other) break;
-            const Geometry geometry = scene.build();
+            const BuiltGeometry geometry = scene.build();
             const std::vector<RaySegment> rays = test_rays(seed, 1000);
             std::vector<Hit> hits(rays.size()), other_hits(rays.size());
             geometry.intersect(rays, hits);
@@ -146,7 +146,7 @@ TEST_CASE("packets give the same bits as single rays, whatever travels beside th
         // Machines without AVX-512 cut packets up, those without AVX into pieces of four.
         constexpr std::array<const char*, 3> kMachines{"", "isa=avx2", "isa=sse4.2"};
         const TestModels scene = random_models(seed, 40);
-        const Geometry geometry = scene.build(kMachines[seed % kMachines.size()]);
+        const BuiltGeometry geometry = scene.build(kMachines[seed % kMachines.size()]);
         std::vector<RaySegment> rays = test_rays(seed, 1003);
         for (int x = 0; x < 40; ++x) {  // and coherent ones
             for (int y = 0; y < 40; ++y) {
@@ -168,13 +168,13 @@ TEST_CASE("visibility is what trying every surface gives") {
     int found[3] = {};
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         const TestModels scene = random_models(seed, seed < 4 ? 2 : 15);
-        const Geometry geometry = scene.build();
+        const BuiltGeometry geometry = scene.build();
         BruteForce brute(scene);
         Random random(seed);
         for (RaySegment ray : test_rays(seed + 50, 500)) {
             ray.t_max = random.uniform(0, 8);
             const SurfaceId target =
-                random.below(2) == 0 ? kNoSurface : scene.models[0].surfaces[0];
+                random.below(2) == 0 ? kNoSurface : SurfaceId{0};
             const Visibility v = geometry.visibility(ray, target);
             REQUIRE(v == brute.visibility(ray, target));
             ++found[static_cast<int>(v)];
@@ -188,14 +188,14 @@ TEST_CASE("shadow rays in packets find what single ones find, whatever blocked e
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         constexpr std::array<const char*, 3> kMachines{"", "isa=avx2", "isa=sse4.2"};
         const TestModels scene = random_models(seed, seed < 3 ? 2 : 25);
-        const Geometry geometry = scene.build(kMachines[seed % kMachines.size()]);
+        const BuiltGeometry geometry = scene.build(kMachines[seed % kMachines.size()]);
         Random random(seed);
         std::array<Blocker, 3> last;
         std::vector<ShadowQuery> queries;
         for (RaySegment ray : test_rays(seed + 70, 803)) {
             ray.t_max = random.uniform(0, 8);
             ShadowQuery query{ray, kNoSurface, nullptr};
-            if (random.below(2) == 0) query.target = scene.models[0].surfaces[0];
+            if (random.below(2) == 0) query.target = SurfaceId{0};
             if (const auto which = static_cast<std::size_t>(random.below(4)); which < last.size())
                 query.last = &last[which];
             queries.push_back(query);
@@ -224,16 +224,16 @@ TEST_CASE(
     };
     constexpr SurfaceId first{0}, second{1};
     // each pair in both orders; where a rule decides, every later rule speaks for the other surface
-    const Surface back_glass = make(false, 1, kGlass), front_void = make(true, 5, kNoMaterial);
+    const TestSurface back_glass = make(false, 1, kGlass), front_void = make(true, 5, kNoMaterial);
     CHECK(seen_of(back_glass, front_void) == first);
     CHECK(seen_of(front_void, back_glass) == second);
-    const Surface back_opaque = make(false, 1, kOpaque), front_glass = make(true, 5, kGlass);
+    const TestSurface back_opaque = make(false, 1, kOpaque), front_glass = make(true, 5, kGlass);
     CHECK(seen_of(back_opaque, front_glass) == first);
     CHECK(seen_of(front_glass, back_opaque) == second);
-    const Surface front_early = make(true, 1, kOpaque), back_late = make(false, 5, kOpaque);
+    const TestSurface front_early = make(true, 1, kOpaque), back_late = make(false, 5, kOpaque);
     CHECK(seen_of(front_early, back_late) == first);
     CHECK(seen_of(back_late, front_early) == second);
-    const Surface early = make(true, 1, kOpaque), late = make(true, 5, kOpaque);
+    const TestSurface early = make(true, 1, kOpaque), late = make(true, 5, kOpaque);
     CHECK(seen_of(late, early) == first);
     CHECK(seen_of(early, late) == second);
     CHECK(seen_of(early, early) == second);
@@ -250,14 +250,14 @@ TEST_CASE("ties do not depend on the order of a chain of nearly coincident surfa
         scene.add(surface(PrimitiveType::polygon, square(1e-6 * -0.7 * i), i, kOpaque));
     }
     const Hit hit = scene.build().intersect(kDown);
-    CHECK(hit.modifier == ModifierId{1});
+    CHECK(hit.modifier == modifier_of(1, kOpaque));
     CHECK(hit.surface == SurfaceId{2});
 }
 
 TEST_CASE("a surface that ends less than a millionth of the distance before the ray does is hit") {
     TestModels scene;
     scene.add(surface(PrimitiveType::polygon, square(0), 0, kOpaque));
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     CHECK(geometry.intersect({{0.3, 0.4, 5}, {0, 0, -1}, 5}).exists());
     CHECK_FALSE(geometry.intersect({{0.3, 0.4, 5}, {0, 0, -1}, 5 - 1e-9}).exists());
     CHECK_FALSE(geometry.intersect({{0.3, 0.4, 1e-6}, {0, 0, -1}}).exists());
@@ -271,9 +271,9 @@ TEST_CASE("a placed model wins only where it is strictly nearer, its own ties ar
     scene.add(surface(PrimitiveType::polygon, square(0), 7, kOpaque), 1);
     scene.place(1, 0, Transform{});
     CHECK(scene.build().intersect(kDown).surface == SurfaceId{0});
-    scene.models[0].placements[0].transform = similarity(1, false, {0, 0, 1}, 0, {0, 0, 1e-9});
+    scene.models[0].geometry.placements[0].transform = similarity(1, false, {0, 0, 1}, 0, {0, 0, 1e-9});
     const Hit hit = scene.build().intersect(kDown);
-    CHECK(hit.surface == SurfaceId{1});
+    CHECK(hit.surface == SurfaceId{2});  // of its own; 1 is the placement
     CHECK(hit.frame == FrameId{0});
 }
 
@@ -285,7 +285,7 @@ TEST_CASE("a mirrored placement shows the mirror image of the normal") {
     const Transform mirror = similarity(2, true, {0, 0, 1}, 0, {3, 0, 0});
     CHECK(mirror.scale == -2);
     scene.place(1, 0, mirror);
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     const Hit hit = geometry.intersect({{0, 1, 1}, {1, 0, 0}});
     REQUIRE(hit.exists());
     CHECK(hit.t == rounded(3));
@@ -300,15 +300,15 @@ TEST_CASE(
     scene.models.resize(4);
     scene.add(surface(PrimitiveType::polygon, square(0), 0, kGlass), 3);
     const auto up = [](double z) { return similarity(1, false, {0, 0, 1}, 0, {0, 0, z}); };
-    scene.place(3, 2, up(1), true, 11);   // surface 1, overruled
-    scene.place(2, 1, up(10), true, 12);  // surface 2
-    scene.place(1, 0, up(100));           // surface 3
-    const Geometry geometry = scene.build();
+    scene.place(3, 2, up(1), true, 11);   // surface 2, overruled
+    scene.place(2, 1, up(10), true, 12);  // surface 1
+    scene.place(1, 0, up(100));           // surface 0
+    const BuiltGeometry geometry = scene.build();
     REQUIRE(geometry.frame_count() == 3);
     const Hit hit = geometry.intersect({{0.3, 0.4, 200}, {0, 0, -1}});
     CHECK(hit.t == rounded(89));
-    CHECK(hit.surface == SurfaceId{2});
-    CHECK(hit.modifier == ModifierId{12});
+    CHECK(hit.surface == SurfaceId{1});
+    CHECK(hit.modifier == modifier_of(12, kOpaque));
     CHECK(hit.frame == FrameId{0});  // model 1's, where the overriding placement stands
     CHECK(geometry.frame(hit.frame).forward.row[3] == Vec3{0, 0, 100});
     CHECK(geometry.frame(FrameId{2}).forward.row[3] == Vec3{0, 0, 111});
@@ -353,10 +353,10 @@ TEST_CASE("one surface alone can be asked for") {
     TestModels scene;
     scene.add(surface(PrimitiveType::polygon, square(3), 4, kOpaque));
     const SurfaceId low = scene.add(surface(PrimitiveType::polygon, square(1), 6, kOpaque));
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     const Hit hit = geometry.intersect_surface(low, kDown);
     CHECK(hit.surface == low);
-    CHECK(hit.modifier == ModifierId{6});
+    CHECK(hit.modifier == modifier_of(6, kOpaque));
     CHECK(hit.t == 4);
     CHECK(hit.cos_out == 1);
     CHECK(hit.position == Vec3{0.3, 0.4, 1});
@@ -375,7 +375,7 @@ TEST_CASE("bounds hold surfaces as they are and placed models by their cubes") {
     CHECK(bounds.lower.x == rounded(-2e-5, 2));
     CHECK(bounds.lower.z == rounded(-1 - 2e-5));  // a cube: as high as it is wide
     CHECK(bounds.upper == Vec3{2 + 2e-5, 2.5, 3.5});
-    scene.models[1].cube = Bounds{{0, 0, 0}, {4, 4, 4}};
+    scene.models[1].geometry.cube = Bounds{{0, 0, 0}, {4, 4, 4}};
     CHECK(scene.build().bounds().upper == Vec3{8, 8, 8});
     CHECK(TestModels{}.build().bounds().empty());
 }
@@ -388,7 +388,7 @@ TEST_CASE("nothing hostile hangs, crashes or lies") {
     scene.add(surface(PrimitiveType::ring, {0, 0, -1, 0, 0, 1, 0, 1e9}, 0, kOpaque));
     scene.add(surface(PrimitiveType::sphere, {1e25, 0, 0, 1}, 0, kOpaque));
     scene.add(surface(PrimitiveType::polygon, square(0), 0, kOpaque));
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     CHECK(geometry.intersect(kDown).surface == SurfaceId{2});
     CHECK(geometry.intersect({{1e8, 1e8, 5}, {0, 0, -1}}).surface == SurfaceId{0});
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
@@ -420,8 +420,8 @@ TEST_CASE("placements that multiply beyond measure are refused, those of nothing
     nested.models.resize(2);
     nested.add(surface(PrimitiveType::polygon, square(0), 0, kOpaque), 1);
     nested.place(1, 0, similarity(1e-200, false, {0, 0, 1}, 0, {0, 0, 0}));
-    nested.surfaces.back().where = {"room.rad", 3};
-    nested.models[0].placements[0].transform.inverse.row[0].x =
+    nested.models[0].surfaces.back().where = {"room.rad", 3};
+    nested.models[0].geometry.placements[0].transform.inverse.row[0].x =
         std::numeric_limits<double>::infinity();
     CHECK_THROWS_WITH_AS(static_cast<void>(nested.build()),
                          doctest::Contains("room.rad:3: bad transform"), InputError);
@@ -436,7 +436,7 @@ TEST_CASE("a scene far from the origin is as exact as one at the origin") {
         scene.add(
             surface(PrimitiveType::sphere, {p.x, p.y, p.z, random.uniform(0.01, 0.3)}, i, kOpaque));
     }
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     BruteForce brute(scene);
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {

@@ -78,7 +78,8 @@ TEST_CASE("instances: a frame is the path that a walk through all placements com
                             random.below(4) == 0);
             }
         }
-        const GeometryInput input{scene.surfaces, scene.models};
+        const TestModels::Tables tables(scene);
+        const GeometryInput& input = tables.input;
         std::vector<PlacedModel> paths;
         walk_paths(input, {}, kWorld, paths);
         const InstancePaths instances(input);
@@ -101,7 +102,7 @@ TEST_CASE("instances: a frame is the path that a walk through all placements com
 
 TEST_CASE("instances: models 32 deep are searched with little stack, deeper ones are refused") {
     const TestModels deep = chain(32);
-    const Geometry geometry = deep.build();
+    const BuiltGeometry geometry = deep.build();
     std::array<Hit, 16> hits;
     Visibility seen = Visibility::clear;
     auto search = [&] {

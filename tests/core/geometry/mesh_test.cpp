@@ -26,21 +26,21 @@ MeshModel two_triangles() {
     return mesh;
 }
 
-/// A scene with the mesh as model 1, placed by `transform`; surface 0 is the mesh's "M-Tri".
+/// A scene with the mesh as model 1, placed by `transform`; surface 0 places it, surface 1 is
+/// the mesh's "M-Tri".
 TestModels placed(const MeshModel& mesh, const Transform& transform, bool overrides = false) {
     TestModels scene;
     scene.models.resize(2);
-    Surface triangles;
+    TestSurface triangles;
     triangles.type = PrimitiveType::mesh;
     triangles.where = {"m.rtm", 0};
-    scene.surfaces.push_back(triangles);
+    scene.add(triangles, 1);
     MeshPart part;
     part.mesh = &mesh;
     part.materials = {ModifierId{20}, ModifierId{21}};
     part.traits = {kOpaque, kGlass};
-    part.surface = SurfaceId{0};
-    scene.models[1].meshes.push_back(part);
-    scene.place(1, 0, transform, overrides, overrides ? 30 : -1);
+    scene.models[1].geometry.meshes.push_back(part);
+    scene.place(1, 0, transform, overrides, 30);
     return scene;
 }
 
@@ -50,10 +50,10 @@ TEST_CASE(
     "a mesh hit has its triangle's material, interpolated coordinates and the smoothed normal") {
     const MeshModel mesh = two_triangles();
     const TestModels scene = placed(mesh, Transform{});
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     const Hit low = geometry.intersect({{0.75, 0.25, 1}, {0, 0, -1}});
     REQUIRE(low.exists());
-    CHECK(low.surface == SurfaceId{0});
+    CHECK(low.surface == SurfaceId{1});
     CHECK(low.modifier == ModifierId{20});
     CHECK(low.frame == FrameId{0});
     CHECK(low.normal == Vec3{0, 0, 1});
@@ -72,7 +72,7 @@ TEST_CASE(
 TEST_CASE("normals and perturbations turn, mirror and keep their length with the placement") {
     const MeshModel mesh = two_triangles();
     const TestModels scene = placed(mesh, similarity(3, true, {0, 1, 0}, kPi / 2, {0, 0, 7}));
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     const Transform& to_world = geometry.frame(FrameId{0});
     const Vec3 target = to_world.forward.point({0.75, 0.25, 0});
     const Vec3 normal = to_world.forward.vector({0, 0, 1}) / 3;
@@ -89,10 +89,10 @@ TEST_CASE("normals and perturbations turn, mirror and keep their length with the
 TEST_CASE("a placement with a modifier shades the whole mesh in the scene's space") {
     const MeshModel mesh = two_triangles();
     const TestModels scene = placed(mesh, Transform{}, true);
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     const Hit hit = geometry.intersect({{0.25, 0.75, 1}, {0, 0, -1}});
-    CHECK(hit.surface == SurfaceId{1});
-    CHECK(hit.modifier == ModifierId{30});
+    CHECK(hit.surface == SurfaceId{0});
+    CHECK(hit.modifier == modifier_of(30, kOpaque));
     CHECK(hit.frame == kWorld);
     CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
 }
@@ -112,7 +112,7 @@ TEST_CASE("no ray slips between the triangles of a closed mesh") {
     }
     const Transform turned = similarity(0.3, false, {1, 2, 3}, 1.1, {5, -3, 2});
     const TestModels scene = placed(mesh, turned);
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     Random random(4);
     for (int i = 0; i < 3000; ++i) {
         Vec3 p = random.direction();
@@ -158,7 +158,7 @@ TEST_CASE("triangles without area and thin ones are never hit by accident") {
     point.v[1] = 3;
     mesh.triangles = {line, point};
     const TestModels scene = placed(mesh, Transform{});
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     for (const double x : {0.0, 0.5, 1.0})
         CHECK_FALSE(geometry.intersect({{x, 0, 1}, {0, 0, -1}}).exists());
 }

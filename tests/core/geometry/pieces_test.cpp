@@ -16,20 +16,24 @@ using test::surface;
 
 struct Divided {
     explicit Divided(std::vector<double> corners) {
-        surfaces.push_back(surface(PrimitiveType::polygon, std::move(corners), 0, test::kOpaque));
-        model.surfaces.push_back(SurfaceId{0});
-        pieces = divide_primitives(ModelPrimitives(surfaces, model));
+        test::TestModels scene;
+        scene.add(surface(PrimitiveType::polygon, std::move(corners), 0, test::kOpaque));
+        tables = std::make_unique<test::TestModels::Tables>(scene);
+        model = std::make_unique<ModelPrimitives>(tables->surfaces, tables->input.models[0],
+                                                  TeamOfOne());
+        pieces = divide_primitives(*model, TeamOfOne());
     }
-    [[nodiscard]] const PolygonShape& polygon() const {
-        return std::get<PolygonShape>(surfaces[0].shape);
+    [[nodiscard]] PolygonShape polygon() const {
+        return std::get<PolygonShape>(tables->surfaces[SurfaceId{0}].shape());
     }
     [[nodiscard]] bool holds(const Vec3& p) const {
-        return std::any_of(pieces.begin(), pieces.end(),
-                           [&p](const Piece& piece) { return contains(piece.box, p); });
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+            if (contains(pieces.box(i, *model), p)) return true;
+        return false;
     }
-    std::vector<Surface> surfaces;
-    ModelGeometry model;
-    std::vector<Piece> pieces;
+    std::unique_ptr<test::TestModels::Tables> tables;
+    std::unique_ptr<ModelPrimitives> model;
+    Pieces pieces;
 };
 
 Vec3 onto_plane(const PolygonShape& polygon, Vec3 p) {
@@ -81,9 +85,9 @@ TEST_CASE("every point that a polygon takes for its own is in one of its boxes")
             for (std::size_t k = 0; k < 3; ++k) corners.push_back(p[k]);
         }
         const Divided star(corners);
-        if (star.pieces.empty()) continue;  // degenerate
+        if (star.pieces.size() == 0) continue;  // degenerate
         most = std::max(most, star.pieces.size());
-        const PolygonShape& polygon = star.polygon();
+        const PolygonShape polygon = star.polygon();
         for (int i = 0; i < 400; ++i) {
             Vec3 p = u * (7 * random.next() - 3.5) + v * (7 * random.next() - 3.5);
             if (i % 4 == 0) {  // about an edge

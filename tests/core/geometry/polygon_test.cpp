@@ -14,7 +14,7 @@ namespace {
 
 PolygonShape outline(std::vector<double> reals) {
     return std::get<PolygonShape>(
-        make_shape(primitive(PrimitiveType::polygon, std::move(reals))).shape);
+        make_shape(kept_primitive(PrimitiveType::polygon, std::move(reals))).shape);
 }
 
 /// An outline in the plane z = 0.
@@ -73,7 +73,7 @@ TEST_CASE("a rectangle along the axes holds what its four edges say, also beside
 TEST_CASE("a hole is open and the seam that leads to it is solid") {
     const PolygonShape frame =
         flat({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}});
-    CHECK(frame.area == 12);
+    CHECK(area_of(frame) == 12);
     CHECK_FALSE(inside(frame, 2, 2));
     CHECK(inside(frame, 0.5, 2));
     CHECK(inside(frame, 3.5, 2));
@@ -161,7 +161,7 @@ TEST_CASE("an outline of a million vertices is built and hit in no time") {
     }
     TestModels scene;
     scene.add(surface(PrimitiveType::polygon, std::move(reals), 0, kOpaque));
-    const Geometry geometry = scene.build();
+    const BuiltGeometry geometry = scene.build();
     Random random(1);
     for (int i = 0; i < 10000; ++i) {  // one by one through all edges this would take a minute
         const double x = random.uniform(-2, 2), y = random.uniform(-2, 2), r = std::hypot(x, y);
@@ -173,7 +173,7 @@ TEST_CASE("an outline of a million vertices is built and hit in no time") {
 
 TEST_CASE("a polygon edge-on is missed") {
     const Shape square =
-        make_shape(primitive(PrimitiveType::polygon, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})).shape;
+        make_shape(kept_primitive(PrimitiveType::polygon, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})).shape;
     CHECK_FALSE(intersect(square, {-1, 0.5, 1e-6}, normalize(Vec3{1, 0, -0.99e-6}), kHuge));
     CHECK(intersect(square, {-1, 0.5, 2e-6}, normalize(Vec3{1, 0, -1.5e-6}), kHuge));
 }

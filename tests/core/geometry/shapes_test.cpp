@@ -14,7 +14,7 @@ using enum PrimitiveType;
 namespace {
 
 ValidatedShape make(PrimitiveType type, std::vector<double> reals) {
-    return make_shape(primitive(type, std::move(reals)));
+    return make_shape(kept_primitive(type, std::move(reals)));
 }
 bool is_ignored(const ValidatedShape& valid) {
     return std::holds_alternative<std::monostate>(valid.shape);
@@ -87,7 +87,7 @@ TEST_CASE("polygons: closing vertex, normal, area, planarity") {
     const ValidatedShape closed = make(polygon, {0, 0, 1, 2, 0, 1, 2, 3, 1, 0, 3, 1, 1e-7, 0, 1});
     const PolygonShape& p = std::get<PolygonShape>(closed.shape);
     CHECK(p.vertices.size() == 4);
-    CHECK(p.area == 6);
+    CHECK(area_of(p) == 6);
     CHECK(p.normal == Vec3{0, 0, 1});
     CHECK(p.offset == 1);
     CHECK(p.drop_axis == 2);

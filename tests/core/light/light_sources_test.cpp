@@ -30,7 +30,7 @@ std::string seen(const std::string& text, const Vec3& direction, std::uint16_t h
     ray.history |= history;
     ray.target = target;
     const auto surface = scene.tracer.lights().background(ray);
-    return surface ? scene.scene.surface(*surface).name : "nothing";
+    return surface ? std::string(scene.scene.surface(*surface).name()) : "nothing";
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_CASE("an equal redefinition adds a primitive, but the name keeps its identi
     CHECK(builder.modifier("paint", kHere) == first);
     const auto other = builder.add(plastic("paint", 0.5 * (1 + 5e-6)));
     CHECK(builder.modifier("paint", kHere) == other);
-    CHECK(builder.primitives().size() == 3);
+    CHECK(builder.model().size() == 3);
 }
 
 TEST_CASE("definitions are equal when their modifiers are, whatever those are called") {
@@ -92,7 +92,7 @@ TEST_CASE("references follow the types that have them") {
     const auto b = builder.add(plastic("b", 0.2));
     const auto references = [&](PrimitiveType type, std::vector<std::string> strings) {
         const auto index = builder.add(make(type, "user", {}, std::move(strings)));
-        return builder.primitives()[static_cast<std::size_t>(index)].references;
+        return builder.model().modifiers[static_cast<std::size_t>(index)].references;
     };
     using Ids = std::vector<std::int32_t>;
     CHECK(references(PrimitiveType::illum, {"a"}) == Ids{a});
@@ -111,7 +111,7 @@ TEST_CASE("a primitive's strings mean what preceded it, not itself") {
     ModelBuilder builder;
     const auto old = builder.add(plastic("m", 0.1));
     const auto index = builder.add(make(PrimitiveType::illum, "m", {1, 1, 1}, {"m"}));
-    CHECK(builder.primitives()[static_cast<std::size_t>(index)].references[0] == old);
+    CHECK(builder.model().modifiers[static_cast<std::size_t>(index)].references[0] == old);
 }
 
 TEST_CASE("an alias is a modifier of its own, with the arguments at the end of the trail") {
@@ -121,7 +121,7 @@ TEST_CASE("an alias is a modifier of its own, with the arguments at the end of t
     const auto r = builder.add(make(PrimitiveType::plastic, "r", {1, 1, 1, 0, 0}, {}, p));
     const auto check = [&](std::int32_t alias, const char* name, std::int32_t modifier) {
         CAPTURE(name);
-        const Primitive& primitive = builder.primitives()[static_cast<std::size_t>(alias)];
+        const Primitive& primitive = builder.model().modifiers[static_cast<std::size_t>(alias)];
         CHECK(primitive.type == PrimitiveType::alias);
         CHECK(primitive.name == name);
         CHECK(primitive.modifier == modifier);
@@ -148,9 +148,7 @@ TEST_CASE("illegal names and modifiers are refused, with their place") {
           "room.rad:7: illegal modifier name \"inherit\"");
     CHECK(message_of([&] { builder.add(plastic("a\tb", 0)); }) ==
           "room.rad:7: identifier \"a\tb\" holds a tab");
-    const auto ball = builder.add(make(PrimitiveType::sphere, "void", {0, 0, 0, 1}));
-    CHECK(message_of([&] { builder.add(make(PrimitiveType::metal, "m", {}, {}, ball)); }) ==
-          "room.rad:7: a surface cannot be a modifier: sphere \"void\"");
+    CHECK(builder.add(make(PrimitiveType::sphere, "void", {0, 0, 0, 1})) == 0);
     CHECK(message_of([&] { builder.add(make(PrimitiveType::metal, "m", {}, {}, 9)); }) ==
           "room.rad:7: modifier number 9 is not defined yet");
     CHECK(message_of([&] { builder.add(make(PrimitiveType::metal, "m", {}, {}, -7)); }) ==
@@ -180,8 +178,8 @@ TEST_CASE("equally near suggestions go by the alphabet") {
 TEST_CASE("taking the model empties the builder") {
     ModelBuilder builder;
     builder.add(plastic("a", 0.1));
-    CHECK(builder.take()->primitives.size() == 1);
-    CHECK(builder.primitives().empty());
+    CHECK(builder.take()->size() == 1);
+    CHECK(builder.model().size() == 0);
     CHECK_THROWS_AS(static_cast<void>(builder.modifier("a", kHere)), InputError);
 }
 

@@ -8,7 +8,7 @@
 #include "tests/core/geometry/geometry_scenes.h"
 
 namespace lightwalk {
-using test::primitive;
+using test::kept_primitive;
 
 namespace {
 
@@ -27,7 +27,7 @@ Shape random_relay(RandomStream& random, int kind) {
     if (kind == 1) points.push_back(center - v * 0.7);
     std::vector<double> reals;
     for (const Vec3& p : points) reals.insert(reals.end(), {p.x, p.y, p.z});
-    return make_shape(primitive(PrimitiveType::polygon, std::move(reals))).shape;
+    return make_shape(kept_primitive(PrimitiveType::polygon, std::move(reals))).shape;
 }
 
 LightSource random_source(RandomStream& random, bool distant) {

@@ -1,6 +1,7 @@
 // The scene's cube: what ambient resolution and virtual sources are measured by.
 #include <doctest/doctest.h>
 
+#include "core/model/model_builder.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
 
@@ -10,11 +11,13 @@ namespace {
 const std::string kBall = "void plastic p 0 0 5 .5 .5 .5 0 0\np sphere s 0 0 4 0 0 0 1\n";
 
 std::shared_ptr<const Model> model_in_cube(const ModelCube& cube) {
-    Silence silence;
-    Model model =
-        *parse_scene(kBall, "ball.rad", {LibraryPath(std::vector<std::string>{}), false}, silence);
-    model.cube = cube;
-    return std::make_shared<const Model>(std::move(model));
+    Primitive paint{PrimitiveType::plastic, kVoidIndex, "p", {}, {.5, .5, .5, 0, 0}, {}, {}};
+    ModelBuilder builder;
+    Primitive ball{PrimitiveType::sphere, builder.add(paint), "s", {}, {0, 0, 0, 1}, {}, {}};
+    builder.add(ball);
+    const std::shared_ptr<Model> model = builder.take();
+    model->cube = cube;
+    return model;
 }
 
 }  // namespace

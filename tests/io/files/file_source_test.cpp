@@ -12,6 +12,7 @@
 #include "io/options/view_text.h"
 #include "io/scene/file_resources.h"
 #include "io/scene/scene_reader.h"
+#include "tests/all_primitives.h"
 #include "tests/temporary_folder.h"
 
 using namespace lightwalk;
@@ -49,7 +50,7 @@ std::string read_all(const TemporaryFolder& folder, const std::shared_ptr<FileSo
     std::string text = resources.function_file("paint.cal");
     text += std::to_string(resources.data("table.dat")->values.at(1));
     text += library.find("none.cal").value_or("-");
-    for (const Primitive& primitive : model->primitives) {
+    for (const Primitive& primitive : test::all_primitives(*model)) {
         text += ' ' + primitive.name;
         for (const double real : primitive.reals) text += ' ' + std::to_string(real);
     }

@@ -59,7 +59,7 @@ TEST_CASE("an octree that is not frozen reads its scene files from the base dire
     test::Silence silence;
     FileResources resources(LibraryPath({"lib"}).relative_to(folder.path()), false, silence);
     const auto model = resources.octree("ball.oct");
-    CHECK(model->primitives.at(0).name == "s");
+    CHECK(model->surfaces[0].name == "s");
     CHECK(resources.octree("ball.oct") == model);
 }
 

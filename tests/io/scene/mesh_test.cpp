@@ -91,7 +91,7 @@ TEST_CASE("triangles come patch by patch: local ones, single joiners, double joi
         for (std::size_t k = 0; k < 3; ++k) CHECK(mesh.triangles[t].v[k] == corners[t][k]);
         CHECK(mesh.triangles[t].material == materials[t]);
     }
-    CHECK(mesh.materials.primitives[1].name == "blue");
+    CHECK(mesh.materials.modifiers[1].name == "blue");
 }
 
 TEST_CASE(

@@ -5,6 +5,7 @@
 
 #include "io/scene/binary_models.h"
 #include "io/scene/scene_reader.h"
+#include "tests/all_primitives.h"
 #include "tests/io/scene/binary_writer.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
@@ -71,22 +72,24 @@ TEST_CASE("an octree is told from scene text by its header") {
 TEST_CASE("a frozen octree holds its objects, types go by name, aliases rename or replace") {
     const OctreeContents contents = decode_octree(frozen_octree(), "x.oct");
     REQUIRE(contents.model);
-    const std::vector<Primitive>& objects = contents.model->primitives;
-    REQUIRE(objects.size() == 7);
-    CHECK(objects[1].type == PrimitiveType::plastic);
-    CHECK(objects[1].modifier == 0);
-    CHECK(objects[1].reals[0] == within(0x1p-31, 0.7) /* a unit of the mantissa */);
-    CHECK(objects[2].name == "ball");
-    CHECK(objects[2].reals[3] == 1);
-    CHECK(objects[3].type == PrimitiveType::alias);  // "blue" renames "red", its pattern included
-    CHECK(objects[3].modifier == 0);
-    CHECK(objects[3].references == std::vector<std::int32_t>{1});
-    CHECK(objects[4].modifier == 3);
-    CHECK(objects[5].type == PrimitiveType::alias);  // "plain" is "red" without it
-    CHECK(objects[5].modifier == kVoidIndex);
-    CHECK(objects[5].references == std::vector<std::int32_t>{1});
-    CHECK(objects[6].modifier == 5);
-    CHECK(objects[5].where.file == "x.oct");
+    const std::vector<Primitive>& modifiers = contents.model->modifiers;
+    const std::vector<Primitive> surfaces = test::surfaces_of(*contents.model);
+    REQUIRE(modifiers.size() == 4);
+    REQUIRE(surfaces.size() == 3);
+    CHECK(modifiers[1].type == PrimitiveType::plastic);
+    CHECK(modifiers[1].modifier == 0);
+    CHECK(modifiers[1].reals[0] == within(0x1p-31, 0.7) /* a unit of the mantissa */);
+    CHECK(surfaces[0].name == "ball");
+    CHECK(surfaces[0].reals[3] == 1);
+    CHECK(modifiers[2].type == PrimitiveType::alias);  // "blue" renames "red", its pattern included
+    CHECK(modifiers[2].modifier == 0);
+    CHECK(modifiers[2].references == std::vector<std::int32_t>{1});
+    CHECK(surfaces[1].modifier == 2);
+    CHECK(modifiers[3].type == PrimitiveType::alias);  // "plain" is "red" without it
+    CHECK(modifiers[3].modifier == kVoidIndex);
+    CHECK(modifiers[3].references == std::vector<std::int32_t>{1});
+    CHECK(surfaces[2].modifier == 3);
+    CHECK(modifiers[3].where.file == "x.oct");
     CHECK(contents.objects == 7);
     CHECK(contents.model->header == std::vector<std::string>{"#?RADIANCE", "oconv -f x.rad"});
     REQUIRE(contents.model->cube);
@@ -94,19 +97,30 @@ TEST_CASE("a frozen octree holds its objects, types go by name, aliases rename o
     CHECK(contents.model->cube->size == 4.5);
 }
 
+TEST_CASE("a surface that is the modifier of another object is refused") {
+    BinaryWriter file = octree();
+    file.text("").integer(2, 4).integer(0, 1).text("sphere").text("metal").text("");
+    add_object(file, 0, -1, "ball", {}, {0, 0, 0, 1});
+    add_object(file, 1, 0, "m", {}, {});
+    const std::string bytes = file.integer(-1, 1).bytes();
+    CHECK_THROWS_WITH_AS(static_cast<void>(decode_octree(bytes, "x.oct")),
+                         doctest::Contains("a surface cannot be a modifier: sphere \"ball\""),
+                         InputError);
+}
+
 TEST_CASE("counts of strings and numbers are unsigned") {
     BinaryWriter file = octree();
     file.text("").integer(1, 4).integer(0, 1).text("polygon").text("");
     add_object(file, 0, -1, "big", {}, std::vector<double>(39999, 1));
     const OctreeContents contents = decode_octree(file.integer(-1, 1).bytes(), "x.oct");
-    CHECK(contents.model->primitives[0].reals.size() == 39999);
+    CHECK(contents.model->surfaces[0].reals.size() == 39999);
 }
 
 TEST_CASE("object numbers may take 1 to 8 bytes") {
     BinaryWriter file = test::begin_file("Radiance_octree", 283 + 8);
     file.text("").integer(1, 8).integer(1, 1).integer(1, 8).integer(0, 8).text("sphere").text("");
     file.integer(0, 1).integer(-1, 8).text("s").integer(0, 2).integer(1, 2).real(2).integer(-1, 1);
-    CHECK(decode_octree(file.bytes(), "x.oct").model->primitives.size() == 1);
+    CHECK(decode_octree(file.bytes(), "x.oct").model->size() == 1);
 }
 
 TEST_CASE("bad octrees are refused with a reason") {
@@ -180,7 +194,7 @@ TEST_CASE("an octree that refers to scene files reads them, and tells when it is
         return read_scene(files, options, silence);
     };
     const auto model = read({"good.oct"});
-    CHECK(model->primitives.size() == 4);
+    CHECK(model->size() == 4);
     CHECK(model->header.size() == 2);
     CHECK(model->cube->size == 4.5);
     CHECK_THROWS_WITH_AS(

@@ -16,6 +16,7 @@
 #include "core/math/vec3.h"
 #include "io/scene/file_resources.h"
 #include "io/scene/scene_reader.h"
+#include "tests/all_primitives.h"
 #include "tests/shared_data.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
@@ -42,19 +43,23 @@ Sample read_sample(const std::string& directory, const std::string& files) {
     test::Silence silence;
     const SceneReadOptions options{LibraryPath({".", "../lib"}), false, directory};
     Sample sample{read_scene(names, options, silence), {}, silence.messages};
-    for (const Primitive& p : sample.model->primitives) {
+    for (const Primitive& p : test::all_primitives(*sample.model)) {
         ++sample.counts[std::string(to_string(p.type))];
     }
     return sample;
 }
 
 bool names_resolve(const Model& model) {
-    for (std::size_t i = 0; i < model.primitives.size(); ++i) {
-        const Primitive& p = model.primitives[i];
+    for (std::size_t i = 0; i < model.modifiers.size(); ++i) {
+        const Primitive& p = model.modifiers[i];
         if (p.modifier >= static_cast<std::int32_t>(i)) return false;
         for (const std::int32_t reference : p.references) {
             if (reference == kUndefinedIndex) return false;
         }
+    }
+    for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
+        if (model.surfaces.modifier(i) >= static_cast<std::int32_t>(model.modifiers.size()))
+            return false;
     }
     return true;
 }
@@ -113,10 +118,11 @@ std::vector<HitRecord> read_hits(const std::string& file) {
 void check_hits(const Sample& sample, const std::string& file,
                 const std::set<std::string>& instanced) {
     std::multimap<std::pair<std::string, std::string>, const Primitive*> surfaces;
-    for (const Primitive& p : sample.model->primitives) {
-        if (!is_surface(p.type) || p.modifier < 0) continue;
+    const std::vector<Primitive> all = test::surfaces_of(*sample.model);
+    for (const Primitive& p : all) {
+        if (p.modifier < 0) continue;
         const std::string& modifier =
-            sample.model->primitives[static_cast<std::size_t>(p.modifier)].name;
+            sample.model->modifiers[static_cast<std::size_t>(p.modifier)].name;
         surfaces.emplace(std::pair{p.name, modifier}, &p);
     }
     int found = 0;
@@ -139,7 +145,7 @@ TEST_CASE("the cabin on a summer day is read whole") {
     LIGHTWALK_NEEDS_SHARED(cabin, "scenes/cabin");
     const Sample sample = read_sample(cabin, kSummer);
     CHECK(sample.warnings.empty());
-    CHECK(sample.model->primitives.size() == 4118);  // what Radiance's oconv counts
+    CHECK(sample.model->size() == 4118);  // what Radiance's oconv counts
     const std::map<std::string, int> expected = {
         {"alias", 30}, {"brightfunc", 13}, {"colorpict", 9}, {"cone", 149},     {"cylinder", 642},
         {"glass", 2},  {"glow", 2},        {"illum", 1},     {"instance", 82},  {"light", 1},
@@ -171,7 +177,7 @@ TEST_CASE("the virtual office and the example rooms are read whole") {
     check_hits(sample, rays, {});
     LIGHTWALK_NEEDS_SHARED(misc, "scenes/misc");
     CHECK(sample.warnings.empty());
-    CHECK(read_sample(misc, "examp").model->primitives.size() == 12);
+    CHECK(read_sample(misc, "examp").model->size() == 12);
     CHECK(read_sample(misc, "daffodil").counts["ring"] == 6);
 }
 
@@ -181,11 +187,11 @@ TEST_CASE("the cabin's trees: one octree inside another, three deep") {
     FileResources resources(LibraryPath({library}), false, silence);
     const auto tree = resources.octree("tree.oct"), sapling = resources.octree("sapling.oct"),
                needles = resources.octree("n.150.oct");
-    CHECK(tree->primitives.size() == 13207);
-    CHECK(sapling->primitives.size() == 271);
-    CHECK(needles->primitives.size() == 150);
+    CHECK(tree->size() == 13207);
+    CHECK(sapling->size() == 271);
+    CHECK(needles->size() == 150);
     std::set<std::string> nested;
-    for (const Primitive& p : tree->primitives) {
+    for (const Primitive& p : test::surfaces_of(*tree)) {
         if (p.type == PrimitiveType::instance) nested.insert(p.strings.at(0));
     }
     CHECK(nested == std::set<std::string>{"n.150.oct"});

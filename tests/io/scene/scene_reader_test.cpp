@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/all_primitives.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
 
@@ -25,11 +26,12 @@ struct Parsed {
     std::vector<std::string> warnings;
     std::string error;
 
-    [[nodiscard]] const Primitive& at(std::size_t i) const { return model->primitives.at(i); }
-    [[nodiscard]] std::size_t size() const { return model->primitives.size(); }
+    /// Modifiers come first, then the surfaces.
+    [[nodiscard]] Primitive at(std::size_t i) const { return test::all_primitives(*model).at(i); }
+    [[nodiscard]] std::size_t size() const { return model->size(); }
     /// Last primitive with this name.
-    [[nodiscard]] const Primitive& named(const std::string& name) const {
-        const auto& all = model->primitives;
+    [[nodiscard]] Primitive named(const std::string& name) const {
+        const auto all = test::all_primitives(*model);
         const auto found =
             std::find_if(all.rbegin(), all.rend(), [&](const auto& p) { return p.name == name; });
         REQUIRE(found != all.rend());
@@ -158,7 +160,7 @@ TEST_CASE("a caller that wants the problems gets the rest of the scene") {
     ProblemList problems;
     const auto model =
         read_scene(std::vector<std::string>{file}, inside(folder.path("")), silence, &problems);
-    CHECK(model->primitives.size() == 2);
+    CHECK(model->size() == 2);
     CHECK(problems.text().starts_with(file + ":2: command \"make_tree\""));
 }
 
@@ -173,7 +175,7 @@ TEST_CASE("earlier users keep the old record of a redefined name, later ones get
                                "void plastic red 0 0 5 .1 .1 .7 0 0 red sphere b 0 0 4 0 0 0 1\n");
     REQUIRE(scene.size() == 4);
     CHECK(scene.named("a").modifier == 0);
-    CHECK(scene.named("b").modifier == 2);
+    CHECK(scene.named("b").modifier == 1);
 }
 
 TEST_CASE("an equal redefinition keeps identity: antimatter still means the old record") {

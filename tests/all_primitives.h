@@ -1,0 +1,44 @@
+#pragma once
+// What a model holds, as a list of primitives.
+#include <string>
+#include <vector>
+
+#include "core/model/primitive.h"
+
+namespace lightwalk::test {
+
+/// A surface as a primitive that owns its arguments.
+[[nodiscard]] inline Primitive to_primitive(const SurfacePrimitive& surface) {
+    Primitive primitive;
+    primitive.type = surface.type;
+    primitive.modifier = surface.modifier;
+    primitive.name = std::string(surface.name);
+    primitive.strings = surface.strings.to_strings();
+    primitive.reals.assign(surface.reals.begin(), surface.reals.end());
+    primitive.where = surface.where();
+    return primitive;
+}
+
+/// A view of a surface; what it shows must outlive it.
+[[nodiscard]] inline SurfacePrimitive view_of(const Primitive& primitive) {
+    return {primitive.type,  primitive.modifier, primitive.name,
+            {},              primitive.reals,    &primitive.where.file,
+            primitive.where.line};
+}
+
+/// The surfaces alone, in their order.
+[[nodiscard]] inline std::vector<Primitive> surfaces_of(const Model& model) {
+    std::vector<Primitive> all;
+    for (std::size_t i = 0; i < model.surfaces.size(); ++i)
+        all.push_back(to_primitive(model.surfaces[i]));
+    return all;
+}
+
+/// The modifiers, in their order, then the surfaces.
+[[nodiscard]] inline std::vector<Primitive> all_primitives(const Model& model) {
+    std::vector<Primitive> all = model.modifiers;
+    for (Primitive& surface : surfaces_of(model)) all.push_back(std::move(surface));
+    return all;
+}
+
+}  // namespace lightwalk::test
