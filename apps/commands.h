@@ -19,6 +19,7 @@ int run_render(const std::vector<std::string>& words, Transport* ranks);
 int run_animate(const std::vector<std::string>& words, Transport* ranks);
 int run_walk(const std::vector<std::string>& words, Transport* ranks);
 int run_trace(const std::vector<std::string>& words, Transport* ranks);
+int run_freeze(const std::vector<std::string>& words, Transport* ranks);
 int run_info(const std::vector<std::string>& words, Transport* ranks);
 
 /// Help texts: of the program ("") and of each command.

@@ -67,6 +67,9 @@ bool parse_common_option(OptionWords& words, CommonOptions& options, RenderSetti
     } else if (word == "--allow-commands") {
         options.allow_commands = true;
         words.skip(1);
+    } else if (word == "--stale") {
+        options.stale_allowed = true;
+        words.skip(1);
     } else {
         return parse_rank_option(words, options.ranks);
     }
@@ -83,9 +86,9 @@ void refuse_option(const OptionWords& words, std::vector<std::string> names) {
 }
 
 std::vector<std::string> common_option_names() {
-    std::vector<std::string> names{"-n",        "-e",       "--executor",       "--seed",
-                                   "--stats",   "--quiet",  "--allow-commands", "--help",
-                                   "--version", "-defaults"};
+    std::vector<std::string> names{"-n",      "-e",        "--executor",       "--seed",
+                                   "--stats", "--quiet",   "--allow-commands", "--stale",
+                                   "--help",  "--version", "-defaults"};
     for (std::string& name : rank_option_names()) names.push_back(std::move(name));
     return names;
 }

@@ -18,6 +18,7 @@ struct CommonOptions {
     RankOptions ranks;
     ExecutorKind executor = kDefaultExecutor;  ///< --executor
     bool allow_commands = false;               ///< --allow-commands
+    bool stale_allowed = false;                ///< --stale
     bool quiet = false;                        ///< --quiet
     std::string stats_file;                    ///< --stats
     std::string error_file;                    ///< -e: where messages go, "" for standard error

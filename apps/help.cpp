@@ -10,11 +10,12 @@ constexpr const char* kProgramHelp =
   lightwalk animate OPTIONS SCENE...  the frames of a walk
   lightwalk walk OPTIONS SCENE...     walk through a scene in a browser
   lightwalk trace OPTIONS SCENE...    radiance along single rays   (like rtrace)
+  lightwalk freeze SCENE... -o FILE   a scene in one file, for a quick start
   lightwalk info SCENE...             what a scene holds
   lightwalk help COMMAND              how to use one of them
 
-SCENE is one octree (.oct), or Radiance scene files in order; "-" is standard input, which render and info also read
-when no scene is named. Library files are looked for along RAYPATH, then in the library that comes with Lightwalk.
+SCENE is one octree (.oct), one frozen scene (.lwz), or Radiance scene files in order; "-" is standard input, which
+render and info also read when no scene is named. Library files are looked for along RAYPATH, then in the library that comes with Lightwalk.
 
 A first picture, of a room with a window:
   lightwalk render -vp 2 1.6 0.5 -vd 0 0 1 -vu 0 1 0 -vh 60 -vv 45 -o room.png room.rad
@@ -90,6 +91,7 @@ Many processes, on one machine or many: mpirun -n RANKS lightwalk render ...
                      values in FILE-ambient, unless -af or --deterministic does what that is for
   --resume           with --checkpoint: a run that was killed goes on, with any number of ranks and threads
   --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
+  --stale            take a frozen scene whose files have changed since it was frozen
   --quiet            no progress, no warnings; -w- alone: no warnings
 )";
 
@@ -191,11 +193,33 @@ switches work as in `lightwalk render`.
   --seed N           other random numbers; equal rays of one run draw different ones
   --stats FILE.json  time and rays
   -e FILE            append messages to FILE
-  --allow-commands, --quiet, --executor   as in `lightwalk render`
+  --allow-commands, --stale, --quiet, --executor   as in `lightwalk render`
 
 A zero direction flushes the output. The input ends at its end, or at a word that is no number.
 
   echo "0 0 1  0 0 -1" | lightwalk trace -h -ovp -av .1 .1 .1 room.rad
+)";
+
+constexpr const char* kFreezeHelp =
+    R"(lightwalk freeze SCENE... -o FILE.lwz
+
+Write all that a run needs of a scene to one file: surfaces, materials, instances and meshes, and of the library the
+function files, data, pictures and fonts that the scene uses. Every command takes such a file in place of the scene,
+and makes the same pictures of it, bit for bit. It is mapped, not read: a run begins sooner, and processes on one
+machine share its pages. Only the tree that rays search is built anew.
+
+  lightwalk freeze building.rad furniture.rad sky.rad -o building.lwz
+  lightwalk render -vf entrance.vf -o entrance.hdr building.lwz
+
+The file knows what it was made from. Where a file has changed since, is missing, or has come to stand before another
+one in the library, the run ends and names it; --stale takes the scene as it was frozen. Commands that were run
+(--allow-commands) and standard input are not looked at again. Damaged files are refused: each part has a checksum. A
+file belongs to the version of Lightwalk that wrote it.
+
+  -o FILE            the frozen scene; a file of that name is replaced when the new one is whole
+  -n N               threads; default: all
+  --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
+  --quiet            no warnings
 )";
 
 constexpr const char* kInfoHelp =
@@ -216,6 +240,7 @@ const char* help_text(const std::string& command) {
     if (command == "animate") return kAnimateHelp;
     if (command == "walk") return kWalkHelp;
     if (command == "trace") return kTraceHelp;
+    if (command == "freeze") return kFreezeHelp;
     if (command == "info") return kInfoHelp;
     return kProgramHelp;
 }

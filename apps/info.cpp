@@ -79,9 +79,16 @@ void print_lights(const Scene& scene, const LightSources& lights) {
         }
         const Surface surface = scene.surface(light.object);
         std::printf("  %-12s %s (%s)%s\n", std::string(to_string(light.material_type)).c_str(),
-                    printable(surface.name()).c_str(), std::string(to_string(surface.type())).c_str(),
+                    printable(surface.name()).c_str(),
+                    std::string(to_string(surface.type())).c_str(),
                     light.unusable ? ", not sampled" : "");
     }
+}
+
+/// How many files a frozen scene was made from.
+void print_origin(const FrozenScene& frozen) {
+    const auto files = std::ranges::count_if(frozen.manifest(), &ManifestFile::exists);
+    std::printf("frozen         from %td files\n", files);
 }
 
 /// Count, levels, radii and bounds of an ambient file.
@@ -131,6 +138,7 @@ int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
     }
     settle_scene_files(options, "", *real_files());
     SceneSession session(options, warnings);
+    if (session.frozen != nullptr) print_origin(*session.frozen);
     print_counts(*session.model);
     print_unsupported(*session.model);
     session.build(settings);

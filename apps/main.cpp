@@ -19,11 +19,9 @@ struct Command {
     const char* name;
     int (*run)(const std::vector<std::string>&, Transport* ranks);
 };
-constexpr Command kCommands[] = {{"render", run_render},
-                                 {"animate", run_animate},
-                                 {"walk", run_walk},
-                                 {"trace", run_trace},
-                                 {"info", run_info}};
+constexpr Command kCommands[] = {{"render", run_render}, {"animate", run_animate},
+                                 {"walk", run_walk},     {"trace", run_trace},
+                                 {"freeze", run_freeze}, {"info", run_info}};
 
 /// --help, --version and their Radiance spellings, wherever they stand; nothing: none of them.
 bool answer_questions(const std::string& command, const std::vector<std::string>& words) {

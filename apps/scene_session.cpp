@@ -10,6 +10,7 @@
 #include "core/light/light_sources.h"
 #include "core/material/modifier_factories.h"
 #include "io/files/atomic_file.h"
+#include "io/scene/file_resources.h"
 #include "io/scene/scene_reader.h"
 #include "parallel/executor.h"
 #include "parallel/executor_team.h"
@@ -35,29 +36,50 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink,
     : warnings(sink),
       files(std::move(source)),
       library(LibraryPath::from_environment(files)),
-      resources(library, options.allow_commands, sink),
       workers(options.workers) {
     const Stopwatch watch;
-    model = read_scene(options.scene_files, {library, options.allow_commands}, warnings, &problems);
+    read(options);
     read_seconds = watch.seconds();
 }
 
-void SceneSession::raise_problems() {
+void SceneSession::read(const CommonOptions& options) {
+    const std::vector<std::string>& names = options.scene_files;
+    const auto found = std::ranges::find_if(
+        names, [&](const std::string& name) { return is_frozen_scene(name, *files); });
+    if (found == names.end()) {
+        resources = std::make_unique<FileResources>(library, options.allow_commands, warnings);
+        model = read_scene(names, {library, options.allow_commands}, warnings, &problems);
+        return;
+    }
+    if (names.size() > 1) throw InputError({*found, 0}, "a frozen scene is all of a scene");
+    // Every rank maps it itself, also where one reads for all: its pages are shared anyway.
+    auto opened = open_frozen_scene(*found, options.stale_allowed);
+    files->note_mapped(*found, opened->file().digest());
+    model = opened->model();
+    frozen = opened.get();
+    resources = std::move(opened);
+}
+
+void SceneSession::raise_problems(Resources& asked) {
     if (problems.empty()) return;
     try {
-        Scene::unsupported(model, modifier_factory, resources, warnings).raise();
+        Scene::unsupported(model, modifier_factory, asked, warnings).raise();
     } catch (const InputError& error) {
         problems.add(error);
     }
     problems.raise();
 }
 
+void SceneSession::compile(Resources& asked) {
+    raise_problems(asked);
+    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
+    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings,
+                                          ExecutorTeam(*executor));
+}
+
 void SceneSession::build(const RenderSettings& settings, RankLink* link) {
     const Stopwatch watch;
-    raise_problems();
-    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
-    built = std::make_unique<const Scene>(model, modifier_factory, resources, warnings,
-                                          ExecutorTeam(*executor));
+    compile(*resources);
     auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
     const RenderOptions& options = settings.light;
     if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {

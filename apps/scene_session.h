@@ -11,7 +11,7 @@
 #include "core/scene/scene.h"
 #include "core/transport/tracer.h"
 #include "io/ambient/ambient_store.h"
-#include "io/scene/file_resources.h"
+#include "io/scene/frozen_scene.h"
 #include "parallel/concurrent_cache.h"
 #include "parallel/freezable_cache.h"
 #include "parallel/recording_cache.h"
@@ -36,8 +36,10 @@ struct SceneSession {
     /// settle_scene_files.
     SceneSession(const CommonOptions& options, WarningSink& warnings,
                  std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>());
-    /// Compiles the scene, then the tracer. Throws InputError, with all problems of the
-    /// description.
+    /// Compiles the scene, by what `asked` says of its library. Throws InputError, with all
+    /// problems of the description.
+    void compile(Resources& asked);
+    /// Compiles the scene, then the tracer. Throws InputError as compile().
     /// @param link  the other ranks, with which ambient values are exchanged; rank 0 alone has the
     ///              ambient file
     void build(const RenderSettings& settings, RankLink* link = nullptr);
@@ -54,9 +56,10 @@ struct SceneSession {
     WarningSink& warnings;
     std::shared_ptr<FileRecorder> files;
     LibraryPath library;
-    FileResources resources;
-    int workers = 1;       ///< that build the scene
-    ProblemList problems;  ///< of the description, which `model` leaves out
+    std::unique_ptr<Resources> resources;  ///< the scene's library
+    const FrozenScene* frozen = nullptr;   ///< where they are those of a frozen scene
+    int workers = 1;                       ///< that build the scene
+    ProblemList problems;                  ///< of the description, which `model` leaves out
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;
     // With -ab and -aa; they outlive the tracer.
@@ -69,7 +72,8 @@ struct SceneSession {
     double read_seconds = 0, build_seconds = 0;
 
   private:
-    void raise_problems();
+    void read(const CommonOptions& options);
+    void raise_problems(Resources& asked);
     void make_cache(const RenderSettings& settings, RankLink* link);
 };
 

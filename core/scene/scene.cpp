@@ -198,6 +198,15 @@ std::size_t Scene::modifier_count() const {
 const Model& Scene::model() const {
     return *impl_->models[0].model;
 }
+std::shared_ptr<const SurfaceShapes> Scene::shapes_of(const Model& model) const {
+    std::size_t part = 0;  // meshes have none
+    for (const LoadedModel& loaded : impl_->models) {
+        if (loaded.mesh) continue;
+        if (loaded.model.get() == &model) return impl_->shapes[part];
+        ++part;
+    }
+    return nullptr;
+}
 std::optional<ModifierId> Scene::material_of(ModifierId first) const {
     return impl_->modifiers.material_of(first);
 }

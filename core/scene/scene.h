@@ -46,6 +46,8 @@ class Scene {
     [[nodiscard]] std::size_t modifier_count() const;
     [[nodiscard]] const Model& model() const;
     [[nodiscard]] SceneCube cube() const;
+    /// Of the surfaces of one of its models, its own or a placed one; null for any other.
+    [[nodiscard]] std::shared_ptr<const SurfaceShapes> shapes_of(const Model& model) const;
 
     /// The material at the end of a modifier's chain: first material or mixture met; nothing when
     /// there is none.

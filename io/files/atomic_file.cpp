@@ -40,6 +40,12 @@ class OpenFile {
         }
         return 0;
     }
+    int write(std::span<const std::string_view> pieces) {
+        for (const std::string_view piece : pieces) {
+            if (const int failed = write(piece); failed != 0) return failed;
+        }
+        return 0;
+    }
     int close() {
         const int failed = ::close(descriptor_);
         descriptor_ = -1;
@@ -71,9 +77,9 @@ class TemporaryFile {
 };
 
 /// Devices and pipes can't be replaced by renaming.
-void write_directly(const std::string& path, std::string_view bytes) {
+void write_directly(const std::string& path, std::span<const std::string_view> pieces) {
     OpenFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    int failed = file.write(bytes);
+    int failed = file.write(pieces);
     if (failed == 0) failed = file.close();
     if (failed != 0) throw write_error(path, failed);
 }
@@ -81,10 +87,14 @@ void write_directly(const std::string& path, std::string_view bytes) {
 }  // namespace
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
+    write_file_atomically(path, std::span(&bytes, 1));
+}
+
+void write_file_atomically(const std::string& path, std::span<const std::string_view> pieces) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
-        write_directly(path, bytes);
+        write_directly(path, pieces);
         return;
     }
     fs::path target = path;
@@ -103,7 +113,7 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     if (descriptor < 0) throw write_error(path, errno);
     TemporaryFile part(temporary);
     OpenFile file(descriptor);
-    int failed = file.write(bytes);
+    int failed = file.write(pieces);
     if (failed == 0) failed = file.close();
     if (failed == 0) failed = part.rename_to(target);
     if (failed != 0) throw write_error(path, failed);

@@ -1,5 +1,6 @@
 #pragma once
 // Files that appear whole or not at all.
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,5 +10,7 @@ namespace lightwalk {
 /// complete, and removed when that fails. Links are followed; devices and pipes are written to
 /// directly. Throws InputError.
 void write_file_atomically(const std::string& path, std::string_view bytes);
+/// The same for bytes in pieces, one after the other.
+void write_file_atomically(const std::string& path, std::span<const std::string_view> pieces);
 
 }  // namespace lightwalk

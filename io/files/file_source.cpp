@@ -1,27 +1,27 @@
 #include "io/files/file_source.h"
 
-#include <xxhash.h>
-
 #include <array>
 #include <cstdio>
 #include <cstring>
 #include <utility>
 
 #include "core/error.h"
+#include "io/files/digest.h"
 #include "io/files/library_path.h"
 
 namespace lightwalk {
 namespace {
 
-/// XXH3 with 64 bits (Collet; in the format of its reference implementation), as hexadecimal
-/// digits.
+/// As hexadecimal digits.
+std::string digits_of(std::uint64_t digest) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(digest));
+    return text.data();
+}
+
 /// @param kind  of bytes: equal ones of different kinds have different digests
 std::string digest_of(std::string_view bytes, char kind) {
-    const XXH64_hash_t hash =
-        XXH3_64bits_withSeed(bytes.data(), bytes.size(), static_cast<unsigned char>(kind));
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-    return text.data();
+    return digits_of(digest_of_bytes(bytes, static_cast<unsigned char>(kind)));
 }
 
 void append_text(std::string& out, std::string_view text) {
@@ -89,6 +89,10 @@ void FileRecorder::note(Question question, const std::string& text, char kind,
     const bool is_file = question == Question::bytes;
     const std::string name = is_file ? text.substr(text.rfind('/') + 1) : printable(text);
     digests_.push_back(name.substr(0, name.find('\n')) + ' ' + digest_of(said, kind));
+}
+
+void FileRecorder::note_mapped(const std::string& path, std::uint64_t digest) {
+    digests_.push_back(path.substr(path.rfind('/') + 1) + ' ' + digits_of(digest));
 }
 
 std::optional<std::string> FileRecorder::ask(Question question, const std::string& text,

@@ -57,6 +57,8 @@ class FileRecorder final : public FileSource {
     /// A line for each file, command and standard input that was read, in the order of the first
     /// time: its name without folders, and a digest of its bytes.
     [[nodiscard]] const std::vector<std::string>& digests() const { return digests_; }
+    /// A line for a file that is used without being read.
+    void note_mapped(const std::string& path, std::uint64_t digest);
     /// One digest of all these.
     [[nodiscard]] std::string digest() const;
 

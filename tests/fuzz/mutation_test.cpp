@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <random>
 
 #include "tests/fuzz/targets.h"
@@ -54,13 +56,45 @@ std::string mutate(std::string bytes, std::mt19937& random) {
     return bytes;
 }
 
+/// One to eight small injuries that move nothing: bits, bytes, numbers, stretches from elsewhere.
+std::string overwrite(std::string bytes, std::mt19937& random) {
+    static const std::uint64_t kNumbers[] = {0,
+                                             1,
+                                             ~std::uint64_t{0},
+                                             0x7fffffff80000000,
+                                             0x7ff8000000000000,
+                                             0x7ff0000000000000,
+                                             0x3ff0000000000000,
+                                             0xc340000000000000};
+    const auto below = [&](std::size_t n) { return random() % n; };
+    for (std::size_t injuries = 1 + below(8); injuries > 0; --injuries) {
+        const std::size_t at = below(bytes.size() - 8);
+        switch (below(4)) {
+            case 0:
+                bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+                break;
+            case 1:
+                bytes[at] = static_cast<char>(below(256));
+                break;
+            case 2:
+                std::memcpy(&bytes[at / 4 * 4], &kNumbers[below(std::size(kNumbers))],
+                            std::size_t{4} << below(2));
+                break;
+            default:
+                std::memmove(&bytes[at / 4 * 4], &bytes[below(bytes.size() - 8) / 4 * 4], 8);
+                break;
+        }
+    }
+    return bytes;
+}
+
 long peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss;
 }
 
-void endure(const NamedTarget& target) {
+void endure(const NamedTarget& target, std::string (*injure)(std::string, std::mt19937&) = mutate) {
     const auto seeds = seeds_of(target.run);
     for (const std::string& seed : seeds)
         CHECK_MESSAGE(target.run(seed), std::string(target.name) << ": a seed is refused");
@@ -69,7 +103,7 @@ void endure(const NamedTarget& target) {
     double longest = 0;
     for (int i = 0; i < kMutants; ++i) {
         const std::string mutant =
-            mutate(seeds[static_cast<std::size_t>(i) % seeds.size()], random);
+            injure(seeds[static_cast<std::size_t>(i) % seeds.size()], random);
         alarm(4 * kHangSeconds);  // a hang ends the test program, which fails the test
         const auto start = std::chrono::steady_clock::now();
         accepted += target.run(mutant) ? 1 : 0;
@@ -103,6 +137,13 @@ TEST_CASE("mutated data files, fonts and meshes are read or refused") {
 }
 TEST_CASE("mutated messages of browsers are read or refused") {
     endure(kFuzzTargets[5]);
+}
+TEST_CASE("mutated frozen scenes are read or refused") {
+    endure(kFuzzTargets[6]);
+}
+TEST_CASE("mutated frozen scenes whose digests fit are read or refused") {
+    endure(kFuzzTargets[7]);
+    endure(kFuzzTargets[7], overwrite);
 }
 
 }  // namespace lightwalk::test

@@ -1,9 +1,16 @@
 // Small sound inputs that touch most of what each reader knows.
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "io/formats/decode.h"
 #include "io/picture/picture.h"
+#include "io/picture/picture_data.h"
+#include "io/scene/binary_models.h"
+#include "io/scene/frozen_scene.h"
+#include "io/scene/scene_reader.h"
 #include "tests/fuzz/targets.h"
+#include "tests/test_scene.h"
 
 namespace lightwalk::test {
 namespace {
@@ -122,6 +129,51 @@ Picture gradient() {
     return picture;
 }
 
+/// What makes use of every kind of library file, of some that are missing, too.
+const std::string kUsers = R"rad(
+void brightfunc shade 2 if(a,1,.5) f.cal 0 0
+shade plastic shaded 0 0 5 .5 .5 .5 0 0
+void brightfunc lost 2 1 lost.cal 0 0
+lost plastic unseen 0 0 5 .5 .5 .5 0 0
+void brightdata table 5 noneg d.dat . Px Py 0 0
+table plastic measured 0 0 5 .5 .5 .5 0 0
+void colorpict image 7 noneg noneg noneg p.hdr . Px Py 0 0
+image plastic painted 0 0 5 .5 .5 .5 0 0
+void brighttext sign 3 f.fnt A B 0 11 -1 -2 0 .5 0 0 0 0 .5 1 .2
+sign plastic lettered 0 0 5 .5 .5 .5 0 0
+shaded sphere s1 0 0 4 -1 -1 1 .3
+unseen sphere s2 0 0 4 9 9 9 .3
+measured polygon p1 0 0 9 -2 -2 .1 2 -2 .1 2 2 .1
+painted polygon p2 0 0 12 -2 1 0 2 1 0 2 1 3 -2 1 3
+lettered polygon p3 0 0 12 -1 -2 0 1 -2 0 1 -2 .5 -1 -2 .5
+painted cup c1 0 0 8 0 0 .1 0 0 .5 .2 .3
+measured bubble b1 0 0 4 1 -1 1 .2
+shaded tube t1 0 0 7 -1 0 0 -1 0 1 .1
+shaded ring flat 0 0 8 0 0 0 0 0 1 .2 .2
+void instance tree 5 tree.oct -t .5 -1 .5 0 0
+void mesh stone 5 stone.rtm -t -.5 -1 .5 0 0
+)rad";
+
+/// A scene with all of that, frozen.
+std::string frozen_scene() {
+    MemoryResources files;
+    files.functions["f.cal"] = kFunctions;
+    files.tables["d.dat"] = std::make_shared<const DataArray>(decode_data(kData1, "d.dat"));
+    files.pictures["p.hdr"] =
+        std::make_shared<const PictureData>(decode_picture(encode_hdr(gradient(), {}), "p.hdr"));
+    files.fonts["f.fnt"] = std::make_shared<const Font>(decode_font(kFont, "f.fnt"));
+    files.octrees["tree.oct"] = decode_octree(frozen_octree(), "tree.oct").model;
+    files.meshes["stone.rtm"] = std::make_shared<const MeshModel>(decode_mesh(mesh(), "stone.rtm"));
+    FreezingResources library(files);
+    Silence silence;
+    SceneReadOptions options;
+    options.library = LibraryPath(std::vector<std::string>{});
+    const Scene scene(parse_scene(kScene + kUsers, "room.rad", options, silence), modifier_factory,
+                      library, silence);
+    const std::vector<ManifestFile> manifest{{"/room.rad", true, 9, 9, 9}, {"/lost.cal"}};
+    return frozen_scene_bytes(scene, library, manifest);
+}
+
 }  // namespace
 
 std::span<const std::string> seeds_of(FuzzTarget target) {
@@ -139,6 +191,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     static const std::vector<std::string> requests{kViewRequest, kDisplayRequest, kProbesRequest};
     if (target == read_picture) return pictures;
     if (target == read_walk_request) return requests;
+    static const std::vector<std::string> frozen{frozen_scene()};
+    if (target == read_frozen || target == read_resealed) return frozen;
     return data;
 }
 

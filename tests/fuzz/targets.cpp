@@ -1,7 +1,11 @@
 #include "tests/fuzz/targets.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "core/function/environment.h"
 #include "core/scene/scene.h"
@@ -12,6 +16,7 @@
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/scene/binary_models.h"
+#include "io/scene/frozen_scene.h"
 #include "io/scene/scene_reader.h"
 #include "tests/test_scene.h"
 
@@ -19,8 +24,7 @@ namespace lightwalk::test {
 namespace {
 
 /// Build the scene and look at it from a few directions.
-void trace_some(std::shared_ptr<const Model> model) {
-    MemoryResources resources;
+void trace_some(std::shared_ptr<const Model> model, Resources& resources) {
     Silence silence;
     const Scene scene(std::move(model), modifier_factory, resources, silence);
     RenderOptions options;
@@ -34,6 +38,11 @@ void trace_some(std::shared_ptr<const Model> model) {
         Ray ray = tracer.primary({0.5, -3, 0.5}, direction, 0, RandomStream::of_pixel(1, i, 0, 0));
         tracer.trace(ray, context);
     }
+}
+
+void trace_some(std::shared_ptr<const Model> model) {
+    MemoryResources resources;
+    trace_some(std::move(model), resources);
 }
 
 template <class Read>
@@ -109,6 +118,20 @@ bool read_walk_request(std::string_view bytes) {
         const WalkRequest request = parse_walk_request(bytes);
         if (const auto* view = std::get_if<ViewRequest>(&request)) (void)Camera(view->view);
     });
+}
+
+bool read_frozen(std::string_view bytes) {
+    return accepts([&] {
+        const auto memory = std::make_shared<std::vector<std::uint64_t>>(bytes.size() / 8 + 1);
+        std::ranges::copy(bytes, reinterpret_cast<char*>(memory->data()));
+        const auto all = std::as_bytes(std::span(*memory)).first(bytes.size());
+        FrozenScene frozen(FrozenFile(memory, all, "mutant.lwz"));
+        trace_some(frozen.model(), frozen);
+    });
+}
+
+bool read_resealed(std::string_view bytes) {
+    return read_frozen(resealed(std::string(bytes)));
 }
 
 }  // namespace lightwalk::test

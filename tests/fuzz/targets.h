@@ -18,6 +18,8 @@ bool read_function_file(std::string_view bytes);  ///< load, compile and evaluat
 bool read_picture(std::string_view bytes);        ///< as a pattern and as a picture
 bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
 bool read_walk_request(std::string_view bytes);   ///< a browser's message
+bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, compile, trace
+bool read_resealed(std::string_view bytes);       ///< the same, with digests that fit again
 
 /// Sound inputs of each target; made here, so that the tests need no other files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
@@ -27,7 +29,8 @@ struct NamedTarget {
     FuzzTarget run;
 };
 inline constexpr NamedTarget kFuzzTargets[] = {
-    {"scene", read_scene_text}, {"octree", read_octree},  {"function", read_function_file},
-    {"picture", read_picture},  {"data", read_data_file}, {"request", read_walk_request}};
+    {"scene", read_scene_text}, {"octree", read_octree},    {"function", read_function_file},
+    {"picture", read_picture},  {"data", read_data_file},   {"request", read_walk_request},
+    {"frozen", read_frozen},    {"resealed", read_resealed}};
 
 }  // namespace lightwalk::test

@@ -1,0 +1,54 @@
+#pragma once
+// What a scene asked of its library while it was compiled, and the answers: all that it needs
+// again.
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/resources.h"
+
+namespace lightwalk {
+
+/// What was found, or the message that it was not.
+template <class T>
+struct ResourceAnswer {
+    std::optional<T> found;
+    std::string missing;
+};
+template <class T>
+using ResourceAnswers = std::map<std::string, ResourceAnswer<T>>;  ///< by the name asked for
+
+/// Passes questions on, and remembers the answers; errors other than missing files are passed on
+/// only. For one thread.
+class FreezingResources final : public Resources {
+  public:
+    /// @param source  must outlive it
+    explicit FreezingResources(Resources& source) : source_(source) {}
+
+    [[nodiscard]] std::string function_file(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const Font> font(const std::string& name) override;
+    [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
+
+    struct Answers {
+        ResourceAnswers<std::string> functions;
+        ResourceAnswers<std::shared_ptr<const DataArray>> tables;
+        ResourceAnswers<std::shared_ptr<const PictureData>> pictures;
+        ResourceAnswers<std::shared_ptr<const Font>> fonts;
+        ResourceAnswers<std::vector<std::string>> texts;
+        ResourceAnswers<std::shared_ptr<const Model>> octrees;
+        ResourceAnswers<std::shared_ptr<const MeshModel>> meshes;
+    };
+    [[nodiscard]] const Answers& answers() const { return answers_; }
+
+  private:
+    Resources& source_;
+    Answers answers_;
+};
+
+}  // namespace lightwalk

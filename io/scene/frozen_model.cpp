@@ -1,0 +1,333 @@
+#include "io/scene/frozen_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "io/formats/packed.h"
+
+namespace lightwalk {
+namespace {
+
+[[noreturn]] void refuse_column(const FrozenFile& file, const char* what) {
+    throw InputError({file.name(), 0}, std::string("damaged: ") + what);
+}
+
+/// The values of a part where they lie.
+template <class T>
+std::span<const T> values_of(const FrozenFile& file, FrozenKind kind, std::uint32_t number) {
+    const std::span<const std::byte> bytes = part_of(file, kind, number);
+    static_assert(alignof(T) <= 8);
+    if (bytes.size() % sizeof(T) != 0) refuse_column(file, "a column of broken length");
+    return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+}
+
+template <class T>
+Column<T> column_of(const FrozenFile& file, FrozenKind kind, std::uint32_t number) {
+    return Column<T>::mapped(values_of<T>(file, kind, number));
+}
+
+/// That a member at `offset` of each value is a bool: any other byte in its place would be none.
+template <class T>
+void check_bools(const FrozenFile& file, std::span<const T> values, std::size_t offset) {
+    const auto* byte = reinterpret_cast<const unsigned char*>(values.data()) + offset;
+    for (std::size_t i = 0; i < values.size(); ++i, byte += sizeof(T)) {
+        if (*byte > 1) refuse_column(file, "neither yes nor no");
+    }
+}
+
+/// Names of files, each once, by number.
+class FileNumbers {
+  public:
+    std::int32_t number(const FileName& file) {
+        if (!last_.is(file) || numbers_.empty()) {
+            const auto next = static_cast<std::int32_t>(names.size());
+            const auto [found, is_new] = numbers_.try_emplace(file.text(), next);
+            if (is_new) names.push_back(found->first);
+            last_ = file;
+            last_number_ = found->second;
+        }
+        return last_number_;
+    }
+    std::vector<std::string> names;
+
+  private:
+    std::map<std::string, std::int32_t> numbers_;
+    FileName last_;
+    std::int32_t last_number_ = 0;
+};
+
+void pack_modifiers(PackedWriter& writer, std::span<const Primitive> modifiers) {
+    FileNumbers files;
+    for (const Primitive& modifier : modifiers) (void)files.number(modifier.where.file);
+    writer.texts(files.names);
+    writer.count(modifiers.size());
+    for (const Primitive& modifier : modifiers) {
+        writer.number(modifier.type);
+        writer.number(modifier.modifier);
+        writer.text(modifier.name);
+        writer.texts(modifier.strings);
+        writer.list(modifier.reals);
+        writer.list(modifier.references);
+        writer.number(files.number(modifier.where.file));
+        writer.number(modifier.where.line);
+    }
+}
+
+constexpr std::size_t kLeastModifier = 1 + 4 + 4 * 8 + 4 + 4;  ///< packed [bytes]
+
+/// That names mean earlier modifiers, and numbers are such.
+bool is_sound(const Primitive& modifier, std::size_t number) {
+    const auto earlier = static_cast<std::int64_t>(number);
+    const auto names_one = [&](std::int32_t reference) {
+        return reference >= kUndefinedIndex && reference < earlier;
+    };
+    return static_cast<std::size_t>(modifier.type) < primitive_type_count() &&
+           !is_surface(modifier.type) && modifier.modifier >= kVoidIndex &&
+           modifier.modifier < earlier && modifier.references.size() <= modifier.strings.size() &&
+           std::ranges::all_of(modifier.references, names_one) &&
+           std::ranges::all_of(modifier.reals, [](double x) { return std::isfinite(x); });
+}
+
+std::vector<FileName> unpack_files(PackedReader& reader) {
+    std::vector<FileName> files;
+    for (const std::string& name : reader.texts()) files.emplace_back(name);
+    return files;
+}
+
+std::vector<Primitive> unpack_modifiers(PackedReader& reader) {
+    const std::vector<FileName> files = unpack_files(reader);
+    std::vector<Primitive> modifiers(reader.count(kLeastModifier));
+    for (std::size_t i = 0; i < modifiers.size(); ++i) {
+        Primitive& modifier = modifiers[i];
+        modifier.type = reader.number<PrimitiveType>();
+        modifier.modifier = reader.number<std::int32_t>();
+        modifier.name = reader.text();
+        modifier.strings = reader.texts();
+        modifier.reals = reader.list<double>();
+        modifier.references = reader.list<std::int32_t>();
+        const auto file = reader.number<std::uint32_t>();
+        if (!is_sound(modifier, i) || file >= files.size()) reader.fail();
+        modifier.where = {files[file], reader.number<std::int32_t>()};
+    }
+    return modifiers;
+}
+
+void pack_cube(PackedWriter& writer, const std::optional<ModelCube>& cube) {
+    writer.boolean(cube.has_value());
+    writer.number(cube.value_or(ModelCube()));
+}
+
+std::optional<ModelCube> unpack_cube(PackedReader& reader) {
+    const bool present = reader.boolean();
+    const auto cube = reader.number<ModelCube>();
+    if (!std::isfinite(cube.x + cube.y + cube.z) || !std::isfinite(cube.size) || cube.size < 0)
+        reader.fail();
+    return present ? std::optional(cube) : std::nullopt;
+}
+
+SurfaceList thaw_surfaces(const FrozenFile& file, std::uint32_t number, std::vector<FileName> files,
+                          std::size_t modifiers) {
+    SurfaceList::Columns columns;
+    columns.records = column_of<SurfaceRecord>(file, FrozenKind::records, number);
+    columns.reals = column_of<double>(file, FrozenKind::reals, number);
+    columns.text = column_of<char>(file, FrozenKind::text, number);
+    columns.strings = column_of<SurfaceStrings>(file, FrozenKind::strings, number);
+    columns.files = std::move(files);
+    return {std::move(columns), modifiers};
+}
+
+bool within_reach(double x) {
+    return std::abs(x) <= kLargestCoordinate;
+}
+bool within_reach(const Vec3& v) {
+    return within_reach(v.x) && within_reach(v.y) && within_reach(v.z);
+}
+bool is_usable(const SphereShape& sphere) {
+    return within_reach(sphere.center) && sphere.radius > 0 && within_reach(sphere.radius);
+}
+bool is_usable(const ConeShape& cone) {
+    return within_reach(cone.p0) && within_reach(cone.p1) && within_reach(cone.axis) &&
+           cone.r0 >= 0 && cone.r1 >= cone.r0 && within_reach(cone.r1) && cone.length > 0 &&
+           within_reach(cone.length) && std::isfinite(cone.slope);
+}
+bool is_usable(const RingShape& ring) {
+    return within_reach(ring.center) && within_reach(ring.normal) && ring.r0 >= 0 &&
+           ring.r1 >= ring.r0 && within_reach(ring.r1);
+}
+bool is_usable(const SourceShape& source) {
+    return within_reach(source.direction) && std::isfinite(source.solid_angle);
+}
+
+/// That the shapes that are in use, those of some row, hold numbers that a search can bear.
+void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns) {
+    for (const ShapeRow& row : columns.rows) {
+        const auto usable = [&](const auto& column) {
+            return row.index < column.size() && is_usable(column[row.index]);
+        };
+        const bool good = row.kind == ShapeKind::sphere   ? usable(columns.spheres)
+                          : row.kind == ShapeKind::cone   ? usable(columns.cones)
+                          : row.kind == ShapeKind::ring   ? usable(columns.rings)
+                          : row.kind == ShapeKind::source ? usable(columns.sources)
+                                                          : true;
+        if (!good) refuse_column(file, "a shape that is none");
+    }
+}
+
+SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const SurfaceList& list,
+                          std::vector<std::string> warnings) {
+    SurfaceShapes::Columns columns;
+    columns.rows = column_of<ShapeRow>(file, FrozenKind::rows, number);
+    columns.planes = column_of<PolygonPlane>(file, FrozenKind::planes, number);
+    columns.spheres = column_of<SphereShape>(file, FrozenKind::spheres, number);
+    columns.cones = column_of<ConeShape>(file, FrozenKind::cones, number);
+    columns.rings = column_of<RingShape>(file, FrozenKind::rings, number);
+    columns.sources = column_of<SourceShape>(file, FrozenKind::sources, number);
+    columns.warnings = std::move(warnings);
+    check_bools(file, columns.rows.values(),
+                offsetof(ShapeRow, manner) + offsetof(PolygonManner, is_rectangle));
+    check_bools(file, columns.spheres.values(), offsetof(SphereShape, inward));
+    check_bools(file, columns.cones.values(), offsetof(ConeShape, inward));
+    check_shapes(file, columns);
+    return {std::move(columns), list};
+}
+
+/// A model, and what keeps the bytes that it shows.
+struct ThawedModel {
+    std::shared_ptr<const void> bytes;
+    Model model;
+};
+
+/// Errors of the model's own checks, with the file's name.
+template <class Thaw>
+auto named(const FrozenFile& file, const Thaw& thaw) {
+    try {
+        return thaw();
+    } catch (const InputError& error) {
+        const std::string said = error.what();
+        throw InputError(said.starts_with(file.name()) ? said : file.name() + ": " + said);
+    }
+}
+
+struct PackedTriangle {
+    std::uint32_t v[3] = {};
+    std::int32_t material = kVoidIndex;
+    std::uint32_t flags = 0;  ///< 1: normals, 2: texture coordinates
+};
+
+PackedTriangle packed(const MeshModel::Triangle& t) {
+    return {
+        {t.v[0], t.v[1], t.v[2]}, t.material, (t.has_normals ? 1U : 0U) | (t.has_uvs ? 2U : 0U)};
+}
+
+MeshModel::Triangle unpacked(const PackedTriangle& t) {
+    return {{t.v[0], t.v[1], t.v[2]}, t.material, (t.flags & 1) != 0, (t.flags & 2) != 0};
+}
+
+/// That a table of the vertices is whole, or not there where no triangle needs it.
+bool is_sound(const MeshModel& mesh, std::size_t table, bool needed) {
+    return table == mesh.positions.size() || (table == 0 && !needed);
+}
+
+bool is_sound(const MeshModel& mesh) {
+    const auto materials = static_cast<std::int64_t>(mesh.materials.modifiers.size());
+    bool normals = false, uvs = false;
+    for (const MeshModel::Triangle& triangle : mesh.triangles) {
+        const bool corners = std::ranges::all_of(
+            triangle.v, [&](std::uint32_t v) { return v < mesh.positions.size(); });
+        if (!corners || triangle.material < kVoidIndex || triangle.material >= materials)
+            return false;
+        normals = normals || triangle.has_normals;
+        uvs = uvs || triangle.has_uvs;
+    }
+    const auto finite = [](const MeshModel::Vertex& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    return is_sound(mesh, mesh.normals.size(), normals) && is_sound(mesh, mesh.us.size(), uvs) &&
+           is_sound(mesh, mesh.vs.size(), uvs) && std::ranges::all_of(mesh.positions, finite) &&
+           std::ranges::all_of(mesh.normals, finite);
+}
+
+template <class T>
+std::vector<T> copy_of(std::span<const T> values) {
+    return {values.begin(), values.end()};
+}
+
+}  // namespace
+
+void freeze_model(const Model& model, const SurfaceShapes& shapes, std::uint32_t number,
+                  FrozenParts& parts) {
+    const SurfaceList::Columns& surfaces = model.surfaces.columns();
+    PackedWriter writer;
+    pack_modifiers(writer, model.modifiers);
+    writer.texts(model.header);
+    pack_cube(writer, model.cube);
+    writer.count(surfaces.files.size());
+    for (const FileName& name : surfaces.files) writer.text(name.text());
+    writer.texts(shapes.columns().warnings);
+    parts.add(FrozenKind::model, number, writer.bytes());
+    parts.add(FrozenKind::records, number, surfaces.records.values());
+    parts.add(FrozenKind::reals, number, surfaces.reals.values());
+    parts.add(FrozenKind::text, number, surfaces.text.values());
+    parts.add(FrozenKind::strings, number, surfaces.strings.values());
+    parts.add(FrozenKind::rows, number, shapes.columns().rows.values());
+    parts.add(FrozenKind::planes, number, shapes.columns().planes.values());
+    parts.add(FrozenKind::spheres, number, shapes.columns().spheres.values());
+    parts.add(FrozenKind::cones, number, shapes.columns().cones.values());
+    parts.add(FrozenKind::rings, number, shapes.columns().rings.values());
+    parts.add(FrozenKind::sources, number, shapes.columns().sources.values());
+}
+
+std::shared_ptr<const Model> thaw_model(const FrozenFile& file, std::uint32_t number) {
+    return named(file, [&] {
+        const auto thawed = std::make_shared<ThawedModel>();
+        thawed->bytes = file.owner();
+        Model& model = thawed->model;
+        PackedReader reader(part_of(file, FrozenKind::model, number), file.name(), "a model");
+        model.modifiers = unpack_modifiers(reader);
+        model.header = reader.texts();
+        model.cube = unpack_cube(reader);
+        std::vector<FileName> files = unpack_files(reader);
+        std::vector<std::string> warnings = reader.texts();
+        reader.end();
+        model.surfaces = thaw_surfaces(file, number, std::move(files), model.modifiers.size());
+        model.shapes = std::make_shared<const SurfaceShapes>(
+            thaw_shapes(file, number, model.surfaces, std::move(warnings)));
+        return std::shared_ptr<const Model>(thawed, &model);
+    });
+}
+
+void freeze_mesh(const MeshModel& mesh, std::uint32_t number, FrozenParts& parts) {
+    PackedWriter writer;
+    pack_modifiers(writer, mesh.materials.modifiers);
+    parts.add(FrozenKind::mesh, number, writer.bytes());
+    parts.add(FrozenKind::positions, number, std::span(mesh.positions));
+    parts.add(FrozenKind::normals, number, std::span(mesh.normals));
+    parts.add(FrozenKind::us, number, std::span(mesh.us));
+    parts.add(FrozenKind::vs, number, std::span(mesh.vs));
+    PackedWriter triangles;
+    for (const MeshModel::Triangle& triangle : mesh.triangles) triangles.number(packed(triangle));
+    parts.add(FrozenKind::triangles, number, triangles.bytes());
+}
+
+std::shared_ptr<const MeshModel> thaw_mesh(const FrozenFile& file, std::uint32_t number) {
+    using Vertex = MeshModel::Vertex;
+    auto mesh = std::make_shared<MeshModel>();
+    PackedReader reader(part_of(file, FrozenKind::mesh, number), file.name(), "a mesh");
+    mesh->materials.modifiers = unpack_modifiers(reader);
+    reader.end();
+    mesh->positions = copy_of(values_of<Vertex>(file, FrozenKind::positions, number));
+    mesh->normals = copy_of(values_of<Vertex>(file, FrozenKind::normals, number));
+    mesh->us = copy_of(values_of<double>(file, FrozenKind::us, number));
+    mesh->vs = copy_of(values_of<double>(file, FrozenKind::vs, number));
+    for (const PackedTriangle& t : values_of<PackedTriangle>(file, FrozenKind::triangles, number))
+        mesh->triangles.push_back(unpacked(t));
+    if (!is_sound(*mesh)) reader.fail();
+    return mesh;
+}
+
+}  // namespace lightwalk

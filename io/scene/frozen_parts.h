@@ -1,0 +1,68 @@
+#pragma once
+// What the parts of a frozen scene are called.
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/scene/frozen_file.h"
+
+namespace lightwalk {
+
+/// What a part of a frozen scene holds.
+enum class FrozenKind : std::uint32_t {
+    manifest = 1,
+    answers,  ///< what the library answered, by name
+    data,
+    picture,
+    font,
+    // Of each model; the scene is number 0.
+    model = 16,
+    records,
+    reals,
+    text,
+    strings,
+    rows,
+    planes,
+    spheres,
+    cones,
+    rings,
+    sources,
+    // Of each mesh.
+    mesh = 32,
+    positions,
+    normals,
+    us,
+    vs,
+    triangles,
+};
+
+/// The parts of a file that is to be written.
+class FrozenParts {
+  public:
+    /// The values must stay where they are until the file is written.
+    template <class T>
+    void add(FrozenKind kind, std::uint32_t owner, std::span<const T> values) {
+        parts_.push_back({static_cast<std::uint32_t>(kind), owner, std::as_bytes(values)});
+    }
+    void add(FrozenKind kind, std::uint32_t owner, std::string packed) {
+        packed_.push_back(std::move(packed));
+        add(kind, owner, std::span<const char>(packed_.back()));
+    }
+    [[nodiscard]] std::span<const FrozenPart> parts() const { return parts_; }
+
+  private:
+    std::vector<FrozenPart> parts_;
+    std::deque<std::string> packed_;
+};
+
+/// The bytes of a part; throws InputError as FrozenFile::part.
+[[nodiscard]] inline std::span<const std::byte> part_of(const FrozenFile& file, FrozenKind kind,
+                                                        std::uint32_t owner = 0) {
+    return file.part(static_cast<std::uint32_t>(kind), owner);
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,22 @@
+#pragma once
+// Library files as parts of a frozen scene: decoded already, so that they are not decoded again.
+#include <memory>
+
+#include "core/model/resources.h"
+#include "io/scene/frozen_parts.h"
+
+namespace lightwalk {
+
+void freeze_data(const DataArray& data, std::uint32_t number, FrozenParts& parts);
+void freeze_picture(const PictureData& picture, std::uint32_t number, FrozenParts& parts);
+void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts);
+
+// The inverse. They throw InputError for what no decoder can have made, in so far as a scene relies
+// on it.
+[[nodiscard]] std::shared_ptr<const DataArray> thaw_data(const FrozenFile& file,
+                                                         std::uint32_t number);
+[[nodiscard]] std::shared_ptr<const PictureData> thaw_picture(const FrozenFile& file,
+                                                              std::uint32_t number);
+[[nodiscard]] std::shared_ptr<const Font> thaw_font(const FrozenFile& file, std::uint32_t number);
+
+}  // namespace lightwalk
