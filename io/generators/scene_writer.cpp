@@ -20,8 +20,8 @@ std::string number(double value, std::chars_format format, int digits) {
 
 }  // namespace
 
-SceneWriter::SceneWriter(std::span<const std::string> args)
-    : program_(args[0]), out_(command_comment(args)) {}
+SceneWriter::SceneWriter(std::span<const std::string> args, TextSink* sink)
+    : program_(args[0]), sink_(sink), out_(command_comment(args)) {}
 
 void SceneWriter::write(std::string_view modifier, std::string_view type, std::string_view name,
                         std::span<const double> reals) {
@@ -68,8 +68,14 @@ void SceneWriter::text(std::string_view text) {
     check_size();
 }
 
-void SceneWriter::check_size() const {
-    if (out_.size() > kMaxGeneratedBytes) throw InputError(program_ + ": too much output");
+/// Hands over a piece when it is long enough.
+void SceneWriter::check_size() {
+    const std::size_t most = sink_ == nullptr ? kMaxGeneratedBytes : kMaxStreamedBytes;
+    if (handed_over_ + out_.size() > most) throw InputError(program_ + ": too much output");
+    if (sink_ == nullptr || out_.size() < kPieceBytes) return;
+    sink_->take(out_);
+    handed_over_ += out_.size();
+    out_.clear();
 }
 
 std::string command_comment(std::span<const std::string> args) {
