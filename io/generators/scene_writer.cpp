@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/generators/generator.h"
+#include "io/language/number_text.h"
 
 namespace lightwalk {
 namespace {
@@ -53,6 +54,19 @@ void SceneWriter::polygon(std::string_view modifier, std::string_view name,
     write(modifier, "polygon", name, reals);
 }
 
+void SceneWriter::polygon(std::string_view modifier, std::string_view name,
+                          std::span<const std::string_view> vertices) {
+    out_.push_back('\n');
+    append_word(modifier, out_);
+    out_ += " polygon ";
+    append_word(name, out_);
+    out_ += "\n0\n0\n";
+    out_ += std::to_string(3 * vertices.size());
+    for (const std::string_view vertex : vertices) out_ += vertex;
+    out_.push_back('\n');
+    check_size();
+}
+
 void SceneWriter::sphere(std::string_view modifier, std::string_view name, const Vec3& center,
                          double radius) {
     write(modifier, "sphere", name, std::array{center.x, center.y, center.z, radius});
@@ -76,6 +90,13 @@ void SceneWriter::check_size() {
     sink_->take(out_);
     handed_over_ += out_.size();
     out_.clear();
+}
+
+void append_vertex(const Vec3& vertex, std::string& out) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out.push_back(axis == 0 ? '\n' : ' ');
+        append_real(vertex[axis], kFullDigits, out);
+    }
 }
 
 std::string command_comment(std::span<const std::string> args) {

@@ -31,6 +31,9 @@ class SceneWriter {
     void write(std::string_view modifier, std::string_view type, std::string_view name,
                std::span<const double> reals, std::span<const std::string> strings);
     void polygon(std::string_view modifier, std::string_view name, std::span<const Vec3> vertices);
+    /// The same with vertices from append_vertex, which are finite.
+    void polygon(std::string_view modifier, std::string_view name,
+                 std::span<const std::string_view> vertices);
     void sphere(std::string_view modifier, std::string_view name, const Vec3& center,
                 double radius);
     void cylinder(std::string_view modifier, std::string_view name, const Vec3& p, const Vec3& q,
@@ -50,6 +53,9 @@ class SceneWriter {
     std::string out_;
     std::size_t handed_over_ = 0;  ///< bytes that the sink has taken
 };
+
+/// Append a vertex as polygons list them: on a line of its own.
+void append_vertex(const Vec3& vertex, std::string& out);
 
 /// The comment line that echoes a command: "# program words...", words quoted as the shell needs
 /// them.

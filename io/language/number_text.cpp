@@ -125,6 +125,10 @@ std::size_t parse_simple_real(std::string_view text, double& value) {
 void append_real(double value, int digits, std::string& out) {
     if (!std::isfinite(value)) throw InputError("number out of range");
     const double magnitude = std::abs(value);
+    if (magnitude == 0) {
+        out += std::signbit(value) ? "-0" : "0";
+        return;
+    }
     if (digits == kPlainDigits && magnitude >= kSmallestPlain && magnitude < kLargestPlain) {
         if (const std::optional<Decimal> decimal = round_plainly(magnitude)) {
             if (value < 0) out.push_back('-');
