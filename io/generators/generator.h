@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/files/library_path.h"
+#include "io/generators/text_sink.h"
 
 namespace lightwalk {
 
@@ -21,9 +22,12 @@ struct GeneratorContext {
     /// above.
     std::function<std::string(const std::string& command, const std::string& directory)>
         run_command;
+    /// Where a generator that writes much hands over what it has so far; null: it returns all.
+    TextSink* output = nullptr;
 };
 
-/// args[0] is the program's name. Throws InputError with the usage line for wrong arguments.
+/// Returns what it writes: what comes after that which went to context.output. args[0] is the
+/// program's name. Throws InputError with the usage line for wrong arguments.
 using Generator = std::string (*)(std::span<const std::string> args, GeneratorContext& context);
 
 /// xform, genbox, gensurf, genrev, genworm, genprism, genblinds, gensky, gendaylit, replmarks; null
@@ -32,6 +36,8 @@ using Generator = std::string (*)(std::span<const std::string> args, GeneratorCo
 
 /// Output is bounded so that hostile counts cannot exhaust memory; beyond it InputError is thrown.
 inline constexpr std::size_t kMaxGeneratedBytes = std::size_t{512} << 20;
+/// The same for output that goes to a sink, and is never whole.
+inline constexpr std::size_t kMaxStreamedBytes = std::size_t{2} << 30;
 
 // One function a program; each in its own file.
 std::string run_xform(std::span<const std::string> args, GeneratorContext& context);

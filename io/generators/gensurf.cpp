@@ -12,6 +12,7 @@
 #include "io/generators/scene_writer.h"
 #include "io/generators/surface_data.h"
 #include "io/generators/surface_grid.h"
+#include "io/generators/vertex_rows.h"
 
 namespace lightwalk {
 namespace {
@@ -128,15 +129,16 @@ class CellWriter {
     }
 
     void write_scene(SceneWriter& out) {
+        VertexRows rows(grid_);
         for_each_piece(
             [&](const SurfaceCell& cell, std::span<const std::size_t> corners, const Vec3& flat) {
-                std::array<Vec3, 4> points;
+                std::array<std::string_view, 4> vertices;
                 for (std::size_t i = 0; i < corners.size(); ++i)
-                    points[i] = point(cell, corners[i]);
+                    vertices[i] = rows.text(cell.p[corners[i]].i, cell.p[corners[i]].j);
                 const bool smoothed = options_.smooth && write_texture(cell, flat, out);
-                out.polygon(smoothed ? "Phong" : options_.material,
+                out.polygon(smoothed ? std::string_view("Phong") : options_.material,
                             options_.name + "." + std::to_string(++pieces_),
-                            std::span<const Vec3>(points.data(), corners.size()));
+                            std::span<const std::string_view>(vertices.data(), corners.size()));
             });
     }
 
@@ -232,6 +234,12 @@ class CellWriter {
     std::size_t pieces_ = 0;
 };
 
+/// Whether each polygon is read as one. A material that begins a comment or a command makes another
+/// text of them, which nothing may cut.
+bool reads_as_polygons(const SurfaceOptions& options) {
+    return !options.material.starts_with('#') && !options.material.starts_with('!');
+}
+
 }  // namespace
 
 std::string run_gensurf(std::span<const std::string> args, GeneratorContext& context) {
@@ -244,7 +252,7 @@ std::string run_gensurf(std::span<const std::string> args, GeneratorContext& con
     surface.report();
     CellWriter cells(options, grid);
     if (options.obj) return write_obj(args, options.material, options.name, cells.mesh());
-    SceneWriter out(args);
+    SceneWriter out(args, reads_as_polygons(options) ? context.output : nullptr);
     cells.write_scene(out);
     return out.take();
 }

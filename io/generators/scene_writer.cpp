@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/generators/generator.h"
+#include "io/language/number_text.h"
 
 namespace lightwalk {
 namespace {
@@ -20,8 +21,8 @@ std::string number(double value, std::chars_format format, int digits) {
 
 }  // namespace
 
-SceneWriter::SceneWriter(std::span<const std::string> args)
-    : program_(args[0]), out_(command_comment(args)) {}
+SceneWriter::SceneWriter(std::span<const std::string> args, TextSink* sink)
+    : program_(args[0]), sink_(sink), out_(command_comment(args)) {}
 
 void SceneWriter::write(std::string_view modifier, std::string_view type, std::string_view name,
                         std::span<const double> reals) {
@@ -53,6 +54,19 @@ void SceneWriter::polygon(std::string_view modifier, std::string_view name,
     write(modifier, "polygon", name, reals);
 }
 
+void SceneWriter::polygon(std::string_view modifier, std::string_view name,
+                          std::span<const std::string_view> vertices) {
+    out_.push_back('\n');
+    append_word(modifier, out_);
+    out_ += " polygon ";
+    append_word(name, out_);
+    out_ += "\n0\n0\n";
+    out_ += std::to_string(3 * vertices.size());
+    for (const std::string_view vertex : vertices) out_ += vertex;
+    out_.push_back('\n');
+    check_size();
+}
+
 void SceneWriter::sphere(std::string_view modifier, std::string_view name, const Vec3& center,
                          double radius) {
     write(modifier, "sphere", name, std::array{center.x, center.y, center.z, radius});
@@ -68,8 +82,21 @@ void SceneWriter::text(std::string_view text) {
     check_size();
 }
 
-void SceneWriter::check_size() const {
-    if (out_.size() > kMaxGeneratedBytes) throw InputError(program_ + ": too much output");
+/// Hands over a piece when it is long enough.
+void SceneWriter::check_size() {
+    const std::size_t most = sink_ == nullptr ? kMaxGeneratedBytes : kMaxStreamedBytes;
+    if (handed_over_ + out_.size() > most) throw InputError(program_ + ": too much output");
+    if (sink_ == nullptr || out_.size() < kPieceBytes) return;
+    sink_->take(out_);
+    handed_over_ += out_.size();
+    out_.clear();
+}
+
+void append_vertex(const Vec3& vertex, std::string& out) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out.push_back(axis == 0 ? '\n' : ' ');
+        append_real(vertex[axis], kFullDigits, out);
+    }
 }
 
 std::string command_comment(std::span<const std::string> args) {

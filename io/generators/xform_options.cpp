@@ -185,7 +185,8 @@ std::vector<std::vector<std::string>> read_argument_lines(const std::string& tex
         SceneTokenizer tokens(line, "argument file");
         if (line[0] == '#') continue;
         std::vector<std::string> words;
-        while (std::optional<std::string> word = tokens.word()) words.push_back(std::move(*word));
+        while (const std::optional<std::string_view> word = tokens.word())
+            words.emplace_back(*word);
         if (!words.empty() && !words[0].empty() && words[0][0] == '!') words[0].erase(0, 1);
         if (!words.empty() && words[0].empty()) words.erase(words.begin());
         if (!words.empty() && words[0] == "xform") words.erase(words.begin());

@@ -1,34 +1,33 @@
 #include "io/language/primitive_text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "core/model/model_builder.h"
 #include "core/model/transform_args.h"
+#include "io/language/number_text.h"
 
 namespace lightwalk {
 namespace {
 
 /// The next word, or an empty one at the end of the text.
-std::string next_word(SceneTokenizer& tokens) {
-    return tokens.word().value_or(std::string());
+std::string_view next_word(SceneTokenizer& tokens) {
+    return tokens.word().value_or(std::string_view());
 }
 
 [[noreturn]] void bad_arguments(const PrimitiveText& primitive, const std::string& expected,
-                                const std::optional<std::string>& found) {
-    throw InputError(primitive.where, "bad arguments for " + primitive.type_word + " \"" +
-                                          primitive.name + "\": expected " + expected + ", found " +
-                                          (found ? "\"" + *found + "\"" : "the end of the text"));
+                                const std::optional<std::string_view>& found) {
+    throw InputError(primitive.where,
+                     "bad arguments for " + primitive.type_word + " \"" + primitive.name +
+                         "\": expected " + expected + ", found " +
+                         (found ? "\"" + std::string(*found) + "\"" : "the end of the text"));
 }
 
 /// A count of `what`, at most `most`.
-std::size_t read_count(SceneTokenizer& tokens, const PrimitiveText& primitive,
-                       const std::string& what, long most = std::numeric_limits<long>::max()) {
-    const std::optional<std::string> word = tokens.word();
+std::size_t read_count(SceneTokenizer& tokens, const PrimitiveText& primitive, const char* what,
+                       long most = std::numeric_limits<long>::max()) {
+    const std::optional<std::string_view> word = tokens.word();
     long count = 0;
     if (!word || !parse_integer(*word, count) || count < 0 || count > most) {
         bad_arguments(primitive, what, word);
@@ -36,45 +35,52 @@ std::size_t read_count(SceneTokenizer& tokens, const PrimitiveText& primitive,
     return static_cast<std::size_t>(count);
 }
 
-void append_real(double value, int digits, std::string& out) {
-    if (!std::isfinite(value)) throw InputError("number out of range");
-    std::array<char, 40> text{};
-    const auto result = std::to_chars(text.data(), text.data() + text.size(), value,
-                                      std::chars_format::general, digits);
-    out.append(text.data(), result.ptr);
+/// How many words can follow at most, whatever a count says: each takes a character and a blank.
+std::size_t most_words(const SceneTokenizer& tokens) {
+    return tokens.left() / 2 + 1;
 }
 
-/// The word, in quotes if it needs them. The language knows no escapes: each quote goes into the
-/// other kind.
-void append_word(const std::string& word, std::string& out) {
-    if (word.empty()) {
-        out += "\"\"";
-        return;
+void read_strings(SceneTokenizer& tokens, PrimitiveText& primitive) {
+    const std::size_t count = read_count(tokens, primitive, "the number of strings");
+    for (std::size_t left = count; left > 0; --left) {
+        const std::optional<std::string_view> word = tokens.word();
+        if (!word) bad_arguments(primitive, std::to_string(left) + " more strings", word);
+        primitive.strings.emplace_back(*word);
     }
-    if (word.find_first_of(" \t\n\r\v\f\"'") == std::string::npos) {
-        out += word;
-        return;
+}
+
+void read_reals(SceneTokenizer& tokens, PrimitiveText& primitive) {
+    const std::size_t count = read_count(tokens, primitive, "the number of numbers");
+    primitive.reals.reserve(std::min(count, most_words(tokens)));
+    for (std::size_t left = count; left > 0; --left) {
+        double value = 0;
+        if (!tokens.simple_real(value)) {
+            const std::optional<std::string_view> word = tokens.word();
+            if (!word || !parse_real(*word, value)) {
+                bad_arguments(primitive, std::to_string(left) + " more numbers", word);
+            }
+        }
+        primitive.reals.push_back(value);
     }
-    for (std::size_t at = 0; at < word.size();) {
-        const char quote = word[at] == '"' ? '\'' : '"';
-        const std::size_t end = std::min(word.find(quote, at), word.size());
-        out.push_back(quote);
-        out.append(word, at, end - at);
-        out.push_back(quote);
-        at = end;
-    }
+}
+
+/// Whether a word is read back as it stands.
+bool is_plain(std::string_view word) {
+    return !word.empty() && std::ranges::none_of(word, [](char c) {
+        return c == ' ' || (c >= '\t' && c <= '\r') || c == '"' || c == '\'';
+    });
 }
 
 }  // namespace
 
-PrimitiveText read_primitive_head(SceneTokenizer& tokens) {
-    PrimitiveText primitive;
+void read_primitive_head(SceneTokenizer& tokens, PrimitiveText& primitive) {
     static_cast<void>(tokens.peek());  // white space: the location is the primitive's then
     primitive.where = tokens.where();
     primitive.modifier = next_word(tokens);
     primitive.type_word = next_word(tokens);
     primitive.name = next_word(tokens);
-    return primitive;
+    primitive.strings.clear();
+    primitive.reals.clear();
 }
 
 void resolve_type(PrimitiveText& primitive) {
@@ -93,34 +99,39 @@ void resolve_type(PrimitiveText& primitive) {
 
 void read_primitive_arguments(SceneTokenizer& tokens, PrimitiveText& primitive) {
     if (primitive.type == PrimitiveType::alias) {
-        std::optional<std::string> target = tokens.word();
+        const std::optional<std::string_view> target = tokens.word();
         if (!target) bad_arguments(primitive, "the modifier it stands for", target);
-        primitive.strings.push_back(std::move(*target));
+        primitive.strings.emplace_back(*target);
         return;
     }
-    for (std::size_t left = read_count(tokens, primitive, "the number of strings"); left > 0;
-         --left) {
-        std::optional<std::string> word = tokens.word();
-        if (!word) bad_arguments(primitive, std::to_string(left) + " more strings", word);
-        primitive.strings.push_back(std::move(*word));
-    }
+    read_strings(tokens, primitive);
     read_count(tokens, primitive, "0 integers", 0);
-    for (std::size_t left = read_count(tokens, primitive, "the number of numbers"); left > 0;
-         --left) {
-        const std::optional<std::string> word = tokens.word();
-        double value = 0;
-        if (!word || !parse_real(*word, value)) {
-            bad_arguments(primitive, std::to_string(left) + " more numbers", word);
-        }
-        primitive.reals.push_back(value);
-    }
+    read_reals(tokens, primitive);
 }
 
 PrimitiveText read_primitive(SceneTokenizer& tokens) {
-    PrimitiveText primitive = read_primitive_head(tokens);
+    PrimitiveText primitive;
+    read_primitive_head(tokens, primitive);
     resolve_type(primitive);
     read_primitive_arguments(tokens, primitive);
     return primitive;
+}
+
+/// The language knows no escapes: each quote goes into the other kind.
+void append_word(std::string_view word, std::string& out) {
+    if (is_plain(word)) {
+        out += word;
+        return;
+    }
+    if (word.empty()) out += "\"\"";
+    for (std::size_t at = 0; at < word.size();) {
+        const char quote = word[at] == '"' ? '\'' : '"';
+        const std::size_t end = std::min(word.find(quote, at), word.size());
+        out.push_back(quote);
+        out += word.substr(at, end - at);
+        out.push_back(quote);
+        at = end;
+    }
 }
 
 void write_primitive(const PrimitiveText& primitive, int digits, std::string& out) {

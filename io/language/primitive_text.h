@@ -23,7 +23,9 @@ struct PrimitiveText {
 };
 
 /// The first three words, MODIFIER TYPE IDENTIFIER, as far as the text goes; `type` is not set yet.
-[[nodiscard]] PrimitiveText read_primitive_head(SceneTokenizer& tokens);
+/// `primitive` may be one that was read before: its memory is used again, its arguments are
+/// forgotten.
+void read_primitive_head(SceneTokenizer& tokens, PrimitiveText& primitive);
 
 /// Set `type` from its word. Throws InputError "unknown type ...".
 void resolve_type(PrimitiveText& primitive);
@@ -37,6 +39,9 @@ void read_primitive_arguments(SceneTokenizer& tokens, PrimitiveText& primitive);
 
 /// How `write_primitive` rounds numbers: significant decimal digits.
 inline constexpr int kFullDigits = 12;
+
+/// Append a word, in quotes where it must be.
+void append_word(std::string_view word, std::string& out);
 
 /// Append the primitive as scene text, numbers with `digits` significant digits, words quoted where
 /// they must be. Throws InputError for a number that is not finite.

@@ -2,13 +2,21 @@
 
 #include <algorithm>
 
+#include "io/language/number_text.h"
+
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kLongestToken = std::size_t{64} << 10;
+constexpr std::size_t kLongestWord = std::size_t{64} << 10;
+constexpr const char* kTooLong = "word longer than 64 KiB";
 
 constexpr bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+constexpr bool ends_line(std::string_view text, std::size_t at) {
+    const char c = text[at];
+    return c == '\n' || (c == '\r' && (at + 1 >= text.size() || text[at + 1] != '\n'));
 }
 
 }  // namespace
@@ -16,16 +24,14 @@ constexpr bool is_space(char c) {
 /// Move to `end`, counting lines: LF, CR LF and a lone CR end one.
 void SceneTokenizer::skip_to(std::size_t end) {
     for (; at_ < end; ++at_) {
-        const char c = text_[at_];
-        const bool lone_return = c == '\r' && (at_ + 1 >= text_.size() || text_[at_ + 1] != '\n');
-        if (c == '\n' || lone_return) ++where_.line;
+        if (ends_line(text_, at_)) ++where_.line;
     }
 }
 
 void SceneTokenizer::skip_white_space() {
-    std::size_t end = at_;
-    while (end < text_.size() && is_space(text_[end])) ++end;
-    skip_to(end);
+    for (; at_ < text_.size() && is_space(text_[at_]); ++at_) {
+        if (text_[at_] != ' ' && ends_line(text_, at_)) ++where_.line;
+    }
 }
 
 SceneTokenizer::Item SceneTokenizer::peek() {
@@ -54,10 +60,22 @@ std::string SceneTokenizer::command() {
     return std::string(text_.substr(begin, end - begin));
 }
 
-std::optional<std::string> SceneTokenizer::word() {
+std::optional<std::string_view> SceneTokenizer::word() {
     skip_white_space();
     if (at_ >= text_.size()) return std::nullopt;
-    std::string result;
+    const std::size_t begin = at_;
+    std::size_t end = begin;
+    for (; end < text_.size() && !is_space(text_[end]); ++end) {
+        if (text_[end] == '"' || text_[end] == '\'') return quoted_word();
+    }
+    if (end - begin > kLongestWord) throw InputError(where_, kTooLong);
+    at_ = end;  // of a word without quotes, which holds no end of a line
+    return text_.substr(begin, end - begin);
+}
+
+/// The word that begins here, some of which is quoted.
+std::string_view SceneTokenizer::quoted_word() {
+    unquoted_.clear();
     char quote = 0;
     std::size_t end = at_;
     for (; end < text_.size(); ++end) {
@@ -68,12 +86,20 @@ std::optional<std::string> SceneTokenizer::word() {
         } else if (quote == 0 && (c == '"' || c == '\'')) {
             quote = c;
         } else {
-            if (result.size() >= kLongestToken) throw InputError(where_, "word longer than 64 KiB");
-            result.push_back(c);
+            if (unquoted_.size() >= kLongestWord) throw InputError(where_, kTooLong);
+            unquoted_.push_back(c);
         }
     }
-    skip_to(end < text_.size() ? end + 1 : end);
-    return result;
+    skip_to(end);
+    return unquoted_;
+}
+
+bool SceneTokenizer::simple_real(double& value) {
+    skip_white_space();
+    const std::size_t size = parse_simple_real(text_.substr(at_), value);
+    if (size == 0 || (size < left() && !is_space(text_[at_ + size]))) return false;
+    at_ += size;
+    return true;
 }
 
 }  // namespace lightwalk

@@ -1,5 +1,6 @@
 #include "io/scene/command_runner.h"
 
+#include <exception>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -56,6 +57,39 @@ struct DepthGuard {
 
 }  // namespace
 
+/// Passes on the pieces that a program writes. An exception of who takes them is not the program's:
+/// it becomes a Stop while it goes through the program, and then itself again.
+class CommandRunner::Output final : public TextSink {
+  public:
+    struct Stop {};
+
+    Output(CommandRunner& runner, const SourceLocation& where, TextSink& sink)
+        : runner_(runner), where_(where), sink_(sink) {}
+
+    void take(std::string_view piece) override {
+        try {
+            runner_.charge_piece(piece.size(), where_);
+            sink_.take(piece);
+        } catch (...) {
+            error_ = std::current_exception();
+            throw Stop();
+        }
+    }
+    [[noreturn]] void rethrow() const { std::rethrow_exception(error_); }
+
+  private:
+    CommandRunner& runner_;
+    const SourceLocation& where_;
+    TextSink& sink_;
+    std::exception_ptr error_;
+};
+
+void CommandRunner::charge_piece(std::size_t bytes, const SourceLocation& where) {
+    if (bytes > kMaxStreamedBytes - streamed_bytes_)
+        throw CommandError(where, "the scene's commands write too much");
+    streamed_bytes_ += bytes;
+}
+
 void CommandRunner::charge(std::size_t bytes, const SourceLocation& where) {
     if (bytes > kMaxBytes - bytes_)
         throw CommandError(where, "the scene's commands write too much");
@@ -64,6 +98,16 @@ void CommandRunner::charge(std::size_t bytes, const SourceLocation& where) {
 
 std::string CommandRunner::run(const std::string& command, const std::string& directory,
                                const SourceLocation& where) {
+    return run_to(command, directory, where, nullptr);
+}
+
+void CommandRunner::run(const std::string& command, const std::string& directory,
+                        const SourceLocation& where, TextSink& sink) {
+    sink.take(run_to(command, directory, where, &sink));
+}
+
+std::string CommandRunner::run_to(const std::string& command, const std::string& directory,
+                                  const SourceLocation& where, TextSink* sink) {
     const DepthGuard guard(depth_);
     if (depth_ > kMaxDepth) {
         throw CommandError(where, "commands nest more than " + std::to_string(kMaxDepth) +
@@ -75,7 +119,7 @@ std::string CommandRunner::run(const std::string& command, const std::string& di
         split_command(without_command_mark(command));
     std::string output;
     if (pipelines && !unknown_program(*pipelines)) {
-        output = run_pipelines(*pipelines, command, directory, where);
+        output = run_pipelines(*pipelines, command, directory, where, sink);
     } else if (allow_commands_) {
         output = run_shell(std::string(without_command_mark(command)), directory, where);
     } else if (pipelines) {
@@ -96,8 +140,11 @@ std::string CommandRunner::run(const std::string& command, const std::string& di
 
 std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
                                          const std::string& command, const std::string& directory,
-                                         const SourceLocation& where) {
+                                         const SourceLocation& where, TextSink* sink) {
     const LibraryPath library = library_.relative_to(directory);
+    // What several pipelines write may make one primitive together: that goes whole.
+    std::optional<Output> pieces;
+    if (sink != nullptr && pipelines.size() == 1) pieces.emplace(*this, where, *sink);
     std::string output;
     for (const Pipeline& pipeline : pipelines) {
         GeneratorContext context{library, directory, {}, false, warnings_, {}};
@@ -105,16 +152,12 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
             return run(nested, from, where);
         };
         for (const SimpleCommand& words : pipeline) {
+            if (pieces && &words == &pipeline.back()) context.output = &*pieces;
             std::string written;
             try {
-                written = run_program(words, context);
-            } catch (const CommandError& error) {
-                const std::string prefix = to_prefix(where);
-                if (std::string_view(error.what()).starts_with(prefix)) throw;
-                throw CommandError(where, error.what());
-            } catch (const InputError& error) {
-                warnings_.warn(to_prefix(where) + "bad status from \"" +
-                               abbreviate_command(command) + "\": " + error.what());
+                written = run_stage(words, command, where, context);
+            } catch (const Output::Stop&) {
+                pieces->rethrow();
             }
             charge(written.size(), where);
             context.input = std::move(written);
@@ -123,6 +166,22 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
         output += context.input;
     }
     return output;
+}
+
+/// One program of a pipeline. One that fails is a warning.
+std::string CommandRunner::run_stage(const SimpleCommand& words, const std::string& command,
+                                     const SourceLocation& where, GeneratorContext& context) {
+    try {
+        return run_program(words, context);
+    } catch (const CommandError& error) {
+        const std::string prefix = to_prefix(where);
+        if (std::string_view(error.what()).starts_with(prefix)) throw;
+        throw CommandError(where, error.what());
+    } catch (const InputError& error) {
+        warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
+                       "\": " + error.what());
+        return {};
+    }
 }
 
 std::string CommandRunner::run_program(const SimpleCommand& words, GeneratorContext& context) {

@@ -25,22 +25,35 @@ class CommandRunner {
     /// commands are allowed), CommandError for commands that nest without end or write too much.
     [[nodiscard]] std::string run(const std::string& command, const std::string& directory,
                                   const SourceLocation& where);
+    /// The same, with the output going to `sink`: by pieces where its last program writes them,
+    /// else whole. Of a command that fails half way `sink` has had the pieces before.
+    void run(const std::string& command, const std::string& directory, const SourceLocation& where,
+             TextSink& sink);
 
   private:
+    class Output;
+
+    /// @param sink  may get the beginning of the output; null: all of it is returned
+    [[nodiscard]] std::string run_to(const std::string& command, const std::string& directory,
+                                     const SourceLocation& where, TextSink* sink);
     [[nodiscard]] std::string run_pipelines(const std::vector<Pipeline>& pipelines,
                                             const std::string& command,
                                             const std::string& directory,
-                                            const SourceLocation& where);
+                                            const SourceLocation& where, TextSink* sink);
+    [[nodiscard]] std::string run_stage(const SimpleCommand& words, const std::string& command,
+                                        const SourceLocation& where, GeneratorContext& context);
     [[nodiscard]] std::string run_program(const SimpleCommand& words, GeneratorContext& context);
     [[nodiscard]] std::string run_shell(const std::string& command, const std::string& directory,
                                         const SourceLocation& where);
     void charge(std::size_t bytes, const SourceLocation& where);
+    void charge_piece(std::size_t bytes, const SourceLocation& where);
 
     LibraryPath library_;
     bool allow_commands_;
     WarningSink& warnings_;
     int depth_ = 0;
     std::size_t commands_ = 0, bytes_ = 0;
+    std::size_t streamed_bytes_ = 0;  ///< of output that was never whole
 };
 
 }  // namespace lightwalk

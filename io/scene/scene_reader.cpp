@@ -1,12 +1,15 @@
 #include "io/scene/scene_reader.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/model/model_builder.h"
+#include "io/files/forget_pages.h"
+#include "io/generators/text_sink.h"
 #include "io/language/primitive_text.h"
 #include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"
@@ -42,22 +45,51 @@ class SceneReader {
         return {files_.read(path), path};
     }
 
-    void read(std::string_view text, const std::string& name) {
-        if (text.find('\0') != std::string_view::npos)
-            throw InputError({name, 0}, "neither an octree nor scene text: it holds zero bytes");
-        read_text(text, name, nullptr, 0);
+    void read(std::string_view text, const std::string& name) { read(text, name, nullptr); }
+    /// The same for a text that is not needed any more afterwards.
+    void read(SceneText& text) {
+        FadingText fading(text.bytes);
+        read(text.bytes, text.name, &fading);
     }
 
     [[nodiscard]] std::size_t size() const { return builder_.model().size(); }
     [[nodiscard]] std::shared_ptr<Model> take() { return builder_.take(); }
 
   private:
-    /// `outer` is where the command stands whose output this is; null for files.
-    void read_text(std::string_view text, const std::string& name, const SourceLocation* outer,
-                   int depth) {
-        const std::size_t before = builder_.model().size();
+    /// Reads the output of the command that stands at `outer`.
+    class OutputReader final : public TextSink {
+      public:
+        OutputReader(SceneReader& reader, FileName name, const SourceLocation& outer, int depth)
+            : reader_(reader), name_(std::move(name)), outer_(outer), depth_(depth) {}
+        void take(std::string_view piece) override {
+            SceneTokenizer tokens(piece, name_, line_);
+            reader_.read_items(tokens, &outer_, depth_, nullptr);
+            line_ = tokens.where().line;
+        }
+
+      private:
+        SceneReader& reader_;
+        FileName name_;
+        const SourceLocation& outer_;
+        int depth_;
+        std::int32_t line_ = 1;  ///< at which the next piece begins
+    };
+
+    void read(std::string_view text, const std::string& name, FadingText* fading) {
+        if (text.find('\0') != std::string_view::npos)
+            throw InputError({name, 0}, "neither an octree nor scene text: it holds zero bytes");
+        const std::size_t before = size();
         SceneTokenizer tokens(text, name);
+        read_items(tokens, nullptr, 0, fading);
+        warn_if_empty(before, name);
+    }
+
+    /// @param outer   where the command stands whose output this is; null for files
+    /// @param fading  the text, when it may be forgotten; else null
+    void read_items(SceneTokenizer& tokens, const SourceLocation* outer, int depth,
+                    FadingText* fading) {
         for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
+            if (fading != nullptr) fading->read_to(tokens.offset());
             switch (item) {
                 case SceneTokenizer::Item::comment:
                     tokens.comment();
@@ -69,8 +101,10 @@ class SceneReader {
                     read_item(tokens, outer);
             }
         }
-        if (builder_.model().size() == before && problems_.empty())
-            warnings_.warn(name + ": empty file");
+    }
+
+    void warn_if_empty(std::size_t before, const std::string& name) {
+        if (size() == before && problems_.empty()) warnings_.warn(name + ": empty file");
     }
 
     void run_command(SceneTokenizer& tokens, const SourceLocation* outer, int depth) {
@@ -80,19 +114,22 @@ class SceneReader {
             throw InputError(where, "commands write commands more than " +
                                         std::to_string(kMaxNesting) + " levels deep");
         }
-        std::string output;
+        const std::string name = to_prefix(where) + abbreviate_command(command);
+        const std::size_t before = size();
         try {
-            output = runner_.run(command, directory_, where);
+            OutputReader output(*this, name, where, depth + 1);
+            runner_.run(command, directory_, where, output);
         } catch (const UnknownCommandError& error) {
             problems_.add(where, message_of(error, where), "command " + error.program());
             skipped_command_ = true;
             return;
         }
-        read_text(output, to_prefix(where) + abbreviate_command(command), &where, depth + 1);
+        warn_if_empty(before, name);
     }
 
     void read_item(SceneTokenizer& tokens, const SourceLocation* outer) {
-        PrimitiveText text = read_primitive_head(tokens);
+        PrimitiveText& text = item_;
+        read_primitive_head(tokens, text);
         const bool inherits = text.modifier == "inherit";
         bool misfit = false;
         const std::int32_t modifier = inherits ? kVoidIndex : find_modifier(text, misfit);
@@ -170,6 +207,7 @@ class SceneReader {
             problems_.raise();
         }
         skipped_names_.insert(text.name);
+        text.reals = {};  // whose memory the next primitive would keep
     }
 
     /// What an error says behind its place.
@@ -180,6 +218,7 @@ class SceneReader {
     }
 
     ProblemList& problems_;
+    PrimitiveText item_;                   ///< that is read: it is one, to use its memory again
     bool skipped_command_ = false;         ///< it may have defined anything
     std::set<std::string> skipped_names_;  ///< of primitives that were read over
     std::string directory_;
@@ -196,8 +235,8 @@ namespace {
 std::shared_ptr<const Model> read_scene_files(OctreeContents& contents, const std::string& name,
                                               SceneReader& reader, const ProblemList& problems) {
     for (const std::string& file : contents.scene_files) {
-        const SceneText text = reader.open(file);
-        reader.read(text.bytes, text.name);
+        SceneText text = reader.open(file);
+        reader.read(text);
     }
     if (problems.empty() && reader.size() != contents.objects) {
         throw InputError({name, 0}, "bad object count; octree stale? Its scene files hold " +
@@ -247,9 +286,9 @@ std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
     return gather_problems(problems, [&](ProblemList& list) -> std::shared_ptr<const Model> {
         SceneReader reader(options, warnings, list);
         for (const std::string& file : files) {
-            const SceneText text = reader.open(file);
+            SceneText text = reader.open(file);
             if (!is_octree(text.bytes)) {
-                reader.read(text.bytes, text.name);
+                reader.read(text);
                 continue;
             }
             if (files.size() > 1) {

@@ -13,7 +13,7 @@ using Item = SceneTokenizer::Item;
 std::vector<std::string> words(const std::string& text) {
     SceneTokenizer tokens(text, "t.rad");
     std::vector<std::string> result;
-    while (const std::optional<std::string> word = tokens.word()) result.push_back(*word);
+    while (const std::optional<std::string_view> word = tokens.word()) result.emplace_back(*word);
     return result;
 }
 
@@ -76,6 +76,51 @@ TEST_CASE("lines are counted whichever way they end, in words, comments and comm
     CHECK(tokens.command() == "!cmd \\\n more");
     CHECK(line_at() == 7);
     CHECK(tokens.where().file == "room.rad");
+}
+
+TEST_CASE("a word without quotes lies in the text") {
+    const std::string text = "  plain \"quoted\" last";
+    SceneTokenizer tokens(text, "t.rad");
+    CHECK(tokens.word().value().data() == text.data() + 2);
+    CHECK(tokens.word() == "quoted");
+    CHECK(tokens.word().value().data() == text.data() + text.size() - 4);
+    CHECK(tokens.left() == 0);
+    CHECK(tokens.offset() == text.size());
+}
+
+TEST_CASE("a piece of a text counts its lines on") {
+    SceneTokenizer tokens("\na\n\n", "t.rad", 41);
+    CHECK(tokens.peek() == Item::primitive);
+    CHECK(tokens.where().line == 42);
+    CHECK(tokens.word() == "a");
+    CHECK(tokens.peek() == Item::end);
+    CHECK(tokens.where().line == 44);
+}
+
+TEST_CASE("lines within quotes count, before the next word and not before") {
+    SceneTokenizer tokens("'a\r\nb\rc\n' d", "t.rad");
+    CHECK(tokens.word() == "a\r\nb\rc\n");
+    CHECK(tokens.where().line == 4);
+    CHECK(tokens.word() == "d");
+    CHECK(tokens.where().line == 4);
+}
+
+TEST_CASE("a simple number is a whole word; another word stays to be read") {
+    SceneTokenizer tokens("1\n-2.5e1\t3x 4\"\" 5", "t.rad");
+    double value = 0;
+    CHECK(tokens.simple_real(value));
+    CHECK(value == 1);
+    CHECK(tokens.simple_real(value));
+    CHECK(value == -25);
+    CHECK(tokens.where().line == 2);
+    CHECK_FALSE(tokens.simple_real(value));
+    CHECK(tokens.word() == "3x");
+    CHECK_FALSE(tokens.simple_real(value));
+    CHECK(tokens.word() == "4");
+    CHECK(tokens.simple_real(value));
+    CHECK(value == 5);
+    CHECK_FALSE(tokens.simple_real(value));
+    CHECK_FALSE(tokens.word());
 }
 
 TEST_CASE("a word of more than 64 KiB is refused") {

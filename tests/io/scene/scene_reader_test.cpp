@@ -235,6 +235,53 @@ TEST_CASE("a failed command is a warning and reading goes on, a file without obj
     CHECK(parse("# nothing\n").warnings == std::vector<std::string>{"room.rad: empty file"});
 }
 
+TEST_CASE("an error far within a long file has its exact line, and quotes what stands there") {
+    const TemporaryFolder folder;
+    std::string text = kPlastic;
+    constexpr int kBalls = 200000;  // more than a fading text forgets at a time
+    for (int i = 0; i < kBalls; ++i)
+        text += "red sphere b" + std::string(70, 'a') + " 0 0 4 0 0 0 1\n";
+    const std::string line = std::to_string(kBalls + 2);
+    folder.write("good.rad", text + kBall);
+    folder.write("number.rad", text + "red sphere last 0 0 4 0 x9 0 1\n");
+    folder.write("names.rad",
+                 text + "rd sphere s 0 0 4 0 0 0 1\nrd sphere s 0 0 4 0 0 0 1\nred x y\n");
+    const Parsed good = read({"good.rad"}, inside(folder.path()));
+    REQUIRE(good.size() == kBalls + 2);
+    CHECK(good.at(kBalls + 1).name == "ball");
+    CHECK(good.at(kBalls).name == good.at(1).name);
+    CHECK(good.at(kBalls).where.line == kBalls + 1);
+    const std::string path = folder.path("number.rad");
+    CHECK(read({"number.rad"}, inside(folder.path())).error ==
+          path + ":" + line +
+              ": bad arguments for sphere \"last\": expected 3 more numbers, found \"x9\"");
+    const std::string names = read({"names.rad"}, inside(folder.path())).error;
+    CHECK(names.starts_with(folder.path("names.rad") + ":" + line +
+                            ": undefined modifier \"rd\", did you mean \"red\"? (and 1 more)\n"));
+    CHECK(names.find("unknown type \"x\"") != std::string::npos);
+}
+
+TEST_CASE("what gensurf writes by pieces is read as one text") {
+    const std::string hill = "!gensurf red hill s t 's*t' 100 100\n";
+    const Parsed scene = parse(kPlastic + hill + kBall);
+    REQUIRE(scene.size() == 20002);
+    CHECK(scene.warnings.empty());
+    bool in_order = true;
+    for (std::size_t i = 1; i <= 20000; ++i) {
+        in_order = in_order && scene.at(i).name == "hill." + std::to_string(i) &&
+                   scene.at(i).where.line == 2 && scene.at(i).reals.size() == 9;
+    }
+    CHECK(in_order);
+    CHECK(scene.at(20001).where.line == 3);
+    CHECK(parse("\n!gensurf rd hill s t 's*t' 100 100\n").error ==
+          "room.rad:2: !gensurf rd hill s t 's*t' 100 100:3: undefined modifier \"rd\" (and 19999 "
+          "more)");
+    CHECK(parse("!gensurf inherit hill s t 's*t' 100 100\n").error ==
+          "room.rad:1: !gensurf inherit hill s t 's*t' 100 100:3: inappropriate use of 'inherit' "
+          "modifier: only "
+          "an alias inherits");
+}
+
 TEST_CASE("a bad material that nothing uses is accepted") {
     CHECK(parse("void plastic unused 0 0 1 .5\n").size() == 1);
 }

@@ -1,0 +1,21 @@
+#pragma once
+// Where text goes that is too long to be held whole.
+#include <cstddef>
+#include <string_view>
+
+namespace lightwalk {
+
+/// About how long the pieces are: short enough for the processor's cache, long enough that their
+/// number does not matter.
+inline constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+
+/// Takes a text by pieces, in order. Each ends where a line and an item of the scene language end.
+class TextSink {
+  public:
+    virtual ~TextSink() = default;
+    /// `piece` is the caller's again afterwards. What this throws goes through the caller
+    /// unchanged.
+    virtual void take(std::string_view piece) = 0;
+};
+
+}  // namespace lightwalk
