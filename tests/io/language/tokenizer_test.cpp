@@ -105,7 +105,7 @@ TEST_CASE("lines within quotes count, before the next word and not before") {
     CHECK(tokens.where().line == 4);
 }
 
-TEST_CASE("a simple number is a whole word; another word stays to be read") {
+TEST_CASE("a simple number is a whole word, any other word stays to be read") {
     SceneTokenizer tokens("1\n-2.5e1\t3x 4\"\" 5", "t.rad");
     double value = 0;
     CHECK(tokens.simple_real(value));
