@@ -91,6 +91,31 @@ void print_origin(const FrozenScene& frozen) {
     std::printf("frozen         from %td files\n", files);
 }
 
+/// What weighs how much, and the most that the process held.
+void print_memory(const SceneSession& session) {
+    const SceneMemory memory = session.scene().memory();
+    const auto megabytes = [](std::uint64_t bytes) { return 1e-6 * static_cast<double>(bytes); };
+    const auto print = [&](const char* label, std::size_t bytes, std::size_t things,
+                           const char* thing) {
+        if (bytes == 0) return;
+        std::printf("  %-12s %.1f", label, megabytes(bytes));
+        if (things > 0)
+            std::printf(", %.0f bytes a %s",
+                        static_cast<double>(bytes) / static_cast<double>(things), thing);
+        std::puts("");
+    };
+    std::puts("memory [MB]");
+    print("as read", memory.surfaces, memory.surface_count, "surface");
+    print("shapes", memory.shapes, memory.surface_count, "surface");
+    print("meshes", memory.meshes, memory.triangle_count, "triangle");
+    print("search tree", memory.search.tree, memory.surface_count + memory.triangle_count,
+          memory.triangle_count == 0 ? "surface" : "surface or triangle");
+    print("around it", memory.search.tables, 0, "");
+    print("mapped", memory.mapped, 0, "");
+    std::printf("  %-12s %.1f after reading, %.1f after building\n", "peak",
+                megabytes(session.cost.read_peak_bytes), megabytes(session.cost.build_peak_bytes));
+}
+
 /// Count, levels, radii and bounds of an ambient file.
 void print_ambient_file(const std::string& path) {
     const AmbientFile file = decode_ambient_file(read_file(path), path);
@@ -144,11 +169,9 @@ int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
     session.build(settings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());
-    std::printf("memory         %.1f MB geometry, %.1f MB in all at most\n",
-                1e-6 * static_cast<double>(session.scene().geometry().memory_bytes()),
-                1e-6 * static_cast<double>(peak_memory_bytes()));
-    std::printf("time           %.2f s to read, %.2f s to build\n", session.read_seconds,
-                session.build_seconds);
+    print_memory(session);
+    std::printf("time           %.2f s to read, %.2f s to build\n", session.cost.read_seconds,
+                session.cost.build_seconds);
     return kSuccessStatus;
 }
 

@@ -118,8 +118,7 @@ class RenderRun {
 
     void save_statistics() {
         statistics_.command = command_.name;
-        statistics_.read_seconds = session_->read_seconds;
-        statistics_.build_seconds = session_->build_seconds;
+        statistics_.scene = session_->cost;
         if (session_->ambient) {
             statistics_.ambient_values = session_->ambient->size();
             statistics_.ambient_bytes = session_->ambient->memory_bytes();

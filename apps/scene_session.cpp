@@ -39,7 +39,8 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink,
       workers(options.workers) {
     const Stopwatch watch;
     read(options);
-    read_seconds = watch.seconds();
+    cost.read_seconds = watch.seconds();
+    cost.read_peak_bytes = peak_memory_bytes();
 }
 
 void SceneSession::read(const CommonOptions& options) {
@@ -71,16 +72,21 @@ void SceneSession::raise_problems(Resources& asked) {
 }
 
 void SceneSession::compile(Resources& asked) {
-    raise_problems(asked);
     const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
-    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings,
-                                          ExecutorTeam(*executor));
+    compile(asked, ExecutorTeam(*executor));
+}
+
+void SceneSession::compile(Resources& asked, const Team& team) {
+    raise_problems(asked);
+    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, team);
 }
 
 void SceneSession::build(const RenderSettings& settings, RankLink* link) {
     const Stopwatch watch;
-    compile(*resources);
-    auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings);
+    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
+    const ExecutorTeam team(*executor);
+    compile(*resources, team);
+    auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings, team);
     const RenderOptions& options = settings.light;
     if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {
         make_cache(settings, link);
@@ -89,7 +95,8 @@ void SceneSession::build(const RenderSettings& settings, RankLink* link) {
         warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
     }
     made = std::move(fresh);
-    build_seconds = watch.seconds();
+    cost.build_seconds = watch.seconds();
+    cost.build_peak_bytes = peak_memory_bytes();
 }
 
 void SceneSession::make_cache(const RenderSettings& settings, RankLink* link) {
@@ -121,8 +128,9 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
     if (s.ranks > 1) json["ranks"] = s.ranks;
     if (s.width > 0)
         json["picture"] = {{"width", s.width}, {"height", s.height}, {"frames", s.frames}};
-    json["seconds"] = {
-        {"read", s.read_seconds}, {"build", s.build_seconds}, {"render", s.render_seconds}};
+    json["seconds"] = {{"read", s.scene.read_seconds},
+                       {"build", s.scene.build_seconds},
+                       {"render", s.render_seconds}};
     json["rays"] = {{"primary", s.rays.primary},   {"shadow", s.rays.shadow},
                     {"specular", s.rays.specular}, {"transmitted", s.rays.transmitted},
                     {"ambient", s.rays.ambient},   {"total", s.rays.total()}};
@@ -137,6 +145,8 @@ void write_statistics(const std::string& path, const RunStatistics& s) {
     json["rays_per_second"] =
         static_cast<double>(s.rays.total()) / std::max(s.render_seconds, 1e-9);
     json["peak_memory_bytes"] = peak_memory_bytes();
+    json["peak_memory_bytes_until"] = {{"read", s.scene.read_peak_bytes},
+                                       {"built", s.scene.build_peak_bytes}};
     for (const auto& [rank, report] : s.reports) {
         auto one = nlohmann::ordered_json::parse(report);
         one.erase("spans");

@@ -1,5 +1,6 @@
 #pragma once
 // A scene from files to a tracer, with the time each step took.
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "apps/walk_report.h"
 #include "core/problem_list.h"
 #include "core/scene/scene.h"
+#include "core/team.h"
 #include "core/transport/tracer.h"
 #include "io/ambient/ambient_store.h"
 #include "io/scene/frozen_scene.h"
@@ -29,6 +31,12 @@ class Stopwatch {
 
   private:
     std::int64_t start_ns_;
+};
+
+/// What it took to have a scene: time, and the most memory that the process held until then.
+struct SceneCost {
+    double read_seconds = 0, build_seconds = 0;
+    std::uint64_t read_peak_bytes = 0, build_peak_bytes = 0;
 };
 
 struct SceneSession {
@@ -69,10 +77,11 @@ struct SceneSession {
     std::unique_ptr<FreezableCache> freezable;
     std::vector<AmbientRecord> known;  ///< values that were in the ambient file
     std::unique_ptr<const Tracer> made;
-    double read_seconds = 0, build_seconds = 0;
+    SceneCost cost;
 
   private:
     void read(const CommonOptions& options);
+    void compile(Resources& asked, const Team& team);
     void raise_problems(Resources& asked);
     void make_cache(const RenderSettings& settings, RankLink* link);
 };
@@ -80,7 +89,8 @@ struct SceneSession {
 /// What `--stats` writes.
 struct RunStatistics {
     std::string command;
-    double read_seconds = 0, build_seconds = 0, render_seconds = 0;
+    SceneCost scene;
+    double render_seconds = 0;
     RayCounters rays;
     AmbientCounters ambient;
     std::size_t ambient_values = 0, ambient_bytes = 0;  ///< in the cache at the end

@@ -316,8 +316,7 @@ class TraceRun {
     void save_statistics() {
         if (command_.common.stats_file.empty()) return;
         statistics_.command = "trace";
-        statistics_.read_seconds = session_->read_seconds;
-        statistics_.build_seconds = session_->build_seconds;
+        statistics_.scene = session_->cost;
         if (session_->ambient) {
             statistics_.ambient_values = session_->ambient->size();
             statistics_.ambient_bytes = session_->ambient->memory_bytes();

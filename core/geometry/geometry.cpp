@@ -310,14 +310,14 @@ Bounds Geometry::bounds() const {
 std::size_t Geometry::frame_count() const {
     return impl_->placed.paths().count();
 }
-std::size_t Geometry::memory_bytes() const {
+SearchMemory Geometry::memory() const {
     const std::ptrdiff_t embree = impl_->embree_bytes.load(std::memory_order_relaxed);
-    std::size_t bytes = impl_->placed.memory_bytes() +
-                        static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0));
+    SearchMemory memory{static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0)),
+                        impl_->placed.memory_bytes()};
     for (const Hierarchy& model : impl_->models)
-        bytes += model.pieces.primitive_of.capacity() * sizeof(std::uint32_t) +
-                 model.copies.all.capacity() * sizeof(Copy);
-    return bytes;
+        memory.tables += model.pieces.primitive_of.capacity() * sizeof(std::uint32_t) +
+                         model.copies.all.capacity() * sizeof(Copy);
+    return memory;
 }
 
 Hit Geometry::intersect_surface(SurfaceId surface, const RaySegment& ray) const {

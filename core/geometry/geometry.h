@@ -91,14 +91,20 @@ struct ShadowQuery {
                               ///< date; changes the speed only
 };
 
+/// In memory of its own [bytes].
+struct SearchMemory {
+    std::size_t tree = 0;    ///< Embree's
+    std::size_t tables = 0;  ///< ours beside it
+};
+
 /// Immutable after building; every method may be called from many threads at once.
 class Geometry {
   public:
     /// Throws InputError when nested placements multiply to more than 2^22 instances or are nested
     /// more than 32 deep, when one scales by less than 1e-7 or more than 1e7 in all, and for
-    /// damaged meshes. Embree builds on oneTBB's default threads. Answers are bit-identical for single
-    /// rays and packets; they need no flush-to-zero mode of the caller. A placed model wins over
-    /// what is not in it only where it is strictly nearer; inside it has its own ties.
+    /// damaged meshes. Embree builds on oneTBB's default threads. Answers are bit-identical for
+    /// single rays and packets; they need no flush-to-zero mode of the caller. A placed model wins
+    /// over what is not in it only where it is strictly nearer; inside it has its own ties.
     /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines
     /// without AVX-512 do. `team` helps to prepare what is not Embree's.
     explicit Geometry(GeometryInput input, const std::string& embree_options = {},
@@ -128,7 +134,7 @@ class Geometry {
     [[nodiscard]] Transform frame(FrameId id) const;  ///< local -> world of an instance path
     [[nodiscard]] Bounds bounds() const;              ///< of everything finite, world
     [[nodiscard]] std::size_t frame_count() const;    ///< instances, one a path
-    [[nodiscard]] std::size_t memory_bytes() const;   ///< Embree's and our tables
+    [[nodiscard]] SearchMemory memory() const;        ///< without the surfaces and meshes
 
   private:
     struct Impl;

@@ -163,7 +163,8 @@ SurfaceShapes::SurfaceShapes(Columns columns, const SurfaceList& list)
     for (std::size_t i = 0; i < size(); ++i) {
         const ShapeRow& own = row(i);
         if (static_cast<std::size_t>(own.type) >= primitive_type_count() ||
-            own.modifier != list.modifier(i) || kind_of_type(own.type) != kind_of_type(list.type(i)))
+            own.modifier != list.modifier(i) ||
+            kind_of_type(own.type) != kind_of_type(list.type(i)))
             refuse_shapes("another type or modifier");
         if (own.kind == ShapeKind::none) continue;
         if (own.kind != kind_of_type(own.type) || own.index >= column_size(columns_, own.kind))
@@ -198,8 +199,8 @@ Shape SurfaceShapes::shape(const SurfaceList& list, std::size_t i) const {
 PolygonShape SurfaceShapes::polygon(const SurfaceList& list, const ShapeRow& row) const {
     const PolygonPlane& plane = columns_.planes[row.index];
     PolygonShape polygon;
-    polygon.vertices = PointList(list.reals().values().subspan(
-        plane.first_real, std::size_t{3} * plane.corners));
+    polygon.vertices =
+        PointList(list.reals().values().subspan(plane.first_real, std::size_t{3} * plane.corners));
     polygon.normal = plane.normal;
     polygon.offset = plane.offset;
     polygon.drop_axis = row.manner.drop_axis;
@@ -210,6 +211,12 @@ PolygonShape SurfaceShapes::polygon(const SurfaceList& list, const ShapeRow& row
 std::size_t SurfaceShapes::own_bytes() const {
     return columns_.rows.own_bytes() + columns_.planes.own_bytes() + columns_.spheres.own_bytes() +
            columns_.cones.own_bytes() + columns_.rings.own_bytes() + columns_.sources.own_bytes();
+}
+
+std::size_t SurfaceShapes::mapped_bytes() const {
+    return columns_.rows.mapped_bytes() + columns_.planes.mapped_bytes() +
+           columns_.spheres.mapped_bytes() + columns_.cones.mapped_bytes() +
+           columns_.rings.mapped_bytes() + columns_.sources.mapped_bytes();
 }
 
 SurfaceShapes make_shapes(const SurfaceList& list, const Team& team) {

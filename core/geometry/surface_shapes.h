@@ -62,6 +62,8 @@ class SurfaceShapes {
     [[nodiscard]] const Columns& columns() const { return columns_; }
     /// In the process's own memory.
     [[nodiscard]] std::size_t own_bytes() const;
+    /// In a file that is mapped.
+    [[nodiscard]] std::size_t mapped_bytes() const;
 
   private:
     Columns columns_;

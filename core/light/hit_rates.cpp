@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/light/direct_calculation.h"
 #include "core/light/light_walk.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t kShadowRays = 40000;  ///< that the measurement may cost
 constexpr std::size_t kLeastPoints = 64, kMostPoints = 2000;
+constexpr std::size_t kRound = 32, kRoundParts = 4;  ///< points, and parts of a round
 constexpr double kPriorShare =
     0.02;  ///< weight of what all tests say against what the untested ones say
 constexpr int kFitSteps = 3;
@@ -126,17 +128,28 @@ std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::
     return rates;
 }
 
-std::vector<float> measure_hit_rates(const LightSources& lights, TraceContext& context) {
-    const RenderOptions& options = context.tracer.options();
+std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
+                                     WarningSink& warnings, const Team& team) {
+    const RenderOptions& options = tracer.options();
     if (most_candidates(lights, options) <= kFirstBlock) return {};
-    const std::vector<Hit> places = walk_light(lights, context.tracer, kMostPoints);
-    std::vector<MeasuredPoint> points;
-    std::size_t rays = 0;
-    for (std::size_t i = 0; i < places.size() && (rays < kShadowRays || i < kLeastPoints); ++i) {
-        const RandomStream random(mix_bits(options.seed ^ mix_bits(i)));
-        points.push_back(measure(lights, places[i], random, context));
-        rays += points.back().size();
+    const std::vector<Hit> places = walk_light(lights, tracer, kMostPoints);
+    std::vector<std::unique_ptr<TraceContext>> contexts(kRoundParts);
+    for (auto& context : contexts) context = std::make_unique<TraceContext>(tracer, warnings);
+    std::vector<MeasuredPoint> points(places.size());
+    std::size_t count = 0, rays = 0;
+    const auto is_enough = [&] { return rays >= kShadowRays && count >= kLeastPoints; };
+    // Rounds: what is measured beyond enough does not count, so that the team's size does not.
+    for (std::size_t first = 0; first < places.size() && !is_enough(); first += kRound) {
+        const std::size_t last = std::min(first + kRound, places.size());
+        team.run(kRoundParts, [&](std::size_t part) {
+            for (std::size_t i = first + part; i < last; i += kRoundParts) {
+                const RandomStream random(mix_bits(options.seed ^ mix_bits(i)));
+                points[i] = measure(lights, places[i], random, *contexts[part]);
+            }
+        });
+        for (; count < last && !is_enough(); ++count) rays += points[count].size();
     }
+    points.resize(count);
     return fit_hit_rates(points, lights.all().size(), options.shadow_certainty,
                          options.shadow_threshold);
 }

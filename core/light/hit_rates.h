@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/light/light_sources.h"
+#include "core/team.h"
 
 namespace lightwalk {
 
@@ -29,7 +30,7 @@ using MeasuredPoint = std::vector<MeasuredCandidate>;
 /// Points where light arrives, found by following light from the sources over a few diffuse bounces
 /// with seeded random numbers; every source is tested from each. A bounded number of rays, some ten
 /// thousand. Empty when -dt never leaves anything untested: then the rates do not matter.
-[[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights,
-                                                   TraceContext& context);
+[[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
+                                                   WarningSink& warnings, const Team& team);
 
 }  // namespace lightwalk

@@ -28,12 +28,11 @@ void LightSources::index_sources() {
         sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
-void LightSources::settle(const Tracer& tracer, WarningSink& warnings) {
+void LightSources::settle(const Tracer& tracer, WarningSink& warnings, const Team& team) {
     index_sources();
     find_scattered(warnings);
     if (options_.shadow_threshold > 0) {
-        TraceContext context(tracer, warnings);
-        const std::vector<float> rates = measure_hit_rates(*this, context);
+        const std::vector<float> rates = measure_hit_rates(*this, tracer, warnings, team);
         for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
     }
 }

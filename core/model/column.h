@@ -49,6 +49,10 @@ class Column {
     /// In the process's own memory: nothing for mapped values, which processes share.
     [[nodiscard]] std::size_t own_bytes() const { return own_.capacity() * sizeof(T); }
 
+    [[nodiscard]] std::size_t mapped_bytes() const {
+        return is_mapped() ? values_.size_bytes() : 0;
+    }
+
     void reserve(std::size_t count) {
         own_.reserve(count);
         values_ = own_;

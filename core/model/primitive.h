@@ -70,6 +70,13 @@ struct MeshModel {
     std::vector<Vertex> normals;  ///< unit, per vertex, or empty
     std::vector<double> us, vs;   ///< texture coordinates per vertex, or empty
     std::vector<Triangle> triangles;
+
+    /// In memory, without the materials.
+    [[nodiscard]] std::size_t own_bytes() const {
+        return (positions.capacity() + normals.capacity()) * sizeof(Vertex) +
+               (us.capacity() + vs.capacity()) * sizeof(double) +
+               triangles.capacity() * sizeof(Triangle);
+    }
 };
 
 }  // namespace lightwalk

@@ -24,8 +24,7 @@ void check_record(const SurfaceRecord& record, const SurfaceList::Columns& colum
         refuse("a type that is none");
     if (file >= columns.files.size()) refuse("a file that is none");
     if (record.name >= columns.text.size()) refuse("a name beyond the text");
-    if (record.modifier < kVoidIndex ||
-        record.modifier >= static_cast<std::int64_t>(modifiers))
+    if (record.modifier < kVoidIndex || record.modifier >= static_cast<std::int64_t>(modifiers))
         refuse("a modifier that is none");
 }
 
@@ -150,7 +149,11 @@ void SurfaceList::trim() {
 SurfacePrimitive SurfaceList::operator[](std::size_t i) const {
     const SurfaceRecord& record = columns_.records[i];
     const std::size_t end = i + 1 < size() ? first_real(i + 1) : columns_.reals.size();
-    SurfacePrimitive surface{type(i), record.modifier, columns_.text.data() + record.name, {}, {},
+    SurfacePrimitive surface{type(i),
+                             record.modifier,
+                             columns_.text.data() + record.name,
+                             {},
+                             {},
                              &columns_.files[record.file_and_type & ((1U << kFileBits) - 1)],
                              record.line};
     surface.reals = {columns_.reals.data() + record.first_real, end - record.first_real};
@@ -165,6 +168,11 @@ SurfacePrimitive SurfaceList::operator[](std::size_t i) const {
 std::size_t SurfaceList::own_bytes() const {
     return columns_.records.own_bytes() + columns_.reals.own_bytes() + columns_.text.own_bytes() +
            columns_.strings.own_bytes() + columns_.files.capacity() * sizeof(FileName);
+}
+
+std::size_t SurfaceList::mapped_bytes() const {
+    return columns_.records.mapped_bytes() + columns_.reals.mapped_bytes() +
+           columns_.text.mapped_bytes() + columns_.strings.mapped_bytes();
 }
 
 }  // namespace lightwalk

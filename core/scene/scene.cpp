@@ -23,7 +23,7 @@ struct Scene::Impl {
     std::vector<LoadedModel> models;
     ModifierTable modifiers;
     SurfaceTable surfaces;  ///< part i: of model i; then the lambertian one
-    std::vector<std::shared_ptr<const SurfaceShapes>> shapes;  ///< of the parts
+    std::vector<std::shared_ptr<const SurfaceShapes>> shapes;                ///< of the parts
     const MadeSurfaces triangles{PrimitiveType::mesh, "M-Tri", kVoidIndex};  ///< of each mesh
     const MadeSurfaces lambertian_sphere{PrimitiveType::sphere, "irradiance", 0};
     std::unique_ptr<Primitive>
@@ -114,8 +114,8 @@ void Scene::Impl::add_lambertian(FindModifierFactory modifier_factory, Resources
     record.primitive = lambertian.get();
     record.node = modifier_factory(lambertian->type)(build);
     lambertian_modifier = modifiers.add(std::move(record));
-    const std::size_t part = surfaces.add(lambertian_sphere.list, lambertian_sphere.shapes,
-                                          index(lambertian_modifier));
+    const std::size_t part =
+        surfaces.add(lambertian_sphere.list, lambertian_sphere.shapes, index(lambertian_modifier));
     lambertian_surface = surfaces.part(part).id(0);  // not flat, and not in the geometry
 }
 
@@ -221,6 +221,24 @@ ModifierId Scene::lambertian() const {
 }
 SurfaceId Scene::lambertian_surface() const {
     return impl_->lambertian_surface;
+}
+
+SceneMemory Scene::memory() const {
+    SceneMemory memory;
+    memory.search = impl_->geometry->memory();
+    for (std::size_t i = 0; i < impl_->models.size(); ++i) {
+        const SurfacePart& part = impl_->surfaces.part(i);
+        memory.surfaces += part.list->own_bytes();
+        memory.shapes += part.shapes->own_bytes();
+        memory.mapped += part.list->mapped_bytes() + part.shapes->mapped_bytes();
+        if (const MeshModel* mesh = impl_->models[i].mesh.get()) {
+            memory.meshes += mesh->own_bytes();
+            memory.triangle_count += mesh->triangles.size();
+        } else {
+            memory.surface_count += part.list->size();
+        }
+    }
+    return memory;
 }
 
 SceneCube Scene::cube() const {

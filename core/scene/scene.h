@@ -19,6 +19,16 @@ struct SceneCube {
     double size = 0;  ///< edge [m]; 0 when nothing is finite
 };
 
+/// What a scene holds in memory, by kind [bytes]; of modifiers there are few.
+struct SceneMemory {
+    std::size_t surfaces = 0;  ///< as they were read: numbers, names, places
+    std::size_t shapes = 0;
+    std::size_t meshes = 0;
+    SearchMemory search;
+    std::size_t mapped = 0;  ///< of a file: memory that processes share
+    std::size_t surface_count = 0, triangle_count = 0;
+};
+
 class Scene {
   public:
     /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
@@ -46,6 +56,7 @@ class Scene {
     [[nodiscard]] std::size_t modifier_count() const;
     [[nodiscard]] const Model& model() const;
     [[nodiscard]] SceneCube cube() const;
+    [[nodiscard]] SceneMemory memory() const;
     /// Of the surfaces of one of its models, its own or a placed one; null for any other.
     [[nodiscard]] std::shared_ptr<const SurfaceShapes> shapes_of(const Model& model) const;
 

@@ -78,7 +78,8 @@ void TraceContext::start_path() {
     scatter_lists.clear();
 }
 
-Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings)
+Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
+               const Team& team)
     : scene_(scene),
       options_(options),
       lights_(std::make_unique<LightSources>(scene, options_, warnings)) {
@@ -87,7 +88,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
     }
     ambient_ = std::make_unique<AmbientCalculation>(*this);
     VirtualSourceBuilder(*lights_, *this, warnings).build();
-    lights_->settle(*this, warnings);
+    lights_->settle(*this, warnings, team);
 }
 Tracer::~Tracer() = default;
 

@@ -123,7 +123,8 @@ class Tracer {
 
     /// Prepares light sources (virtual ones included) and their frozen visibility statistics.
     /// Throws InputError for illegal light sources.
-    Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings);
+    Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
+           const Team& team = TeamOfOne());
     ~Tracer();
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;

@@ -55,6 +55,7 @@ class MeshDecoder {
         for (std::int64_t i = 0; i < patches; ++i) read_patch(static_cast<std::uint64_t>(i));
         for (const RawTriangle& raw : raw_) add_triangle(raw);
         drop_unused_tables();
+        trim();
         return std::move(mesh_);
     }
 
@@ -217,6 +218,15 @@ class MeshDecoder {
         if (any_uvs_) return;
         mesh_.us.clear();
         mesh_.vs.clear();
+    }
+
+    /// Gives back what growing has taken in advance.
+    void trim() {
+        mesh_.positions.shrink_to_fit();
+        mesh_.normals.shrink_to_fit();
+        mesh_.us.shrink_to_fit();
+        mesh_.vs.shrink_to_fit();
+        mesh_.triangles.shrink_to_fit();
     }
 
     BinaryReader reader_;

@@ -126,8 +126,7 @@ struct TestModels {
                 ModelGeometry model = scene.models[i].geometry;
                 model.placements = scene.placements(i);
                 model.part = surfaces.add(lists[i], shapes[i], 0);
-                for (MeshPart& part : model.meshes)
-                    part.surface = surfaces.part(model.part).id(0);
+                for (MeshPart& part : model.meshes) part.surface = surfaces.part(model.part).id(0);
                 input.models.push_back(std::move(model));
             }
             surfaces.set_traits(test_traits());
@@ -151,7 +150,7 @@ class BuiltGeometry : private std::unique_ptr<TestModels::Tables>, private Geome
         : std::unique_ptr<TestModels::Tables>(std::move(tables)),
           Geometry((**this).input, embree_options) {}
     using Geometry::bounds, Geometry::frame, Geometry::frame_count, Geometry::intersect,
-        Geometry::intersect_surface, Geometry::memory_bytes, Geometry::visibility;
+        Geometry::intersect_surface, Geometry::memory, Geometry::visibility;
 };
 
 inline BuiltGeometry TestModels::build(const std::string& embree_options) const {
@@ -349,7 +348,8 @@ class BruteForce {
     void visit_shadow(std::size_t model, const Transform& place, const Placement* override_by,
                       const RaySegment& ray, SurfaceId target, Visibility& result) const {
         for (const Crossing& c : crossings(model, place, ray)) {
-            const ShadowClass shadow = at(override_by ? override_by->surface : c.id).traits().shadow;
+            const ShadowClass shadow =
+                at(override_by ? override_by->surface : c.id).traits().shadow;
             if (c.id == target || c.t >= ray.t_max || shadow == ShadowClass::ignored) continue;
             if (shadow == ShadowClass::blocks)
                 result = Visibility::blocked;

@@ -173,8 +173,7 @@ TEST_CASE("visibility is what trying every surface gives") {
         Random random(seed);
         for (RaySegment ray : test_rays(seed + 50, 500)) {
             ray.t_max = random.uniform(0, 8);
-            const SurfaceId target =
-                random.below(2) == 0 ? kNoSurface : SurfaceId{0};
+            const SurfaceId target = random.below(2) == 0 ? kNoSurface : SurfaceId{0};
             const Visibility v = geometry.visibility(ray, target);
             REQUIRE(v == brute.visibility(ray, target));
             ++found[static_cast<int>(v)];
@@ -271,7 +270,8 @@ TEST_CASE("a placed model wins only where it is strictly nearer, its own ties ar
     scene.add(surface(PrimitiveType::polygon, square(0), 7, kOpaque), 1);
     scene.place(1, 0, Transform{});
     CHECK(scene.build().intersect(kDown).surface == SurfaceId{0});
-    scene.models[0].geometry.placements[0].transform = similarity(1, false, {0, 0, 1}, 0, {0, 0, 1e-9});
+    scene.models[0].geometry.placements[0].transform =
+        similarity(1, false, {0, 0, 1}, 0, {0, 0, 1e-9});
     const Hit hit = scene.build().intersect(kDown);
     CHECK(hit.surface == SurfaceId{2});  // of its own; 1 is the placement
     CHECK(hit.frame == FrameId{0});
@@ -456,5 +456,5 @@ TEST_CASE("memory is accounted for") {
         small.add(surface(PrimitiveType::sphere, {1.0 * i, 0, 0, 0.5}, 0, kOpaque));
     for (int i = 0; i < 5000; ++i)
         large.add(surface(PrimitiveType::sphere, {1.0 * i, 0, 0, 0.5}, 0, kOpaque));
-    CHECK(large.build().memory_bytes() > small.build().memory_bytes() + std::size_t{80000});
+    CHECK(large.build().memory().tree > small.build().memory().tree + std::size_t{80000});
 }
