@@ -14,10 +14,13 @@ namespace lightwalk {
 /// Coordinates and radii beyond this could overflow in products of eight of them [m].
 inline constexpr double kLargestCoordinate = 1e30;
 
+// Shapes have no gaps, whose bytes would be anything: files of them are the same each time.
+
 struct SphereShape {
     Vec3 center;
     double radius = 0;    ///< > 0 [m]
     bool inward = false;  ///< bubble: the normal points to the centre
+    char unused[7] = {};
 };
 
 /// A polygon's outline in the two coordinates of the inside test, where it is a rectangle along
@@ -49,7 +52,8 @@ struct ConeShape {
     Vec3 axis;              ///< unit, from p0 to p1
     double length = 0;      ///< [m]
     bool inward = false;    ///< cup, tube
-    double slope = 0;       ///< of the radius along the axis
+    char unused[7] = {};
+    double slope = 0;  ///< of the radius along the axis
 };
 
 struct RingShape {
@@ -62,6 +66,7 @@ struct SourceShape {
     Vec3 direction;  ///< unit, towards the source
     float solid_angle =
         0;  ///< 2π(1 - cos(angle/2)), rounded up where the reference's float is [sr]
+    float unused = 0;
 };
 
 using Shape =

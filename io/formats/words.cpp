@@ -5,7 +5,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kLongestWord = 63;
+constexpr std::size_t kLongestTableWord = 63;
 
 bool is_blank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
@@ -48,7 +48,7 @@ std::optional<std::string_view> WordReader::next() {
     const auto* end =
         std::find_if(rest_.begin(), rest_.end(), [](char c) { return is_blank(c) || c == '#'; });
     const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
-    if (word.size() > kLongestWord) {
+    if (word.size() > kLongestTableWord) {
         throw error("word of " + std::to_string(word.size()) + " characters, expected at most 63");
     }
     rest_.remove_prefix(word.size());

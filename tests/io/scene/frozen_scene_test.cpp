@@ -55,7 +55,7 @@ lamp polygon panel 0 0 12 -1 -1 5 -1 1 5 1 1 5 1 -1 5
 sky source up 0 0 4 0 0 1 180
 void instance tree 5 tree.oct -t 0 -1 0 0 0
 other instance second 5 tree.oct -t 1 -1 0 0 0
-void mesh stone 5 stone.rtm -t 0 -2 .5 0 0
+void mesh stone 7 stone.rtm -rx 60 -t 0 -3 1.9 0 0
 )rad";
 
 const std::string kFont = "65 4 40 30 200 30 200 220 40 220\n66 3 20 20 240 20 130 240\n";
@@ -168,7 +168,7 @@ TEST_CASE("rays see the same bytes in a frozen scene, without any of its files")
     Silence again;
     const Scene scene(frozen->model(), modifier_factory, *frozen, again);
     CHECK(seen(scene) == expected);
-    for (const char* name :
+    for (const std::string name :
          {"ground", "ball", "globe", "wall", "post", "lid", "crown", "second", "M-Tri"}) {
         CAPTURE(name);
         CHECK(
