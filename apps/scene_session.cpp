@@ -49,7 +49,8 @@ void SceneSession::read(const CommonOptions& options) {
         names, [&](const std::string& name) { return is_frozen_scene(name, *files); });
     if (found == names.end()) {
         resources = std::make_unique<FileResources>(library, options.allow_commands, warnings);
-        model = read_scene(names, {library, options.allow_commands}, warnings, &problems);
+        model =
+            read_scene(names, {library, options.allow_commands, {}, workers}, warnings, &problems);
         return;
     }
     if (names.size() > 1) throw InputError({*found, 0}, "a frozen scene is all of a scene");

@@ -4,17 +4,19 @@
   perf/run.sh scene [--sides 100,316,1000]                                   builds, then this
   scene_bench.py --lightwalk PROGRAM [--sides 100,316,1000] [--runs 3] [--threads N] [--reference FOLDER] [--size N]
 
-A surface of side x side quadrilaterals (gensurf's) under one lamp, for each side; a hundred times side / 100 instances of a
-patch of 10,000 quadrilaterals, each row of them an instance itself, where an oconv is found (in FOLDER, with the other
-programs of Radiance, or on PATH); and the summer cabin (--scenes DIR, Radiance's sample models). One line a scene, tab-separated:
+For each side: side x side rectangles as text (tiles), the same from a frozen scene (frozen), a surface of side x side cells from
+gensurf, two triangles each where the four corners are in no plane (surface); a hundred times side / 100 instances of a patch of
+10,000 quadrilaterals, each row of them an instance itself, where an oconv is found (in FOLDER, with the other programs of
+Radiance, or on PATH); and the summer cabin (--scenes DIR, Radiance's sample models), as text and frozen. All under one lamp. One
+line a scene, tab-separated:
 
   scene, polygons
   read, build     medians [s]
   MB, bytes       at the peak; a polygon of it, less what a scene of one polygon takes
   Mrays/s         of a picture of N x N (1000) pixels, shadow rays included
-  oconv, rpict    of the same surface, whole processes [s], where --reference has them and gensurf is on PATH
+  oconv, rpict    of the same tiles, whole processes [s], where --reference has them
 """
-import argparse, json, math, os, pathlib, shutil, statistics, subprocess, sys, tempfile, time
+import argparse, json, math, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
 
 LAMP = """void plastic stuff 0 0 5 .5 .5 .5 0 0
 void light shine 0 0 3 100 100 100
@@ -37,6 +39,22 @@ def patch_text():
             corners = " ".join(point(i + a, j + b) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
             lines.append(f"stuff polygon q.{i}.{j} 0 0 12 {corners}\n")
     return LAMP.splitlines()[0] + "\n" + "".join(lines)
+
+
+def write_tiles(path, side):
+    """Rectangles side by side, at heights that differ, on 10 x 10 m."""
+    step = 10 / side
+    size = 0.9 * step
+    with open(path, "w") as file:
+        file.write(LAMP)
+        for i in range(side):
+            x = f"{i * step - 5:.6g}", f"{i * step - 5 + size:.6g}"
+            lines = []
+            for j in range(side):
+                y, z = (f"{j * step - 5:.6g}", f"{j * step - 5 + size:.6g}"), f"{(i * 31 + j * 17) % 1000 / 1000:.3f}"
+                corners = " ".join(f"{x[a]} {y[b]} {z}" for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                lines.append(f"stuff polygon tile.{i}.{j} 0 0 12 {corners}\n")
+            file.write("".join(lines))
 
 
 def run(command, folder, **options):
@@ -71,7 +89,7 @@ def timed(command, folder, out):
 
 def reference_seconds(arguments, scene):
     oconv, rpict = tool(arguments, "oconv"), tool(arguments, "rpict")
-    if not (oconv and rpict and shutil.which("gensurf")):
+    if not (oconv and rpict):
         return "", ""
     octree = os.path.join(arguments.scratch, "scene.oct")
     built = timed([oconv, "-w", scene], arguments.scratch, octree)
@@ -85,6 +103,17 @@ def tell(name, polygons, result, least, reference=("", "")):
     print(name, polygons, f"{seconds['read']:.3f}", f"{seconds['build']:.3f}", f"{peak / 1e6:.1f}",
           f"{max(peak - least, 0) / polygons:.0f}" if polygons else "", f"{rays / seconds['render'] * 1e-6:.2f}", *reference,
           sep="\t", flush=True)
+
+
+def surfaces_of(arguments, scene):
+    told = subprocess.run([arguments.lightwalk, "info", scene], capture_output=True, text=True, check=True).stdout
+    return int(re.search(r"^surfaces +(\d+)", told, re.MULTILINE).group(1))
+
+
+def freeze(arguments, folder, scene, environment=None):
+    frozen = os.path.join(arguments.scratch, "scene.lwz")
+    run([arguments.lightwalk, "freeze", "--quiet", "-o", frozen, *scene], folder, env=environment)
+    return frozen
 
 
 def instanced_scene(arguments, rows):
@@ -122,10 +151,18 @@ def main():
         result = measure(arguments, arguments.scratch, [scene])
         least = result[2]
         tell("surface", 1, result, least)
-        for side in map(int, arguments.sides.split(",")):
+        sides = [int(side) for side in arguments.sides.split(",")]
+        for side in sides:
+            write_tiles(scene, side)
+            result = measure(arguments, arguments.scratch, [scene])
+            tell("tiles", side * side, result, least, reference_seconds(arguments, scene))
+            frozen = freeze(arguments, arguments.scratch, [scene])
+            tell("frozen", side * side, measure(arguments, arguments.scratch, [frozen]), least)
+            os.unlink(frozen)
+        for side in sides:
             pathlib.Path(scene).write_text(LAMP + SURFACE.format(side))
-            tell("surface", side * side, measure(arguments, arguments.scratch, [scene]), least, reference_seconds(arguments, scene))
-        for side in map(int, arguments.sides.split(",")):
+            tell("surface", surfaces_of(arguments, scene) - 1, measure(arguments, arguments.scratch, [scene]), least)
+        for side in sides:
             rows = max(side // 10, 1)
             instances = instanced_scene(arguments, rows)
             if instances:
@@ -133,7 +170,10 @@ def main():
         if arguments.scenes:
             folder = os.path.join(os.path.abspath(arguments.scenes), "cabin")
             view = "-vf vf/living -ps 1 -ab 0 -av .1 .1 .1".split()
-            tell("cabin", 0, measure(arguments, folder, CABIN, view, dict(os.environ, RAYPATH=".:../lib")), least)
+            environment = dict(os.environ, RAYPATH=".:../lib")
+            tell("cabin", 0, measure(arguments, folder, CABIN, view, environment), least)
+            frozen = freeze(arguments, folder, CABIN, environment)
+            tell("cabin, frozen", 0, measure(arguments, folder, [frozen], view, environment), least)
     return 0
 
 

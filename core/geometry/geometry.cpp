@@ -127,11 +127,11 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, con
         rtcCommitScene(built.scene.get());
         check("building a search tree");
         if (*model != 0) built.outline = outline_of_tree(built);  // nothing is around the scene
-        built.pieces.boxes = {};
-        built.copies.boxes = {};
+        built.pieces.boxes = std::vector<Bounds>();  // {} would keep the memory
+        built.copies.boxes = std::vector<Bounds>();
     }
     box = bounds_of_tree(models[0].scene.get());
-    for (Hierarchy& model : models) model.outline = {};
+    for (Hierarchy& model : models) model.outline = std::vector<Bounds>();
 }
 
 /// Embree's own default for threads: a number would limit oneTBB in the whole process.

@@ -350,7 +350,7 @@ Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
     pieces.whole = pieces.primitive_of.size();
     if (divided.empty() && are_consecutive(pieces.primitive_of)) {
         if (pieces.whole > 0) pieces.first = pieces.primitive_of.front();
-        pieces.primitive_of = {};
+        pieces.primitive_of = std::vector<std::uint32_t>();  // {} would keep the memory
         return pieces;
     }
     division.run(pieces);

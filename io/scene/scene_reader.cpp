@@ -9,6 +9,7 @@
 
 #include "core/model/model_builder.h"
 #include "io/files/forget_pages.h"
+#include "io/generators/piece_pipe.h"
 #include "io/generators/text_sink.h"
 #include "io/language/primitive_text.h"
 #include "io/language/tokenizer.h"
@@ -32,7 +33,8 @@ class SceneReader {
           directory_(options.directory),
           files_(options.library.files()),
           runner_(options.library, options.allow_commands, warnings),
-          warnings_(warnings) {}
+          warnings_(warnings),
+          workers_(options.workers) {}
 
     /// Open a scene argument: a file, "-", or "!command".
     SceneText open(const std::string& argument) {
@@ -117,14 +119,19 @@ class SceneReader {
         }
         const std::string name = to_prefix(where) + abbreviate_command(command);
         const std::size_t before = size();
+        OutputReader output(*this, name, where, depth + 1);
+        PiecePipe pieces(output, workers_ > 1);
         try {
-            OutputReader output(*this, name, where, depth + 1);
-            runner_.run(command, directory_, where, output);
+            runner_.run(command, directory_, where, pieces);
         } catch (const UnknownCommandError& error) {
             problems_.add(where, message_of(error, where), "command " + error.program());
             skipped_command_ = true;
             return;
+        } catch (...) {
+            pieces.finish();  // what is wrong in an earlier piece comes first
+            throw;
         }
+        pieces.finish();
         warn_if_empty(before, name);
     }
 
@@ -243,6 +250,7 @@ class SceneReader {
     ModelBuilder builder_;
     CommandRunner runner_;
     WarningSink& warnings_;
+    int workers_;
 };
 
 }  // namespace

@@ -17,6 +17,8 @@ struct SceneReadOptions {
     /// Working directory for scene files, commands and relative elements of `library`; "" is the
     /// process's.
     std::string directory = {};
+    /// More than one: generators that write much run beside the reading of what they write.
+    int workers = 1;
 };
 
 /// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-"

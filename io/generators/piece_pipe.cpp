@@ -1,0 +1,79 @@
+#include "io/generators/piece_pipe.h"
+
+#include <utility>
+
+namespace lightwalk {
+namespace {
+
+constexpr std::size_t kMostWaiting = 4;
+constexpr std::size_t kShort = kPieceBytes / 2, kLong = 2 * kPieceBytes;
+
+}  // namespace
+
+PiecePipe::~PiecePipe() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+    }
+    close();
+}
+
+/// Ends the thread, if there is one.
+void PiecePipe::close() {
+    {
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void PiecePipe::throw_error() {
+    if (error_) std::rethrow_exception(error_);
+}
+
+void PiecePipe::finish() {
+    close();
+    throw_error();
+}
+
+void PiecePipe::take(std::string_view piece) {
+    const bool waits = thread_.joinable();
+    if (!waits && (!side_by_side_ || piece.size() < kShort || piece.size() > kLong))
+        return next_.take(piece);
+    if (!waits) {
+        closed_ = false;
+        thread_ = std::thread([this] { hand_on(); });
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || error_; });
+    throw_error();
+    waiting_.emplace_back(piece);
+    changed_.notify_all();
+}
+
+void PiecePipe::hand_on() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [this] { return !waiting_.empty() || closed_; });
+        if (waiting_.empty() || stopped_) return;
+        const std::string piece = std::move(waiting_.front());
+        waiting_.pop_front();
+        changed_.notify_all();
+        lock.unlock();
+        std::exception_ptr error;
+        try {
+            next_.take(piece);
+        } catch (...) {
+            error = std::current_exception();
+        }
+        lock.lock();
+        if (!error) continue;
+        error_ = error;
+        waiting_.clear();
+        changed_.notify_all();
+        return;
+    }
+}
+
+}  // namespace lightwalk

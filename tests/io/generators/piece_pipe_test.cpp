@@ -1,0 +1,87 @@
+// Writing and reading side by side: the same pieces in the same order, and the first error counts.
+#include "io/generators/piece_pipe.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <vector>
+
+using namespace lightwalk;
+
+namespace {
+
+/// Keeps what it gets; throws at the piece that says so.
+class Keeper final : public TextSink {
+  public:
+    explicit Keeper(bool slow = false) : slow_(slow) {}
+    void take(std::string_view piece) override {
+        if (slow_) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        if (piece.starts_with("bad")) throw std::runtime_error(std::string(piece.substr(0, 4)));
+        text += piece;
+        threads.push_back(std::this_thread::get_id());
+    }
+    std::string text;
+    std::vector<std::thread::id> threads;
+
+  private:
+    bool slow_;
+};
+
+std::string long_piece(const std::string& beginning) {
+    std::string piece = beginning;
+    piece.resize(kPieceBytes, '.');
+    return piece;
+}
+
+}  // namespace
+
+TEST_CASE("a pipe hands its pieces on in order, long ones on another thread") {
+    for (const bool slow : {false, true}) {
+        Keeper keeper(slow);
+        std::string expected;
+        PiecePipe pipe(keeper, true);
+        for (int i = 0; i < 20; ++i) {
+            const std::string piece = i == 19 ? "end" : long_piece(std::to_string(i));
+            pipe.take(piece);
+            expected += piece;
+        }
+        pipe.finish();
+        CHECK(keeper.text == expected);
+        for (const std::thread::id id : keeper.threads) CHECK(id != std::this_thread::get_id());
+    }
+}
+
+TEST_CASE("short texts, and all where nothing may run beside, go straight through") {
+    Keeper keeper;
+    PiecePipe small(keeper, true), alone(keeper, false);
+    small.take("a few words");
+    small.finish();
+    for (int i = 0; i < 3; ++i) alone.take(long_piece("x"));
+    alone.finish();
+    REQUIRE(keeper.threads.size() == 4);
+    for (const std::thread::id id : keeper.threads) CHECK(id == std::this_thread::get_id());
+}
+
+TEST_CASE("what the reader throws ends the writer, and is told once all is quiet") {
+    Keeper keeper(true);
+    PiecePipe pipe(keeper, true);
+    const auto write = [&] {
+        pipe.take(long_piece("good"));
+        pipe.take(long_piece("bad1"));
+        for (int i = 0; i < 1000; ++i) pipe.take(long_piece("bad2"));
+    };
+    CHECK_THROWS_WITH_AS(write(), "bad1", std::runtime_error);
+    CHECK_THROWS_WITH_AS(pipe.finish(), "bad1", std::runtime_error);
+    CHECK(keeper.text.substr(0, 4) == "good");
+    CHECK(keeper.threads.size() == 1);
+}
+
+TEST_CASE("a pipe that nobody finishes ends by itself") {
+    Keeper keeper(true);
+    {
+        PiecePipe pipe(keeper, true);
+        for (int i = 0; i < 3; ++i) pipe.take(long_piece("x"));
+    }
+    CHECK(keeper.threads.size() <= 3);
+}
