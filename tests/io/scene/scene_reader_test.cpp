@@ -27,7 +27,11 @@ struct Parsed {
     std::string error;
 
     /// Modifiers come first, then the surfaces.
-    [[nodiscard]] Primitive at(std::size_t i) const { return test::all_primitives(*model).at(i); }
+    [[nodiscard]] Primitive at(std::size_t i) const {
+        const std::size_t modifiers = model->modifiers.size();
+        return i < modifiers ? model->modifiers[i]
+                             : test::to_primitive(model->surfaces[i - modifiers]);
+    }
     [[nodiscard]] std::size_t size() const { return model->size(); }
     /// Last primitive with this name.
     [[nodiscard]] Primitive named(const std::string& name) const {
@@ -263,23 +267,26 @@ TEST_CASE("an error far within a long file has its exact line, and quotes what s
 
 TEST_CASE("what gensurf writes by pieces is read as one text") {
     const std::string hill = "!gensurf red hill s t 's*t' 100 100\n";
-    const Parsed scene = parse(kPlastic + hill + kBall);
-    REQUIRE(scene.size() == 20002);
-    CHECK(scene.warnings.empty());
-    bool in_order = true;
-    for (std::size_t i = 1; i <= 20000; ++i) {
-        in_order = in_order && scene.at(i).name == "hill." + std::to_string(i) &&
-                   scene.at(i).where.line == 2 && scene.at(i).reals.size() == 9;
+    for (const int workers : {1, 2}) {  // alone, or beside the reading
+        SceneReadOptions options = inside("/nonexistent");
+        options.workers = workers;
+        const Parsed scene = parse(kPlastic + hill + kBall, options);
+        REQUIRE(scene.size() == 20002);
+        CHECK(scene.warnings.empty());
+        bool in_order = true;
+        for (std::size_t i = 1; i <= 20000; ++i) {
+            in_order = in_order && scene.at(i).name == "hill." + std::to_string(i) &&
+                       scene.at(i).where.line == 2 && scene.at(i).reals.size() == 9;
+        }
+        CHECK(in_order);
+        CHECK(scene.at(20001).where.line == 3);
+        CHECK(parse("!gensurf inherit hill s t 's*t' 100 100\n", options).error ==
+              "room.rad:1: !gensurf inherit hill s t 's*t' 100 100:3: inappropriate use of "
+              "'inherit' modifier: only an alias inherits");
     }
-    CHECK(in_order);
-    CHECK(scene.at(20001).where.line == 3);
     CHECK(parse("\n!gensurf rd hill s t 's*t' 100 100\n").error ==
           "room.rad:2: !gensurf rd hill s t 's*t' 100 100:3: undefined modifier \"rd\" (and 19999 "
           "more)");
-    CHECK(parse("!gensurf inherit hill s t 's*t' 100 100\n").error ==
-          "room.rad:1: !gensurf inherit hill s t 's*t' 100 100:3: inappropriate use of 'inherit' "
-          "modifier: only "
-          "an alias inherits");
 }
 
 TEST_CASE("a bad material that nothing uses is accepted") {
