@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/model/column.h"
 #include "core/model/primitive_type.h"
 #include "core/model/surface_list.h"
 
@@ -64,18 +65,18 @@ struct MeshModel {
             {};  ///< into `positions` (and `normals`, `uvs` where those are not empty)
         std::int32_t material = kVoidIndex;  ///< into materials.modifiers
         bool has_normals = false, has_uvs = false;
+        std::uint16_t unused = 0;  ///< no gap: files of triangles are the same each time
     };
     Model materials;
-    std::vector<Vertex> positions;
-    std::vector<Vertex> normals;  ///< unit, per vertex, or empty
-    std::vector<double> us, vs;   ///< texture coordinates per vertex, or empty
-    std::vector<Triangle> triangles;
+    Column<Vertex> positions;
+    Column<Vertex> normals;  ///< unit, per vertex, or empty
+    Column<double> us, vs;   ///< texture coordinates per vertex, or empty
+    Column<Triangle> triangles;
 
-    /// In memory, without the materials.
+    /// In the process's own memory, without the materials.
     [[nodiscard]] std::size_t own_bytes() const {
-        return (positions.capacity() + normals.capacity()) * sizeof(Vertex) +
-               (us.capacity() + vs.capacity()) * sizeof(double) +
-               triangles.capacity() * sizeof(Triangle);
+        return positions.own_bytes() + normals.own_bytes() + us.own_bytes() + vs.own_bytes() +
+               triangles.own_bytes();
     }
 };
 

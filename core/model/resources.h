@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/rgb.h"
+#include "core/model/column.h"
 #include "core/model/primitive.h"
 
 namespace lightwalk {
@@ -28,7 +29,7 @@ struct DataArray {
 /// lower left.
 struct PictureData {
     std::array<DataArray::Axis, 2> axes;  ///< v, u
-    std::vector<Rgb> values;  ///< row-major from the bottom row up, left to right [W/(m² sr)]
+    Column<Rgb> values;  ///< row-major from the bottom row up, left to right [W/(m² sr)]
 };
 
 /// A font (.fnt): glyphs of closed polygons on a 0..255 grid.

@@ -1,6 +1,7 @@
 #include "io/picture/picture_data.h"
 
 #include <algorithm>
+#include <span>
 
 #include "io/picture/rgbe_picture.h"
 
@@ -15,11 +16,11 @@ PictureData decode_picture(std::string_view bytes, const std::string& name) {
     data.axes[0].count = static_cast<std::uint32_t>(picture.height);
     data.axes[1].extent = static_cast<float>(width <= height ? 1 : width / height);
     data.axes[1].count = static_cast<std::uint32_t>(picture.width);
-    data.values.resize(picture.pixels.size());
+    const std::span<Rgb> values = data.values.resize(picture.pixels.size());
     const auto row = static_cast<std::ptrdiff_t>(picture.width);
     for (std::ptrdiff_t y = 0; y < picture.height; ++y) {
         const auto from = picture.pixels.end() - (y + 1) * row;
-        std::transform(from, from + row, data.values.begin() + y * row, decode_rgbe);
+        std::transform(from, from + row, values.begin() + y * row, decode_rgbe);
     }
     return data;
 }

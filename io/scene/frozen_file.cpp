@@ -155,7 +155,7 @@ std::string frozen_file_bytes(std::span<const FrozenPart> parts) {
     return bytes;
 }
 
-FrozenFile::FrozenFile(std::shared_ptr<const MappedFile> file)
+FrozenFile::FrozenFile(const std::shared_ptr<const MappedFile>& file)
     : FrozenFile(file, file->bytes(), file->path()) {}
 
 FrozenFile::FrozenFile(std::shared_ptr<const void> owner, std::span<const std::byte> bytes,

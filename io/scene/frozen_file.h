@@ -40,7 +40,7 @@ class FrozenFile {
   public:
     /// Throws InputError for a file that is none, is damaged or cut short, or was written by
     /// another version of Lightwalk or on another kind of machine.
-    explicit FrozenFile(std::shared_ptr<const MappedFile> file);
+    explicit FrozenFile(const std::shared_ptr<const MappedFile>& file);
     /// Bytes in memory that `owner` keeps, from a multiple of 8 on; messages call them `name`.
     FrozenFile(std::shared_ptr<const void> owner, std::span<const std::byte> bytes,
                std::string name);

@@ -17,20 +17,6 @@ namespace {
     throw InputError({file.name(), 0}, std::string("damaged: ") + what);
 }
 
-/// The values of a part where they lie.
-template <class T>
-std::span<const T> values_of(const FrozenFile& file, FrozenKind kind, std::uint32_t number) {
-    const std::span<const std::byte> bytes = part_of(file, kind, number);
-    static_assert(alignof(T) <= 8);
-    if (bytes.size() % sizeof(T) != 0) refuse_column(file, "a column of broken length");
-    return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
-}
-
-template <class T>
-Column<T> column_of(const FrozenFile& file, FrozenKind kind, std::uint32_t number) {
-    return Column<T>::mapped(values_of<T>(file, kind, number));
-}
-
 /// That a member at `offset` of each value is a bool: any other byte in its place would be none.
 template <class T>
 void check_bools(const FrozenFile& file, std::span<const T> values, std::size_t offset) {
@@ -196,12 +182,6 @@ SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const Su
     return {std::move(columns), list};
 }
 
-/// A model, and what keeps the bytes that it shows.
-struct ThawedModel {
-    std::shared_ptr<const void> bytes;
-    Model model;
-};
-
 /// Errors of the model's own checks, with the file's name.
 template <class Thaw>
 auto named(const FrozenFile& file, const Thaw& thaw) {
@@ -211,21 +191,6 @@ auto named(const FrozenFile& file, const Thaw& thaw) {
         const std::string said = error.what();
         throw InputError(said.starts_with(file.name()) ? said : file.name() + ": " + said);
     }
-}
-
-struct PackedTriangle {
-    std::uint32_t v[3] = {};
-    std::int32_t material = kVoidIndex;
-    std::uint32_t flags = 0;  ///< 1: normals, 2: texture coordinates
-};
-
-PackedTriangle packed(const MeshModel::Triangle& t) {
-    return {
-        {t.v[0], t.v[1], t.v[2]}, t.material, (t.has_normals ? 1U : 0U) | (t.has_uvs ? 2U : 0U)};
-}
-
-MeshModel::Triangle unpacked(const PackedTriangle& t) {
-    return {{t.v[0], t.v[1], t.v[2]}, t.material, (t.flags & 1) != 0, (t.flags & 2) != 0};
 }
 
 /// That a table of the vertices is whole, or not there where no triangle needs it.
@@ -250,11 +215,6 @@ bool is_sound(const MeshModel& mesh) {
     return is_sound(mesh, mesh.normals.size(), normals) && is_sound(mesh, mesh.us.size(), uvs) &&
            is_sound(mesh, mesh.vs.size(), uvs) && std::ranges::all_of(mesh.positions, finite) &&
            std::ranges::all_of(mesh.normals, finite);
-}
-
-template <class T>
-std::vector<T> copy_of(std::span<const T> values) {
-    return {values.begin(), values.end()};
 }
 
 }  // namespace
@@ -284,9 +244,9 @@ void freeze_model(const Model& model, const SurfaceShapes& shapes, std::uint32_t
 
 std::shared_ptr<const Model> thaw_model(const FrozenFile& file, std::uint32_t number) {
     return named(file, [&] {
-        const auto thawed = std::make_shared<ThawedModel>();
+        const auto thawed = std::make_shared<Thawed<Model>>();
         thawed->bytes = file.owner();
-        Model& model = thawed->model;
+        Model& model = thawed->thing;
         PackedReader reader(part_of(file, FrozenKind::model, number), file.name(), "a model");
         model.modifiers = unpack_modifiers(reader);
         model.header = reader.texts();
@@ -305,29 +265,31 @@ void freeze_mesh(const MeshModel& mesh, std::uint32_t number, FrozenParts& parts
     PackedWriter writer;
     pack_modifiers(writer, mesh.materials.modifiers);
     parts.add(FrozenKind::mesh, number, writer.bytes());
-    parts.add(FrozenKind::positions, number, std::span(mesh.positions));
-    parts.add(FrozenKind::normals, number, std::span(mesh.normals));
-    parts.add(FrozenKind::us, number, std::span(mesh.us));
-    parts.add(FrozenKind::vs, number, std::span(mesh.vs));
-    PackedWriter triangles;
-    for (const MeshModel::Triangle& triangle : mesh.triangles) triangles.number(packed(triangle));
-    parts.add(FrozenKind::triangles, number, triangles.bytes());
+    parts.add(FrozenKind::positions, number, mesh.positions.values());
+    parts.add(FrozenKind::normals, number, mesh.normals.values());
+    parts.add(FrozenKind::us, number, mesh.us.values());
+    parts.add(FrozenKind::vs, number, mesh.vs.values());
+    parts.add(FrozenKind::triangles, number, mesh.triangles.values());
 }
 
 std::shared_ptr<const MeshModel> thaw_mesh(const FrozenFile& file, std::uint32_t number) {
     using Vertex = MeshModel::Vertex;
-    auto mesh = std::make_shared<MeshModel>();
+    using Triangle = MeshModel::Triangle;
+    const auto thawed = std::make_shared<Thawed<MeshModel>>();
+    thawed->bytes = file.owner();
+    MeshModel& mesh = thawed->thing;
     PackedReader reader(part_of(file, FrozenKind::mesh, number), file.name(), "a mesh");
-    mesh->materials.modifiers = unpack_modifiers(reader);
+    mesh.materials.modifiers = unpack_modifiers(reader);
     reader.end();
-    mesh->positions = copy_of(values_of<Vertex>(file, FrozenKind::positions, number));
-    mesh->normals = copy_of(values_of<Vertex>(file, FrozenKind::normals, number));
-    mesh->us = copy_of(values_of<double>(file, FrozenKind::us, number));
-    mesh->vs = copy_of(values_of<double>(file, FrozenKind::vs, number));
-    for (const PackedTriangle& t : values_of<PackedTriangle>(file, FrozenKind::triangles, number))
-        mesh->triangles.push_back(unpacked(t));
-    if (!is_sound(*mesh)) reader.fail();
-    return mesh;
+    mesh.positions = column_of<Vertex>(file, FrozenKind::positions, number);
+    mesh.normals = column_of<Vertex>(file, FrozenKind::normals, number);
+    mesh.us = column_of<double>(file, FrozenKind::us, number);
+    mesh.vs = column_of<double>(file, FrozenKind::vs, number);
+    mesh.triangles = column_of<Triangle>(file, FrozenKind::triangles, number);
+    check_bools(file, mesh.triangles.values(), offsetof(Triangle, has_normals));
+    check_bools(file, mesh.triangles.values(), offsetof(Triangle, has_uvs));
+    if (!is_sound(mesh)) reader.fail();
+    return {thawed, &mesh};
 }
 
 }  // namespace lightwalk

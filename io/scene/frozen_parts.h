@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
+#include "core/model/column.h"
 #include "io/scene/frozen_file.h"
 
 namespace lightwalk {
@@ -19,6 +22,7 @@ enum class FrozenKind : std::uint32_t {
     data,
     picture,
     font,
+    pixels,  ///< of a picture
     // Of each model; the scene is number 0.
     model = 16,
     records,
@@ -59,10 +63,27 @@ class FrozenParts {
     std::deque<std::string> packed_;
 };
 
+/// A thing, and what keeps the bytes that its columns show.
+template <class T>
+struct Thawed {
+    std::shared_ptr<const void> bytes;
+    T thing;
+};
+
 /// The bytes of a part; throws InputError as FrozenFile::part.
 [[nodiscard]] inline std::span<const std::byte> part_of(const FrozenFile& file, FrozenKind kind,
                                                         std::uint32_t owner = 0) {
     return file.part(static_cast<std::uint32_t>(kind), owner);
+}
+
+/// The values of a part, where they lie; throws InputError also for a broken number of them.
+template <class T>
+Column<T> column_of(const FrozenFile& file, FrozenKind kind, std::uint32_t owner) {
+    static_assert(alignof(T) <= 8);
+    const std::span<const std::byte> bytes = part_of(file, kind, owner);
+    if (bytes.size() % sizeof(T) != 0)
+        throw InputError({file.name(), 0}, "damaged: a column of broken length");
+    return Column<T>::mapped({reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)});
 }
 
 }  // namespace lightwalk

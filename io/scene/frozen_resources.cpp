@@ -72,23 +72,25 @@ std::shared_ptr<const DataArray> thaw_data(const FrozenFile& file, std::uint32_t
 void freeze_picture(const PictureData& picture, std::uint32_t number, FrozenParts& parts) {
     PackedWriter writer;
     for (const DataArray::Axis& axis : picture.axes) pack_axis(writer, axis);
-    writer.list(picture.values);
     parts.add(FrozenKind::picture, number, writer.bytes());
+    parts.add(FrozenKind::pixels, number, picture.values.values());
 }
 
 std::shared_ptr<const PictureData> thaw_picture(const FrozenFile& file, std::uint32_t number) {
     PackedReader reader(part_of(file, FrozenKind::picture, number), file.name(), "a picture");
-    auto picture = std::make_shared<PictureData>();
-    for (DataArray::Axis& axis : picture->axes) {
+    const auto thawed = std::make_shared<Thawed<PictureData>>();
+    thawed->bytes = file.owner();
+    PictureData& picture = thawed->thing;
+    for (DataArray::Axis& axis : picture.axes) {
         axis = unpack_axis(reader, 1);
         if (!axis.points.empty()) reader.fail();
     }
-    picture->values = reader.list<Rgb>();
     reader.end();
-    check_size(reader, picture->axes, picture->values.size());
+    picture.values = column_of<Rgb>(file, FrozenKind::pixels, number);
+    check_size(reader, picture.axes, picture.values.size());
     const auto finite = [](const Rgb& c) { return std::isfinite(c.r + c.g + c.b); };
-    if (!std::ranges::all_of(picture->values, finite)) reader.fail();
-    return picture;
+    if (!std::ranges::all_of(picture.values, finite)) reader.fail();
+    return {thawed, &picture};
 }
 
 void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts) {

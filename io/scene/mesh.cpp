@@ -214,19 +214,19 @@ class MeshDecoder {
     }
 
     void drop_unused_tables() {
-        if (!any_normals_) mesh_.normals.clear();
+        if (!any_normals_) mesh_.normals = {};
         if (any_uvs_) return;
-        mesh_.us.clear();
-        mesh_.vs.clear();
+        mesh_.us = {};
+        mesh_.vs = {};
     }
 
     /// Gives back what growing has taken in advance.
     void trim() {
-        mesh_.positions.shrink_to_fit();
-        mesh_.normals.shrink_to_fit();
-        mesh_.us.shrink_to_fit();
-        mesh_.vs.shrink_to_fit();
-        mesh_.triangles.shrink_to_fit();
+        mesh_.positions.trim();
+        mesh_.normals.trim();
+        mesh_.us.trim();
+        mesh_.vs.trim();
+        mesh_.triangles.trim();
     }
 
     BinaryReader reader_;

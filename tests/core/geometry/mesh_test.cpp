@@ -10,19 +10,22 @@ using namespace lightwalk::test;
 
 namespace {
 
+using Vertices = Column<MeshModel::Vertex>;
+using Triangles = Column<MeshModel::Triangle>;
+
 /// Two triangles that share a diagonal: the unit square at z = 0, materials 0 and 1.
 MeshModel two_triangles() {
     MeshModel mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.positions = Vertices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     const double s = std::sqrt(0.5);
-    mesh.normals = {{-s, 0, s}, {s, 0, s}, {s, 0, s}, {-s, 0, s}};
-    mesh.us = {0, 1, 1, 0};
-    mesh.vs = {0, 0, 1, 1};
+    mesh.normals = Vertices({{-s, 0, s}, {s, 0, s}, {s, 0, s}, {-s, 0, s}});
+    mesh.us = Column<double>({0, 1, 1, 0});
+    mesh.vs = Column<double>({0, 0, 1, 1});
     MeshModel::Triangle low, high;
     low.v[0] = 0, low.v[1] = 1, low.v[2] = 2, low.material = 0;
     high.v[0] = 0, high.v[1] = 2, high.v[2] = 3, high.material = 1;
     low.has_normals = low.has_uvs = high.has_normals = high.has_uvs = true;
-    mesh.triangles = {low, high};
+    mesh.triangles = Triangles({low, high});
     return mesh;
 }
 
@@ -100,7 +103,8 @@ TEST_CASE("a placement with a modifier shades the whole mesh in the scene's spac
 TEST_CASE("no ray slips between the triangles of a closed mesh") {
     // an octahedron, hit at its corners, edges and faces from all sides
     MeshModel mesh;
-    mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    mesh.positions =
+        Vertices({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
     for (const std::uint32_t x : {0U, 1U}) {
         for (const std::uint32_t y : {2U, 3U}) {
             for (const std::uint32_t z : {4U, 5U}) {
@@ -133,30 +137,30 @@ TEST_CASE("damaged meshes are refused") {
     };
     MeshModel mesh = two_triangles();
     CHECK(build(mesh) == 1);
-    mesh.triangles[1].v[2] = 4;
+    mesh.triangles.resize(2)[1].v[2] = 4;
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such vertex", InputError);
     mesh = two_triangles();
-    mesh.triangles[0].material = 2;
+    mesh.triangles.resize(2)[0].material = 2;
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 0: no such material", InputError);
     mesh = two_triangles();
-    mesh.normals.pop_back();
+    mesh.normals.resize(3);
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such vertex normal", InputError);
     mesh = two_triangles();
-    mesh.vs.pop_back();
+    mesh.vs.resize(3);
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such texture coordinate",
                          InputError);
     mesh = two_triangles();
-    mesh.positions[0].x = std::nan("");
+    mesh.positions.resize(4)[0].x = std::nan("");
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 0: vertex out of range", InputError);
 }
 
 TEST_CASE("triangles without area and thin ones are never hit by accident") {
     MeshModel mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 0}};
+    mesh.positions = Vertices({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 0}});
     MeshModel::Triangle line, point;
     line.v[1] = 1, line.v[2] = 2;
     point.v[1] = 3;
-    mesh.triangles = {line, point};
+    mesh.triangles = Triangles({line, point});
     const TestModels scene = placed(mesh, Transform{});
     const BuiltGeometry geometry = scene.build();
     for (const double x : {0.0, 0.5, 1.0})

@@ -31,7 +31,8 @@ TEST_CASE("a manifest holds what was read, and what was looked for in vain") {
     CHECK(files[1].digest == digest_of_bytes("one"));
 }
 
-TEST_CASE("changes since: the date decides cheaply, then the digest, and what has changed is named") {
+TEST_CASE(
+    "changes since: the date decides cheaply, then the digest, and what has changed is named") {
     const test::TemporaryFolder folder;
     const std::string room = folder.write("room.rad", "one"), none = folder.path("none.cal");
     ManifestRecorder recorder;

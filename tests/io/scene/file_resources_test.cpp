@@ -35,7 +35,7 @@ TEST_CASE("a picture that is not there may have the other ending, .pic for .hdr 
     test::Silence silence;
     FileResources resources(LibraryPath({"a", "b"}).relative_to(folder.path()), false, silence);
     const auto value = [&](const std::string& name) {
-        return static_cast<double>(resources.picture(name)->values.at(0).r);
+        return static_cast<double>(resources.picture(name)->values[0].r);
     };
     const auto about = [](double x) { return doctest::Approx(x).epsilon(1.0 / 256); };  // RGBE
     CHECK(value("new.pic") == about(1));

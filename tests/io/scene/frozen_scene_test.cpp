@@ -199,14 +199,18 @@ TEST_CASE("columns of a frozen scene are the file's pages") {
     write_frozen_scene(path, room.scene, room.resources, room.manifest->files());
     CHECK(read_file(path) == room.bytes());
     std::shared_ptr<const Model> model, tree;
+    std::shared_ptr<const MeshModel> stone;
+    std::shared_ptr<const PictureData> picture;
     {
         const auto frozen = open_frozen_scene(path, false);
         model = frozen->model();
         tree = frozen->octree("tree.oct");
         CHECK(frozen->model() == model);
         CHECK(frozen->octree("tree.oct") == tree);
-        CHECK(frozen->mesh("stone.rtm") == frozen->mesh("stone.rtm"));
-        CHECK(frozen->picture("image.hdr") == frozen->picture("image.hdr"));
+        stone = frozen->mesh("stone.rtm");
+        picture = frozen->picture("image.hdr");
+        CHECK(frozen->mesh("stone.rtm") == stone);
+        CHECK(frozen->picture("image.hdr") == picture);
     }
     std::filesystem::remove(path);  // models keep the mapping
     for (const auto& one : {model, tree}) {
@@ -216,6 +220,10 @@ TEST_CASE("columns of a frozen scene are the file's pages") {
         CHECK(one->shapes->columns().rows.is_mapped());
         CHECK(one->surfaces.own_bytes() < 1000);
     }
+    CHECK(stone->positions.is_mapped());
+    CHECK(stone->triangles.is_mapped());
+    CHECK(picture->values.is_mapped());
+    CHECK(picture->values.size() == 12);
     CHECK(tree->surfaces[0].name == "crown");
     CHECK(model->surfaces[0].where().file.text() == folder.path("room.rad"));
     CHECK(model->surfaces[0].line == room.scene.model().surfaces[0].line);
