@@ -1,7 +1,8 @@
 #include "io/scene/frozen_scene.h"
 
+#include <algorithm>
 #include <cassert>
-#include <type_traits>
+#include <filesystem>
 #include <utility>
 
 #include "core/error.h"
@@ -109,6 +110,19 @@ void freeze_manifest(std::span<const ManifestFile> manifest, FrozenParts& parts)
     parts.add(FrozenKind::manifest, 0, writer.bytes());
 }
 
+/// That each file stands there once, as a recorder names them: no file is read again and again.
+bool is_in_order(std::span<const ManifestFile> manifest) {
+    const auto proper = [](const ManifestFile& file) {
+        return file.path.starts_with('/') &&
+               std::filesystem::path(file.path).lexically_normal() == file.path;
+    };
+    const auto ordered = [](const ManifestFile& a, const ManifestFile& b) {
+        return a.path >= b.path;
+    };
+    return std::ranges::all_of(manifest, proper) &&
+           std::ranges::adjacent_find(manifest, ordered) == manifest.end();
+}
+
 std::vector<ManifestFile> thaw_manifest(const FrozenFile& file) {
     constexpr std::size_t kLeastEntry = 8 + 1 + 3 * 8;  // [bytes]
     PackedReader reader(part_of(file, FrozenKind::manifest), file.name(), "the list of its files");
@@ -121,6 +135,7 @@ std::vector<ManifestFile> thaw_manifest(const FrozenFile& file) {
         entry.digest = reader.number<std::uint64_t>();
     }
     reader.end();
+    if (!is_in_order(manifest)) reader.fail();
     return manifest;
 }
 

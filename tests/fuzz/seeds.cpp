@@ -170,7 +170,7 @@ std::string frozen_scene() {
     options.library = LibraryPath(std::vector<std::string>{});
     const Scene scene(parse_scene(kScene + kUsers, "room.rad", options, silence), modifier_factory,
                       library, silence);
-    const std::vector<ManifestFile> manifest{{"/room.rad", true, 9, 9, 9}, {"/lost.cal"}};
+    const std::vector<ManifestFile> manifest{{"/lost.cal"}, {"/room.rad", true, 9, 9, 9}};
     return frozen_scene_bytes(scene, library, manifest);
 }
 

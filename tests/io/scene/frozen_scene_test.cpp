@@ -273,6 +273,26 @@ TEST_CASE("a frozen scene whose files have changed is refused, and they are name
     CHECK(refusal().find(", and 2 more; freeze it again") != std::string::npos);
 }
 
+TEST_CASE("a frozen scene names each of its files once") {
+    const TemporaryFolder folder;
+    write_room(folder);
+    const Room room(folder);
+    const auto opens = [&](const std::vector<ManifestFile>& manifest) {
+        try {
+            return thawed(frozen_scene_bytes(room.scene, room.resources, manifest)) != nullptr;
+        } catch (const InputError& error) {
+            CHECK(std::string(error.what()) == "a.lwz: damaged: the list of its files");
+            return false;
+        }
+    };
+    CHECK(opens({}));
+    CHECK(opens({{"/a"}, {"/a/b"}, {"/b"}}));
+    CHECK_FALSE(opens({{"/a"}, {"/a"}}));
+    CHECK_FALSE(opens({{"/b"}, {"/a"}}));
+    CHECK_FALSE(opens({{"/a"}, {"/a/../a"}}));
+    CHECK_FALSE(opens({{"a"}}));
+}
+
 TEST_CASE("a file is a frozen scene by its first bytes") {
     const TemporaryFolder folder;
     const auto files = real_files();
