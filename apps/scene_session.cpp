@@ -5,6 +5,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "apps/piece_pipe.h"
 #include "apps/progress.h"
 #include "apps/rank_link.h"
 #include "core/light/light_sources.h"
@@ -49,8 +50,9 @@ void SceneSession::read(const CommonOptions& options) {
         names, [&](const std::string& name) { return is_frozen_scene(name, *files); });
     if (found == names.end()) {
         resources = std::make_unique<FileResources>(library, options.allow_commands, warnings);
-        model =
-            read_scene(names, {library, options.allow_commands, {}, workers}, warnings, &problems);
+        MakeTextPipe pipe;
+        if (workers > 1) pipe = [](TextSink& next) { return std::make_unique<PiecePipe>(next); };
+        model = read_scene(names, {library, options.allow_commands, {}, pipe}, warnings, &problems);
         return;
     }
     if (names.size() > 1) throw InputError({*found, 0}, "a frozen scene is all of a scene");

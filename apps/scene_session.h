@@ -8,9 +8,9 @@
 
 #include "apps/common_options.h"
 #include "apps/walk_report.h"
+#include "core/math/team.h"
 #include "core/problem_list.h"
 #include "core/scene/scene.h"
-#include "core/team.h"
 #include "core/transport/tracer.h"
 #include "io/ambient/ambient_store.h"
 #include "io/scene/frozen_scene.h"

@@ -1,6 +1,6 @@
 #pragma once
 // An executor as the team that core builds scenes with.
-#include "core/team.h"
+#include "core/math/team.h"
 #include "parallel/executor.h"
 
 namespace lightwalk {

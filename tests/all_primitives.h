@@ -21,9 +21,8 @@ namespace lightwalk::test {
 
 /// A view of a surface; what it shows must outlive it.
 [[nodiscard]] inline SurfacePrimitive view_of(const Primitive& primitive) {
-    return {primitive.type,  primitive.modifier, primitive.name,
-            {},              primitive.reals,    &primitive.where.file,
-            primitive.where.line};
+    return {primitive.type,  primitive.modifier,    primitive.name,      {},
+            primitive.reals, &primitive.where.file, primitive.where.line};
 }
 
 /// The surfaces alone, in their order.

@@ -127,7 +127,7 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, con
         rtcCommitScene(built.scene.get());
         check("building a search tree");
         if (*model != 0) built.outline = outline_of_tree(built);  // nothing is around the scene
-        built.pieces.boxes = std::vector<Bounds>();  // {} would keep the memory
+        built.pieces.boxes = std::vector<Bounds>();               // {} would keep the memory
         built.copies.boxes = std::vector<Bounds>();
     }
     box = bounds_of_tree(models[0].scene.get());

@@ -10,8 +10,9 @@ namespace {
 
 SourceLocation location(const GeometryInput& input, SurfaceId surface) {
     const auto i = static_cast<std::size_t>(index(surface));
-    return surface == kNoSurface || i >= input.surfaces->size() ? SourceLocation{}
-                                                                : (*input.surfaces)[surface].where();
+    return surface == kNoSurface || i >= input.surfaces->size()
+               ? SourceLocation{}
+               : (*input.surfaces)[surface].where();
 }
 
 /// Whether a ray can hit anything in a model but what is placed in it.

@@ -53,9 +53,7 @@ class PointList {
     [[nodiscard]] Iterator end() const { return Iterator(first_ + 3 * count_); }
     [[nodiscard]] const double* data() const { return first_; }
     /// Without its last point.
-    [[nodiscard]] PointList without_last() const {
-        return PointList({first_, 3 * (count_ - 1)});
-    }
+    [[nodiscard]] PointList without_last() const { return PointList({first_, 3 * (count_ - 1)}); }
 
   private:
     const double* first_ = nullptr;

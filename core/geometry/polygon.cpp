@@ -210,9 +210,8 @@ std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manne
                           std::max(ys[0], ys[6])},
                          x, y);
     const bool inside = is_inside(depth, [&] {
-        return holds_origin(plane.corners, [&](std::size_t i) {
-            return std::pair(xs[3 * i] - x, ys[3 * i] - y);
-        });
+        return holds_origin(plane.corners,
+                            [&](std::size_t i) { return std::pair(xs[3 * i] - x, ys[3 * i] - y); });
     });
     if (!inside) return std::nullopt;
     return ShapeHit{t, plane.normal, cosine < 0};

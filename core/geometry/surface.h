@@ -36,7 +36,7 @@ class ModifierTraits {
     }
     ModifierTraits() : traits_(1) {}
     [[nodiscard]] const SurfaceTraits& operator[](ModifierId id) const {
-        return traits_[static_cast<std::size_t>(index(id) + 1)];
+        return traits_[static_cast<std::size_t>(index(id)) + 1];  // -1 becomes 0
     }
 
   private:
@@ -75,9 +75,7 @@ class Surface {
     [[nodiscard]] SourceLocation where() const { return (*part_->list)[i_].where(); }
     /// Monostate for instances, meshes and degenerate (ignored) surfaces.
     [[nodiscard]] Shape shape() const { return part_->shapes->shape(*part_->list, i_); }
-    [[nodiscard]] bool has_shape() const {
-        return part_->shapes->row(i_).kind != ShapeKind::none;
-    }
+    [[nodiscard]] bool has_shape() const { return part_->shapes->row(i_).kind != ShapeKind::none; }
     /// Polygon or ring: what the reference calls a flat object.
     [[nodiscard]] bool is_flat() const {
         return type() == PrimitiveType::polygon || type() == PrimitiveType::ring;

@@ -8,9 +8,9 @@
 
 #include "core/geometry/polygon.h"
 #include "core/geometry/shapes.h"
+#include "core/math/team.h"
 #include "core/model/column.h"
 #include "core/model/surface_list.h"
-#include "core/team.h"
 
 namespace lightwalk {
 

@@ -36,7 +36,8 @@ bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
     const LitPoint& point = point_of(candidate);
     const Vec3& direction = candidate.direction;
     const double t = candidate.distance;
-    const auto* polygon = source.distant ? nullptr : std::get_if<PolygonShape>(&lights_.shape(candidate.source));
+    const auto* polygon =
+        source.distant ? nullptr : std::get_if<PolygonShape>(&lights_.shape(candidate.source));
     if (!polygon || polygon->vertices.size() > kLargePolygon) {  // those have an index of their own
         Ray aimed = aimed_ray(point, candidate.source, direction);
         if (!lights_.intersect_target(aimed, tracer_) || aimed.hit.cos_out < 0) return false;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/light/light_sources.h"
-#include "core/team.h"
+#include "core/math/team.h"
 
 namespace lightwalk {
 

@@ -20,7 +20,8 @@ struct Emitter {
     const ModifierRecord& material;
 
     [[nodiscard]] std::string described(const std::string& problem) const {
-        return std::string(to_string(surface.type())) + " \"" + std::string(surface.name()) + "\": " + problem;
+        return std::string(to_string(surface.type())) + " \"" + std::string(surface.name()) +
+               "\": " + problem;
     }
     [[noreturn]] void fail(const std::string& problem) const {
         throw InputError(surface.where(), described(problem));

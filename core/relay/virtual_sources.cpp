@@ -13,7 +13,8 @@ bool relays_light(PrimitiveType type) {
            type == PrimitiveType::prism2;
 }
 
-/// The mirror or prism that a surface of this modifier is made of, directly or as the alternate of an illum.
+/// The mirror or prism that a surface of this modifier is made of, directly or as the alternate of
+/// an illum.
 std::optional<ModifierId> relay_material(const Scene& scene, ModifierId modifier) {
     auto id = scene.material_of(modifier);
     if (id && scene.modifier(*id).type == PrimitiveType::illum) {
@@ -48,7 +49,8 @@ void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
         const auto disk = relay_disk(shape);
         if (!plane || !disk) {
             warnings.warn(to_prefix(surface.where()) + std::string(to_string(surface.type())) +
-                          " \"" + std::string(surface.name()) + "\": only flat surfaces relay light to others");
+                          " \"" + std::string(surface.name()) +
+                          "\": only flat surfaces relay light to others");
             continue;
         }
         if (disk->radius * disk->radius <= kEpsilon) continue;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/geometry/geometry.h"
+#include "core/math/team.h"
 #include "core/model/resources.h"
 #include "core/problem_list.h"
 #include "core/scene/modifier.h"
-#include "core/team.h"
 
 namespace lightwalk {
 

@@ -1,6 +1,8 @@
 #pragma once
 // Where text goes that is too long to be held whole.
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <string_view>
 
 namespace lightwalk {
@@ -17,5 +19,16 @@ class TextSink {
     /// unchanged.
     virtual void take(std::string_view piece) = 0;
 };
+
+/// Hands pieces on to another sink, perhaps later.
+class TextPipe : public TextSink {
+  public:
+    /// Returns when all pieces are handed on. Throws what the other sink has thrown, as take()
+    /// does for an earlier piece; it gets nothing more then.
+    virtual void finish() = 0;
+};
+
+/// Makes a pipe to a sink, which must outlive it.
+using MakeTextPipe = std::function<std::unique_ptr<TextPipe>(TextSink& next)>;
 
 }  // namespace lightwalk

@@ -135,9 +135,8 @@ void read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder) {
     ObjectNumbers numbers;
     for (std::int64_t type = reader.integer(1); type != -1; type = reader.integer(1)) {
         const PrimitiveType known = type_of(reader, table, type);
-        numbers.add(is_surface(known),
-                    add_object(builder,
-                               read_object(reader, id_size, known, numbers, builder.model())));
+        numbers.add(is_surface(known), add_object(builder, read_object(reader, id_size, known,
+                                                                       numbers, builder.model())));
     }
 }
 

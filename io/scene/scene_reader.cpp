@@ -9,7 +9,6 @@
 
 #include "core/model/model_builder.h"
 #include "io/files/forget_pages.h"
-#include "io/generators/piece_pipe.h"
 #include "io/generators/text_sink.h"
 #include "io/language/primitive_text.h"
 #include "io/language/tokenizer.h"
@@ -34,7 +33,7 @@ class SceneReader {
           files_(options.library.files()),
           runner_(options.library, options.allow_commands, warnings),
           warnings_(warnings),
-          workers_(options.workers) {}
+          make_pipe_(options.pipe) {}
 
     /// Open a scene argument: a file, "-", or "!command".
     SceneText open(const std::string& argument) {
@@ -120,18 +119,19 @@ class SceneReader {
         const std::string name = to_prefix(where) + abbreviate_command(command);
         const std::size_t before = size();
         OutputReader output(*this, name, where, depth + 1);
-        PiecePipe pieces(output, workers_ > 1);
+        const std::unique_ptr<TextPipe> pipe = make_pipe_ ? make_pipe_(output) : nullptr;
         try {
+            TextSink& pieces = pipe ? static_cast<TextSink&>(*pipe) : output;
             runner_.run(command, directory_, where, pieces);
         } catch (const UnknownCommandError& error) {
             problems_.add(where, message_of(error, where), "command " + error.program());
             skipped_command_ = true;
             return;
         } catch (...) {
-            pieces.finish();  // what is wrong in an earlier piece comes first
+            if (pipe) pipe->finish();  // what is wrong in an earlier piece comes first
             throw;
         }
-        pieces.finish();
+        if (pipe) pipe->finish();
         warn_if_empty(before, name);
     }
 
@@ -250,7 +250,7 @@ class SceneReader {
     ModelBuilder builder_;
     CommandRunner runner_;
     WarningSink& warnings_;
-    int workers_;
+    MakeTextPipe make_pipe_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/model/primitive.h"
 #include "core/problem_list.h"
 #include "io/files/library_path.h"
+#include "io/generators/text_sink.h"
 
 namespace lightwalk {
 
@@ -17,8 +18,9 @@ struct SceneReadOptions {
     /// Working directory for scene files, commands and relative elements of `library`; "" is the
     /// process's.
     std::string directory = {};
-    /// More than one: generators that write much run beside the reading of what they write.
-    int workers = 1;
+    /// Lets generators that write much run beside the reading of what they write; null: one after
+    /// the other.
+    MakeTextPipe pipe = {};
 };
 
 /// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-"

@@ -191,8 +191,9 @@ TEST_CASE(
     options.pixels.jitter = 0;
     const Frame frame = room.frame(options);
     const auto name = [&](const PixelHit& hit) {
-        return hit.surface == kNoSurface ? std::string()
-                                         : std::string(room.scene.scene.surface(hit.surface).name());
+        return hit.surface == kNoSurface
+                   ? std::string()
+                   : std::string(room.scene.scene.surface(hit.surface).name());
     };
     std::vector<std::string> seen;
     for (int y = 0; y < 73; ++y) {

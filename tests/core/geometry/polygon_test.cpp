@@ -173,7 +173,8 @@ TEST_CASE("an outline of a million vertices is built and hit in no time") {
 
 TEST_CASE("a polygon edge-on is missed") {
     const Shape square =
-        make_shape(kept_primitive(PrimitiveType::polygon, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})).shape;
+        make_shape(kept_primitive(PrimitiveType::polygon, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}))
+            .shape;
     CHECK_FALSE(intersect(square, {-1, 0.5, 1e-6}, normalize(Vec3{1, 0, -0.99e-6}), kHuge));
     CHECK(intersect(square, {-1, 0.5, 2e-6}, normalize(Vec3{1, 0, -1.5e-6}), kHuge));
 }

@@ -27,8 +27,7 @@ SurfaceList many_surfaces(std::size_t count) {
         if (i % 97 == 5) next.reals.assign(next.reals.size(), 0);  // degenerate, but for rings
         if (i % 101 == 7)
             next = surface(PrimitiveType::sphere, {0, 0, 0, -1}, 0, kOpaque);  // a bubble
-        if (i % 103 == 9)
-            next = surface(PrimitiveType::source, {0, 0, 1, 180}, 1, kOpaque);
+        if (i % 103 == 9) next = surface(PrimitiveType::source, {0, 0, 1, 180}, 1, kOpaque);
         next.where = {"many.rad", static_cast<std::int32_t>(i + 1)};
         list.add(next);
     }

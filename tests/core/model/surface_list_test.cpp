@@ -38,10 +38,10 @@ struct Stored {
           strings(list.columns().strings.begin(), list.columns().strings.end()),
           files(list.columns().files) {}
     [[nodiscard]] SurfaceList list(std::size_t modifiers = 0) const {
-        return SurfaceList({Column<SurfaceRecord>::mapped(records), Column<double>::mapped(reals),
-                            Column<char>::mapped(text), Column<SurfaceStrings>::mapped(strings),
-                            files},
-                           modifiers);
+        return SurfaceList(
+            {Column<SurfaceRecord>::mapped(records), Column<double>::mapped(reals),
+             Column<char>::mapped(text), Column<SurfaceStrings>::mapped(strings), files},
+            modifiers);
     }
     std::vector<SurfaceRecord> records;
     std::vector<double> reals;
@@ -78,8 +78,8 @@ TEST_CASE("surfaces come out of a list as they went in") {
 
 TEST_CASE("a polygon of four vertices weighs what its numbers weigh, and some thirty bytes") {
     SurfaceList list;
-    const Primitive quad = make(PrimitiveType::polygon, "q.100.100",
-                                {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    const Primitive quad =
+        make(PrimitiveType::polygon, "q.100.100", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     for (int i = 0; i < 10000; ++i) list.add(quad);
     list.trim();
     CHECK(list.own_bytes() <= std::size_t{10000} * (12 * sizeof(double) + 20 + 10) * 9 / 8 + 100);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/piece_pipe.h"
 #include "tests/all_primitives.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
@@ -267,9 +268,9 @@ TEST_CASE("an error far within a long file has its exact line, and quotes what s
 
 TEST_CASE("what gensurf writes by pieces is read as one text") {
     const std::string hill = "!gensurf red hill s t 's*t' 100 100\n";
-    for (const int workers : {1, 2}) {  // alone, or beside the reading
+    for (const bool beside : {false, true}) {  // or one after the other
         SceneReadOptions options = inside("/nonexistent");
-        options.workers = workers;
+        if (beside) options.pipe = [](TextSink& next) { return std::make_unique<PiecePipe>(next); };
         const Parsed scene = parse(kPlastic + hill + kBall, options);
         REQUIRE(scene.size() == 20002);
         CHECK(scene.warnings.empty());

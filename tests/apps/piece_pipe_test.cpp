@@ -1,5 +1,5 @@
 // Writing and reading side by side: the same pieces in the same order, and the first error counts.
-#include "io/generators/piece_pipe.h"
+#include "apps/piece_pipe.h"
 
 #include <doctest/doctest.h>
 
@@ -40,7 +40,7 @@ TEST_CASE("a pipe hands its pieces on in order, long ones on another thread") {
     for (const bool slow : {false, true}) {
         Keeper keeper(slow);
         std::string expected;
-        PiecePipe pipe(keeper, true);
+        PiecePipe pipe(keeper);
         for (int i = 0; i < 20; ++i) {
             const std::string piece = i == 19 ? "end" : long_piece(std::to_string(i));
             pipe.take(piece);
@@ -52,20 +52,21 @@ TEST_CASE("a pipe hands its pieces on in order, long ones on another thread") {
     }
 }
 
-TEST_CASE("short texts, and all where nothing may run beside, go straight through") {
+TEST_CASE("short texts, and those that are whole, go straight through") {
     Keeper keeper;
-    PiecePipe small(keeper, true), alone(keeper, false);
-    small.take("a few words");
-    small.finish();
-    for (int i = 0; i < 3; ++i) alone.take(long_piece("x"));
-    alone.finish();
-    REQUIRE(keeper.threads.size() == 4);
+    for (const std::string& text :
+         {std::string("a few words"), std::string(3 * kPieceBytes, 'x')}) {
+        PiecePipe pipe(keeper);
+        pipe.take(text);
+        pipe.finish();
+    }
+    REQUIRE(keeper.threads.size() == 2);
     for (const std::thread::id id : keeper.threads) CHECK(id == std::this_thread::get_id());
 }
 
 TEST_CASE("what the reader throws ends the writer, and is told once all is quiet") {
     Keeper keeper(true);
-    PiecePipe pipe(keeper, true);
+    PiecePipe pipe(keeper);
     const auto write = [&] {
         pipe.take(long_piece("good"));
         pipe.take(long_piece("bad1"));
@@ -80,7 +81,7 @@ TEST_CASE("what the reader throws ends the writer, and is told once all is quiet
 TEST_CASE("a pipe that nobody finishes ends by itself") {
     Keeper keeper(true);
     {
-        PiecePipe pipe(keeper, true);
+        PiecePipe pipe(keeper);
         for (int i = 0; i < 3; ++i) pipe.take(long_piece("x"));
     }
     CHECK(keeper.threads.size() <= 3);

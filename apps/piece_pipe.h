@@ -14,10 +14,9 @@ namespace lightwalk {
 
 /// Hands pieces on to another sink, in order, on a thread of its own: begun with the first long
 /// piece, as few texts have any. At most four pieces wait.
-class PiecePipe final : public TextSink {
+class PiecePipe final : public TextPipe {
   public:
-    /// @param side_by_side  false: each piece is handed on at once, by who brings it
-    PiecePipe(TextSink& next, bool side_by_side) : next_(next), side_by_side_(side_by_side) {}
+    explicit PiecePipe(TextSink& next) : next_(next) {}
     /// What was not handed on yet is lost, if finish() was not called.
     ~PiecePipe() override;
     PiecePipe(const PiecePipe&) = delete;
@@ -25,8 +24,7 @@ class PiecePipe final : public TextSink {
 
     /// Throws what the next sink has thrown for an earlier piece.
     void take(std::string_view piece) override;
-    /// Returns when all pieces are handed on; throws as take().
-    void finish();
+    void finish() override;
 
   private:
     void hand_on();
@@ -34,7 +32,6 @@ class PiecePipe final : public TextSink {
     void throw_error();
 
     TextSink& next_;
-    bool side_by_side_;
     std::thread thread_;
     std::mutex mutex_;
     std::condition_variable changed_;

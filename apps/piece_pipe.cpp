@@ -1,4 +1,4 @@
-#include "io/generators/piece_pipe.h"
+#include "apps/piece_pipe.h"
 
 #include <utility>
 
@@ -39,8 +39,7 @@ void PiecePipe::finish() {
 
 void PiecePipe::take(std::string_view piece) {
     const bool waits = thread_.joinable();
-    if (!waits && (!side_by_side_ || piece.size() < kShort || piece.size() > kLong))
-        return next_.take(piece);
+    if (!waits && (piece.size() < kShort || piece.size() > kLong)) return next_.take(piece);
     if (!waits) {
         closed_ = false;
         thread_ = std::thread([this] { hand_on(); });
