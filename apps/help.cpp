@@ -79,8 +79,9 @@ Many processes, on one machine or many: mpirun -n RANKS lightwalk render ...
   --variant ranks    one thread a rank; one rank is the master, with -ab another one the ambient master
   --variant hybrid   ranks of threads (-n N each), rank 0 traces beside being the master. Default: hybrid where ranks
                      have several threads (-n, or what mpirun binds them to) or are too few to spare any
-  --scene-from WHO   each: every rank reads its own copy of the scene (default); rank0: rank 0 reads it for all,
-                     where the others do not see its files
+  --scene-from WHO   shared (default): on one machine rank 0 reads the scene, and all share its memory; on several as
+                     each: every rank reads its own copy (a frozen scene is in memory once a machine anyway);
+                     rank0: rank 0 reads it for all, where the others do not see its files
   --block auto|N     side of the blocks that are handed out: follows what they take, or N pixels
   --stride auto|N    consecutive blocks lie N apart (auto: the number of workers); 1: one after the other
   --masters auto|N   masters in all: those below rank 0 serve a group of workers each

@@ -39,6 +39,7 @@ class RankLink final : private LocalEnd {
     [[nodiscard]] bool traces() const { return topology_.traces(rank()); }
     [[nodiscard]] const Topology& topology() const { return topology_; }
     [[nodiscard]] const std::string& host() const { return host_; }
+    [[nodiscard]] bool on_one_machine() const { return transport_.on_one_machine(); }
 
     /// Runs `body` on a thread of its own, while this thread, which must be the one that opened the
     /// transport, serves the messages until every rank's body has returned. An exception that body

@@ -17,9 +17,10 @@ Variant variant_named(const std::string& name) {
 }
 
 SceneFrom scene_from_named(const std::string& name) {
+    if (name == "shared") return SceneFrom::shared;
     if (name == "each") return SceneFrom::each;
     if (name == "rank0") return SceneFrom::rank0;
-    throw UsageError("option --scene-from: expected rank0 or each, found \"" + name + "\"");
+    throw UsageError("option --scene-from: expected shared, each or rank0, found \"" + name + "\"");
 }
 
 int count_or_auto(OptionWords& words, int most) {

@@ -13,8 +13,9 @@ namespace lightwalk {
 
 /// Who reads a scene's files.
 enum class SceneFrom {
-    each,   ///< every rank its own copy of them
-    rank0,  ///< rank 0 alone, for all
+    shared,  ///< rank 0 alone where all are on one machine, and they share its memory; else each
+    each,    ///< every rank its own copy of them
+    rank0,   ///< rank 0 alone, for all
 };
 
 struct RankOptions {
@@ -23,7 +24,7 @@ struct RankOptions {
     int stride = 0;                  ///< --stride; 0: auto
     int masters = 0;                 ///< --masters; 0: auto
     int ambient_batch = 16;          ///< --ambient-batch; 0: no values are exchanged
-    SceneFrom scene_from = SceneFrom::each;  ///< --scene-from
+    SceneFrom scene_from = SceneFrom::shared;  ///< --scene-from
     std::string timeline;  ///< --timeline: file for the spans of all threads; "" is none
 };
 

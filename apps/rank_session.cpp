@@ -81,27 +81,80 @@ std::shared_ptr<FileReplay> replay_of_rank_0(RankLink& link) {
     return std::make_shared<FileReplay>(std::string_view(recording).substr(1));
 }
 
+/// The steps by which all ranks come to have the scene; `session` stays null on those that have
+/// nothing to build, as rank 0 could not read it.
+struct SceneOfRank {
+    RankLink& link;
+    const CommonOptions& options;
+    WarningSink& warnings;
+    std::shared_ptr<FileSource> base;
+    std::unique_ptr<SceneSession> session;
+    std::shared_ptr<FileReplay> replay;
+
+    void read() { make(std::make_shared<FileRecorder>(base)); }
+
+    /// Rank 0's memory, where it says where that is; else each rank reads, or maps, its own.
+    void share() {
+        if (link.leads()) return lead_sharing();
+        const std::string path = link.broadcast({});
+        if (path == kUnreadable) return;
+        if (path == kEachItsOwn) return read();
+        try {
+            session = std::make_unique<SceneSession>(options, warnings, path);
+        } catch (const InputError&) {
+            read();  // the system lets no process look at another's
+        }
+    }
+
+    void take_from_rank_0(const std::shared_ptr<FileRecorder>& recorder) {
+        if (link.leads()) return make(recorder);
+        replay = replay_of_rank_0(link);
+        if (replay) make(std::make_shared<FileRecorder>(replay));
+    }
+
+  private:
+    static constexpr const char *kUnreadable = "", *kEachItsOwn = "-";
+
+    void make(const std::shared_ptr<FileRecorder>& files) {
+        session = std::make_unique<SceneSession>(options, warnings, files);
+    }
+
+    void lead_sharing() {
+        std::string path = kUnreadable;
+        try {
+            read();
+            if (session->frozen == nullptr) path = session->share();
+            if (path.empty()) path = kEachItsOwn;
+        } catch (...) {
+            (void)link.broadcast(kUnreadable);
+            throw;
+        }
+        (void)link.broadcast(path);
+    }
+};
+
 }  // namespace
 
 std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions& options,
                                              const RenderSettings& settings,
                                              const std::string& history, WarningSink& warnings,
                                              std::shared_ptr<FileSource> base) {
-    const bool shared = options.ranks.scene_from == SceneFrom::rank0;
-    auto files = std::make_shared<FileRecorder>(std::move(base), shared && link.leads());
-    std::shared_ptr<FileReplay> replay;
-    std::unique_ptr<SceneSession> session;
+    const SceneFrom from = options.ranks.scene_from;
+    const bool by_rank_0 = from == SceneFrom::rank0;
+    const bool shared = from == SceneFrom::shared && link.ranks() > 1 && link.on_one_machine();
+    std::shared_ptr<FileRecorder> recorder;  // of what all shall have
+    if (by_rank_0 && link.leads()) recorder = std::make_shared<FileRecorder>(base, true);
+    SceneOfRank scene{link, options, warnings, std::move(base), {}, {}};
     std::string problem;
     int status = kSuccessStatus;
     try {
-        if (shared && !link.leads()) {
-            replay = replay_of_rank_0(link);
-            if (replay) files = std::make_shared<FileRecorder>(replay);
-        }
-        if (!shared || link.leads() || replay) {
-            session = std::make_unique<SceneSession>(options, warnings, files);
-            session->build(settings, &link);
-        }
+        if (by_rank_0)
+            scene.take_from_rank_0(recorder);
+        else if (shared)
+            scene.share();
+        else
+            scene.read();
+        if (scene.session) scene.session->build(settings, &link);
     } catch (const UsageError& error) {
         problem = error.what();
         status = kUsageStatus;
@@ -109,19 +162,21 @@ std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions
         problem = error.what();
         status = kFailureStatus;
     }
-    if (shared && link.leads()) (void)link.broadcast(problem.empty() ? '+' + files->take() : "");
-    if (replay) replay->clear();
+    if (recorder) (void)link.broadcast(problem.empty() ? '+' + recorder->take() : "");
+    if (scene.replay) scene.replay->clear();
     std::vector<std::string> facts;
-    if (session && problem.empty()) {
+    if (scene.session && problem.empty()) {
         facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + history};
-        for (const std::string& file : session->files->digests()) facts.push_back("file " + file);
+        if (!shared)  // there is one copy
+            for (const std::string& file : scene.session->files->digests())
+                facts.push_back("file " + file);
     }
     link.agree(facts, problem, status,
-               shared
+               by_rank_0
                    ? ""
                    : "Every rank reads its own copy of the scene; with --scene-from rank0 rank 0 "
                      "reads it for all.");
-    return session;
+    return std::move(scene.session);
 }
 
 void lead_ranks(RankLink& link, FunctionRef<void()> trace, FunctionRef<void()> work) {

@@ -12,6 +12,7 @@
 #include "core/material/modifier_factories.h"
 #include "io/files/atomic_file.h"
 #include "io/scene/file_resources.h"
+#include "io/scene/freezing_resources.h"
 #include "io/scene/scene_reader.h"
 #include "parallel/executor.h"
 #include "parallel/executor_team.h"
@@ -24,6 +25,11 @@ std::int64_t now_ns() {
     using std::chrono::nanoseconds;
     return duration_cast<nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+class NoWarnings final : public WarningSink {
+  public:
+    void warn(const std::string&) override {}
+};
 
 }  // namespace
 
@@ -62,6 +68,44 @@ void SceneSession::read(const CommonOptions& options) {
     model = opened->model();
     frozen = opened.get();
     resources = std::move(opened);
+}
+
+void SceneSession::map(const std::string& path) {
+    auto opened = open_frozen_scene(path, true);
+    model = opened->model();
+    resources = std::move(opened);
+}
+
+SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink, const std::string& path)
+    : warnings(sink),
+      files(std::make_shared<FileRecorder>()),
+      library(LibraryPath::from_environment(files)),
+      workers(options.workers) {
+    const Stopwatch watch;
+    map(path);
+    cost.read_seconds = watch.seconds();
+    cost.read_peak_bytes = peak_memory_bytes();
+}
+
+std::string SceneSession::share() {
+    const Stopwatch watch;
+    FreezingResources asked(*resources);
+    raise_problems(asked);
+    {
+        const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
+        NoWarnings later;  // they come when the scene is compiled to be rendered
+        const Scene compiled(model, modifier_factory, asked, later, ExecutorTeam(*executor),
+                             SceneExtent::without_search);
+        try {
+            shared = share_scene(compiled, asked);
+        } catch (const InputError&) {
+            return {};
+        }
+    }
+    map(shared->path());
+    cost.read_seconds += watch.seconds();
+    cost.read_peak_bytes = peak_memory_bytes();
+    return shared->path();
 }
 
 void SceneSession::raise_problems(Resources& asked) {

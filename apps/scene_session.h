@@ -44,6 +44,12 @@ struct SceneSession {
     /// settle_scene_files.
     SceneSession(const CommonOptions& options, WarningSink& warnings,
                  std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>());
+    /// The scene that another process of this machine shares: see share().
+    /// @param path  of the MemoryFile
+    SceneSession(const CommonOptions& options, WarningSink& warnings, const std::string& path);
+    /// From now on the scene is in memory that other processes can map: returns where; "" where the
+    /// system has no such memory. Throws InputError as compile().
+    [[nodiscard]] std::string share();
     /// Compiles the scene, by what `asked` says of its library. Throws InputError, with all
     /// problems of the description.
     void compile(Resources& asked);
@@ -64,10 +70,11 @@ struct SceneSession {
     WarningSink& warnings;
     std::shared_ptr<FileRecorder> files;
     LibraryPath library;
-    std::unique_ptr<Resources> resources;  ///< the scene's library
-    const FrozenScene* frozen = nullptr;   ///< where they are those of a frozen scene
-    int workers = 1;                       ///< that build the scene
-    ProblemList problems;                  ///< of the description, which `model` leaves out
+    std::unique_ptr<Resources> resources;      ///< the scene's library
+    const FrozenScene* frozen = nullptr;       ///< where they are those of a frozen scene
+    std::shared_ptr<const MemoryFile> shared;  ///< with other processes; null: nothing is
+    int workers = 1;                           ///< that build the scene
+    ProblemList problems;                      ///< of the description, which `model` leaves out
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;
     // With -ab and -aa; they outlive the tracer.
@@ -81,6 +88,7 @@ struct SceneSession {
 
   private:
     void read(const CommonOptions& options);
+    void map(const std::string& path);
     void compile(Resources& asked, const Team& team);
     void raise_problems(Resources& asked);
     void make_cache(const RenderSettings& settings, RankLink* link);

@@ -112,11 +112,15 @@ std::size_t SurfaceList::add_record(const SurfacePrimitive& surface) {
 
 std::size_t SurfaceList::add(const SurfacePrimitive& surface) {
     const std::size_t number = add_record(surface);
+    if (surface.strings.empty()) return number;
+    columns_.strings.push_back({static_cast<std::uint32_t>(number),
+                                static_cast<std::uint32_t>(columns_.text.size()),
+                                static_cast<std::uint32_t>(surface.strings.size())});
+    const char* text = surface.strings.data();
     for (std::size_t i = 0; i < surface.strings.size(); ++i) {
-        const std::uint32_t at = add_text(surface.strings[i]);
-        if (i == 0)
-            columns_.strings.push_back({static_cast<std::uint32_t>(number), at,
-                                        static_cast<std::uint32_t>(surface.strings.size())});
+        const std::string_view argument = text;
+        (void)add_text(argument);
+        text += argument.size() + 1;
     }
     return number;
 }

@@ -23,6 +23,8 @@ class StringArguments {
     StringArguments(const char* first, std::size_t count) : first_(first), count_(count) {}
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
+    /// Where the first begins.
+    [[nodiscard]] const char* data() const { return first_; }
     /// Steps over the strings before it.
     [[nodiscard]] std::string_view operator[](std::size_t i) const;
     [[nodiscard]] std::vector<std::string> to_strings() const;

@@ -159,14 +159,14 @@ void Scene::Impl::build_geometry(const Team& team) {
 }
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-             Resources& resources, WarningSink& warnings, const Team& team)
+             Resources& resources, WarningSink& warnings, const Team& team, SceneExtent extent)
     : impl_(std::make_unique<Impl>(std::move(model), resources)) {
     impl_->collect_surfaces(warnings, team);
     impl_->use_modifiers();
     impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings);
     impl_->add_lambertian(modifier_factory, resources, warnings);
     impl_->surfaces.set_traits(impl_->modifiers.all_traits());
-    impl_->build_geometry(team);
+    if (extent == SceneExtent::whole) impl_->build_geometry(team);
 }
 
 ProblemList Scene::unsupported(std::shared_ptr<const Model> model,

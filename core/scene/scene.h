@@ -29,6 +29,12 @@ struct SceneMemory {
     std::size_t surface_count = 0, triangle_count = 0;
 };
 
+/// How much of a scene is made.
+enum class SceneExtent {
+    whole,
+    without_search,  ///< no ray can be cast: for what only has to be written down
+};
+
 class Scene {
   public:
     /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
@@ -37,7 +43,8 @@ class Scene {
     /// modifier misses is a warning, and an InputError when a ray needs it. `model` and what
     /// `resources` hands out are kept alive by the scene. `team` helps to build it.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-          Resources& resources, WarningSink& warnings, const Team& team = TeamOfOne());
+          Resources& resources, WarningSink& warnings, const Team& team = TeamOfOne(),
+          SceneExtent extent = SceneExtent::whole);
     ~Scene();
     /// Of a scene that cannot be rendered anyway: every used modifier whose type is recognised but
     /// not supported, which would be refused as well. Throws InputError as the constructor does.

@@ -147,6 +147,14 @@ void write_frozen_file(const std::string& path, std::span<const FrozenPart> part
     });
 }
 
+std::shared_ptr<const MemoryFile> frozen_memory_file(std::span<const FrozenPart> parts) {
+    std::shared_ptr<const MemoryFile> file;
+    in_pieces(parts, [&](std::span<const std::string_view> pieces) {
+        file = std::make_shared<const MemoryFile>(pieces);
+    });
+    return file;
+}
+
 std::string frozen_file_bytes(std::span<const FrozenPart> parts) {
     std::string bytes;
     in_pieces(parts, [&](std::span<const std::string_view> pieces) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/files/mapped_file.h"
+#include "io/files/memory_file.h"
 
 namespace lightwalk {
 
@@ -30,6 +31,10 @@ inline constexpr std::size_t kFrozenAlignment = 64;
 /// The whole file, or none; parts are written from where they lie. No two may have the same kind
 /// and owner. Throws InputError.
 void write_frozen_file(const std::string& path, std::span<const FrozenPart> parts);
+
+/// The same in memory that processes share.
+[[nodiscard]] std::shared_ptr<const MemoryFile> frozen_memory_file(
+    std::span<const FrozenPart> parts);
 
 /// The same bytes in memory.
 [[nodiscard]] std::string frozen_file_bytes(std::span<const FrozenPart> parts);

@@ -196,6 +196,11 @@ void write_frozen_scene(const std::string& path, const Scene& scene,
     write_frozen_file(path, freeze_scene(scene, library, manifest).parts());
 }
 
+std::shared_ptr<const MemoryFile> share_scene(const Scene& scene,
+                                              const FreezingResources& library) {
+    return frozen_memory_file(freeze_scene(scene, library, {}).parts());
+}
+
 std::string frozen_scene_bytes(const Scene& scene, const FreezingResources& library,
                                std::span<const ManifestFile> manifest) {
     return frozen_file_bytes(freeze_scene(scene, library, manifest).parts());

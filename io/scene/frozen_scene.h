@@ -20,6 +20,10 @@ namespace lightwalk {
 /// Throws InputError.
 void write_frozen_scene(const std::string& path, const Scene& scene,
                         const FreezingResources& library, std::span<const ManifestFile> manifest);
+/// The same in memory that processes share, of a scene that need not have a search tree. It does
+/// not know what it was read from.
+[[nodiscard]] std::shared_ptr<const MemoryFile> share_scene(const Scene& scene,
+                                                            const FreezingResources& library);
 /// The same bytes in memory.
 [[nodiscard]] std::string frozen_scene_bytes(const Scene& scene, const FreezingResources& library,
                                              std::span<const ManifestFile> manifest);

@@ -25,6 +25,7 @@ class MemoryTransport final : public Transport {
     [[nodiscard]] int rank() const override { return rank_; }
     [[nodiscard]] int size() const override { return static_cast<int>(inboxes_->size()); }
     [[nodiscard]] std::string host() const override { return "memory"; }
+    [[nodiscard]] bool on_one_machine() const override { return true; }
 
     void send(int to, std::string bytes) override {
         Inbox& inbox = of(to);

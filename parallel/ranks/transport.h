@@ -19,6 +19,8 @@ class Transport {
     [[nodiscard]] virtual int rank() const = 0;
     [[nodiscard]] virtual int size() const = 0;  ///< number of ranks, at least 1
     [[nodiscard]] virtual std::string host() const = 0;
+    /// Whether all ranks are on one machine, and can map each other's memory.
+    [[nodiscard]] virtual bool on_one_machine() const = 0;
 
     /// Returns at once: the bytes are on their way. What one rank sends another arrives in order.
     virtual void send(int to, std::string bytes) = 0;

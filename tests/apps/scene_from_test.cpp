@@ -101,7 +101,7 @@ TEST_CASE("--scene-from each: a file that differs or is missing is found and nam
     write_scene(folder, "there");
     const std::string here = folder.path("here"), there = folder.path("there");
     folder.write("there/dirt.cal", "stain = .5 + .5*sin(4*Px);\n");
-    const ProgramResult differs = run_apart(kWords, here, there);
+    const ProgramResult differs = run_apart(words_with({"--scene-from", "each"}), here, there);
     CHECK(differs.status == 1);
     CHECK(differs.out.empty());
     CHECK(differs.err.find("rank 1 (") != std::string::npos);
@@ -109,10 +109,34 @@ TEST_CASE("--scene-from each: a file that differs or is missing is found and nam
     CHECK(differs.err.find("file room.rad") == std::string::npos);
 
     std::filesystem::remove(there + "/room.rad");
-    const ProgramResult missing = run_apart(kWords, here, there);
+    const ProgramResult missing = run_apart(words_with({"--scene-from", "each"}), here, there);
     CHECK(missing.status == 1);
     CHECK(missing.err.find("room.rad: cannot open") != std::string::npos);
     CHECK(missing.err.find("--scene-from rank0") != std::string::npos);
+}
+
+TEST_CASE("--scene-from shared: ranks of one machine share what rank 0 has read") {
+    if (!have_mpi()) return;
+    const TemporaryFolder folder;
+    write_scene(folder, "here");
+    folder.write("there/nothing", "");
+    folder.write("here/bad.rad", "paint sphere ball 0 0 4 0 0 0 1\n");
+    const std::string here = folder.path("here"), there = folder.path("there");
+    const ProgramResult expected = run_apart(words_with({"--scene-from", "each"}), here, here);
+    REQUIRE(pixels(expected.out).size() > 1000);
+    const ProgramResult shared = run_apart(kWords, here, there);  // the default
+    CHECK(shared.status == 0);
+    CHECK(shared.err == expected.err);
+    CHECK(pixels(shared.out) == pixels(expected.out));
+
+    std::vector<std::string> words = words_with({"--scene-from", "shared"});
+    words.back() = "bad.rad";
+    const ProgramResult bad = run_apart(words, here, there);
+    CHECK(bad.status == 1);
+    CHECK(bad.out.empty());
+    const std::size_t found = bad.err.find("bad.rad:1");
+    CHECK(found != std::string::npos);
+    CHECK(bad.err.find("bad.rad:1", found + 1) == std::string::npos);
 }
 
 TEST_CASE("--scene-from rank0: what rank 0 cannot read is said once") {

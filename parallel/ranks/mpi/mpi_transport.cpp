@@ -39,6 +39,14 @@ class MpiTransport final : public Transport {
               "MPI_Comm_set_errhandler");
         check(MPI_Comm_rank(MPI_COMM_WORLD, &rank_), "MPI_Comm_rank");
         check(MPI_Comm_size(MPI_COMM_WORLD, &size_), "MPI_Comm_size");
+        MPI_Comm machine = MPI_COMM_NULL;
+        check(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine),
+              "MPI_Comm_split_type");
+        int here = 0, least = 0;
+        check(MPI_Comm_size(machine, &here), "MPI_Comm_size");
+        check(MPI_Allreduce(&here, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD), "MPI_Allreduce");
+        one_machine_ = least == size_;
+        check(MPI_Comm_free(&machine), "MPI_Comm_free");
     }
     ~MpiTransport() override { MPI_Finalize(); }
 
@@ -50,6 +58,8 @@ class MpiTransport final : public Transport {
         check(MPI_Get_processor_name(name.data(), &length), "MPI_Get_processor_name");
         return {name.data(), static_cast<std::size_t>(length)};
     }
+
+    [[nodiscard]] bool on_one_machine() const override { return one_machine_; }
 
     void send(int to, std::string bytes) override {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -145,6 +155,7 @@ class MpiTransport final : public Transport {
     }
 
     int rank_ = 0, size_ = 1;
+    bool one_machine_ = true;
     std::list<Sent> sent_;  ///< the bytes must stay where they are
     std::mutex mutex_;      ///< guards woken_
     std::condition_variable changed_;

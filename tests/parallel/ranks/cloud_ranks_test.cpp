@@ -75,6 +75,7 @@ class DelayingTransport final : public Transport {
     [[nodiscard]] int rank() const override { return wire_->rank(); }
     [[nodiscard]] int size() const override { return wire_->size(); }
     [[nodiscard]] std::string host() const override { return wire_->host(); }
+    [[nodiscard]] bool on_one_machine() const override { return wire_->on_one_machine(); }
     void send(int to, std::string bytes) override { wire_->send(to, std::move(bytes)); }
     [[nodiscard]] std::optional<Packet> receive() override {
         while (std::optional<Packet> packet = wire_->receive())
