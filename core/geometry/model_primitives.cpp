@@ -67,13 +67,12 @@ ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeomet
     : part_(&surfaces.part(model.part)),
       traits_(&surfaces.traits()),
       rows_(part_->shapes->columns().rows.data()),
-      planes_(part_->shapes->columns().planes.data()),
       reals_(part_->list->reals().data()),
       own_(part_->shapes->size()),
       meshes_(model.meshes),
       size_(own_) {
     for (std::uint32_t i = 0; i < own_; ++i) {
-        if (rows_[i].kind == ShapeKind::polygon && planes_[rows_[i].index].corners > kLargePolygon)
+        if (rows_[i].kind == ShapeKind::polygon && rows_[i].plane.corners > kLargePolygon)
             large_polygons_.emplace(i, EdgeIndex(part_->shapes->polygon(*part_->list, rows_[i])));
     }
     for (const MeshPart& part : meshes_) {
@@ -117,7 +116,7 @@ std::optional<ShapeHit> ModelPrimitives::intersect_other(std::uint32_t primitive
                                                          double t_max) const {
     const ShapeRow& row = rows_[primitive];
     if (row.kind == ShapeKind::cone)  // trees are made of these
-        return lightwalk::intersect(part_->shapes->cone(row.index), origin, direction, t_max);
+        return lightwalk::intersect(part_->shapes->cone(row.index()), origin, direction, t_max);
     if (row.kind != ShapeKind::polygon)
         return lightwalk::intersect(part_->shapes->shape(*part_->list, primitive), origin,
                                     direction, t_max);

@@ -50,9 +50,9 @@ class ModelPrimitives {
         if (is_triangle(primitive)) return intersect_triangle(primitive, origin, direction, t_max);
         const ShapeRow& row = rows_[primitive];
         if (row.kind == ShapeKind::polygon) {
-            const PolygonPlane& plane = planes_[row.index];
-            if (plane.corners <= kLargePolygon)
-                return lightwalk::intersect(plane, row.manner, reals_, origin, direction, t_max);
+            if (row.plane.corners <= kLargePolygon)
+                return lightwalk::intersect(row.plane, row.manner, reals_, origin, direction,
+                                            t_max);
         }
         return intersect_other(primitive, origin, direction, t_max);
     }
@@ -108,7 +108,6 @@ class ModelPrimitives {
     const ModifierTraits* traits_;
     // What the search asks of every candidate, straight from the part's columns.
     const ShapeRow* rows_;
-    const PolygonPlane* planes_;
     const double* reals_;
     std::size_t own_;  ///< surfaces of this model, those without a shape among them
     std::span<const MeshPart> meshes_;

@@ -201,7 +201,7 @@ std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manne
     const auto [x_axis, y_axis] = kRemaining[manner.drop_axis];
     const double x = origin.*x_axis + direction.*x_axis * t,
                  y = origin.*y_axis + direction.*y_axis * t;
-    const double* const corner = reals + plane.first_real;
+    const double* const corner = reals + plane.first;
     const double *const xs = corner + (manner.drop_axis == 2 ? 0 : manner.drop_axis + 1),
                         *const ys = corner + (manner.drop_axis == 0 ? 2 : manner.drop_axis - 1);
     double depth = OutlineRectangle::kNone;

@@ -53,8 +53,8 @@ inline constexpr std::size_t kLargePolygon = 64;
 struct PolygonPlane {
     Vec3 normal;  ///< see PolygonShape
     double offset = 0;
-    std::uint32_t first_real = 0;  ///< of its corners, among the reals of its model
-    std::uint32_t corners = 0;
+    std::uint32_t first = 0;    ///< of its corners, among the reals of its model
+    std::uint32_t corners = 0;  ///< how many they are
 };
 
 /// What decides how a plane is searched, kept apart from it: it fits into the surface's row.

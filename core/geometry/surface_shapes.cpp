@@ -51,22 +51,20 @@ struct Part {
 /// that all parts of the list can be filled side by side.
 struct OpenColumns {
     std::span<ShapeRow> rows;
-    std::span<PolygonPlane> planes;
     std::span<SphereShape> spheres;
     std::span<ConeShape> cones;
     std::span<RingShape> rings;
     std::span<SourceShape> sources;
 
-    void put(std::uint32_t at, const PolygonShape& polygon, std::uint32_t first_real,
-             ShapeRow& row) const {
-        planes[at] = {polygon.normal, polygon.offset, first_real,
-                      static_cast<std::uint32_t>(polygon.vertices.size())};
+    static void put(const PolygonShape& polygon, std::uint32_t first_real, ShapeRow& row) {
+        row.plane = {polygon.normal, polygon.offset, first_real,
+                     static_cast<std::uint32_t>(polygon.vertices.size())};
         row.manner = {static_cast<std::uint8_t>(polygon.drop_axis),
                       !std::isnan(polygon.rectangle.low_x)};
     }
     void put(std::uint32_t at, const Shape& shape, std::uint32_t first_real, ShapeRow& row) const {
         if (const auto* polygon = std::get_if<PolygonShape>(&shape))
-            put(at, *polygon, first_real, row);
+            put(*polygon, first_real, row);
         else if (const auto* sphere = std::get_if<SphereShape>(&shape))
             spheres[at] = *sphere;
         else if (const auto* cone = std::get_if<ConeShape>(&shape))
@@ -88,7 +86,7 @@ void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
         row.modifier = surface.modifier;
         const ShapeKind kind = kind_of_type(surface.type);
         if (kind == ShapeKind::none) continue;
-        row.index = count_of(next, kind)++;
+        row.plane.first = count_of(next, kind)++;
         const ValidatedShape valid = make_shape(surface);
         if (!valid.warning.empty()) {
             part.warnings.push_back(to_prefix(surface.where()) +
@@ -98,7 +96,7 @@ void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
         row.type = valid.type;
         if (std::holds_alternative<std::monostate>(valid.shape)) continue;
         row.kind = kind;
-        columns.put(row.index, valid.shape, list.first_real(i), row);
+        columns.put(row.index(), valid.shape, list.first_real(i), row);
     }
 }
 
@@ -126,11 +124,10 @@ bool is_usable(const Vec3& v) {
 }
 
 /// That the search finds no more corners than there are, nor divides by zero.
-void check_polygon(const ShapeRow& row, const SurfaceShapes::Columns& columns,
-                   std::size_t first_real, std::size_t reals) {
-    const PolygonPlane& plane = columns.planes[row.index];
+void check_polygon(const ShapeRow& row, std::size_t first_real, std::size_t reals) {
+    const PolygonPlane& plane = row.plane;
     if (row.manner.drop_axis > 2) refuse_shapes("an axis that is none");
-    if (plane.first_real != first_real || plane.corners < 3 || plane.corners > reals / 3 ||
+    if (plane.first != first_real || plane.corners < 3 || plane.corners > reals / 3 ||
         (row.manner.is_rectangle && plane.corners != 4))
         refuse_shapes("a polygon with other corners");
     if (!is_usable(plane.normal) || !(std::abs(plane.offset) <= 4 * kLargestCoordinate) ||
@@ -140,8 +137,6 @@ void check_polygon(const ShapeRow& row, const SurfaceShapes::Columns& columns,
 
 std::size_t column_size(const SurfaceShapes::Columns& columns, ShapeKind kind) {
     switch (kind) {
-        case ShapeKind::polygon:
-            return columns.planes.size();
         case ShapeKind::sphere:
             return columns.spheres.size();
         case ShapeKind::cone:
@@ -167,12 +162,14 @@ SurfaceShapes::SurfaceShapes(Columns columns, const SurfaceList& list)
             kind_of_type(own.type) != kind_of_type(list.type(i)))
             refuse_shapes("another type or modifier");
         if (own.kind == ShapeKind::none) continue;
-        if (own.kind != kind_of_type(own.type) || own.index >= column_size(columns_, own.kind))
+        const bool is_polygon = own.kind == ShapeKind::polygon;
+        if (own.kind != kind_of_type(own.type) ||
+            (!is_polygon && own.index() >= column_size(columns_, own.kind)))
             refuse_shapes("a place that is none");
-        if (own.kind != ShapeKind::polygon) continue;
+        if (!is_polygon) continue;
         const std::size_t first = list.first_real(i),
                           end = i + 1 < size() ? list.first_real(i + 1) : list.reals().size();
-        check_polygon(own, columns_, first, end - first);
+        check_polygon(own, first, end - first);
     }
     for (const double real : list.reals())
         if (!std::isfinite(real)) refuse_shapes("a number that is none");
@@ -184,23 +181,23 @@ Shape SurfaceShapes::shape(const SurfaceList& list, std::size_t i) const {
         case ShapeKind::polygon:
             return polygon(list, own);
         case ShapeKind::sphere:
-            return columns_.spheres[own.index];
+            return columns_.spheres[own.index()];
         case ShapeKind::cone:
-            return columns_.cones[own.index];
+            return columns_.cones[own.index()];
         case ShapeKind::ring:
-            return columns_.rings[own.index];
+            return columns_.rings[own.index()];
         case ShapeKind::source:
-            return columns_.sources[own.index];
+            return columns_.sources[own.index()];
         default:
             return std::monostate{};
     }
 }
 
 PolygonShape SurfaceShapes::polygon(const SurfaceList& list, const ShapeRow& row) const {
-    const PolygonPlane& plane = columns_.planes[row.index];
+    const PolygonPlane& plane = row.plane;
     PolygonShape polygon;
     polygon.vertices =
-        PointList(list.reals().values().subspan(plane.first_real, std::size_t{3} * plane.corners));
+        PointList(list.reals().values().subspan(plane.first, std::size_t{3} * plane.corners));
     polygon.normal = plane.normal;
     polygon.offset = plane.offset;
     polygon.drop_axis = row.manner.drop_axis;
@@ -209,14 +206,14 @@ PolygonShape SurfaceShapes::polygon(const SurfaceList& list, const ShapeRow& row
 }
 
 std::size_t SurfaceShapes::own_bytes() const {
-    return columns_.rows.own_bytes() + columns_.planes.own_bytes() + columns_.spheres.own_bytes() +
-           columns_.cones.own_bytes() + columns_.rings.own_bytes() + columns_.sources.own_bytes();
+    return columns_.rows.own_bytes() + columns_.spheres.own_bytes() + columns_.cones.own_bytes() +
+           columns_.rings.own_bytes() + columns_.sources.own_bytes();
 }
 
 std::size_t SurfaceShapes::mapped_bytes() const {
-    return columns_.rows.mapped_bytes() + columns_.planes.mapped_bytes() +
-           columns_.spheres.mapped_bytes() + columns_.cones.mapped_bytes() +
-           columns_.rings.mapped_bytes() + columns_.sources.mapped_bytes();
+    return columns_.rows.mapped_bytes() + columns_.spheres.mapped_bytes() +
+           columns_.cones.mapped_bytes() + columns_.rings.mapped_bytes() +
+           columns_.sources.mapped_bytes();
 }
 
 SurfaceShapes make_shapes(const SurfaceList& list, const Team& team) {
@@ -224,7 +221,6 @@ SurfaceShapes make_shapes(const SurfaceList& list, const Team& team) {
     Counts counts = count_shapes(list, team, parts);
     SurfaceShapes::Columns columns;
     const OpenColumns open{columns.rows.resize(list.size()),
-                           columns.planes.resize(count_of(counts, ShapeKind::polygon)),
                            columns.spheres.resize(count_of(counts, ShapeKind::sphere)),
                            columns.cones.resize(count_of(counts, ShapeKind::cone)),
                            columns.rings.resize(count_of(counts, ShapeKind::ring)),

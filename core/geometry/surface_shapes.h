@@ -17,21 +17,24 @@ namespace lightwalk {
 /// Where a surface's shape is kept.
 enum class ShapeKind : std::uint8_t { none, polygon, sphere, cone, ring, source };
 
-/// What the search asks first of a surface.
+/// What the search asks of a surface: of polygons, as most are, nearly all that there is.
 struct ShapeRow {
-    PrimitiveType type{};  ///< validated: a sphere of negative radius is a bubble
+    PolygonPlane plane;          ///< of a polygon; of others `first` is their place in a column
+    std::int32_t modifier = -1;  ///< as in the surface's record
+    PrimitiveType type{};        ///< validated: a sphere of negative radius is a bubble
     ShapeKind kind = ShapeKind::none;
     PolygonManner manner;
-    std::uint32_t index = 0;     ///< into the column of its kind
-    std::int32_t modifier = -1;  ///< as in the surface's record
+
+    /// Into the column of its kind; not of polygons.
+    [[nodiscard]] std::uint32_t index() const { return plane.first; }
 };
+static_assert(sizeof(ShapeRow) == 48);
 
 /// The shapes of a SurfaceList. Immutable.
 class SurfaceShapes {
   public:
     struct Columns {
         Column<ShapeRow> rows;  ///< one a surface
-        Column<PolygonPlane> planes;
         Column<SphereShape> spheres;
         Column<ConeShape> cones;
         Column<RingShape> rings;
@@ -47,9 +50,6 @@ class SurfaceShapes {
 
     [[nodiscard]] std::size_t size() const { return columns_.rows.size(); }
     [[nodiscard]] const ShapeRow& row(std::size_t i) const { return columns_.rows[i]; }
-    [[nodiscard]] const PolygonPlane& plane(std::size_t index) const {
-        return columns_.planes[index];
-    }
     [[nodiscard]] const ConeShape& cone(std::size_t index) const { return columns_.cones[index]; }
     /// The shape of surface i; monostate for placements and degenerate (ignored) surfaces.
     /// @param list  the one that these shapes were made of

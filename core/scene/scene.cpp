@@ -13,7 +13,7 @@ struct Scene::Impl {
         MadeSurfaces(PrimitiveType type, const char* name, std::int32_t modifier) {
             list.add({type, modifier, name, {}, {}, nullptr, 0});
             SurfaceShapes::Columns columns;
-            columns.rows.push_back({type, ShapeKind::none, {}, 0, modifier});
+            columns.rows.push_back({{}, modifier, type, ShapeKind::none, {}});
             shapes = SurfaceShapes(std::move(columns));
         }
         SurfaceList list;

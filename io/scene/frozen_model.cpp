@@ -153,7 +153,7 @@ bool is_usable(const SourceShape& source) {
 void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns) {
     for (const ShapeRow& row : columns.rows) {
         const auto usable = [&](const auto& column) {
-            return row.index < column.size() && is_usable(column[row.index]);
+            return row.index() < column.size() && is_usable(column[row.index()]);
         };
         const bool good = row.kind == ShapeKind::sphere   ? usable(columns.spheres)
                           : row.kind == ShapeKind::cone   ? usable(columns.cones)
@@ -168,7 +168,6 @@ SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const Su
                           std::vector<std::string> warnings) {
     SurfaceShapes::Columns columns;
     columns.rows = column_of<ShapeRow>(file, FrozenKind::rows, number);
-    columns.planes = column_of<PolygonPlane>(file, FrozenKind::planes, number);
     columns.spheres = column_of<SphereShape>(file, FrozenKind::spheres, number);
     columns.cones = column_of<ConeShape>(file, FrozenKind::cones, number);
     columns.rings = column_of<RingShape>(file, FrozenKind::rings, number);
@@ -235,7 +234,6 @@ void freeze_model(const Model& model, const SurfaceShapes& shapes, std::uint32_t
     parts.add(FrozenKind::text, number, surfaces.text.values());
     parts.add(FrozenKind::strings, number, surfaces.strings.values());
     parts.add(FrozenKind::rows, number, shapes.columns().rows.values());
-    parts.add(FrozenKind::planes, number, shapes.columns().planes.values());
     parts.add(FrozenKind::spheres, number, shapes.columns().spheres.values());
     parts.add(FrozenKind::cones, number, shapes.columns().cones.values());
     parts.add(FrozenKind::rings, number, shapes.columns().rings.values());

@@ -30,7 +30,6 @@ enum class FrozenKind : std::uint32_t {
     text,
     strings,
     rows,
-    planes,
     spheres,
     cones,
     rings,

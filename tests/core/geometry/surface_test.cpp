@@ -52,12 +52,10 @@ bool same_shape(const Shape& a, const Shape& b) {
 struct StoredShapes {
     explicit StoredShapes(const SurfaceShapes& shapes)
         : rows(shapes.columns().rows.begin(), shapes.columns().rows.end()),
-          planes(shapes.columns().planes.begin(), shapes.columns().planes.end()),
           others(&shapes.columns()) {}
     [[nodiscard]] SurfaceShapes shapes(const SurfaceList& list) const {
         SurfaceShapes::Columns columns;
         columns.rows = Column<ShapeRow>::mapped(rows);
-        columns.planes = Column<PolygonPlane>::mapped(planes);
         columns.spheres = Column<SphereShape>::mapped(others->spheres.values());
         columns.cones = Column<ConeShape>::mapped(others->cones.values());
         columns.rings = Column<RingShape>::mapped(others->rings.values());
@@ -65,7 +63,6 @@ struct StoredShapes {
         return {std::move(columns), list};
     }
     std::vector<ShapeRow> rows;
-    std::vector<PolygonPlane> planes;
     const SurfaceShapes::Columns* others;
 };
 
@@ -82,7 +79,7 @@ TEST_CASE("the table of shapes holds what make_shape makes of each surface") {
         const ValidatedShape valid = make_shape(surface);
         REQUIRE(shapes.row(i).type == valid.type);
         REQUIRE(shapes.row(i).modifier == surface.modifier);
-        REQUIRE(shapes.row(i).index == backward.row(i).index);
+        REQUIRE(shapes.row(i).index() == backward.row(i).index());
         REQUIRE(same_shape(shapes.shape(list, i), valid.shape));
         if (!valid.warning.empty())
             warnings.push_back("many.rad:" + std::to_string(i + 1) + ": " +
@@ -117,7 +114,6 @@ TEST_CASE("stored shapes are taken where they fit their list, and refused elsewh
     std::size_t polygon = 0, sphere = 0;
     while (shapes.row(polygon).kind != ShapeKind::polygon) ++polygon;
     while (shapes.row(sphere).kind != ShapeKind::sphere) ++sphere;
-    const std::uint32_t plane = shapes.row(polygon).index;
     const auto refuses = [&](auto change) {
         StoredShapes bad = good;
         change(bad);
@@ -125,19 +121,19 @@ TEST_CASE("stored shapes are taken where they fit their list, and refused elsewh
                              doctest::Contains("damaged shapes"), InputError);
     };
     refuses([](StoredShapes& s) { s.rows.pop_back(); });
-    refuses([&](StoredShapes& s) { s.rows[polygon].index = 100000; });
-    refuses([&](StoredShapes& s) { s.rows[sphere].index = 100000; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].plane.first = 100000; });
+    refuses([&](StoredShapes& s) { s.rows[sphere].plane.first = 100000; });
     refuses([&](StoredShapes& s) { s.rows[sphere].kind = ShapeKind::cone; });
     refuses([&](StoredShapes& s) { s.rows[sphere].kind = static_cast<ShapeKind>(77); });
     refuses([&](StoredShapes& s) { s.rows[sphere].type = PrimitiveType::cone; });
     refuses([&](StoredShapes& s) { s.rows[sphere].type = static_cast<PrimitiveType>(200); });
     refuses([&](StoredShapes& s) { s.rows[sphere].modifier = 555; });
     refuses([&](StoredShapes& s) { s.rows[polygon].manner.drop_axis = 3; });
-    refuses([&](StoredShapes& s) { s.planes[plane].first_real += 3; });
-    refuses([&](StoredShapes& s) { s.planes[plane].corners += 1; });
-    refuses([&](StoredShapes& s) { s.planes[plane].corners = 2; });
-    refuses([&](StoredShapes& s) { s.planes[plane].offset = std::nan(""); });
-    refuses([&](StoredShapes& s) { s.planes[plane].normal = {}; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].plane.first += 3; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].plane.corners += 1; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].plane.corners = 2; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].plane.offset = std::nan(""); });
+    refuses([&](StoredShapes& s) { s.rows[polygon].plane.normal = {}; });
 }
 
 TEST_CASE("a table of surfaces numbers those of each model side by side") {
