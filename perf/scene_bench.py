@@ -15,6 +15,10 @@ line a scene, tab-separated:
   MB, bytes       at the peak; a polygon of it, less what a scene of one polygon takes
   Mrays/s         of a picture of N x N (1000) pixels, shadow rays included
   oconv, rpict    of the same tiles, whole processes [s], where --reference has them
+
+Then, where there is an mpirun, what a second rank on this machine adds to the memory of the first (proportional set sizes in the
+midst of a picture), from text and frozen. Exit code 1 where memory is above its bounds, which are told, or a frozen scene's picture
+is another than that of its text; seconds are not judged.
 """
 import argparse, json, math, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
 
@@ -57,6 +61,21 @@ def write_tiles(path, side):
             file.write("".join(lines))
 
 
+class Bounds:
+    """What memory may take: each is told once where it is exceeded."""
+    MOST_BYTES, MANY = 250, 1_000_000       # a polygon of four vertices, in models of so many
+    MOST_OF_FIVE_MILLION = 1.5e9            # [bytes]
+    MOST_OF_SECOND_RANK = 0.2               # of the first one's
+    MOST_OF_CABIN = 60e6                    # [bytes], with a picture of 640 x 480
+
+    def __init__(self):
+        self.broken = []
+
+    def check(self, what, value, most):
+        if value > most:
+            self.broken.append(f"{what}: {value:.4g}, at most {most:.4g} wanted")
+
+
 def run(command, folder, **options):
     done = subprocess.run(command, cwd=folder, stderr=subprocess.PIPE, **options)
     if done.returncode != 0:
@@ -73,6 +92,42 @@ def measure(arguments, folder, scene, view=VIEW, environment=None):
         runs.append(json.loads(pathlib.Path(stats).read_text()))
     seconds = {step: statistics.median(r["seconds"][step] for r in runs) for step in ("read", "build", "render")}
     return seconds, runs[-1]["rays"]["total"], runs[-1]["peak_memory_bytes"]
+
+
+def pixels(arguments):
+    picture = pathlib.Path(arguments.scratch, "picture.hdr").read_bytes()
+    return picture[picture.index(b"\n\n"):]
+
+
+def proportional_bytes(ranks, arguments, scene):
+    """Of all ranks together, in the midst of a picture: each page counts once, however many have it."""
+    program = os.path.realpath(shutil.which(arguments.lightwalk) or arguments.lightwalk)
+    mpirun = ["mpirun", *(["--allow-run-as-root"] if os.geteuid() == 0 else []), "--oversubscribe", "-n", str(ranks)]
+    process = subprocess.Popen([*mpirun, program, "render", "-n", "1", "--quiet", *VIEW, "-x", "300", "-y", "300", "--samples", "400",
+                                "-o", os.path.join(arguments.scratch, "ranks.hdr"), scene], stderr=subprocess.DEVNULL)
+    seen = []
+    while process.poll() is None:
+        sizes = []
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if os.path.realpath(folder / "exe") == program:
+                    sizes.append(1024 * int(re.search(r"^Pss:\s+(\d+)", (folder / "smaps_rollup").read_text(), re.MULTILINE).group(1)))
+            except (OSError, AttributeError):
+                pass  # it has just ended
+        if len(sizes) == ranks:
+            seen.append(sum(sizes))
+        time.sleep(0.05)
+    if process.returncode != 0 or not seen:
+        sys.exit(f"{ranks} ranks failed")
+    return seen[len(seen) * 3 // 4]
+
+
+def second_rank(arguments, name, scene, bounds):
+    if not shutil.which("mpirun"):
+        return
+    one, two = (proportional_bytes(ranks, arguments, scene) for ranks in (1, 2))
+    print(f"{name}: one rank {one / 1e6:.0f} MB, two {two / 1e6:.0f} MB, the second adds {100 * (two / one - 1):.1f} %", flush=True)
+    bounds.check(f"{name}: what a second rank adds", two / one - 1, bounds.MOST_OF_SECOND_RANK)
 
 
 def tool(arguments, name):
@@ -144,6 +199,7 @@ def main():
     arguments = parser.parse_args()
     if os.sep in arguments.lightwalk:
         arguments.lightwalk = os.path.abspath(arguments.lightwalk)
+    bounds = Bounds()
     with tempfile.TemporaryDirectory() as arguments.scratch:
         print("scene\tpolygons\tread s\tbuild s\tMB\tbytes\tMrays/s\toconv s\trpict s", flush=True)
         scene = os.path.join(arguments.scratch, "scene.rad")
@@ -154,10 +210,21 @@ def main():
         sides = [int(side) for side in arguments.sides.split(",")]
         for side in sides:
             write_tiles(scene, side)
-            result = measure(arguments, arguments.scratch, [scene])
+            result, text_pixels = measure(arguments, arguments.scratch, [scene]), pixels(arguments)
             tell("tiles", side * side, result, least, reference_seconds(arguments, scene))
             frozen = freeze(arguments, arguments.scratch, [scene])
-            tell("frozen", side * side, measure(arguments, arguments.scratch, [frozen]), least)
+            from_frozen = measure(arguments, arguments.scratch, [frozen])
+            tell("frozen", side * side, from_frozen, least)
+            if pixels(arguments) != text_pixels:
+                bounds.broken.append(f"{side} x {side} tiles: the frozen scene's picture is another one")
+            for name, (_, _, peak) in (("tiles", result), ("frozen", from_frozen)):
+                if side * side >= 0.99 * bounds.MANY:
+                    bounds.check(f"{side} x {side} {name}: bytes a polygon", (peak - least) / side ** 2, bounds.MOST_BYTES)
+                if 4.9e6 < side * side < 5.1e6:
+                    bounds.check(f"{side} x {side} {name}: bytes", peak, bounds.MOST_OF_FIVE_MILLION)
+            if side * side >= 0.99 * bounds.MANY:
+                second_rank(arguments, f"{side} x {side} tiles", scene, bounds)
+                second_rank(arguments, f"{side} x {side} frozen", frozen, bounds)
             os.unlink(frozen)
         for side in sides:
             pathlib.Path(scene).write_text(LAMP + SURFACE.format(side))
@@ -171,10 +238,15 @@ def main():
             folder = os.path.join(os.path.abspath(arguments.scenes), "cabin")
             view = "-vf vf/living -ps 1 -ab 0 -av .1 .1 .1".split()
             environment = dict(os.environ, RAYPATH=".:../lib")
-            tell("cabin", 0, measure(arguments, folder, CABIN, view, environment), least)
+            arguments.size = min(arguments.size, 554)  # as many pixels as 640 x 480
+            result = measure(arguments, folder, CABIN, view, environment)
+            tell("cabin", 0, result, least)
+            bounds.check("cabin: bytes", result[2], bounds.MOST_OF_CABIN)
             frozen = freeze(arguments, folder, CABIN, environment)
             tell("cabin, frozen", 0, measure(arguments, folder, [frozen], view, environment), least)
-    return 0
+    for line in bounds.broken:
+        print(line, file=sys.stderr)
+    return 1 if bounds.broken else 0
 
 
 if __name__ == "__main__":
