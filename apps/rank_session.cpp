@@ -100,7 +100,8 @@ struct SceneOfRank {
         if (path == kUnreadable) return;
         if (path == kEachItsOwn) return read();
         try {
-            session = std::make_unique<SceneSession>(options, warnings, path);
+            session = std::make_unique<SceneSession>(options, warnings,
+                                                     std::make_shared<FileRecorder>(), path);
         } catch (const InputError&) {
             read();  // the system lets no process look at another's
         }

@@ -39,13 +39,16 @@ double Stopwatch::seconds() const {
 }
 
 SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink,
-                           std::shared_ptr<FileRecorder> source)
+                           std::shared_ptr<FileRecorder> source, const std::string& shared_by)
     : warnings(sink),
       files(std::move(source)),
       library(LibraryPath::from_environment(files)),
       workers(options.workers) {
     const Stopwatch watch;
-    read(options);
+    if (shared_by.empty())
+        read(options);
+    else
+        map(shared_by);
     cost.read_seconds = watch.seconds();
     cost.read_peak_bytes = peak_memory_bytes();
 }
@@ -74,17 +77,6 @@ void SceneSession::map(const std::string& path) {
     auto opened = open_frozen_scene(path, true);
     model = opened->model();
     resources = std::move(opened);
-}
-
-SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink, const std::string& path)
-    : warnings(sink),
-      files(std::make_shared<FileRecorder>()),
-      library(LibraryPath::from_environment(files)),
-      workers(options.workers) {
-    const Stopwatch watch;
-    map(path);
-    cost.read_seconds = watch.seconds();
-    cost.read_peak_bytes = peak_memory_bytes();
 }
 
 std::string SceneSession::share() {

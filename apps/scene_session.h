@@ -42,11 +42,11 @@ struct SceneCost {
 struct SceneSession {
     /// Reads the description. Throws InputError for what cannot be read at all. `options`: after
     /// settle_scene_files.
+    /// @param shared_by  where another process of this machine shares the scene: what its share()
+    ///                   returned; "": it is read
     SceneSession(const CommonOptions& options, WarningSink& warnings,
-                 std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>());
-    /// The scene that another process of this machine shares: see share().
-    /// @param path  of the MemoryFile
-    SceneSession(const CommonOptions& options, WarningSink& warnings, const std::string& path);
+                 std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>(),
+                 const std::string& shared_by = {});
     /// From now on the scene is in memory that other processes can map: returns where; "" where the
     /// system has no such memory. Throws InputError as compile().
     [[nodiscard]] std::string share();
