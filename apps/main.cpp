@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/heap.h"
 #include "apps/rank_options.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
@@ -100,6 +101,7 @@ int run(const std::vector<std::string>& words) {
 }  // namespace lightwalk
 
 int main(int argc, char** argv) {
+    lightwalk::prepare_heap();
     return lightwalk::run(argc > 1 ? std::vector<std::string>(argv + 1, argv + argc)
                                    : std::vector<std::string>());
 }
