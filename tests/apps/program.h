@@ -27,6 +27,7 @@ class RunningProgram {
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
 
+    [[nodiscard]] int process() const { return process_; }
     void send(const std::string& input) const;
     /// Read `bytes` of standard output; fewer when it ends or says nothing for ten seconds.
     [[nodiscard]] std::string receive(std::size_t bytes) const;
