@@ -11,7 +11,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kHeap = std::size_t{64} << 20;       ///< reserved, not used [bytes]
+constexpr std::size_t kHeap = std::size_t{32} << 20;       ///< reserved, not used [bytes]
 constexpr std::size_t kOwnMapping = std::size_t{4} << 20;  ///< from this size given back at once
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
