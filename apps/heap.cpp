@@ -18,17 +18,20 @@ constexpr std::size_t kLargePage = std::size_t{2} << 20;
 }  // namespace
 
 void prepare_heap() {
+    // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread
     if (mallopt(M_TOP_PAD, static_cast<int>(kHeap)) == 0) return;
     mallopt(M_MMAP_THRESHOLD, static_cast<int>(kOwnMapping));
+    // NOLINTEND(concurrency-mt-unsafe)
     // More than what is left of the heap, so that it grows; a compiler may leave out what is
     // unused.
-    const auto before = reinterpret_cast<std::uintptr_t>(sbrk(0));
+    char* const before = static_cast<char*>(sbrk(0));
     void* volatile block = std::malloc(std::size_t{1} << 20);
     std::free(block);
-    const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
-    const std::uintptr_t start = (before + kLargePage - 1) / kLargePage * kLargePage;
+    char* const end = static_cast<char*>(sbrk(0));
+    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(before) % kLargePage;
+    char* const start = before + (kLargePage - beyond) % kLargePage;
     if (end > start)  // it is this allocator that grew it
-        (void)madvise(reinterpret_cast<void*>(start), end - start, MADV_HUGEPAGE);
+        (void)madvise(start, static_cast<std::size_t>(end - start), MADV_HUGEPAGE);
 }
 
 }  // namespace lightwalk
