@@ -5,8 +5,8 @@ namespace lightwalk {
 
 /// Ask for large pages under the first 32 MB of the heap, and let it hold all but the largest
 /// arrays: a scene is built of hundreds of thousands of pieces, and where pages of 4 kB are first
-/// touched takes a good part of that time, on virtual machines above all. Once, before anything is
-/// allocated. A hint: where the system has no such pages, or another allocator stands in, nothing
+/// touched takes a good part of that time, on virtual machines above all. Once, while there is one
+/// thread. A hint: where the system has no such pages, or another allocator stands in, nothing
 /// changes.
 void prepare_heap();
 
