@@ -178,9 +178,13 @@ class WalkProgram {
                 desk_.announce(FailedReply{lines_of(problem.text)});
             }
             wait_for_change(serving);
-            std::this_thread::sleep_for(kWriting);
+            if (!interrupt_flag().requested()) std::this_thread::sleep_for(kWriting);
         }
-        if (link_ != nullptr) (void)link_->hear(kEnd);
+        // Nothing is drawn any more: what is left is short, and is not cut off.
+        if (link_ == nullptr)
+            set_interrupt_phase(InterruptPhase::finish);
+        else
+            (void)link_->hear(kEnd);
         if (serving.ended()) serving.raise();
         return kSuccessStatus;
     }
