@@ -14,7 +14,8 @@ namespace lightwalk::test {
     primitive.modifier = surface.modifier;
     primitive.name = std::string(surface.name);
     primitive.strings = surface.strings.to_strings();
-    primitive.reals.assign(surface.reals.begin(), surface.reals.end());
+    for (std::size_t i = 0; i < surface.reals.size(); ++i)
+        primitive.reals.push_back(surface.reals[i]);
     primitive.where = surface.where();
     return primitive;
 }

@@ -17,6 +17,23 @@ void extend_by_disc(Bounds& bounds, const Vec3& center, const Vec3& normal, doub
     bounds.extend(center + reach);
 }
 
+/// How far hits may lie outside a polygon along the axis that the inside test ignores [m]. A point
+/// counts as on an edge where the triangle of both has less than kEpsilon / 2 of area, and lies in
+/// the edge's own rectangle: the shorter the edge, the farther off it, and along a slope that is up
+/// or down.
+double reach_off_edges(const PolygonShape& polygon) {
+    const auto z = static_cast<std::size_t>(polygon.drop_axis), x = (z + 1) % 3, y = (z + 2) % 3;
+    double off = 0;
+    Vec3 from = polygon.vertices.back();
+    for (const Vec3 to : polygon.vertices) {
+        const double shortest = std::max(std::abs(to[x] - from[x]), std::abs(to[y] - from[y]));
+        if (shortest > 0) off = std::max(off, std::min(kEpsilon / shortest, shortest));
+        from = to;
+    }
+    const Vec3& n = polygon.normal;
+    return off * (std::abs(n[x]) + std::abs(n[y])) / std::abs(n[z]);
+}
+
 }  // namespace
 
 void Bounds::extend(const Vec3& p) {
@@ -58,6 +75,9 @@ Bounds hit_bounds(const Shape& shape) {
                 (polygon->offset - dot(polygon->normal, vertex)) / polygon->normal[axis];
             bounds.extend(vertex);
         }
+        const double reach = reach_off_edges(*polygon);
+        bounds.lower[axis] -= reach;
+        bounds.upper[axis] += reach;
     }
     return grown(bounds, 4 * kEpsilon);
 }

@@ -148,14 +148,17 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(query), model.pieces.primitive(args->primID)};
+    const FrameId frame = frame_of(query);
+    const std::uint32_t first = model.pieces.primitive(args->primID),
+                        end = first + model.pieces.count(args->primID);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
         NearestRay& ray = query.rays[i];
-        enter(query, ray, what.frame);
-        if (query.placed->propose(ray, what)) {
-            RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
+        enter(query, ray, frame);
+        for (std::uint32_t primitive = first; primitive < end; ++primitive) {
+            if (query.placed->propose(ray, {frame, primitive}))
+                RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
         }
     }
 }
@@ -163,13 +166,18 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
 [[gnu::flatten]] void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const PrimitiveRef what{frame_of(query), model.pieces.primitive(args->primID)};
+    const FrameId frame = frame_of(query);
+    const std::uint32_t first = model.pieces.primitive(args->primID),
+                        end = first + model.pieces.count(args->primID);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];
-        enter(query, ray, what.frame);
-        if (query.placed->propose(ray, what)) {
-            RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
+        enter(query, ray, frame);
+        for (std::uint32_t primitive = first; primitive < end; ++primitive) {
+            if (query.placed->propose(ray, {frame, primitive})) {
+                RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
+                break;
+            }
         }
     }
 }

@@ -67,13 +67,13 @@ ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeomet
     : part_(&surfaces.part(model.part)),
       traits_(&surfaces.traits()),
       rows_(part_->shapes->columns().rows.data()),
-      reals_(part_->list->reals().data()),
+      numbers_{part_->list->columns().reals.data(), part_->list->columns().corners.data()},
       own_(part_->shapes->size()),
       meshes_(model.meshes),
       size_(own_) {
     for (std::uint32_t i = 0; i < own_; ++i) {
         if (rows_[i].kind == ShapeKind::polygon && rows_[i].plane.corners > kLargePolygon)
-            large_polygons_.emplace(i, EdgeIndex(part_->shapes->polygon(*part_->list, rows_[i])));
+            large_polygons_.emplace(i, EdgeIndex(part_->shapes->polygon(*part_->list, i)));
     }
     for (const MeshPart& part : meshes_) {
         validate(part, surfaces);
@@ -120,8 +120,8 @@ std::optional<ShapeHit> ModelPrimitives::intersect_other(std::uint32_t primitive
     if (row.kind != ShapeKind::polygon)
         return lightwalk::intersect(part_->shapes->shape(*part_->list, primitive), origin,
                                     direction, t_max);
-    return lightwalk::intersect(part_->shapes->polygon(*part_->list, row), origin, direction, t_max,
-                                &large_polygons_.at(primitive));
+    return lightwalk::intersect(part_->shapes->polygon(*part_->list, primitive), origin, direction,
+                                t_max, &large_polygons_.at(primitive));
 }
 
 std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primitive,
@@ -145,7 +145,7 @@ std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primit
 
 std::optional<PolygonShape> ModelPrimitives::polygon(std::uint32_t primitive) const {
     if (is_triangle(primitive) || rows_[primitive].kind != ShapeKind::polygon) return std::nullopt;
-    return part_->shapes->polygon(*part_->list, rows_[primitive]);
+    return part_->shapes->polygon(*part_->list, primitive);
 }
 
 Bounds ModelPrimitives::hit_bounds(std::uint32_t primitive) const {

@@ -51,7 +51,7 @@ class ModelPrimitives {
         const ShapeRow& row = rows_[primitive];
         if (row.kind == ShapeKind::polygon) {
             if (row.plane.corners <= kLargePolygon)
-                return lightwalk::intersect(row.plane, row.manner, reals_, origin, direction,
+                return lightwalk::intersect(row.plane, row.manner, numbers_, origin, direction,
                                             t_max);
         }
         return intersect_other(primitive, origin, direction, t_max);
@@ -108,7 +108,7 @@ class ModelPrimitives {
     const ModifierTraits* traits_;
     // What the search asks of every candidate, straight from the part's columns.
     const ShapeRow* rows_;
-    const double* reals_;
+    CornerNumbers numbers_;
     std::size_t own_;  ///< surfaces of this model, those without a shape among them
     std::span<const MeshPart> meshes_;
     std::unordered_map<std::uint32_t, EdgeIndex> large_polygons_;  ///< by primitive

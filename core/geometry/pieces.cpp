@@ -19,6 +19,8 @@ constexpr double kLeastGain = 1e-5;         ///< of a division, relative to the 
 constexpr double kThickness = 1.0 / 16;     ///< of slanted pieces, relative to their polygon
 constexpr double kMargin = 4 * kEpsilon;    ///< that boxes are grown by [m]
 constexpr double kRim = 3 * kEpsilon;       ///< of cells, that the boxes around reach into [m]
+constexpr std::size_t kManyPrimitives = std::size_t{1} << 17;  ///< that pairs are made of
+constexpr double kPairArea = 0.75;  ///< of a pair's box at most, relative to both boxes together
 
 struct Point {
     std::array<double, 2> at{};
@@ -331,6 +333,49 @@ std::vector<std::uint32_t> select_primitives(std::size_t count, const Team& team
     return all;
 }
 
+/// Pairs of primitives, then those that stay alone.
+struct Grouping {
+    std::vector<std::uint32_t> pairs, alone;
+
+    void append(const Grouping& other) {
+        pairs.insert(pairs.end(), other.pairs.begin(), other.pairs.end());
+        alone.insert(alone.end(), other.alone.begin(), other.alone.end());
+    }
+};
+
+/// Pairs what can be paired, from the first one on.
+Grouping pair_neighbours(const ModelPrimitives& model, std::span<const std::uint32_t> primitives) {
+    Grouping grouping;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const std::uint32_t one = primitives[i];
+        const bool may_pair = model.size() > kManyPrimitives || model.is_triangle(one);
+        if (may_pair && i + 1 < primitives.size() && primitives[i + 1] == one + 1) {
+            const Bounds a = model.hit_bounds(one), b = model.hit_bounds(one + 1);
+            Bounds both = a;
+            extend(both, b);
+            if (half_area(both) <= kPairArea * (half_area(a) + half_area(b))) {
+                grouping.pairs.push_back(one);
+                ++i;
+                continue;
+            }
+        }
+        grouping.alone.push_back(one);
+    }
+    return grouping;
+}
+
+Grouping pair_neighbours(const ModelPrimitives& model, std::span<const std::uint32_t> primitives,
+                         const Team& team) {
+    std::vector<Grouping> parts(part_count(primitives.size()));
+    for_each_part(team, primitives.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      parts[part] = pair_neighbours(model, primitives.subspan(first, last - first));
+                  });
+    Grouping all;
+    for (const Grouping& part : parts) all.append(part);
+    return all;
+}
+
 /// Whether they are all that is between the first of them and the last.
 bool are_consecutive(const std::vector<std::uint32_t>& numbers) {
     return numbers.empty() || numbers.back() - numbers.front() + 1 == numbers.size();
@@ -338,17 +383,29 @@ bool are_consecutive(const std::vector<std::uint32_t>& numbers) {
 
 }  // namespace
 
+Bounds Pieces::box(std::size_t piece, const ModelPrimitives& model) const {
+    if (piece >= whole) return boxes[piece - whole];
+    Bounds box = model.hit_bounds(primitive(piece));
+    if (count(piece) == 2) extend(box, model.hit_bounds(primitive(piece) + 1));
+    return box;
+}
+
 Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
     Division division(model);
     std::vector<std::uint32_t> divided = select_primitives(
         model.size(), team, [&](std::uint32_t i) { return division.is_candidate(i); });
     std::erase_if(divided, [&](std::uint32_t i) { return !division.add(i); });
-    Pieces pieces;
-    pieces.primitive_of = select_primitives(model.size(), team, [&](std::uint32_t i) {
+    Grouping whole;
+    whole.alone = select_primitives(model.size(), team, [&](std::uint32_t i) {
         return model.is_finite(i) && !std::binary_search(divided.begin(), divided.end(), i);
     });
+    whole = pair_neighbours(model, whole.alone, team);
+    Pieces pieces;
+    pieces.pairs = whole.pairs.size();
+    pieces.primitive_of = std::move(whole.pairs);
+    pieces.primitive_of.insert(pieces.primitive_of.end(), whole.alone.begin(), whole.alone.end());
     pieces.whole = pieces.primitive_of.size();
-    if (divided.empty() && are_consecutive(pieces.primitive_of)) {
+    if (divided.empty() && pieces.pairs == 0 && are_consecutive(pieces.primitive_of)) {
         if (pieces.whole > 0) pieces.first = pieces.primitive_of.front();
         pieces.primitive_of = std::vector<std::uint32_t>();  // {} would keep the memory
         return pieces;

@@ -1,6 +1,6 @@
 #pragma once
-// Boxes for the search tree: one for each primitive, several for large polygons that fill theirs
-// badly.
+// Boxes for the search tree: one for each primitive or for two that fill the same, several for
+// large polygons that fill theirs badly.
 #include <cstdint>
 #include <vector>
 
@@ -8,11 +8,14 @@
 
 namespace lightwalk {
 
-/// What the search tree holds: primitives, or parts of them. Parts of one primitive may overlap;
-/// together they hold every point that ModelPrimitives::intersect can report.
+/// What the search tree holds: pairs of primitives, primitives, and parts of them, in this order.
+/// Parts of one primitive may overlap; together they hold every point that
+/// ModelPrimitives::intersect can report.
 struct Pieces {
-    std::size_t whole = 0;  ///< pieces that are primitives; they come first
-    /// Of each piece; empty where they are all whole, and follow each other from `first` on.
+    std::size_t pairs = 0;  ///< pieces that are a primitive and the next one
+    std::size_t whole = 0;  ///< pieces that are no parts
+    /// The first of each piece; empty where all are primitives that follow each other from `first`
+    /// on.
     std::vector<std::uint32_t> primitive_of;
     std::uint32_t first = 0;
     std::vector<Bounds> boxes;  ///< of the pieces that are parts
@@ -22,12 +25,15 @@ struct Pieces {
         return primitive_of.empty() ? first + static_cast<std::uint32_t>(piece)
                                     : primitive_of[piece];
     }
-    [[nodiscard]] Bounds box(std::size_t piece, const ModelPrimitives& model) const {
-        return piece < whole ? model.hit_bounds(primitive(piece)) : boxes[piece - whole];
-    }
+    /// How many primitives a piece is (a part of).
+    [[nodiscard]] std::uint32_t count(std::size_t piece) const { return piece < pairs ? 2 : 1; }
+    [[nodiscard]] Bounds box(std::size_t piece, const ModelPrimitives& model) const;
 };
 
-/// At least one piece for each finite primitive. Polygons with holes, slanted ones and triangles
+/// Pieces that hold every finite primitive. Neighbours in number whose boxes are nearly one, such
+/// as the two triangles of a cell, are a pair in meshes and large models: half the boxes, and a ray
+/// that meets one meets both.
+/// Polygons with holes, slanted ones and triangles
 /// are divided where most is won, so that a ray through a window does not have to be tested against
 /// the wall around it, nor one in the attic against the roof. Idea: Stich, Friedrich & Dietrich,
 /// "Spatial Splits in Bounding Volume Hierarchies", HPG 2009; here before the tree is built.

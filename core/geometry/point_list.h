@@ -1,10 +1,12 @@
 #pragma once
-// Points that stand in memory as they were read: three numbers each, one after the other.
+// Points that stand in memory as they were read: three numbers each, one after the other or
+// wherever a list of places says.
 #include <cstddef>
 #include <iterator>
 #include <span>
 
 #include "core/math/vec3.h"
+#include "core/model/real_arguments.h"
 
 namespace lightwalk {
 
@@ -20,43 +22,53 @@ class PointList {
         using reference = Vec3;
 
         Iterator() = default;
-        explicit Iterator(const double* at) : at_(at) {}
-        Vec3 operator*() const { return {at_[0], at_[1], at_[2]}; }
+        Iterator(const RealArguments& points, std::size_t i) : points_(points), i_(i) {}
+        Vec3 operator*() const { return point_of(points_, i_); }
         Iterator& operator++() {
-            at_ += 3;
+            ++i_;
             return *this;
         }
         Iterator operator++(int) {
             const Iterator before = *this;
-            at_ += 3;
+            ++i_;
             return before;
         }
-        friend bool operator==(const Iterator&, const Iterator&) = default;
+        /// Of iterators of one list.
+        friend bool operator==(const Iterator& a, const Iterator& b) { return a.i_ == b.i_; }
 
       private:
-        const double* at_ = nullptr;
+        RealArguments points_;
+        std::size_t i_ = 0;
     };
 
     PointList() = default;
     /// @param coordinates  x, y and z of each point; what is left at the end does not count
-    explicit PointList(std::span<const double> coordinates)
-        : first_(coordinates.data()), count_(coordinates.size() / 3) {}
+    explicit PointList(const RealArguments& coordinates)
+        : points_(coordinates), count_(coordinates.size() / 3) {}
 
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] Vec3 operator[](std::size_t i) const {
-        return {first_[3 * i], first_[3 * i + 1], first_[3 * i + 2]};
-    }
+    [[nodiscard]] Vec3 operator[](std::size_t i) const { return point_of(points_, i); }
     [[nodiscard]] Vec3 front() const { return (*this)[0]; }
     [[nodiscard]] Vec3 back() const { return (*this)[count_ - 1]; }
-    [[nodiscard]] Iterator begin() const { return Iterator(first_); }
-    [[nodiscard]] Iterator end() const { return Iterator(first_ + 3 * count_); }
-    [[nodiscard]] const double* data() const { return first_; }
-    /// Without its last point.
-    [[nodiscard]] PointList without_last() const { return PointList({first_, 3 * (count_ - 1)}); }
+    [[nodiscard]] Iterator begin() const { return {points_, 0}; }
+    [[nodiscard]] Iterator end() const { return {points_, count_}; }
+    /// The first `count` of its points.
+    [[nodiscard]] PointList first(std::size_t count) const {
+        PointList less = *this;
+        less.count_ = count;
+        return less;
+    }
+    [[nodiscard]] PointList without_last() const { return first(count_ - 1); }
 
   private:
-    const double* first_ = nullptr;
+    static Vec3 point_of(const RealArguments& points, std::size_t i) {
+        const double* const at =
+            points.data() + (points.corners() == nullptr ? 3 * i : points.corners()[i]);
+        return {at[0], at[1], at[2]};
+    }
+
+    RealArguments points_;
     std::size_t count_ = 0;
 };
 

@@ -192,8 +192,8 @@ std::optional<ShapeHit> intersect(const PolygonShape& polygon, const Vec3& origi
 }
 
 std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manner,
-                                  const double* reals, const Vec3& origin, const Vec3& direction,
-                                  double t_max) {
+                                  const CornerNumbers& numbers, const Vec3& origin,
+                                  const Vec3& direction, double t_max) {
     const double cosine = fused_dot(plane.normal, direction);
     if (!(std::abs(cosine) > kEpsilon)) return std::nullopt;
     const double t = (plane.offset - fused_dot(plane.normal, origin)) / cosine;
@@ -201,11 +201,20 @@ std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manne
     const auto [x_axis, y_axis] = kRemaining[manner.drop_axis];
     const double x = origin.*x_axis + direction.*x_axis * t,
                  y = origin.*y_axis + direction.*y_axis * t;
-    const double* const corner = reals + plane.first;
-    const double *const xs = corner + (manner.drop_axis == 2 ? 0 : manner.drop_axis + 1),
-                        *const ys = corner + (manner.drop_axis == 0 ? 2 : manner.drop_axis - 1);
+    const std::size_t x_at = manner.drop_axis == 2 ? 0 : manner.drop_axis + 1,
+                      y_at = manner.drop_axis == 0 ? 2 : manner.drop_axis - 1;
+    if (manner.outline == Outline::shared) {
+        const std::uint32_t* const corners = numbers.corners + plane.first;
+        const bool inside = holds_origin(3, [&](std::size_t i) {
+            const double* const corner = numbers.reals + corners[i];
+            return std::pair(corner[x_at] - x, corner[y_at] - y);
+        });
+        return inside ? std::optional(ShapeHit{t, plane.normal, cosine < 0}) : std::nullopt;
+    }
+    const double *const xs = numbers.reals + plane.first + x_at, *const ys = numbers.reals +
+                                                                             plane.first + y_at;
     double depth = OutlineRectangle::kNone;
-    if (manner.is_rectangle)
+    if (manner.outline == Outline::rectangle)
         depth = depth_in({std::min(xs[0], xs[6]), std::max(xs[0], xs[6]), std::min(ys[0], ys[6]),
                           std::max(ys[0], ys[6])},
                          x, y);

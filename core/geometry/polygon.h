@@ -53,21 +53,34 @@ inline constexpr std::size_t kLargePolygon = 64;
 struct PolygonPlane {
     Vec3 normal;  ///< see PolygonShape
     double offset = 0;
-    std::uint32_t first = 0;    ///< of its corners, among the reals of its model
+    std::uint32_t first = 0;    ///< SurfaceList::place of its surface
     std::uint32_t corners = 0;  ///< how many they are
+};
+
+/// How a polygon's corners are found, and what is known of them.
+enum class Outline : std::uint8_t {
+    own,        ///< they stand side by side
+    rectangle,  ///< these do, too: four, along the coordinates of the inside test
+    shared,     ///< three, each by its place
 };
 
 /// What decides how a plane is searched, kept apart from it: it fits into the surface's row.
 struct PolygonManner {
     std::uint8_t drop_axis = 2;
-    bool is_rectangle = false;  ///< its outline is one, along the coordinates of the inside test
+    Outline outline = Outline::own;
+};
+
+/// The numbers of a model's surfaces.
+struct CornerNumbers {
+    const double* reals = nullptr;
+    const std::uint32_t* corners = nullptr;  ///< places in `reals`
 };
 
 /// Whether a packed polygon, any but a large one, is hit: the same answer, to the bit, as
 /// `intersect` without an index.
-/// @param reals  of the polygon's model
+/// @param numbers  of the polygon's model
 [[nodiscard]] std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manner,
-                                                const double* reals, const Vec3& origin,
+                                                const CornerNumbers& numbers, const Vec3& origin,
                                                 const Vec3& direction, double t_max);
 
 }  // namespace lightwalk

@@ -29,7 +29,7 @@ void expect_finite(const SurfacePrimitive& primitive) {
     }
 }
 
-Vec3 point_at(std::span<const double> reals, std::size_t i) {
+Vec3 point_at(const RealArguments& reals, std::size_t i) {
     return {reals[i], reals[i + 1], reals[i + 2]};
 }
 
@@ -106,7 +106,7 @@ int longest_axis(const Vec3& normal) {
 }
 
 ValidatedShape make_polygon(const SurfacePrimitive& primitive) {
-    const std::span<const double> reals = primitive.reals;
+    const RealArguments& reals = primitive.reals;
     if (reals.size() < 9 || reals.size() % 3 != 0) {
         fail(primitive,
              "bad # arguments: expected three coordinates for each of at least three vertices, "

@@ -56,15 +56,20 @@ struct OpenColumns {
     std::span<RingShape> rings;
     std::span<SourceShape> sources;
 
-    static void put(const PolygonShape& polygon, std::uint32_t first_real, ShapeRow& row) {
-        row.plane = {polygon.normal, polygon.offset, first_real,
+    static void put(const PolygonShape& polygon, const SurfaceList& list, std::size_t i,
+                    ShapeRow& row) {
+        row.plane = {polygon.normal, polygon.offset, list.place(i),
                      static_cast<std::uint32_t>(polygon.vertices.size())};
+        const bool is_rectangle = !std::isnan(polygon.rectangle.low_x);
         row.manner = {static_cast<std::uint8_t>(polygon.drop_axis),
-                      !std::isnan(polygon.rectangle.low_x)};
+                      list.shares_corners(i) ? Outline::shared
+                      : is_rectangle         ? Outline::rectangle
+                                             : Outline::own};
     }
-    void put(std::uint32_t at, const Shape& shape, std::uint32_t first_real, ShapeRow& row) const {
+    void put(const Shape& shape, const SurfaceList& list, std::size_t i, ShapeRow& row) const {
+        const std::uint32_t at = row.index();
         if (const auto* polygon = std::get_if<PolygonShape>(&shape))
-            put(*polygon, first_real, row);
+            put(*polygon, list, i, row);
         else if (const auto* sphere = std::get_if<SphereShape>(&shape))
             spheres[at] = *sphere;
         else if (const auto* cone = std::get_if<ConeShape>(&shape))
@@ -96,7 +101,7 @@ void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
         row.type = valid.type;
         if (std::holds_alternative<std::monostate>(valid.shape)) continue;
         row.kind = kind;
-        columns.put(row.index(), valid.shape, list.first_real(i), row);
+        columns.put(valid.shape, list, i, row);
     }
 }
 
@@ -124,11 +129,14 @@ bool is_usable(const Vec3& v) {
 }
 
 /// That the search finds no more corners than there are, nor divides by zero.
-void check_polygon(const ShapeRow& row, std::size_t first_real, std::size_t reals) {
+void check_polygon(const ShapeRow& row, const SurfaceList& list, std::size_t i) {
     const PolygonPlane& plane = row.plane;
     if (row.manner.drop_axis > 2) refuse_shapes("an axis that is none");
-    if (plane.first != first_real || plane.corners < 3 || plane.corners > reals / 3 ||
-        (row.manner.is_rectangle && plane.corners != 4))
+    const Outline outline = row.manner.outline;
+    if (plane.first != list.place(i) || plane.corners < 3 ||
+        plane.corners > list.reals(i).size() / 3 || outline > Outline::shared ||
+        (outline == Outline::rectangle && plane.corners != 4) ||
+        (outline == Outline::shared) != list.shares_corners(i))
         refuse_shapes("a polygon with other corners");
     if (!is_usable(plane.normal) || !(std::abs(plane.offset) <= 4 * kLargestCoordinate) ||
         plane.normal[row.manner.drop_axis] == 0)
@@ -167,11 +175,9 @@ SurfaceShapes::SurfaceShapes(Columns columns, const SurfaceList& list)
             (!is_polygon && own.index() >= column_size(columns_, own.kind)))
             refuse_shapes("a place that is none");
         if (!is_polygon) continue;
-        const std::size_t first = list.first_real(i),
-                          end = i + 1 < size() ? list.first_real(i + 1) : list.reals().size();
-        check_polygon(own, first, end - first);
+        check_polygon(own, list, i);
     }
-    for (const double real : list.reals())
+    for (const double real : list.columns().reals)
         if (!std::isfinite(real)) refuse_shapes("a number that is none");
 }
 
@@ -179,7 +185,7 @@ Shape SurfaceShapes::shape(const SurfaceList& list, std::size_t i) const {
     const ShapeRow& own = row(i);
     switch (own.kind) {
         case ShapeKind::polygon:
-            return polygon(list, own);
+            return polygon(list, i);
         case ShapeKind::sphere:
             return columns_.spheres[own.index()];
         case ShapeKind::cone:
@@ -193,15 +199,14 @@ Shape SurfaceShapes::shape(const SurfaceList& list, std::size_t i) const {
     }
 }
 
-PolygonShape SurfaceShapes::polygon(const SurfaceList& list, const ShapeRow& row) const {
-    const PolygonPlane& plane = row.plane;
+PolygonShape SurfaceShapes::polygon(const SurfaceList& list, std::size_t i) const {
+    const auto& [plane, modifier, type, kind, manner] = row(i);
     PolygonShape polygon;
-    polygon.vertices =
-        PointList(list.reals().values().subspan(plane.first, std::size_t{3} * plane.corners));
+    polygon.vertices = PointList(list.reals(i)).first(plane.corners);
     polygon.normal = plane.normal;
     polygon.offset = plane.offset;
-    polygon.drop_axis = row.manner.drop_axis;
-    if (row.manner.is_rectangle) polygon.rectangle = rectangle_of(polygon);
+    polygon.drop_axis = manner.drop_axis;
+    if (manner.outline == Outline::rectangle) polygon.rectangle = rectangle_of(polygon);
     return polygon;
 }
 
@@ -220,11 +225,11 @@ SurfaceShapes make_shapes(const SurfaceList& list, const Team& team) {
     std::vector<Part> parts(part_count(list.size()));
     Counts counts = count_shapes(list, team, parts);
     SurfaceShapes::Columns columns;
-    const OpenColumns open{columns.rows.resize(list.size()),
-                           columns.spheres.resize(count_of(counts, ShapeKind::sphere)),
-                           columns.cones.resize(count_of(counts, ShapeKind::cone)),
-                           columns.rings.resize(count_of(counts, ShapeKind::ring)),
-                           columns.sources.resize(count_of(counts, ShapeKind::source))};
+    const OpenColumns open{columns.rows.zeros(list.size()),
+                           columns.spheres.zeros(count_of(counts, ShapeKind::sphere)),
+                           columns.cones.zeros(count_of(counts, ShapeKind::cone)),
+                           columns.rings.zeros(count_of(counts, ShapeKind::ring)),
+                           columns.sources.zeros(count_of(counts, ShapeKind::source))};
     for_each_part(team, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
         try {
             fill_part(list, first, last, open, parts[part]);

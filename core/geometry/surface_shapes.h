@@ -54,7 +54,8 @@ class SurfaceShapes {
     /// The shape of surface i; monostate for placements and degenerate (ignored) surfaces.
     /// @param list  the one that these shapes were made of
     [[nodiscard]] Shape shape(const SurfaceList& list, std::size_t i) const;
-    [[nodiscard]] PolygonShape polygon(const SurfaceList& list, const ShapeRow& row) const;
+    /// Of a polygon.
+    [[nodiscard]] PolygonShape polygon(const SurfaceList& list, std::size_t i) const;
     [[nodiscard]] bool is_finite(std::size_t i) const {
         const ShapeKind kind = row(i).kind;
         return kind != ShapeKind::none && kind != ShapeKind::source;

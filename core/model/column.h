@@ -1,6 +1,12 @@
 #pragma once
 // A long array of plain values: grown in memory, or part of a file that is mapped.
+#include <algorithm>
 #include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -10,13 +16,16 @@ namespace lightwalk {
 
 /// Values of a trivially copyable type, side by side. Either owns them, and can grow, or shows
 /// those of a mapped file, whose owner keeps it open for as long as the column is used.
+///
+/// Unlike a vector it grows by `realloc`, which moves the pages of a long array and copies none:
+/// tens of millions of surfaces need no second copy of themselves, and are touched once.
 template <class T>
 class Column {
     static_assert(std::is_trivially_copyable_v<T>);
 
   public:
     Column() = default;
-    explicit Column(std::vector<T> values) : own_(std::move(values)), values_(own_) {}
+    explicit Column(const std::vector<T>& values) { append(values); }
     /// Shows values that lie elsewhere; such a column cannot grow.
     [[nodiscard]] static Column mapped(std::span<const T> values) {
         Column column;
@@ -24,12 +33,12 @@ class Column {
         return column;
     }
     Column(Column&& other) noexcept
-        : own_(std::move(other.own_)), values_(std::exchange(other.values_, {})) {
-        other.own_.clear();
-    }
+        : own_(std::move(other.own_)),
+          capacity_(std::exchange(other.capacity_, 0)),
+          values_(std::exchange(other.values_, {})) {}
     Column& operator=(Column&& other) noexcept {
         own_ = std::move(other.own_);
-        other.own_.clear();
+        capacity_ = std::exchange(other.capacity_, 0);
         values_ = std::exchange(other.values_, {});
         return *this;
     }
@@ -45,40 +54,69 @@ class Column {
     [[nodiscard]] auto begin() const { return values_.begin(); }
     [[nodiscard]] auto end() const { return values_.end(); }
     [[nodiscard]] std::span<const T> values() const { return values_; }
-    [[nodiscard]] bool is_mapped() const { return own_.empty() && !values_.empty(); }
+    [[nodiscard]] bool is_mapped() const { return own_ == nullptr && !values_.empty(); }
     /// In the process's own memory: nothing for mapped values, which processes share.
-    [[nodiscard]] std::size_t own_bytes() const { return own_.capacity() * sizeof(T); }
+    [[nodiscard]] std::size_t own_bytes() const { return capacity_ * sizeof(T); }
 
     [[nodiscard]] std::size_t mapped_bytes() const {
         return is_mapped() ? values_.size_bytes() : 0;
     }
 
-    void reserve(std::size_t count) {
-        own_.reserve(count);
-        values_ = own_;
-    }
     void push_back(const T& value) {
-        own_.push_back(value);
-        values_ = own_;
+        const T kept = value;  // it may be one of these
+        if (size() == capacity_) move_to(grown(size() + 1));
+        own_.get()[size()] = kept;
+        values_ = {own_.get(), size() + 1};
     }
+    /// @param values  none of its own
     void append(std::span<const T> values) {
-        own_.insert(own_.end(), values.begin(), values.end());
-        values_ = own_;
+        if (values.empty()) return;
+        const std::size_t count = size() + values.size();
+        if (count > capacity_) move_to(grown(count));
+        std::memcpy(own_.get() + size(), values.data(), values.size_bytes());
+        values_ = {own_.get(), count};
     }
-    /// So many values of its own, new ones zero, to be filled in.
-    std::span<T> resize(std::size_t count) {
-        own_.resize(count);
-        values_ = own_;
-        return own_;
+    /// So many values, all bytes zero, to be filled in; those before are gone.
+    std::span<T> zeros(std::size_t count) {
+        if (count > kMost) throw std::bad_alloc();
+        own_.reset(count > 0 ? static_cast<T*>(std::calloc(count, sizeof(T))) : nullptr);
+        capacity_ = own_ ? count : 0;
+        if (count > 0 && !own_) throw std::bad_alloc();
+        values_ = {own_.get(), count};
+        return {own_.get(), count};
     }
-    /// Gives back what growing has taken in advance, where that is much.
+    /// Gives back what growing has taken in advance.
     void trim() {
-        if (own_.capacity() - own_.size() > own_.size() / 8) own_.shrink_to_fit();
-        if (!own_.empty()) values_ = own_;
+        if (own_ == nullptr || size() == capacity_) return;
+        if (size() > 0) return move_to(size());
+        own_.reset();
+        capacity_ = 0;
+        values_ = {};
     }
 
   private:
-    std::vector<T> own_;
+    static constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T);
+
+    struct Free {
+        void operator()(T* values) const { std::free(values); }  // NOLINT: realloc's partner
+    };
+
+    [[nodiscard]] std::size_t grown(std::size_t least) const {
+        return std::max({least, 2 * capacity_, std::size_t{16}});
+    }
+    /// Room for `count` values, at least as many as there are; more than none.
+    void move_to(std::size_t count) {
+        if (count > kMost) throw std::bad_alloc();
+        void* const moved = std::realloc(own_.get(), count * sizeof(T));  // NOLINT
+        if (moved == nullptr) throw std::bad_alloc();
+        (void)own_.release();
+        own_.reset(static_cast<T*>(moved));
+        capacity_ = count;
+        values_ = {own_.get(), size()};
+    }
+
+    std::unique_ptr<T, Free> own_;
+    std::size_t capacity_ = 0;
     std::span<const T> values_;
 };
 

@@ -32,10 +32,6 @@ class ModelBuilder {
     std::int32_t add(Primitive primitive);
     /// The same for a surface.
     std::int32_t add(const SurfacePrimitive& surface);
-    /// Memory for so many surfaces, reals and bytes of text more; a guess.
-    void expect(std::size_t surfaces, std::size_t reals, std::size_t text) {
-        model_->surfaces.expect(surfaces, reals, text);
-    }
 
     /// Add `modifier alias name`, standing for the modifier with index `target`: its type and
     /// arguments with `modifier` in place of its own modifier; returns its index. The alias is a

@@ -1,6 +1,7 @@
 #include "core/model/surface_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -10,6 +11,8 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kCorners = 3;              ///< of a triangle
+constexpr std::size_t kTriangle = 3 * kCorners;  ///< its reals
 
 [[noreturn]] void refuse(const char* what) {
     throw InputError(std::string("damaged surfaces: ") + what);
@@ -24,6 +27,10 @@ void check_record(const SurfaceRecord& record, const SurfaceList::Columns& colum
         refuse("a type that is none");
     if (file >= columns.files.size()) refuse("a file that is none");
     if (record.name >= columns.text.size()) refuse("a name beyond the text");
+    if (record.corners != SurfaceRecord::kOwnCorners &&
+        (static_cast<PrimitiveType>(type) != PrimitiveType::polygon ||
+         std::size_t{record.corners} + kCorners > columns.corners.size()))
+        refuse("corners that are none");
     if (record.modifier < kVoidIndex || record.modifier >= static_cast<std::int64_t>(modifiers))
         refuse("a modifier that is none");
 }
@@ -66,8 +73,10 @@ std::vector<std::string> StringArguments::to_strings() const {
 SurfaceList::SurfaceList(Columns columns, std::size_t modifiers) : columns_(std::move(columns)) {
     const Columns& c = columns_;
     if (c.records.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) ||
-        c.reals.size() > kMost || c.text.size() > kMost)
+        c.reals.size() > kMost || c.corners.size() > kMost || c.text.size() > kMost)
         refuse("too many");
+    for (const std::uint32_t corner : c.corners)
+        if (std::size_t{corner} + 3 > c.reals.size()) refuse("a corner that is none");
     if (!c.text.empty() && c.text.back() != '\0') refuse("text without an end");
     std::uint32_t from = 0;
     for (const SurfaceRecord& record : c.records) {
@@ -97,14 +106,44 @@ std::uint32_t SurfaceList::add_text(std::string_view text) {
     return static_cast<std::uint32_t>(at);
 }
 
+std::uint32_t SurfaceList::add_reals(const SurfacePrimitive& surface) {
+    const RealArguments& reals = surface.reals;
+    if (surface.type == PrimitiveType::polygon && reals.size() == kTriangle)
+        return add_triangle(reals);
+    for (std::size_t i = 0; i < reals.size(); ++i) columns_.reals.push_back(reals[i]);
+    return SurfaceRecord::kOwnCorners;
+}
+
+/// Of a triangle that has corners of others, its places weigh less than its numbers; those of one
+/// that has none stand side by side, as of all other polygons.
+std::uint32_t SurfaceList::add_triangle(const RealArguments& reals) {
+    std::array<double, kTriangle> numbers{};
+    for (std::size_t i = 0; i < kTriangle; ++i) numbers[i] = reals[i];
+    std::array<std::uint32_t, kCorners> corners{};
+    for (std::size_t i = 0; i < kCorners; ++i)
+        corners[i] = recent_.find(&numbers[3 * i], columns_.reals.values());
+    const bool shares = std::ranges::any_of(
+        corners, [](std::uint32_t corner) { return corner != RecentCorners::kNone; });
+    for (std::size_t i = 0; i < kCorners; ++i) {
+        if (corners[i] != RecentCorners::kNone) continue;
+        corners[i] = static_cast<std::uint32_t>(columns_.reals.size());
+        columns_.reals.append(std::span(numbers).subspan(3 * i, 3));
+        recent_.note(&numbers[3 * i], corners[i]);
+    }
+    if (!shares) return SurfaceRecord::kOwnCorners;
+    const std::size_t place = columns_.corners.size();
+    columns_.corners.append(corners);
+    return static_cast<std::uint32_t>(place);
+}
+
 std::size_t SurfaceList::add_record(const SurfacePrimitive& surface) {
     const std::size_t number = size(), first = columns_.reals.size();
     if (number >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) ||
-        first + surface.reals.size() >= kMost)
+        first + surface.reals.size() >= kMost || columns_.corners.size() + kCorners >= kMost)
         throw InputError(surface.where(), "too many surfaces in one model");
     const std::uint32_t file = file_number(surface.file);
-    columns_.reals.append(surface.reals);
-    columns_.records.push_back({static_cast<std::uint32_t>(first), add_text(surface.name),
+    const std::uint32_t corners = add_reals(surface);
+    columns_.records.push_back({static_cast<std::uint32_t>(first), corners, add_text(surface.name),
                                 surface.modifier, surface.line,
                                 static_cast<std::uint32_t>(surface.type) << kFileBits | file});
     return number;
@@ -136,15 +175,11 @@ std::size_t SurfaceList::add(const Primitive& surface) {
                 &surface.where.file, surface.where.line});
 }
 
-void SurfaceList::expect(std::size_t surfaces, std::size_t reals, std::size_t text) {
-    columns_.records.reserve(size() + surfaces);
-    columns_.reals.reserve(columns_.reals.size() + reals);
-    columns_.text.reserve(columns_.text.size() + text);
-}
-
 void SurfaceList::trim() {
     columns_.records.trim();
     columns_.reals.trim();
+    columns_.corners.trim();
+    recent_.clear();
     columns_.text.trim();
     columns_.strings.trim();
     columns_.files.shrink_to_fit();
@@ -152,7 +187,6 @@ void SurfaceList::trim() {
 
 SurfacePrimitive SurfaceList::operator[](std::size_t i) const {
     const SurfaceRecord& record = columns_.records[i];
-    const std::size_t end = i + 1 < size() ? first_real(i + 1) : columns_.reals.size();
     SurfacePrimitive surface{type(i),
                              record.modifier,
                              columns_.text.data() + record.name,
@@ -160,7 +194,7 @@ SurfacePrimitive SurfaceList::operator[](std::size_t i) const {
                              {},
                              &columns_.files[record.file_and_type & ((1U << kFileBits) - 1)],
                              record.line};
-    surface.reals = {columns_.reals.data() + record.first_real, end - record.first_real};
+    surface.reals = reals(i);
     const auto* const strings = std::lower_bound(
         columns_.strings.data(), columns_.strings.data() + columns_.strings.size(), i,
         [](const SurfaceStrings& s, std::size_t number) { return s.surface < number; });
@@ -169,14 +203,23 @@ SurfacePrimitive SurfaceList::operator[](std::size_t i) const {
     return surface;
 }
 
+RealArguments SurfaceList::reals(std::size_t i) const {
+    const Columns& c = columns_;
+    if (shares_corners(i)) return {c.reals.data(), c.corners.values().subspan(place(i), kCorners)};
+    const std::size_t end = i + 1 < size() ? c.records[i + 1].first_real : c.reals.size();
+    return c.reals.values().subspan(place(i), end - place(i));
+}
+
 std::size_t SurfaceList::own_bytes() const {
-    return columns_.records.own_bytes() + columns_.reals.own_bytes() + columns_.text.own_bytes() +
-           columns_.strings.own_bytes() + columns_.files.capacity() * sizeof(FileName);
+    return columns_.records.own_bytes() + columns_.reals.own_bytes() +
+           columns_.corners.own_bytes() + columns_.text.own_bytes() + columns_.strings.own_bytes() +
+           columns_.files.capacity() * sizeof(FileName);
 }
 
 std::size_t SurfaceList::mapped_bytes() const {
     return columns_.records.mapped_bytes() + columns_.reals.mapped_bytes() +
-           columns_.text.mapped_bytes() + columns_.strings.mapped_bytes();
+           columns_.corners.mapped_bytes() + columns_.text.mapped_bytes() +
+           columns_.strings.mapped_bytes();
 }
 
 }  // namespace lightwalk

@@ -10,6 +10,8 @@
 #include "core/error.h"
 #include "core/model/column.h"
 #include "core/model/primitive_type.h"
+#include "core/model/real_arguments.h"
+#include "core/model/shared_corners.h"
 
 namespace lightwalk {
 
@@ -40,7 +42,7 @@ struct SurfacePrimitive {
     std::int32_t modifier = -1;  ///< into Model::modifiers; kVoidIndex for `void`
     std::string_view name;
     StringArguments strings;
-    std::span<const double> reals;
+    RealArguments reals;
     const FileName* file = nullptr;  ///< null: none
     std::int32_t line = 0;
 
@@ -51,8 +53,11 @@ struct SurfacePrimitive {
 
 /// What a surface weighs beside its text and its numbers.
 struct SurfaceRecord {
-    std::uint32_t first_real = 0;  ///< its reals end where those of the next surface begin
-    std::uint32_t name = 0;        ///< where it begins in the text
+    static constexpr std::uint32_t kOwnCorners = 0xffffffff;
+
+    std::uint32_t first_real = 0;  ///< its own reals end where those of the next surface begin
+    std::uint32_t corners = kOwnCorners;  ///< where those of a triangle begin that shares some
+    std::uint32_t name = 0;               ///< where it begins in the text
     std::int32_t modifier = -1;
     std::int32_t line = 0;
     std::uint32_t file_and_type = 0;  ///< the type in the uppermost eight bits
@@ -72,6 +77,7 @@ class SurfaceList {
     struct Columns {
         Column<SurfaceRecord> records;
         Column<double> reals;
+        Column<std::uint32_t> corners;   ///< in threes: where the numbers of each stand in `reals`
         Column<char> text;               ///< names and string arguments, each with a zero byte
         Column<SurfaceStrings> strings;  ///< in the order of the surfaces
         std::vector<FileName> files;
@@ -82,12 +88,10 @@ class SurfaceList {
     /// @param modifiers  how many modifiers the model has
     SurfaceList(Columns columns, std::size_t modifiers);
 
-    /// Add a surface; returns its number. Throws InputError when there are too many of anything
+    /// Add a surface of another list; returns its number. Throws InputError when there are too many of anything
     /// (some 2^31 surfaces, 2^32 reals or bytes of text, 2^24 files).
     std::size_t add(const SurfacePrimitive& surface);
     std::size_t add(const Primitive& surface);
-    /// Memory for so many surfaces, reals and bytes of text more; a guess.
-    void expect(std::size_t surfaces, std::size_t reals, std::size_t text);
     /// Nothing more comes.
     void trim();
 
@@ -100,11 +104,17 @@ class SurfaceList {
     [[nodiscard]] std::int32_t modifier(std::size_t i) const {
         return columns_.records[i].modifier;
     }
-    /// Where the reals of surface i begin in `reals`.
-    [[nodiscard]] std::uint32_t first_real(std::size_t i) const {
-        return columns_.records[i].first_real;
+    /// Whether surface i is a triangle whose corners are places in `reals`, and not all its own.
+    [[nodiscard]] bool shares_corners(std::size_t i) const {
+        return columns_.records[i].corners != SurfaceRecord::kOwnCorners;
     }
-    [[nodiscard]] const Column<double>& reals() const { return columns_.reals; }
+    /// Where the reals of surface i begin in `reals`; those of a triangle that shares corners, in
+    /// `corners`.
+    [[nodiscard]] std::uint32_t place(std::size_t i) const {
+        const SurfaceRecord& record = columns_.records[i];
+        return shares_corners(i) ? record.corners : record.first_real;
+    }
+    [[nodiscard]] RealArguments reals(std::size_t i) const;
     [[nodiscard]] const Columns& columns() const { return columns_; }
     /// In the process's own memory.
     [[nodiscard]] std::size_t own_bytes() const;
@@ -117,8 +127,12 @@ class SurfaceList {
     std::uint32_t file_number(const FileName* file);
     std::uint32_t add_text(std::string_view text);
     std::size_t add_record(const SurfacePrimitive& surface);
+    // These return where the places of its corners begin, if any.
+    std::uint32_t add_reals(const SurfacePrimitive& surface);
+    std::uint32_t add_triangle(const RealArguments& reals);
 
     Columns columns_;
+    RecentCorners recent_;  ///< until nothing more comes
 };
 
 }  // namespace lightwalk

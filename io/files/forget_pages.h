@@ -17,14 +17,10 @@ class FadingText {
     explicit FadingText(std::string& text) : text_(text) {}
 
     /// The first `offset` characters will not be looked at again; never less than before. Costs
-    /// nothing until another few megabytes are read. True: the first few are.
-    bool read_to(std::size_t offset) {
-        if (offset < forgotten_ + kStretch) return false;
-        const bool is_first = forgotten_ == 0;
-        forget_to(offset);
-        return is_first;
+    /// nothing until another few megabytes are read.
+    void read_to(std::size_t offset) {
+        if (offset >= forgotten_ + kStretch) forget_to(offset);
     }
-    [[nodiscard]] std::size_t size() const { return text_.size(); }
 
   private:
     static constexpr std::size_t kStretch = std::size_t{8} << 20;

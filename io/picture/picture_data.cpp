@@ -16,7 +16,7 @@ PictureData decode_picture(std::string_view bytes, const std::string& name) {
     data.axes[0].count = static_cast<std::uint32_t>(picture.height);
     data.axes[1].extent = static_cast<float>(width <= height ? 1 : width / height);
     data.axes[1].count = static_cast<std::uint32_t>(picture.width);
-    const std::span<Rgb> values = data.values.resize(picture.pixels.size());
+    const std::span<Rgb> values = data.values.zeros(picture.pixels.size());
     const auto row = static_cast<std::ptrdiff_t>(picture.width);
     for (std::ptrdiff_t y = 0; y < picture.height; ++y) {
         const auto from = picture.pixels.end() - (y + 1) * row;

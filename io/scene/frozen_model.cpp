@@ -121,6 +121,7 @@ SurfaceList thaw_surfaces(const FrozenFile& file, std::uint32_t number, std::vec
     SurfaceList::Columns columns;
     columns.records = column_of<SurfaceRecord>(file, FrozenKind::records, number);
     columns.reals = column_of<double>(file, FrozenKind::reals, number);
+    columns.corners = column_of<std::uint32_t>(file, FrozenKind::corners, number);
     columns.text = column_of<char>(file, FrozenKind::text, number);
     columns.strings = column_of<SurfaceStrings>(file, FrozenKind::strings, number);
     columns.files = std::move(files);
@@ -173,8 +174,6 @@ SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const Su
     columns.rings = column_of<RingShape>(file, FrozenKind::rings, number);
     columns.sources = column_of<SourceShape>(file, FrozenKind::sources, number);
     columns.warnings = std::move(warnings);
-    check_bools(file, columns.rows.values(),
-                offsetof(ShapeRow, manner) + offsetof(PolygonManner, is_rectangle));
     check_bools(file, columns.spheres.values(), offsetof(SphereShape, inward));
     check_bools(file, columns.cones.values(), offsetof(ConeShape, inward));
     check_shapes(file, columns);
@@ -231,6 +230,7 @@ void freeze_model(const Model& model, const SurfaceShapes& shapes, std::uint32_t
     parts.add(FrozenKind::model, number, writer.bytes());
     parts.add(FrozenKind::records, number, surfaces.records.values());
     parts.add(FrozenKind::reals, number, surfaces.reals.values());
+    parts.add(FrozenKind::corners, number, surfaces.corners.values());
     parts.add(FrozenKind::text, number, surfaces.text.values());
     parts.add(FrozenKind::strings, number, surfaces.strings.values());
     parts.add(FrozenKind::rows, number, shapes.columns().rows.values());

@@ -34,6 +34,7 @@ enum class FrozenKind : std::uint32_t {
     cones,
     rings,
     sources,
+    corners,
     // Of each mesh.
     mesh = 32,
     positions,

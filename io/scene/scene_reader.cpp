@@ -90,8 +90,7 @@ class SceneReader {
     void read_items(SceneTokenizer& tokens, const SourceLocation* outer, int depth,
                     FadingText* fading) {
         for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
-            if (fading != nullptr && fading->read_to(tokens.offset()))
-                expect_rest(tokens.offset(), fading->size());
+            if (fading != nullptr) fading->read_to(tokens.offset());
             switch (item) {
                 case SceneTokenizer::Item::comment:
                     tokens.comment();
@@ -171,17 +170,6 @@ class SceneReader {
                                std::move(text.reals),
                                {},
                                where});
-    }
-
-    /// Memory for the rest of a long text, of which the first `offset` characters are read.
-    void expect_rest(std::size_t offset, std::size_t size) {
-        const double rest = 1.02 * static_cast<double>(size - offset) / static_cast<double>(offset);
-        const auto more = [&](std::size_t count) {
-            return static_cast<std::size_t>(rest * static_cast<double>(count));
-        };
-        const SurfaceList::Columns& so_far = builder_.model().surfaces.columns();
-        builder_.expect(more(so_far.records.size()), more(so_far.reals.size()),
-                        more(so_far.text.size()));
     }
 
     /// The index of a primitive's modifier; void for a name that nothing has defined. `misfit`: set

@@ -29,6 +29,13 @@ MeshModel two_triangles() {
     return mesh;
 }
 
+template <class T, class Change>
+Column<T> changed(const Column<T>& column, const Change& change) {
+    std::vector<T> values(column.begin(), column.end());
+    change(values);
+    return Column<T>(values);
+}
+
 /// A scene with the mesh as model 1, placed by `transform`; surface 0 places it, surface 1 is
 /// the mesh's "M-Tri".
 TestModels placed(const MeshModel& mesh, const Transform& transform, bool overrides = false) {
@@ -137,20 +144,20 @@ TEST_CASE("damaged meshes are refused") {
     };
     MeshModel mesh = two_triangles();
     CHECK(build(mesh) == 1);
-    mesh.triangles.resize(2)[1].v[2] = 4;
+    mesh.triangles = changed(mesh.triangles, [](auto& all) { all[1].v[2] = 4; });
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such vertex", InputError);
     mesh = two_triangles();
-    mesh.triangles.resize(2)[0].material = 2;
+    mesh.triangles = changed(mesh.triangles, [](auto& all) { all[0].material = 2; });
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 0: no such material", InputError);
     mesh = two_triangles();
-    mesh.normals.resize(3);
+    mesh.normals = changed(mesh.normals, [](auto& all) { all.pop_back(); });
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such vertex normal", InputError);
     mesh = two_triangles();
-    mesh.vs.resize(3);
+    mesh.vs = changed(mesh.vs, [](auto& all) { all.pop_back(); });
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 1: no such texture coordinate",
                          InputError);
     mesh = two_triangles();
-    mesh.positions.resize(4)[0].x = std::nan("");
+    mesh.positions = changed(mesh.positions, [](auto& all) { all[0].x = std::nan(""); });
     CHECK_THROWS_WITH_AS(build(mesh), "m.rtm: mesh triangle 0: vertex out of range", InputError);
 }
 

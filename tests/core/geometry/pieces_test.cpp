@@ -104,4 +104,85 @@ TEST_CASE("every point that a polygon takes for its own is in one of its boxes")
     CHECK(most > 8);
 }
 
+TEST_CASE("every point that a small slanted triangle takes for its own is in its box") {
+    // The inside test's tolerance is an area: of short edges it reaches far.
+    RandomStream random(6);
+    int beyond = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const double size = std::pow(10, -4 * random.next());  // 1 m to .1 mm
+        std::vector<double> corners;
+        for (int i = 0; i < 9; ++i) corners.push_back(size * (random.next() - 0.5));
+        const ValidatedShape valid =
+            make_shape(test::kept_primitive(PrimitiveType::polygon, corners));
+        const auto* const polygon = std::get_if<PolygonShape>(&valid.shape);
+        if (polygon == nullptr) continue;
+        const Bounds box = hit_bounds(valid.shape), tight = grown(bounds_of(valid.shape), 4e-6);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 corner = polygon->vertices[static_cast<std::size_t>(i % 3)];
+            const Vec3 off{random.next() - 0.5, random.next() - 0.5, random.next() - 0.5};
+            const double reach = std::min(4e-6 / size, size);
+            const Vec3 p = onto_plane(*polygon, corner + off * reach);
+            if (!contains(*polygon, p, nullptr)) continue;
+            REQUIRE(contains(box, p));
+            beyond += contains(tight, p) ? 0 : 1;
+        }
+    }
+    CHECK(beyond > 100);
+}
+
+TEST_CASE("in a large model the two triangles of a cell are a pair, and rays meet each of them") {
+    constexpr int kSide = 262;
+    test::TestModels scene;
+    const auto point = [](int i, int j) {
+        return Vec3{0.01 * i, 0.01 * j, 0.02 * std::sin(0.1 * i) * std::cos(0.1 * j)};
+    };
+    for (int i = 0; i < kSide; ++i) {
+        for (int j = 0; j < kSide; ++j) {
+            for (const int half : {0, 1}) {
+                std::vector<double> corners;
+                for (const Vec3& p :
+                     {point(i, j), half == 0 ? point(i + 1, j) : point(i + 1, j + 1),
+                      half == 0 ? point(i + 1, j + 1) : point(i, j + 1)})
+                    corners.insert(corners.end(), {p.x, p.y, p.z});
+                scene.add(surface(PrimitiveType::polygon, corners, 0, test::kOpaque));
+            }
+        }
+    }
+    scene.add(surface(PrimitiveType::sphere, {1, 1, 1, .1}, 0, test::kOpaque));
+    const test::TestModels::Tables tables(scene);
+    const ModelPrimitives model(tables.surfaces, tables.input.models[0], TeamOfOne());
+    const Pieces pieces = divide_primitives(model, TeamOfOne());
+    CHECK(pieces.pairs > std::size_t{kSide} * kSide * 9 / 10);
+    std::vector<int> times(model.size());
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+        for (std::uint32_t k = 0; k < pieces.count(piece); ++k) {
+            const std::uint32_t primitive = pieces.primitive(piece) + k;
+            ++times[primitive];
+            const Bounds own = model.hit_bounds(primitive);
+            REQUIRE(contains(pieces.box(piece, model), own.lower));
+            REQUIRE(contains(pieces.box(piece, model), own.upper));
+        }
+    }
+    CHECK(std::ranges::all_of(times, [](int n) { return n == 1; }));
+
+    const Geometry geometry(tables.input);
+    RandomStream random(7);
+    for (int ray = 0; ray < 30; ++ray) {
+        const Vec3 from{3 * random.next(), 3 * random.next(), 1 + random.next()};
+        const Vec3 to{2.6 * random.next(), 2.6 * random.next(), 0};
+        const Vec3 direction = normalize(to - from);
+        double nearest = kHuge;
+        for (std::uint32_t i = 0; i < model.size(); ++i) {
+            const auto hit = model.intersect(i, from, direction, nearest);
+            if (hit) nearest = hit->t;
+        }
+        const Hit hit = geometry.intersect({from, direction});
+        REQUIRE(hit.exists() == (nearest < kHuge));
+        if (hit.exists()) REQUIRE(hit.t == doctest::Approx(nearest).epsilon(1e-6));
+        const bool blocked =
+            geometry.visibility({from, direction}, kNoSurface) != Visibility::clear;
+        REQUIRE(blocked == hit.exists());
+    }
+}
+
 }  // namespace lightwalk

@@ -90,6 +90,45 @@ TEST_CASE("the table of shapes holds what make_shape makes of each surface") {
     CHECK(backward.columns().warnings == warnings);
 }
 
+TEST_CASE("triangles that share corners have the shapes that they have alone") {
+    SurfaceList list;
+    Random random(4);
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 40; ++i) corners.push_back(random.in_box(2));
+    std::vector<TestSurface> alone;
+    for (int i = 0; i < 500; ++i) {
+        std::vector<double> reals;
+        for (int k = 0; k < 3; ++k) {
+            const Vec3& p = corners[static_cast<std::size_t>(random.below(40))];
+            reals.insert(reals.end(), {p.x, p.y, p.z});
+        }
+        alone.push_back(surface(PrimitiveType::polygon, reals, 0, kOpaque));
+        list.add(alone.back());
+    }
+    const SurfaceShapes shapes = make_shapes(list, TeamOfOne());
+    const SurfaceShapes again = StoredShapes(shapes).shapes(list);
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const ValidatedShape valid = make_shape(view_of(alone[i]));
+        REQUIRE(same_shape(shapes.shape(list, i), valid.shape));
+        REQUIRE(same_shape(again.shape(list, i), valid.shape));
+        const ShapeRow& row = shapes.row(i);
+        if (row.manner.outline == Outline::shared) ++shared;
+        if (row.kind != ShapeKind::polygon) continue;  // two corners the same: no area
+        const auto& numbers = list.columns();
+        for (int ray = 0; ray < 20; ++ray) {
+            const Vec3 from = random.in_box(3), direction = random.direction();
+            const auto hit = intersect(row.plane, row.manner,
+                                       {numbers.reals.data(), numbers.corners.data()}, from,
+                                       direction, kHuge),
+                       other = intersect(valid.shape, from, direction, kHuge);
+            REQUIRE(hit.has_value() == other.has_value());
+            if (hit) REQUIRE(hit->t == other->t);
+        }
+    }
+    CHECK(shared > 400);
+}
+
 TEST_CASE("of bad surfaces the first in the list's order is told") {
     SurfaceList list = many_surfaces(3 * kGrain);
     for (const int line : {100001, 100002}) {
@@ -129,6 +168,8 @@ TEST_CASE("stored shapes are taken where they fit their list, and refused elsewh
     refuses([&](StoredShapes& s) { s.rows[sphere].type = static_cast<PrimitiveType>(200); });
     refuses([&](StoredShapes& s) { s.rows[sphere].modifier = 555; });
     refuses([&](StoredShapes& s) { s.rows[polygon].manner.drop_axis = 3; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].manner.outline = Outline::shared; });
+    refuses([&](StoredShapes& s) { s.rows[polygon].manner.outline = static_cast<Outline>(3); });
     refuses([&](StoredShapes& s) { s.rows[polygon].plane.first += 3; });
     refuses([&](StoredShapes& s) { s.rows[polygon].plane.corners += 1; });
     refuses([&](StoredShapes& s) { s.rows[polygon].plane.corners = 2; });

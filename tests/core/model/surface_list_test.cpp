@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
+
 #include "core/model/primitive.h"
 #include "tests/all_primitives.h"
 
@@ -34,21 +37,43 @@ struct Stored {
     explicit Stored(const SurfaceList& list)
         : records(list.columns().records.begin(), list.columns().records.end()),
           reals(list.columns().reals.begin(), list.columns().reals.end()),
+          corners(list.columns().corners.begin(), list.columns().corners.end()),
           text(list.columns().text.begin(), list.columns().text.end()),
           strings(list.columns().strings.begin(), list.columns().strings.end()),
           files(list.columns().files) {}
     [[nodiscard]] SurfaceList list(std::size_t modifiers = 0) const {
-        return SurfaceList(
-            {Column<SurfaceRecord>::mapped(records), Column<double>::mapped(reals),
-             Column<char>::mapped(text), Column<SurfaceStrings>::mapped(strings), files},
-            modifiers);
+        return SurfaceList({Column<SurfaceRecord>::mapped(records), Column<double>::mapped(reals),
+                            Column<std::uint32_t>::mapped(corners), Column<char>::mapped(text),
+                            Column<SurfaceStrings>::mapped(strings), files},
+                           modifiers);
     }
     std::vector<SurfaceRecord> records;
     std::vector<double> reals;
+    std::vector<std::uint32_t> corners;
     std::vector<char> text;
     std::vector<SurfaceStrings> strings;
     std::vector<FileName> files;
 };
+
+/// A wave of side x side cells, each two triangles; and a ball after every thousandth.
+std::vector<Primitive> wave(int side) {
+    std::vector<Primitive> all;
+    const auto point = [&](int i, int j) {
+        return std::array{0.1 * i, -0.1 * j, std::sin(0.3 * i) * std::cos(0.2 * j)};
+    };
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < 2 * side; ++j) {
+            const int k = j / 2;
+            std::vector<double> reals;
+            for (const auto& p : {point(i, k), j % 2 == 0 ? point(i + 1, k) : point(i + 1, k + 1),
+                                  j % 2 == 0 ? point(i + 1, k + 1) : point(i, k + 1)})
+                reals.insert(reals.end(), p.begin(), p.end());
+            all.push_back(make(PrimitiveType::polygon, "wave.1.2", reals));
+            if (all.size() % 1000 == 0) all.push_back(samples()[0]);
+        }
+    }
+    return all;
+}
 
 void check_same(const SurfaceList& list, const std::vector<Primitive>& expected) {
     REQUIRE(list.size() == expected.size());
@@ -85,6 +110,35 @@ TEST_CASE("a polygon of four vertices weighs what its numbers weigh, and some th
     CHECK(list.own_bytes() <= std::size_t{10000} * (12 * sizeof(double) + 20 + 10) * 9 / 8 + 100);
 }
 
+TEST_CASE("triangles of a surface keep each of its corners about once") {
+    const std::vector<Primitive> all = wave(150);  // 45,000 triangles, 22,801 corners
+    SurfaceList list = list_of(all);
+    list.trim();
+    check_same(list, all);
+    CHECK(list.shares_corners(1));
+    CHECK(list.columns().reals.size() < std::size_t{3} * 22801 * 11 / 10);
+    CHECK(list.own_bytes() < all.size() * (sizeof(SurfaceRecord) + 12 + 14 + 10));
+    const Stored stored(list);
+    const SurfaceList again = stored.list();
+    check_same(again, all);
+}
+
+TEST_CASE("corners are the same where all their bits are, and may be the same in one triangle") {
+    const std::vector<Primitive> all{
+        make(PrimitiveType::polygon, "a", {0, 0, 0, 1, 0, 0, 0, 1, 0}),
+        make(PrimitiveType::polygon, "b", {-0.0, 0, 0, 1, 0, 0, 0, 1, 0}),
+        make(PrimitiveType::polygon, "c", {5, 6, 7, 5, 6, 7, 5, 6, 7}),
+        make(PrimitiveType::polygon, "d", {5, 6, 7, 5, 6, 7, 1, 0, 0}),
+        make(PrimitiveType::cylinder, "e", {0, 0, 0, 1, 0, 0, 2}),
+        make(PrimitiveType::polygon, "f", {1, 0, 0, 9, 9, 9, 8, 8, 8})};
+    const SurfaceList list = list_of(all);
+    check_same(list, all);
+    CHECK(std::signbit(list[1].reals[0]));
+    CHECK_FALSE(std::signbit(list[0].reals[0]));
+    CHECK_FALSE(list.shares_corners(2));
+    CHECK(list.shares_corners(5));
+}
+
 TEST_CASE("stored columns give the same list, without memory of its own") {
     const Stored stored(list_of(samples()));
     const SurfaceList list = stored.list();
@@ -116,4 +170,8 @@ TEST_CASE("columns that no list has stored are refused") {
     refuses([](Stored& s) { s.strings[1].text = 0; });
     refuses([](Stored& s) { s.strings[0].count = 4'000'000'000; });
     CHECK_NOTHROW(static_cast<void>(good.list()));
+    refuses([](Stored& s) { s.records[4].corners = 0; });  // there are none
+    refuses([](Stored& s) { s.corners = {0, 3, 12}, s.records[4].corners = 0; });
+    refuses([](Stored& s) { s.corners = {0, 3, 6}, s.records[4].corners = 1; });
+    refuses([](Stored& s) { s.corners = {0, 3, 6}, s.records[0].corners = 0; });  // a sphere
 }

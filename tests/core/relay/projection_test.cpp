@@ -88,7 +88,7 @@ TEST_CASE("prism: light bent at the plane seems to come from the projected sourc
 TEST_CASE("relay disks: a polygon's vertices, a ring's outline, nothing else") {
     PolygonShape square;
     const std::array<double, 12> corners{0, 0, 2, 2, 0, 2, 2, 2, 2, 0, 2, 2};
-    square.vertices = PointList(corners);
+    square.vertices = PointList(std::span<const double>(corners));
     square.normal = {0, 0, 1};
     square.offset = 2;
     const auto disk = relay_disk(Shape{square});
