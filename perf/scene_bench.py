@@ -5,7 +5,8 @@
   scene_bench.py --lightwalk PROGRAM [--sides 100,316,1000] [--runs 3] [--threads N] [--reference FOLDER] [--size N]
 
 For each side: side x side rectangles as text (tiles), the same from a frozen scene (frozen), a surface of side x side cells from
-gensurf, two triangles each where the four corners are in no plane (surface); a hundred times side / 100 instances of a patch of
+gensurf, two triangles each where the four corners are in no plane (surface); the same as a compiled mesh with normals and texture
+coordinates (mesh); a hundred times side / 100 instances of a patch of
 10,000 quadrilaterals, each row of them an instance itself, where an oconv is found (in FOLDER, with the other programs of
 Radiance, or on PATH); and the summer cabin (--scenes DIR, Radiance's sample models), as text and frozen. All under one lamp. One
 line a scene, tab-separated:
@@ -20,7 +21,7 @@ Then, where there is an mpirun, what a second rank on this machine adds to the m
 midst of a picture), from text and frozen. Exit code 1 where memory is above its bounds, which are told, or a frozen scene's picture
 is another than that of its text; seconds are not judged.
 """
-import argparse, json, math, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
+import argparse, json, math, os, pathlib, re, shutil, statistics, struct, subprocess, sys, tempfile, time
 
 LAMP = """void plastic stuff 0 0 5 .5 .5 .5 0 0
 void light shine 0 0 3 100 100 100
@@ -61,10 +62,41 @@ def write_tiles(path, side):
             file.write("".join(lines))
 
 
+def mesh_reals(*values):
+    """Five bytes each: 31 bits of mantissa, and the exponent."""
+    parts = [math.frexp(value) for value in values]
+    return b"".join(struct.pack(">ib", int(fraction * 0x7fffffff), exponent if fraction else 0) for fraction, exponent in parts)
+
+
+def write_mesh(path, side):
+    """The wave, of about side x side cells of two triangles, as Radiance's obj2mesh writes it; returns the triangles. A patch is
+    15 x 15 cells: 256 vertices, the most that one holds."""
+    cells = 15
+    patches = max(side // cells, 1)
+    local = b"".join(bytes((at, at + 1, at + 17)) + bytes((at, at + 17, at + 16)) for i in range(cells) for j in range(cells)
+                     for at in (16 * i + j,))
+    normals, uvs = struct.pack(">I", 0x40100010) * 256, struct.pack(">II", 1 << 30, 1 << 30) * 256
+    heights = [[int((0.5 + 0.05 * math.sin(20 * i / cells / patches) * math.cos(23 * j / cells / patches)) * (2**32 - 1))
+                for j in range(cells * patches + 1)] for i in range(cells * patches + 1)]
+    place = [int(i / cells / patches * (2**32 - 1)) for i in range(cells * patches + 1)]
+    with open(path, "wb") as file:
+        file.write(b"#?RADIANCE\nobj2mesh\nFORMAT=Radiance_tmesh\n\n" + struct.pack(">h", 323) + b"-5\0-5\0-5\x0010\0")
+        file.write(mesh_reals(0, 1, 0, 1) + b"\0" + b"plastic\0\0" + struct.pack(">bi", 0, -1) + b"grey\0" + struct.pack(">hh", 0, 5))
+        file.write(mesh_reals(.5, .5, .5, 0, 0) + struct.pack(">bi", -1, patches * patches))
+        for a in range(patches):
+            for b in range(patches):
+                corners = [(i, j) for i in range(a * cells, (a + 1) * cells + 1) for j in range(b * cells, (b + 1) * cells + 1)]
+                positions = b"".join(struct.pack(">III", place[i], place[j], heights[i][j]) for i, j in corners)
+                file.write(struct.pack(">Bh", 7, 256) + positions + normals + uvs + struct.pack(">h", 2 * cells * cells) + local)
+                file.write(struct.pack(">hhhh", 1, 0, 0, 0))
+    return 2 * (cells * patches) ** 2
+
+
 class Bounds:
     """What memory may take: each is told once where it is exceeded."""
     MOST_BYTES, MANY = 250, 1_000_000       # a polygon of four vertices, in models of so many
-    MOST_OF_FIVE_MILLION = 1.5e9            # [bytes]
+    MOST_OF_FIVE_MILLION = 1.5e9            # [bytes], cells of two triangles, too
+    MOST_OF_TRIANGLE = 120                  # [bytes], in meshes of MANY
     MOST_OF_SECOND_RANK = 0.2               # of the first one's
     MOST_OF_CABIN = 60e6                    # [bytes], with a picture of 640 x 480
 
@@ -228,7 +260,17 @@ def main():
             os.unlink(frozen)
         for side in sides:
             pathlib.Path(scene).write_text(LAMP + SURFACE.format(side))
-            tell("surface", surfaces_of(arguments, scene) - 1, measure(arguments, arguments.scratch, [scene]), least)
+            result = measure(arguments, arguments.scratch, [scene])
+            tell("surface", surfaces_of(arguments, scene) - 1, result, least)
+            if 4.9e6 < side * side < 5.1e6:
+                bounds.check(f"{side} x {side} cells of gensurf: bytes", result[2], bounds.MOST_OF_FIVE_MILLION)
+        for side in sides:
+            triangles = write_mesh(os.path.join(arguments.scratch, "wave.rtm"), side)
+            pathlib.Path(scene).write_text(LAMP + "void mesh wave 1 wave.rtm 0 0\n")
+            result = measure(arguments, arguments.scratch, [scene])
+            tell("mesh", triangles, result, least)
+            if triangles >= bounds.MANY:
+                bounds.check(f"mesh of {triangles}: bytes a triangle", (result[2] - least) / triangles, bounds.MOST_OF_TRIANGLE)
         for side in sides:
             rows = max(side // 10, 1)
             instances = instanced_scene(arguments, rows)

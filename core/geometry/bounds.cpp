@@ -6,6 +6,14 @@
 namespace lightwalk {
 namespace {
 
+/// Millions of these make the boxes of a large model.
+[[gnu::always_inline]] inline void include(Bounds& bounds, const Vec3& p) {
+    bounds.lower = {std::min(bounds.lower.x, p.x), std::min(bounds.lower.y, p.y),
+                    std::min(bounds.lower.z, p.z)};
+    bounds.upper = {std::max(bounds.upper.x, p.x), std::max(bounds.upper.y, p.y),
+                    std::max(bounds.upper.z, p.z)};
+}
+
 /// Extends the box by a disc: along each axis it reaches radius * sin(angle between axis and
 /// normal).
 void extend_by_disc(Bounds& bounds, const Vec3& center, const Vec3& normal, double radius) {
@@ -37,21 +45,24 @@ double reach_off_edges(const PolygonShape& polygon) {
 }  // namespace
 
 void Bounds::extend(const Vec3& p) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+    include(*this, p);
 }
 
 void extend(Bounds& bounds, const Bounds& other) {
     if (other.empty()) return;
-    bounds.extend(other.lower);
-    bounds.extend(other.upper);
+    const Bounds before = bounds;
+    for (std::size_t k = 0; k < 3; ++k) {
+        bounds.lower[k] = std::min(before.lower[k], other.lower[k]);
+        bounds.upper[k] = std::max(before.upper[k], other.upper[k]);
+    }
 }
 
 Bounds bounds_of(const Shape& shape) {
     Bounds bounds;
     if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        for (const Vec3 vertex : polygon->vertices) bounds.extend(vertex);
-    } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+        return bounds_of(*polygon);
+    }
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
         const Vec3 reach{sphere->radius, sphere->radius, sphere->radius};
         bounds.extend(sphere->center - reach);
         bounds.extend(sphere->center + reach);
@@ -64,21 +75,33 @@ Bounds bounds_of(const Shape& shape) {
     return bounds;
 }
 
+Bounds bounds_of(const PolygonShape& polygon) {
+    Bounds bounds;
+    for (const Vec3 vertex : polygon.vertices) include(bounds, vertex);
+    return bounds;
+}
+
 Bounds hit_bounds(const Shape& shape) {
-    Bounds bounds = bounds_of(shape);
-    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        // Hits lie on the mean plane: drop each vertex onto it along the axis that the inside test
-        // ignores.
-        const auto axis = static_cast<std::size_t>(polygon->drop_axis);
-        for (Vec3 vertex : polygon->vertices) {
-            vertex[axis] +=
-                (polygon->offset - dot(polygon->normal, vertex)) / polygon->normal[axis];
-            bounds.extend(vertex);
-        }
-        const double reach = reach_off_edges(*polygon);
-        bounds.lower[axis] -= reach;
-        bounds.upper[axis] += reach;
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) return hit_bounds(*polygon);
+    return grown(bounds_of(shape), 4 * kEpsilon);
+}
+
+Bounds hit_bounds(const PolygonShape& polygon) {
+    // Hits lie on the mean plane: drop each vertex onto it along the axis that the inside test
+    // ignores.
+    const auto axis = static_cast<std::size_t>(polygon.drop_axis);
+    Bounds bounds;
+    double lowest = kHuge, highest = -kHuge;
+    for (const Vec3 vertex : polygon.vertices) {
+        include(bounds, vertex);
+        const double dropped =
+            vertex[axis] + (polygon.offset - dot(polygon.normal, vertex)) / polygon.normal[axis];
+        lowest = std::min(lowest, dropped);
+        highest = std::max(highest, dropped);
     }
+    const double reach = reach_off_edges(polygon);
+    bounds.lower[axis] = std::min(bounds.lower[axis], lowest) - reach;
+    bounds.upper[axis] = std::max(bounds.upper[axis], highest) + reach;
     return grown(bounds, 4 * kEpsilon);
 }
 

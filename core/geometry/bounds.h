@@ -11,10 +11,12 @@ namespace lightwalk {
 
 /// Smallest box around the surface (a polygon: around its vertices). Empty for sources and nothing.
 [[nodiscard]] Bounds bounds_of(const Shape& shape);
+[[nodiscard]] Bounds bounds_of(const PolygonShape& polygon);
 
 /// Box of every point at which `intersect` can report a hit: wider than bounds_of by the tolerances
 /// of the inside rules, and by what a non-planar polygon's vertices lie off its mean plane.
 [[nodiscard]] Bounds hit_bounds(const Shape& shape);
+[[nodiscard]] Bounds hit_bounds(const PolygonShape& polygon);
 
 /// The box, grown by `margin` on every side [m]; an empty one stays empty.
 [[nodiscard]] Bounds grown(Bounds bounds, double margin);

@@ -87,10 +87,16 @@ ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeomet
 void ModelPrimitives::find_bounds(const Team& team) {
     std::vector<Bounds> own(part_count(size_)), hits(own.size());
     for_each_part(team, size_, [&](std::size_t part, std::size_t first, std::size_t last) {
+        Bounds all_hits, all_own;  // not in place: other threads' parts lie beside it
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-            extend(hits[part], hit_bounds(i));
-            if (i < own_) extend(own[part], bounds_of(part_->shapes->shape(*part_->list, i)));
+            extend(all_hits, hit_bounds(i));
+            if (is_triangle(i)) continue;
+            const std::optional<PolygonShape> shape = polygon(i);
+            extend(all_own,
+                   shape ? bounds_of(*shape) : bounds_of(part_->shapes->shape(*part_->list, i)));
         }
+        hits[part] = all_hits;
+        own[part] = all_own;
     });
     for (const Bounds& part : own) extend(bounds_, part);
     for (const Bounds& part : hits) extend(all_hit_bounds_, part);
@@ -149,8 +155,11 @@ std::optional<PolygonShape> ModelPrimitives::polygon(std::uint32_t primitive) co
 }
 
 Bounds ModelPrimitives::hit_bounds(std::uint32_t primitive) const {
-    if (!is_triangle(primitive))
+    if (!is_triangle(primitive)) {
+        if (rows_[primitive].kind == ShapeKind::polygon)  // no variant for most
+            return lightwalk::hit_bounds(part_->shapes->polygon(*part_->list, primitive));
         return lightwalk::hit_bounds(part_->shapes->shape(*part_->list, primitive));
+    }
     const TriangleRef ref = triangle(primitive);
     Bounds bounds;
     for (int i = 0; i < 3; ++i) bounds.extend(ref.corner(i));

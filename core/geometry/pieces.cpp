@@ -264,7 +264,7 @@ class Division {
     [[nodiscard]] bool is_candidate(std::uint32_t primitive) const {
         const std::optional<PolygonShape> shape = model_.polygon(primitive);
         return shape && shape->vertices.size() <= kMostVertices &&
-               half_area(model_.hit_bounds(primitive)) > least_;
+               half_area(hit_bounds(*shape)) > least_;
     }
 
     /// @param primitive  a candidate. False: it is not worth dividing.

@@ -54,6 +54,8 @@ class Column {
     [[nodiscard]] auto begin() const { return values_.begin(); }
     [[nodiscard]] auto end() const { return values_.end(); }
     [[nodiscard]] std::span<const T> values() const { return values_; }
+    /// To be changed; not of a mapped column.
+    [[nodiscard]] std::span<T> own_values() { return {own_.get(), own_ ? size() : 0}; }
     [[nodiscard]] bool is_mapped() const { return own_ == nullptr && !values_.empty(); }
     /// In the process's own memory: nothing for mapped values, which processes share.
     [[nodiscard]] std::size_t own_bytes() const { return capacity_ * sizeof(T); }

@@ -17,7 +17,8 @@ namespace lightwalk {
 namespace {
 
 constexpr std::int64_t kMeshMagic = 319;
-constexpr std::uint64_t kPatchSize = 256;
+constexpr std::uint32_t kPatchSize = 256;
+constexpr std::int64_t kMostPatches = std::int64_t{1} << 24;  ///< that vertex ids of 32 bits tell
 constexpr std::int64_t kMostLocalTriangles = 512, kMostJoiners = 256;
 constexpr unsigned kHasPositions = 1, kHasNormals = 2, kHasUvs = 4;
 
@@ -26,19 +27,14 @@ struct Patch {
     std::uint32_t first = 0, count = 0;
 };
 
-/// A triangle whose corners may lie in patches that are not read yet: vertex ids, patch · 256 +
-/// index.
-struct RawTriangle {
-    std::array<std::uint64_t, 3> corner{};
-    std::int32_t material = kVoidIndex;
-};
-
 /// A coordinate code c stands for the middle of its cell, (c + 0.5) / 2^32 of the range.
 double fraction_of(std::uint64_t code) {
     return (static_cast<double>(code) + 0.5) / 4294967296.0;
 }
 
 class MeshDecoder {
+    using Triangle = MeshModel::Triangle;
+
   public:
     MeshDecoder(std::string_view bytes, const std::string& name) : reader_(bytes, name, "mesh") {}
 
@@ -52,8 +48,9 @@ class MeshDecoder {
         read_materials(static_cast<int>(id_size));
         const std::int64_t patches = reader_.integer(4);
         if (patches < 0) reader_.fail("negative number of patches");
-        for (std::int64_t i = 0; i < patches; ++i) read_patch(static_cast<std::uint64_t>(i));
-        for (const RawTriangle& raw : raw_) add_triangle(raw);
+        if (patches > kMostPatches) reader_.fail("too many patches");
+        for (std::int64_t i = 0; i < patches; ++i) read_patch(static_cast<std::uint32_t>(i));
+        for (Triangle& triangle : mesh_.triangles.own_values()) settle(triangle);
         drop_unused_tables();
         trim();
         return std::move(mesh_);
@@ -69,7 +66,7 @@ class MeshDecoder {
         mesh_.materials = std::move(*builder.take());
     }
 
-    void read_patch(std::uint64_t number) {
+    void read_patch(std::uint32_t number) {
         const auto flags = static_cast<unsigned>(reader_.unsigned_integer(1));
         if ((flags & kHasPositions) == 0 || flags > (kHasPositions | kHasNormals | kHasUvs)) {
             reader_.fail("bad flags of patch " + std::to_string(number));
@@ -137,57 +134,58 @@ class MeshDecoder {
         return count;
     }
 
-    std::uint64_t read_corner(std::uint64_t patch) {
-        return patch * kPatchSize + reader_.unsigned_integer(1);
+    /// A vertex id: patch · 256 + index.
+    std::uint32_t read_id() { return static_cast<std::uint32_t>(reader_.unsigned_integer(4)); }
+    std::uint32_t read_corner(std::uint32_t patch) {
+        return patch * kPatchSize + static_cast<std::uint32_t>(reader_.unsigned_integer(1));
     }
 
     std::int32_t read_material() { return static_cast<std::int32_t>(reader_.integer(2)); }
 
-    void read_local_triangles(std::uint64_t patch) {
+    void read_local_triangles(std::uint32_t patch) {
         const std::int64_t count = read_bounded(kMostLocalTriangles, "triangles");
-        const std::size_t first = raw_.size();
+        const std::size_t first = mesh_.triangles.size();
         for (std::int64_t i = 0; i < count; ++i) {
-            RawTriangle triangle;
-            for (std::uint64_t& corner : triangle.corner) corner = read_corner(patch);
-            raw_.push_back(triangle);
+            Triangle triangle;
+            for (std::uint32_t& corner : triangle.v) corner = read_corner(patch);
+            mesh_.triangles.push_back(triangle);
         }
         const std::int64_t materials = reader_.integer(2);
         const std::int32_t common = materials > 1 ? kVoidIndex : read_material();
-        for (std::size_t i = first; i < raw_.size(); ++i) {
-            raw_[i].material = materials > 1 ? read_material() : common;
-        }
+        for (Triangle& triangle : mesh_.triangles.own_values().subspan(first))
+            triangle.material = materials > 1 ? read_material() : common;
     }
 
-    void read_single_joiners(std::uint64_t patch) {
+    void read_single_joiners(std::uint32_t patch) {
         const std::int64_t count = read_bounded(kMostJoiners, "joining triangles");
         for (std::int64_t i = 0; i < count; ++i) {
-            RawTriangle triangle;
-            triangle.corner[0] = reader_.unsigned_integer(4);
-            triangle.corner[1] = read_corner(patch);
-            triangle.corner[2] = read_corner(patch);
+            Triangle triangle;
+            triangle.v[0] = read_id();
+            triangle.v[1] = read_corner(patch);
+            triangle.v[2] = read_corner(patch);
             triangle.material = read_material();
-            raw_.push_back(triangle);
+            mesh_.triangles.push_back(triangle);
         }
     }
 
-    void read_double_joiners(std::uint64_t patch) {
+    void read_double_joiners(std::uint32_t patch) {
         const std::int64_t count = read_bounded(kMostJoiners, "joining triangles");
         for (std::int64_t i = 0; i < count; ++i) {
-            RawTriangle triangle;
-            triangle.corner[0] = reader_.unsigned_integer(4);
-            triangle.corner[1] = reader_.unsigned_integer(4);
-            triangle.corner[2] = read_corner(patch);
+            Triangle triangle;
+            triangle.v[0] = read_id();
+            triangle.v[1] = read_id();
+            triangle.v[2] = read_corner(patch);
             triangle.material = read_material();
-            raw_.push_back(triangle);
+            mesh_.triangles.push_back(triangle);
         }
     }
 
-    std::uint32_t vertex_index(std::uint64_t id) const {
-        const std::uint64_t patch = id / kPatchSize, local = id % kPatchSize;
+    std::uint32_t vertex_index(std::uint32_t id) const {
+        const std::uint32_t patch = id / kPatchSize, local = id % kPatchSize;
         if (patch >= patches_.size() || local >= patches_[patch].count) {
             reader_.fail("triangle corner " + std::to_string(id) + " does not exist");
         }
-        return patches_[patch].first + static_cast<std::uint32_t>(local);
+        return patches_[patch].first + local;
     }
 
     std::int32_t material_index(std::int32_t number) const {
@@ -199,18 +197,17 @@ class MeshDecoder {
         return number;
     }
 
-    void add_triangle(const RawTriangle& raw) {
-        MeshModel::Triangle triangle;
-        triangle.material = material_index(raw.material);
+    /// Once all patches are read: until then a triangle's corners are vertex ids.
+    void settle(Triangle& triangle) {
+        triangle.material = material_index(triangle.material);
         triangle.has_normals = triangle.has_uvs = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-            triangle.v[k] = vertex_index(raw.corner[k]);
-            triangle.has_normals = triangle.has_normals && has_normal_[triangle.v[k]];
-            triangle.has_uvs = triangle.has_uvs && has_uv_[triangle.v[k]];
+        for (std::uint32_t& corner : triangle.v) {
+            corner = vertex_index(corner);
+            triangle.has_normals = triangle.has_normals && has_normal_[corner];
+            triangle.has_uvs = triangle.has_uvs && has_uv_[corner];
         }
         any_normals_ = any_normals_ || triangle.has_normals;
         any_uvs_ = any_uvs_ || triangle.has_uvs;
-        mesh_.triangles.push_back(triangle);
     }
 
     void drop_unused_tables() {
@@ -233,7 +230,6 @@ class MeshDecoder {
     ModelCube cube_;
     std::array<double, 4> uv_range_{};  ///< u_min, u_max, v_min, v_max
     std::vector<Patch> patches_;
-    std::vector<RawTriangle> raw_;
     std::vector<bool> has_normal_, has_uv_;
     bool any_normals_ = false, any_uvs_ = false;
     MeshModel mesh_;
