@@ -76,9 +76,10 @@ def write_mesh(path, side):
     local = b"".join(bytes((at, at + 1, at + 17)) + bytes((at, at + 17, at + 16)) for i in range(cells) for j in range(cells)
                      for at in (16 * i + j,))
     normals, uvs = struct.pack(">I", 0x40100010) * 256, struct.pack(">II", 1 << 30, 1 << 30) * 256
-    heights = [[int((0.5 + 0.05 * math.sin(20 * i / cells / patches) * math.cos(23 * j / cells / patches)) * (2**32 - 1))
-                for j in range(cells * patches + 1)] for i in range(cells * patches + 1)]
-    place = [int(i / cells / patches * (2**32 - 1)) for i in range(cells * patches + 1)]
+    most, steps = 2**32 - 1, [i / cells / patches for i in range(cells * patches + 1)]
+    # No table of all heights: what a process has held before it runs another program counts as that one's peak.
+    along, across = [0.05 * math.sin(20 * step) for step in steps], [math.cos(23 * step) for step in steps]
+    place = [int(step * most) for step in steps]
     with open(path, "wb") as file:
         file.write(b"#?RADIANCE\nobj2mesh\nFORMAT=Radiance_tmesh\n\n" + struct.pack(">h", 323) + b"-5\0-5\0-5\x0010\0")
         file.write(mesh_reals(0, 1, 0, 1) + b"\0" + b"plastic\0\0" + struct.pack(">bi", 0, -1) + b"grey\0" + struct.pack(">hh", 0, 5))
@@ -86,7 +87,8 @@ def write_mesh(path, side):
         for a in range(patches):
             for b in range(patches):
                 corners = [(i, j) for i in range(a * cells, (a + 1) * cells + 1) for j in range(b * cells, (b + 1) * cells + 1)]
-                positions = b"".join(struct.pack(">III", place[i], place[j], heights[i][j]) for i, j in corners)
+                positions = b"".join(struct.pack(">III", place[i], place[j], int((0.5 + along[i] * across[j]) * most))
+                                     for i, j in corners)
                 file.write(struct.pack(">Bh", 7, 256) + positions + normals + uvs + struct.pack(">h", 2 * cells * cells) + local)
                 file.write(struct.pack(">hhhh", 1, 0, 0, 0))
     return 2 * (cells * patches) ** 2

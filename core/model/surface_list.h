@@ -88,8 +88,8 @@ class SurfaceList {
     /// @param modifiers  how many modifiers the model has
     SurfaceList(Columns columns, std::size_t modifiers);
 
-    /// Add a surface of another list; returns its number. Throws InputError when there are too many of anything
-    /// (some 2^31 surfaces, 2^32 reals or bytes of text, 2^24 files).
+    /// Add a surface of another list; returns its number. Throws InputError when there are too many
+    /// of anything (some 2^31 surfaces, 2^32 reals or bytes of text, 2^24 files).
     std::size_t add(const SurfacePrimitive& surface);
     std::size_t add(const Primitive& surface);
     /// Nothing more comes.
