@@ -106,7 +106,8 @@ TEST_CASE("triangles that share corners have the shapes that they have alone") {
         list.add(alone.back());
     }
     const SurfaceShapes shapes = make_shapes(list, TeamOfOne());
-    const SurfaceShapes again = StoredShapes(shapes).shapes(list);
+    const StoredShapes stored(shapes);
+    const SurfaceShapes again = stored.shapes(list);
     std::size_t shared = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const ValidatedShape valid = make_shape(view_of(alone[i]));
