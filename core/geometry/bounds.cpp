@@ -34,8 +34,10 @@ double reach_off_edges(const PolygonShape& polygon) {
     double off = 0;
     Vec3 from = polygon.vertices.back();
     for (const Vec3 to : polygon.vertices) {
-        const double shortest = std::max(std::abs(to[x] - from[x]), std::abs(to[y] - from[y]));
-        if (shortest > 0) off = std::max(off, std::min(kEpsilon / shortest, shortest));
+        const double length_at_least =
+            std::max(std::abs(to[x] - from[x]), std::abs(to[y] - from[y]));
+        if (length_at_least > 0)
+            off = std::max(off, std::min(kEpsilon / length_at_least, length_at_least));
         from = to;
     }
     const Vec3& n = polygon.normal;

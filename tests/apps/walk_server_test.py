@@ -50,8 +50,9 @@ class Server:
         errors = self.process.communicate(timeout=PATIENCE)[1]
         self.folder.cleanup()
         assert alive, f"the server has ended: {errors}"
-        # 130: it was deep in a pixel, and an interrupt does not wait for more than .7 s.
-        assert kind is not None or self.launcher or self.process.returncode in (0, 130), (self.process.returncode, errors)
+        # 130, where a build is slow: it was deep in a pixel, and an interrupt waits no longer than .7 s.
+        good = (0, 130) if PATIENCE > 60 else (0,)
+        assert kind is not None or self.launcher or self.process.returncode in good, (self.process.returncode, errors)
 
     def get(self, path):
         with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{path}", timeout=PATIENCE) as answer:
