@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <queue>
+#include <utility>
 
 #include "core/geometry/bounds.h"
 #include "core/geometry/polygon.h"
@@ -267,14 +269,28 @@ class Division {
                half_area(hit_bounds(*shape)) > least_;
     }
 
-    /// @param primitive  a candidate. False: it is not worth dividing.
-    bool add(std::uint32_t primitive) {
-        Projection polygon(*model_.polygon(primitive));
-        const Task task = task_for(polygon, polygons_.size(), polygon.whole(), scratch_);
-        if (task.gain <= least_) return false;
-        polygons_.push_back({std::move(polygon), primitive, 1});
-        tasks_.push(task);
-        return true;
+    /// Takes those of the candidates that are worth dividing; returns them, in their order.
+    std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& candidates, const Team& team) {
+        constexpr std::size_t kTogether = 64;
+        std::vector<std::optional<std::pair<Projection, Task>>> looks(candidates.size());
+        team.run((candidates.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
+            Clipping scratch;
+            const std::size_t last = std::min((part + 1) * kTogether, candidates.size());
+            for (std::size_t i = part * kTogether; i < last; ++i) {
+                Projection polygon(*model_.polygon(candidates[i]));
+                const Task task = task_for(polygon, 0, polygon.whole(), scratch);
+                if (task.gain > least_) looks[i].emplace(std::move(polygon), task);
+            }
+        });
+        std::vector<std::uint32_t> taken;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            if (!looks[i]) continue;
+            looks[i]->second.polygon = polygons_.size();
+            polygons_.push_back({std::move(looks[i]->first), candidates[i], 1});
+            tasks_.push(looks[i]->second);
+            taken.push_back(candidates[i]);
+        }
+        return taken;
     }
 
     void run(Pieces& pieces) {
@@ -392,9 +408,10 @@ Bounds Pieces::box(std::size_t piece, const ModelPrimitives& model) const {
 
 Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
     Division division(model);
-    std::vector<std::uint32_t> divided = select_primitives(
-        model.size(), team, [&](std::uint32_t i) { return division.is_candidate(i); });
-    std::erase_if(divided, [&](std::uint32_t i) { return !division.add(i); });
+    const std::vector<std::uint32_t> divided =
+        division.add(select_primitives(model.size(), team,
+                                       [&](std::uint32_t i) { return division.is_candidate(i); }),
+                     team);
     Grouping whole;
     whole.alone = select_primitives(model.size(), team, [&](std::uint32_t i) {
         return model.is_finite(i) && !std::binary_search(divided.begin(), divided.end(), i);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 namespace lightwalk {
 namespace {
@@ -94,7 +95,7 @@ Transform power(Transform t, long n) {
     Transform result;
     for (; n > 0; n /= 2) {
         if (n % 2 == 1) result = result * t;
-        t = t * t;
+        if (n > 1) t = t * t;
     }
     return result;
 }
@@ -110,8 +111,8 @@ struct Operation {
 };
 
 /// The operation at the beginning of `words`, `-i` excepted.
-std::optional<Operation> parse_operation(std::span<const std::string> words) {
-    const std::string& option = words[0];
+std::optional<Operation> parse_operation(std::span<const std::string_view> words) {
+    const std::string_view option = words[0];
     if (!is_transform_option(option) || option == "-i") return std::nullopt;
     if (option[1] == 'm') return Operation{mirroring(*axis_of(option[2])), 1};
     const std::size_t count = option == "-t" ? 3 : 1;
@@ -153,18 +154,23 @@ bool parse_integer(std::string_view word, long& value) {
     return true;
 }
 
-bool is_transform_option(const std::string& word) {
+bool is_transform_option(std::string_view word) {
     if (word == "-t" || word == "-s" || word == "-i") return true;
     return word.size() == 3 && word[0] == '-' && (word[1] == 'r' || word[1] == 'm') &&
            axis_of(word[2]).has_value();
 }
 
 ParsedTransform parse_transform(std::span<const std::string> words) {
+    const std::vector<std::string_view> views(words.begin(), words.end());
+    return parse_transform(views);
+}
+
+ParsedTransform parse_transform(std::span<const std::string_view> words) {
     ParsedTransform result;
     Transform group;
     long repeat = 1;
     while (result.words < words.size()) {
-        const std::span<const std::string> rest = words.subspan(result.words);
+        const std::span<const std::string_view> rest = words.subspan(result.words);
         if (rest[0] == "-i") {
             long next = 0;
             if (rest.size() < 2 || !parse_integer(rest[1], next)) break;

@@ -19,9 +19,10 @@ struct ParsedTransform {
 /// left to right, `-i n` repeats what follows n times). Never throws; `-s 0` and malformed numbers
 /// end it. Source: Radiance manual page xform(1).
 [[nodiscard]] ParsedTransform parse_transform(std::span<const std::string> words);
+[[nodiscard]] ParsedTransform parse_transform(std::span<const std::string_view> words);
 
 /// Whether `word` is one of the transform options, exactly.
-[[nodiscard]] bool is_transform_option(const std::string& word);
+[[nodiscard]] bool is_transform_option(std::string_view word);
 
 /// Strict decimal number of the scene language, whole word; false when it is not one.
 [[nodiscard]] bool parse_real(std::string_view word, double& value);

@@ -39,21 +39,27 @@ struct Scene::Impl {
     void use_modifiers();
     void add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
                         WarningSink& warnings);
-    [[nodiscard]] ModelGeometry model_geometry(std::size_t model) const;
+    [[nodiscard]] ModelGeometry model_geometry(std::size_t model, const Team& team) const;
     void build_geometry(const Team& team);
 };
 
 namespace {
 
 Transform placement_transform(const SurfacePrimitive& primitive) {
-    const std::vector<std::string> strings = primitive.strings.to_strings();
-    const auto words = std::span(strings).subspan(1);
+    std::vector<std::string_view> words;
+    words.reserve(primitive.strings.size());
+    const char* text = primitive.strings.data();
+    for (std::size_t i = 0; i < primitive.strings.size(); ++i) {
+        const std::string_view word = text;
+        if (i > 0) words.push_back(word);  // the first is the file
+        text += word.size() + 1;
+    }
     const ParsedTransform parsed = parse_transform(words);
     if (parsed.words != words.size()) {
         throw InputError(primitive.where(), std::string(to_string(primitive.type)) + " \"" +
                                                 std::string(primitive.name) +
-                                                "\": bad transform at \"" + words[parsed.words] +
-                                                "\"");
+                                                "\": bad transform at \"" +
+                                                std::string(words[parsed.words]) + "\"");
     }
     return parsed.transform;
 }
@@ -119,7 +125,7 @@ void Scene::Impl::add_lambertian(FindModifierFactory modifier_factory, Resources
     lambertian_surface = surfaces.part(part).id(0);  // not flat, and not in the geometry
 }
 
-ModelGeometry Scene::Impl::model_geometry(std::size_t model) const {
+ModelGeometry Scene::Impl::model_geometry(std::size_t model, const Team& team) const {
     const LoadedModel& loaded = models[model];
     const SurfacePart& own = surfaces.part(model);
     ModelGeometry geometry_of;
@@ -141,12 +147,25 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model) const {
         geometry_of.cube = Bounds{corner, corner + Vec3{cube->size, cube->size, cube->size}};
     }
     const SurfaceList& list = *own.list;
-    std::size_t placement = 0;
+    std::vector<std::size_t> placed;
     for (std::size_t i = 0; i < list.size(); ++i) {
         if (!is_placement(list.type(i))) continue;
-        geometry_of.placements.push_back({loaded.children[placement++],
-                                          placement_transform(list[i]), own.id(i),
-                                          own.modifier(i) != kVoid});
+        geometry_of.placements.push_back(
+            {loaded.children[placed.size()], {}, own.id(i), own.modifier(i) != kVoid});
+        placed.push_back(i);
+    }
+    // A tree has tens of thousands of words that say where its branches are.
+    constexpr std::size_t kTogether = 512;
+    const auto place = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < std::min(last, placed.size()); ++i)
+            geometry_of.placements[i].transform = placement_transform(list[placed[i]]);
+    };
+    try {
+        team.run((placed.size() + kTogether - 1) / kTogether,
+                 [&](std::size_t part) { place(part * kTogether, (part + 1) * kTogether); });
+    } catch (const InputError&) {
+        place(0, placed.size());  // which finds the first that is wrong
+        throw;
     }
     return geometry_of;
 }
@@ -154,7 +173,7 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model) const {
 void Scene::Impl::build_geometry(const Team& team) {
     GeometryInput input;
     input.surfaces = &surfaces;
-    for (std::size_t i = 0; i < models.size(); ++i) input.models.push_back(model_geometry(i));
+    for (std::size_t i = 0; i < models.size(); ++i) input.models.push_back(model_geometry(i, team));
     geometry = std::make_unique<Geometry>(std::move(input), std::string(), team);
 }
 

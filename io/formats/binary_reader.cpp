@@ -39,10 +39,10 @@ double BinaryReader::real() {
     return take_real(bytes);
 }
 
-std::string BinaryReader::string() {
+std::string_view BinaryReader::text() {
     const std::size_t end = bytes_.find('\0', at_);
     if (end == std::string_view::npos) fail("truncated " + kind_);
-    std::string result(bytes_.substr(at_, end - at_));
+    const std::string_view result = bytes_.substr(at_, end - at_);
     at_ = end + 1;
     return result;
 }

@@ -23,7 +23,9 @@ class BinaryReader {
     /// (m ± 0.5) / 2147483647 · 2^e, from a 4-byte mantissa m with a sign and a 1-byte exponent e;
     /// 0 for m = 0.
     [[nodiscard]] double real();
-    [[nodiscard]] std::string string();
+    [[nodiscard]] std::string string() { return std::string(text()); }
+    /// The same where it stands in the bytes: a zero byte follows.
+    [[nodiscard]] std::string_view text();
     void skip(std::uint64_t count);
 
     /// Throws unless `count` more values of at least `size` bytes each can follow: a bound for what

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -60,37 +61,72 @@ class ObjectNumbers {
     std::vector<std::int32_t> modifiers_;  ///< by object; of surface i: -1 - i
 };
 
-Primitive read_object(BinaryReader& reader, int id_size, PrimitiveType type,
-                      const ObjectNumbers& numbers, const Model& model) {
-    const std::size_t number = numbers.size();
-    Primitive object;
-    object.type = type;
-    object.where = {reader.name(), 0};
-    const std::int64_t modifier = reader.integer(id_size);
-    if (modifier < -1 || modifier >= static_cast<std::int64_t>(number)) {
-        reader.fail("object " + std::to_string(number) + " has modifier number " +
-                    std::to_string(modifier) + ", expected that of an earlier object");
-    }
-    object.modifier = numbers.modifier(modifier, model, reader);
-    object.name = reader.string();
-    const std::uint64_t strings = reader.unsigned_integer(2);
-    reader.expect(strings, 1);
-    object.strings.reserve(strings);
-    for (std::uint64_t i = 0; i < strings; ++i) object.strings.push_back(reader.string());
-    const std::uint64_t reals = reader.unsigned_integer(2);
-    reader.expect(reals, 5);
-    object.reals.reserve(reals);
-    for (std::uint64_t i = 0; i < reals; ++i) object.reals.push_back(reader.real());
-    return object;
-}
-
 /// An alias without a string renames its modifier; with one it is an alias of the scene language.
-std::int32_t add_object(ModelBuilder& builder, Primitive object) {
+std::int32_t add_modifier(ModelBuilder& builder, Primitive object) {
     if (object.type != PrimitiveType::alias) return builder.add(std::move(object));
     if (object.strings.empty()) return builder.rename(object.name, object.modifier, object.where);
     const std::int32_t target = builder.alias_target(object.strings[0], object.where);
     return builder.add_alias(object.modifier, object.name, target, object.where);
 }
+
+/// Objects of one file, one after the other.
+class ObjectReader {
+  public:
+    ObjectReader(BinaryReader& reader, int id_size, ModelBuilder& builder)
+        : reader_(reader), id_size_(id_size), builder_(builder), file_(reader.name()) {}
+
+    void read(PrimitiveType type) {
+        const std::int32_t modifier = read_modifier();
+        const std::string_view name = reader_.text();
+        const std::uint64_t strings = reader_.unsigned_integer(2);
+        reader_.expect(strings, 1);
+        // Where they stand in the bytes, each with its zero byte, is how surfaces take them.
+        const char* first = nullptr;
+        for (std::uint64_t i = 0; i < strings; ++i) {
+            const char* const string = reader_.text().data();
+            if (i == 0) first = string;
+        }
+        read_reals();
+        const StringArguments arguments(first, strings);
+        if (is_surface(type)) {
+            numbers_.add(true, builder_.add(SurfacePrimitive{type, modifier, name, arguments,
+                                                             reals_, &file_, 0}));
+            return;
+        }
+        Primitive object;
+        object.type = type;
+        object.where = {file_, 0};
+        object.modifier = modifier;
+        object.name = name;
+        object.strings = arguments.to_strings();
+        object.reals = reals_;
+        numbers_.add(false, add_modifier(builder_, std::move(object)));
+    }
+
+  private:
+    [[nodiscard]] std::int32_t read_modifier() {
+        const std::int64_t modifier = reader_.integer(id_size_);
+        if (modifier < -1 || modifier >= static_cast<std::int64_t>(numbers_.size())) {
+            reader_.fail("object " + std::to_string(numbers_.size()) + " has modifier number " +
+                         std::to_string(modifier) + ", expected that of an earlier object");
+        }
+        return numbers_.modifier(modifier, builder_.model(), reader_);
+    }
+
+    void read_reals() {
+        const std::uint64_t reals = reader_.unsigned_integer(2);
+        reader_.expect(reals, 5);
+        reals_.clear();
+        for (std::uint64_t i = 0; i < reals; ++i) reals_.push_back(reader_.real());
+    }
+
+    BinaryReader& reader_;
+    int id_size_;
+    ModelBuilder& builder_;
+    FileName file_;
+    ObjectNumbers numbers_;
+    std::vector<double> reals_;  ///< of one object; reused
+};
 
 }  // namespace
 
@@ -132,12 +168,9 @@ std::uint64_t skip_tree(BinaryReader& reader, int id_size) {
 
 void read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder) {
     const TypeTable table = read_type_table(reader);
-    ObjectNumbers numbers;
-    for (std::int64_t type = reader.integer(1); type != -1; type = reader.integer(1)) {
-        const PrimitiveType known = type_of(reader, table, type);
-        numbers.add(is_surface(known), add_object(builder, read_object(reader, id_size, known,
-                                                                       numbers, builder.model())));
-    }
+    ObjectReader objects(reader, id_size, builder);
+    for (std::int64_t type = reader.integer(1); type != -1; type = reader.integer(1))
+        objects.read(type_of(reader, table, type));
 }
 
 }  // namespace lightwalk

@@ -1,0 +1,22 @@
+#include "core/model/large_pages.h"
+
+#include <malloc.h>
+#include <sys/mman.h>
+
+#include <cstdint>
+
+namespace lightwalk {
+
+void prefer_large_pages(void* block) noexcept {
+    constexpr std::uintptr_t kPage = 4096;
+    const std::size_t size = malloc_usable_size(block);
+    if (size < kWorthLargePages) return;
+    // All of the mapping that malloc made for it, its own words before the block among it: realloc
+    // moves the pages of a mapping only while all of it is of one kind.
+    const auto begin = reinterpret_cast<std::uintptr_t>(block);
+    const std::uintptr_t first = begin / kPage * kPage;
+    const std::uintptr_t last = (begin + size + kPage - 1) / kPage * kPage;
+    (void)madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // NOLINT
+}
+
+}  // namespace lightwalk
