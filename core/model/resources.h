@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/math/rgb.h"
+#include "core/math/team.h"
 #include "core/model/column.h"
 #include "core/model/primitive.h"
 
@@ -43,6 +45,13 @@ struct Font {
     int mean_width = 0;
 };
 
+/// A file that a scene names.
+struct NamedFile {
+    enum class Kind { octree, mesh, picture };
+    Kind kind{};
+    std::string name;
+};
+
 /// Finds and decodes files by the names that stand in a scene. Every method throws MissingFile,
 /// naming the search path, when there is no such file, and InputError when it is damaged. Each name
 /// is decoded once and shared.
@@ -57,6 +66,12 @@ class Resources {
     [[nodiscard]] virtual std::vector<std::string> text_lines(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const Model> octree(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const MeshModel> mesh(const std::string& name) = 0;
+    /// Files that will be asked for soon may be decoded side by side. A hint: what is wrong with
+    /// them is told when they are asked for.
+    virtual void prepare(std::span<const NamedFile> files, const Team& team) {
+        (void)files;
+        (void)team;
+    }
 };
 
 }  // namespace lightwalk

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "core/scene/scene_tables.h"
 
@@ -9,8 +11,8 @@ constexpr std::size_t kMaxNesting = 64;  ///< instances inside instances
 
 }  // namespace
 
-ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources)
-    : resources_(resources) {
+ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const Team& team)
+    : resources_(resources), team_(team) {
     LoadedModel root;
     root.model = std::move(scene);
     models.push_back(std::move(root));
@@ -60,11 +62,29 @@ void ModelLoader::load_children(std::uint32_t model, std::size_t depth) {
     if (models[model].mesh) return;
     const std::shared_ptr<const Model> contents = models[model].model;  // `models` grows below
     const SurfaceList& surfaces = contents->surfaces;
+    prepare_children(surfaces);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         if (!is_placement(surfaces.type(i))) continue;
         const std::uint32_t child = load(surfaces[i], depth + 1);
         models[model].children.push_back(child);
     }
+}
+
+void ModelLoader::prepare_children(const SurfaceList& surfaces) {
+    std::vector<NamedFile> files;
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (!is_placement(surfaces.type(i))) continue;
+        const SurfacePrimitive placement = surfaces[i];
+        if (placement.strings.empty()) continue;
+        std::string name(placement.strings[0]);
+        std::string key = std::string(to_string(placement.type)) + " " + name;
+        if (loaded_.contains(key) || !seen.insert(std::move(key)).second) continue;
+        files.push_back({placement.type == PrimitiveType::mesh ? NamedFile::Kind::mesh
+                                                               : NamedFile::Kind::octree,
+                         std::move(name)});
+    }
+    resources_.prepare(files, team_);
 }
 
 }  // namespace lightwalk

@@ -94,10 +94,26 @@ ProblemList ModifierTable::unsupported(FindModifierFactory modifier_factory) con
     return problems;
 }
 
+std::vector<NamedFile> ModifierTable::pictures() const {
+    constexpr std::size_t kPictureOfColorpict = 3;  // behind three functions
+    std::vector<NamedFile> files;
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        const ModifierRecord& record = records_[i];
+        if (!used_[i] || record.type != PrimitiveType::colorpict) continue;
+        const std::vector<std::string>& strings = record.primitive->strings;
+        if (strings.size() > kPictureOfColorpict &&
+            seen.insert(strings[kPictureOfColorpict]).second)
+            files.push_back({NamedFile::Kind::picture, strings[kPictureOfColorpict]});
+    }
+    return files;
+}
+
 void ModifierTable::compile(const std::vector<LoadedModel>& models,
                             FindModifierFactory modifier_factory, Resources& resources,
-                            WarningSink& warnings) {
+                            WarningSink& warnings, const Team& team) {
     unsupported(modifier_factory).raise();
+    resources.prepare(pictures(), team);
     for (const LoadedModel& loaded : models) {
         const auto count = static_cast<std::int32_t>(loaded.contents().modifiers.size());
         for (std::int32_t i = loaded.modifier_base; i < loaded.modifier_base + count; ++i) {

@@ -32,8 +32,9 @@ struct Scene::Impl {
     SurfaceId lambertian_surface = kNoSurface;
     std::unique_ptr<Geometry> geometry;
 
-    Impl(std::shared_ptr<const Model> model, Resources& resources)
-        : models(std::move(ModelLoader(std::move(model), resources).models)), modifiers(models) {}
+    Impl(std::shared_ptr<const Model> model, Resources& resources, const Team& team)
+        : models(std::move(ModelLoader(std::move(model), resources, team).models)),
+          modifiers(models) {}
 
     void collect_surfaces(WarningSink& warnings, const Team& team);
     void use_modifiers();
@@ -179,10 +180,10 @@ void Scene::Impl::build_geometry(const Team& team) {
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
              Resources& resources, WarningSink& warnings, const Team& team, SceneExtent extent)
-    : impl_(std::make_unique<Impl>(std::move(model), resources)) {
+    : impl_(std::make_unique<Impl>(std::move(model), resources, team)) {
     impl_->collect_surfaces(warnings, team);
     impl_->use_modifiers();
-    impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings);
+    impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings, team);
     impl_->add_lambertian(modifier_factory, resources, warnings);
     impl_->surfaces.set_traits(impl_->modifiers.all_traits());
     if (extent == SceneExtent::whole) impl_->build_geometry(team);
@@ -191,7 +192,7 @@ Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_fa
 ProblemList Scene::unsupported(std::shared_ptr<const Model> model,
                                FindModifierFactory modifier_factory, Resources& resources,
                                WarningSink& warnings) {
-    Impl scene(std::move(model), resources);
+    Impl scene(std::move(model), resources, TeamOfOne());
     scene.collect_surfaces(warnings, TeamOfOne());
     scene.use_modifiers();
     return scene.modifiers.unsupported(modifier_factory);

@@ -27,13 +27,16 @@ struct LoadedModel {
 /// instances.
 class ModelLoader {
   public:
-    ModelLoader(std::shared_ptr<const Model> scene, Resources& resources);
+    ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const Team& team);
     std::vector<LoadedModel> models;  ///< models[0] is the scene
 
   private:
     std::uint32_t load(const SurfacePrimitive& placement, std::size_t depth);
     void load_children(std::uint32_t model, std::size_t depth);
+    /// Has the files decoded that a model places and that are not loaded yet.
+    void prepare_children(const SurfaceList& surfaces);
     Resources& resources_;
+    const Team& team_;
     std::map<std::string, std::uint32_t> loaded_;  ///< "instance NAME" / "mesh NAME"
     std::vector<std::string> open_;                ///< being loaded, outermost first
 };
@@ -49,7 +52,7 @@ class ModifierTable {
     /// Compile what `use` marked; throws InputError for a bad modifier, or for all unsupported
     /// ones.
     void compile(const std::vector<LoadedModel>& models, FindModifierFactory modifier_factory,
-                 Resources& resources, WarningSink& warnings);
+                 Resources& resources, WarningSink& warnings, const Team& team);
 
     [[nodiscard]] const ModifierRecord& operator[](ModifierId id) const {
         return records_[static_cast<std::size_t>(index(id))];
@@ -65,6 +68,8 @@ class ModifierTable {
     ModifierId add(ModifierRecord record);
 
   private:
+    /// Of the modifiers in use, each once.
+    [[nodiscard]] std::vector<NamedFile> pictures() const;
     [[nodiscard]] MaterialTraits material_traits(ModifierId material) const;
 
     std::vector<ModifierRecord> records_;

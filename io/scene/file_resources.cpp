@@ -14,6 +14,7 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kLongestTextLine = 511;
+constexpr std::size_t kBytesTogether = std::size_t{64} << 20;  ///< of files that wait to be decoded
 
 /// Radiance's pictures are called .hdr or .pic, and scenes are older than their pictures' names:
 /// the same name with the other ending; nothing for other names.
@@ -99,6 +100,87 @@ std::shared_ptr<const MeshModel> FileResources::mesh(const std::string& name) {
         const std::string path = path_.locate(name, "mesh file");
         return std::make_shared<const MeshModel>(decode_mesh(path_.files().read(path), path));
     });
+}
+
+/// A file's bytes, and what they turn out to be.
+struct FileResources::Reading {
+    NamedFile file;
+    std::string path, bytes;
+    std::shared_ptr<const Model> octree;
+    std::shared_ptr<const MeshModel> mesh;
+    std::shared_ptr<const PictureData> picture;
+
+    /// Leaves all empty where something is wrong: whoever asks for the file will hear of it.
+    void decode() {
+        try {
+            switch (file.kind) {
+                case NamedFile::Kind::octree:
+                    octree = decode_octree(bytes, path).model;
+                    break;
+                case NamedFile::Kind::mesh:
+                    mesh = std::make_shared<const MeshModel>(decode_mesh(bytes, path));
+                    break;
+                case NamedFile::Kind::picture:
+                    picture = std::make_shared<const PictureData>(decode_picture(bytes, path));
+            }
+        } catch (const InputError&) {
+        }
+        bytes = std::string();
+    }
+};
+
+bool FileResources::is_known(const NamedFile& file) const {
+    switch (file.kind) {
+        case NamedFile::Kind::octree:
+            return octrees_.contains(file.name);
+        case NamedFile::Kind::mesh:
+            return meshes_.contains(file.name);
+        case NamedFile::Kind::picture:
+            break;
+    }
+    return pictures_.contains(file.name);
+}
+
+std::optional<FileResources::Reading> FileResources::read(const NamedFile& file) {
+    try {
+        std::string path;
+        if (file.kind == NamedFile::Kind::picture)
+            path = locate_picture(path_, file.name);
+        else
+            path = path_.locate(file.name, "file");
+        std::string bytes = path_.files().read(path);
+        return Reading{file, std::move(path), std::move(bytes), {}, {}, {}};
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+void FileResources::decode(std::span<Reading> readings, const Team& team) {
+    team.run(readings.size(), [&](std::size_t i) { readings[i].decode(); });
+    for (Reading& reading : readings) {
+        const std::string& name = reading.file.name;
+        if (reading.octree) octrees_.emplace(name, std::move(reading.octree));
+        if (reading.mesh) meshes_.emplace(name, std::move(reading.mesh));
+        if (reading.picture) pictures_.emplace(name, std::move(reading.picture));
+    }
+}
+
+void FileResources::prepare(std::span<const NamedFile> files, const Team& team) {
+    if (files.size() < 2) return;  // nothing to do side by side
+    std::vector<Reading> readings;
+    std::size_t bytes = 0;
+    for (const NamedFile& file : files) {
+        if (is_known(file)) continue;
+        if (std::optional<Reading> next = read(file)) {
+            bytes += next->bytes.size();
+            readings.push_back(*std::move(next));
+        }
+        if (bytes < kBytesTogether) continue;
+        decode(readings, team);
+        readings.clear();
+        bytes = 0;
+    }
+    decode(readings, team);
 }
 
 }  // namespace lightwalk

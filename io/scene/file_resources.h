@@ -2,6 +2,8 @@
 // The Resources of a scene, read from files along the library path and cached by name.
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,9 +26,18 @@ class FileResources final : public Resources {
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
+    /// Reads one after the other, a bounded number of bytes at a time, and decodes side by side.
+    /// Octrees that are not frozen are left for later.
+    void prepare(std::span<const NamedFile> files, const Team& team) override;
     [[nodiscard]] const LibraryPath& path() const { return path_; }
 
   private:
+    struct Reading;
+    [[nodiscard]] bool is_known(const NamedFile& file) const;
+    /// Nothing where there is none, or it cannot be read.
+    [[nodiscard]] std::optional<Reading> read(const NamedFile& file);
+    void decode(std::span<Reading> readings, const Team& team);
+
     LibraryPath path_;
     bool allow_commands_;
     WarningSink& warnings_;

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ class FreezingResources final : public Resources {
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
+    void prepare(std::span<const NamedFile> files, const Team& team) override {
+        source_.prepare(files, team);
+    }
 
     struct Answers {
         ResourceAnswers<std::string> functions;

@@ -3,20 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/backward_team.h"
 #include "tests/core/geometry/geometry_scenes.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
 
 namespace {
-
-/// Runs the parts from the last to the first.
-class BackwardTeam final : public Team {
-  public:
-    void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const override {
-        while (count-- > 0) part(count);
-    }
-};
 
 /// Good surfaces of all kinds, and some that are ignored or changed.
 SurfaceList many_surfaces(std::size_t count) {

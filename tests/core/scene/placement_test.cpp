@@ -4,20 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "tests/backward_team.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
 
 namespace {
-
-/// Runs the parts from the last to the first.
-class BackwardTeam final : public Team {
-  public:
-    void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const override {
-        while (count-- > 0) part(count);
-    }
-};
 
 /// Scenes that place one ball of 1 m.
 struct Row {
@@ -63,4 +56,52 @@ TEST_CASE("of many wrong transforms the first is told") {
     CHECK_THROWS_WITH_AS(static_cast<void>(row.build()),
                          doctest::Contains("row.rad:700: instance \"b\": bad transform at \"-t\""),
                          InputError);
+}
+
+/// Remembers what it is told to prepare.
+class PreparedResources final : public Resources {
+  public:
+    explicit PreparedResources(MemoryResources& source) : source_(source) {}
+    std::string function_file(const std::string& name) override {
+        return source_.function_file(name);
+    }
+    std::shared_ptr<const DataArray> data(const std::string& name) override {
+        return source_.data(name);
+    }
+    std::shared_ptr<const PictureData> picture(const std::string& name) override {
+        return source_.picture(name);
+    }
+    std::shared_ptr<const Font> font(const std::string& name) override {
+        return source_.font(name);
+    }
+    std::vector<std::string> text_lines(const std::string& name) override {
+        return source_.text_lines(name);
+    }
+    std::shared_ptr<const Model> octree(const std::string& name) override {
+        asked.push_back(name);
+        return source_.octree(name);
+    }
+    std::shared_ptr<const MeshModel> mesh(const std::string& name) override {
+        return source_.mesh(name);
+    }
+    void prepare(std::span<const NamedFile> files, const Team&) override {
+        for (const NamedFile& file : files) asked.push_back("soon " + file.name);
+    }
+    std::vector<std::string> asked;  ///< octrees, and all that is to be prepared
+
+  private:
+    MemoryResources& source_;
+};
+
+TEST_CASE("a scene tells which files it will ask for, each once, before it asks") {
+    Row row(
+        "void instance a 1 ball.oct 0 0\n"
+        "void instance b 1 other.oct 0 0\n"
+        "void instance c 1 ball.oct 0 0\n"
+        "void colorpict unused 7 red green blue unused.hdr . u v 0 0\n");
+    row.resources.octrees["other.oct"] = row.resources.octrees["ball.oct"];
+    PreparedResources resources(row.resources);
+    const Scene scene(row.model, modifier_factory, resources, row.warnings);
+    CHECK(resources.asked ==
+          std::vector<std::string>{"soon ball.oct", "soon other.oct", "ball.oct", "other.oct"});
 }

@@ -2,16 +2,29 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "io/picture/picture.h"
+#include "tests/backward_team.h"
 #include "tests/io/scene/binary_writer.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk {
 namespace {
+
+/// A ball, and the tree that holds it.
+std::string frozen_ball() {
+    test::BinaryWriter file = test::begin_file("Radiance_octree", 287);
+    file.text("").integer(1, 4);
+    file.integer(1, 1).integer(1, 4).integer(0, 4);
+    file.text("sphere").text("");
+    file.integer(0, 1).integer(-1, 4).text("frozen ball").integer(0, 2).integer(4, 2);
+    for (const double real : {0.0, 0.0, 0.0, 1.0}) file.real(real);
+    return file.integer(-1, 1).bytes();
+}
 
 TEST_CASE("files are found along the path, decoded once, and shared") {
     const test::TemporaryFolder folder;
@@ -61,6 +74,43 @@ TEST_CASE("an octree that is not frozen reads its scene files from the base dire
     const auto model = resources.octree("ball.oct");
     CHECK(model->surfaces[0].name == "s");
     CHECK(resources.octree("ball.oct") == model);
+}
+
+TEST_CASE("files that were prepared are there, what is wrong with others is told when asked for") {
+    const test::TemporaryFolder folder;
+    const auto grey = [](float value) { return encode_hdr({1, 1, {Rgb::grey(value)}}, {}); };
+    folder.write("lib/one.hdr", grey(1));
+    folder.write("lib/two.pic", grey(2));
+    folder.write("lib/damaged.hdr", grey(3).substr(0, 20));
+    folder.write("ball.rad", "void sphere s 0 0 4 0 0 0 1");
+    folder.write("lib/ball.oct", test::begin_file("Radiance_octree", 287)
+                                     .text("ball.rad")
+                                     .text("")
+                                     .integer(1, 4)
+                                     .integer(0, 1)
+                                     .bytes());
+    folder.write("lib/frozen.oct", frozen_ball());
+    test::Silence silence;
+    FileResources resources(LibraryPath({"lib"}).relative_to(folder.path()), false, silence);
+    using Kind = NamedFile::Kind;
+    const std::vector<NamedFile> files{{Kind::picture, "one.hdr"},     {Kind::picture, "two.hdr"},
+                                       {Kind::picture, "damaged.hdr"}, {Kind::picture, "no.hdr"},
+                                       {Kind::octree, "ball.oct"},     {Kind::octree, "frozen.oct"},
+                                       {Kind::octree, "no.oct"},       {Kind::mesh, "no.rtm"}};
+    resources.prepare(files, test::BackwardTeam());
+    for (const char* name : {"lib/one.hdr", "lib/two.pic", "lib/frozen.oct"})
+        std::filesystem::remove(folder.path(name));
+    CHECK(static_cast<double>(resources.picture("one.hdr")->values[0].r) ==
+          doctest::Approx(1).epsilon(1.0 / 256));
+    CHECK(static_cast<double>(resources.picture("two.hdr")->values[0].r) ==
+          doctest::Approx(2).epsilon(1.0 / 256));
+    CHECK(resources.octree("frozen.oct")->surfaces[0].name == "frozen ball");
+    CHECK(resources.octree("ball.oct")->surfaces[0].name == "s");
+    CHECK_THROWS_WITH_AS((void)resources.picture("damaged.hdr"), doctest::Contains("damaged.hdr: "),
+                         InputError);
+    CHECK_THROWS_AS((void)resources.picture("no.hdr"), MissingFile);
+    CHECK_THROWS_AS((void)resources.octree("no.oct"), MissingFile);
+    CHECK_THROWS_AS((void)resources.mesh("no.rtm"), MissingFile);
 }
 
 TEST_CASE("a missing file names its kind and where it was looked for") {
