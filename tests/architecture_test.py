@@ -14,8 +14,6 @@ FORBIDDEN_HEADERS = {
     "parallel": r"<(fstream|filesystem)>",
     "apps": r"(?!)",
 }
-# Advice about the process's own memory, as malloc is: neither files nor threads.
-MEMORY_ADVICE = {("core/model/large_pages.cpp", "sys/mman.h")}
 # Folders from the lowest to the highest: a file may include files of its own folder and of those before it.
 # "." are the files that lie in no subfolder; None: not held yet.
 ORDER = {
@@ -33,8 +31,6 @@ def wrong_includes(root):
     for folder, forbidden in FORBIDDEN_FOLDERS.items():
         for path in sources(root / folder):
             for kind, name in INCLUDE.findall(path.read_text()):
-                if (str(path.relative_to(root)), name) in MEMORY_ADVICE:
-                    continue
                 if name.split("/")[0] in forbidden or (kind == "<" and re.match(FORBIDDEN_HEADERS[folder], f"<{name}>")):
                     yield f"{path.relative_to(root)}: includes {name}"
 

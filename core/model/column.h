@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/model/large_pages.h"
-
 namespace lightwalk {
 
 /// Values of a trivially copyable type, side by side. Either owns them, and can grow, or shows
@@ -86,7 +84,6 @@ class Column {
         own_.reset(count > 0 ? static_cast<T*>(std::calloc(count, sizeof(T))) : nullptr);
         capacity_ = own_ ? count : 0;
         if (count > 0 && !own_) throw std::bad_alloc();
-        if (own_bytes() >= kWorthLargePages) prefer_large_pages(own_.get());
         values_ = {own_.get(), count};
         return {own_.get(), count};
     }
@@ -117,7 +114,6 @@ class Column {
         (void)own_.release();
         own_.reset(static_cast<T*>(moved));
         capacity_ = count;
-        if (own_bytes() >= kWorthLargePages) prefer_large_pages(own_.get());
         values_ = {own_.get(), size()};
     }
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/model/large_pages.h"
+#include "io/files/large_pages.h"
 
 namespace lightwalk {
 namespace {

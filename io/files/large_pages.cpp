@@ -1,4 +1,4 @@
-#include "core/model/large_pages.h"
+#include "io/files/large_pages.h"
 
 #include <malloc.h>
 #include <sys/mman.h>
@@ -11,8 +11,8 @@ void prefer_large_pages(void* block) noexcept {
     constexpr std::uintptr_t kPage = 4096;
     const std::size_t size = malloc_usable_size(block);
     if (size < kWorthLargePages) return;
-    // All of the mapping that malloc made for it, its own words before the block among it: realloc
-    // moves the pages of a mapping only while all of it is of one kind.
+    // All of the mapping that malloc made for it, its own words before the block among it: a
+    // mapping of two kinds cannot be moved as one.
     const auto begin = reinterpret_cast<std::uintptr_t>(block);
     const std::uintptr_t first = begin / kPage * kPage;
     const std::uintptr_t last = (begin + size + kPage - 1) / kPage * kPage;
