@@ -57,6 +57,10 @@ bool parse_common_option(OptionWords& words, CommonOptions& options, RenderSetti
         options.executor = executor_kind(words.text());
     } else if (word == "--seed") {
         settings.light.seed = words.unsigned_integer();
+    } else if (word == "--ambient-lights") {
+        settings.light.ambient_lights = words.integer();
+        if (settings.light.ambient_lights < 0)
+            throw UsageError("option --ambient-lights: expected a number, 0 for all");
     } else if (word == "-e") {
         options.error_file = error_file(words);
     } else if (word == "--stats") {
@@ -86,9 +90,10 @@ void refuse_option(const OptionWords& words, std::vector<std::string> names) {
 }
 
 std::vector<std::string> common_option_names() {
-    std::vector<std::string> names{"-n",      "-e",        "--executor",       "--seed",
-                                   "--stats", "--quiet",   "--allow-commands", "--stale",
-                                   "--help",  "--version", "-defaults"};
+    std::vector<std::string> names{
+        "-n",        "-e",       "--executor",       "--seed",  "--ambient-lights",
+        "--stats",   "--quiet",  "--allow-commands", "--stale", "--help",
+        "--version", "-defaults"};
     for (std::string& name : rank_option_names()) names.push_back(std::move(name));
     return names;
 }

@@ -68,6 +68,8 @@ Light (the most used; see rpict(1) for the rest)
   -av R G B          constant ambient radiance
   -dt -dc -dj -ds -dr -dp -dv    direct light: threshold, certainty, jitter, subdivision, relays, pretest, visibility
   -ab N              bounces of indirect light; -aa -ar -ad -as: accuracy, resolution, divisions, super-samples
+  --ambient-lights N  where the rays of indirect light arrive, N light samples (default 2), chosen by what they may
+                     bring, stand for all: the same mean, little more noise; 0: all are tested
   -ae -ai MODIFIER   leave out, or take only, surfaces of this modifier; -aE -aI FILE: of those in the file
   -af FILE           keep ambient values in a file; several runs may share it, also Radiance's
   --overture auto|off   fill the ambient cache by a coarse picture first (default: auto)
@@ -191,6 +193,7 @@ switches work as in `lightwalk render`.
   -te -ti MODIFIER   with t or T: leave out, or take only, rays that meet this modifier; -tE -tI FILE: those in the file
   -pRGB -pXYZ -pY -pA   colours as RGB, XYZ, luminance, mean
   -n N               threads; default: all. Without -ab the output does not depend on it
+  --ambient-lights N  as in `lightwalk render`
   --seed N           other random numbers; equal rays of one run draw different ones
   --stats FILE.json  time and rays
   -e FILE            append messages to FILE

@@ -257,6 +257,8 @@ std::string describe(const RenderCommand& c) {
     text += describe_render_settings(c.settings);
     text += option_line(option_text("-n", c.common.workers), "threads");
     text += option_line("--seed " + std::to_string(c.settings.light.seed), "random seed");
+    text += option_line("--ambient-lights " + std::to_string(c.settings.light.ambient_lights),
+                        "lights sampled where ambient rays arrive");
     return text;
 }
 

@@ -47,7 +47,10 @@ std::span<const float> DirectCalculation::tails(const LitPoint& point) const {
 
 void DirectCalculation::run(std::span<const DirectRequest> requests) {
     gather(requests);
-    for (LitPoint& point : scratch_.points) plan(point);
+    for (LitPoint& point : scratch_.points) {
+        if (point.chosen) choose_candidates(point);
+        plan(point);
+    }
     sort();
     while (select_tests()) {
         test();

@@ -47,6 +47,7 @@ class DirectCalculation {
     };
     // direct_gather.cpp
     void find_samples(LitPoint& point);
+    void add_source(LitPoint& point, std::size_t k);
     void consider_samples(std::uint32_t point);
     [[nodiscard]] const PolygonShape* polygon_of(std::int32_t source) const;
     void consider(std::uint32_t point, std::int32_t source, const PolygonShape* polygon,
@@ -63,6 +64,13 @@ class DirectCalculation {
     [[nodiscard]] static std::optional<double> plane_distance(const PolygonShape& polygon,
                                                               const Vec3& origin,
                                                               const Vec3& direction);
+
+    // direct_choice.cpp
+    void add_chosen_sources(LitPoint& point);
+    void choose_candidates(LitPoint& point);
+    [[nodiscard]] std::size_t wanted_lights() const {
+        return static_cast<std::size_t>(tracer_.options().ambient_lights);
+    }
 
     // direct_shadows.cpp
     void test_plainly();

@@ -28,6 +28,7 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
     for (const DirectRequest& request : requests) {
         LitPoint& point = scratch_.points.emplace_back(request);
         point.part_size = partition_size(tracer_.options().source_subdivision, point.start.weight);
+        point.chosen = tracer_.options().ambient_lights > 0 && point.ray->in(kAmbient);
     }
     for (std::uint32_t number = 0; number < scratch_.points.size(); ++number) {
         LitPoint& point = scratch_.points[number];
@@ -48,29 +49,13 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
 
 /// What a point sees of all sources, as far as these alone can tell.
 void DirectCalculation::find_samples(LitPoint& point) {
-    const double jitter = tracer_.options().source_jitter;
-    const bool divided = point.part_size > 0;
-    const std::span<const std::int32_t> sampled = lights_.sampled();
-    const SourceViews& views = scratch_.views;
     lights_.boxes().look(point.position, point.one_sided ? &point.front : nullptr, point.part_size,
                          scratch_.views);
     scratch_.samples.clear();
-    for (std::size_t k = 0; k < sampled.size(); ++k) {
-        if (point.one_sided && views.is_behind(k)) continue;
-        if (divided && views.turns_away(k)) continue;
-        const LightSource& source = lights_[sampled[k]];
-        if (out_of_reach(source, point.position)) continue;
-        if ((!divided || views.is_far(k)) && !(jitter > 0)) {
-            lights_.boxes().add_whole(k, sampled[k], views, scratch_.samples);
-            continue;
-        }
-        Partition{source}(point.position, point.part_size, scratch_.parts);
-        const int parts = scratch_.parts.count;
-        for (int i = 0; i < parts; ++i) {
-            const SourcePart& part = scratch_.parts.part[static_cast<std::size_t>(i)];
-            scratch_.samples.add(source, sampled[k], part, parts, point.position, jitter,
-                                 point.start.random);
-        }
+    if (point.chosen) {
+        add_chosen_sources(point);
+    } else {
+        for (std::size_t k = 0; k < lights_.sampled().size(); ++k) add_source(point, k);
     }
     scratch_.samples.sample(lights_.all(), point.position);
     if (lights_.virtual_count() == 0) return;
@@ -79,6 +64,29 @@ void DirectCalculation::find_samples(LitPoint& point) {
         return !source.is_virtual ||
                meets_relay(source, point.position, scratch_.samples.lights().direction(i));
     });
+}
+
+/// The samples of one of the sampled sources.
+void DirectCalculation::add_source(LitPoint& point, std::size_t k) {
+    const double jitter = tracer_.options().source_jitter;
+    const bool divided = point.part_size > 0;
+    const SourceViews& views = scratch_.views;
+    if (point.one_sided && views.is_behind(k)) return;
+    if (divided && views.turns_away(k)) return;
+    const std::int32_t index = lights_.sampled()[k];
+    const LightSource& source = lights_[index];
+    if (out_of_reach(source, point.position)) return;
+    if ((!divided || views.is_far(k)) && !(jitter > 0)) {
+        lights_.boxes().add_whole(k, index, views, scratch_.samples);
+        return;
+    }
+    Partition{source}(point.position, point.part_size, scratch_.parts);
+    const int parts = scratch_.parts.count;
+    for (int i = 0; i < parts; ++i) {
+        const SourcePart& part = scratch_.parts.part[static_cast<std::size_t>(i)];
+        scratch_.samples.add(source, index, part, parts, point.position, jitter,
+                             point.start.random);
+    }
 }
 
 /// Candidates of the samples that the surface sends on.
@@ -94,6 +102,7 @@ void DirectCalculation::consider_samples(std::uint32_t number) {
     for (std::size_t i = 0; i < lights.count; ++i) {
         if (!(max_component(k[i]) > 0)) continue;
         const std::int32_t source = scratch_.samples.source(i);
+        if (point.chosen) k[i] *= scratch_.scales[static_cast<std::size_t>(source)];
         if (source != last) polygon = polygon_of(source);
         last = source;
         consider(number, source, polygon, lights.direction(i), k[i]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/geometry.h"
+#include "core/light/light_choice.h"
 #include "core/light/shadow_order.h"
 #include "core/light/source_samples.h"
 #include "core/math/rgb.h"
@@ -45,6 +46,7 @@ struct LitPoint {
     bool one_sided = false;  ///< no light from behind `front`
     bool clear_air = false;  ///< the medium takes nothing
     bool clipped = false;    ///< antimatter: every light has to be followed by a ray
+    bool chosen = false;     ///< a few samples stand for all: direct_choice.cpp
     bool limited = false;    ///< an aft clipping plane cuts rays that go through the surface
     bool adaptive = false;   ///< tested brightest first, until the others cannot matter
     DirectCoefficient coefficient;
@@ -67,6 +69,9 @@ struct DirectScratch {
     std::vector<LightCandidate> candidates;   ///< of one point after the other
     std::vector<std::uint32_t> ranks;         ///< candidates of one point after the other, in the
                                               ///< order of tests
+    std::vector<float> sizes;                 ///< of sources or candidates, a few to be chosen
+    std::vector<LightChoice> chosen;          ///< of these
+    std::vector<float> scales;                ///< of chosen sources, by source
     std::vector<std::uint64_t> keys;          ///< of the candidates that are being ranked
     std::vector<float> tails;                 ///< by rank, and one more a point: see next_block()
     std::vector<std::uint32_t> tests;         ///< candidates that are being tested

@@ -1,5 +1,6 @@
 #pragma once
 // One light source, real or virtual, as the direct calculation samples it.
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -51,7 +52,13 @@ struct LightSource {
     std::int32_t parent = -1;       ///< virtual: what it relays
     int branch = 0;                 ///< virtual: projection of the relay (prism2)
     std::optional<RelayBeam> beam;  ///< virtual: where its samples meet the relay
+    float worth = 0;                ///< brightness of its radiance, about, times visible_share()
     float hit_rate = 0.5f;          ///< frozen share of shadow tests that get through
 };
+
+/// Share of the tests that see the source, where light samples are chosen by it: never 0.
+[[nodiscard]] inline float visible_share(const LightSource& source) {
+    return std::max(0.02f, source.hit_rate);
+}
 
 }  // namespace lightwalk

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/light/emission.h"
 #include "core/light/hit_rates.h"
 #include "core/light/source_setup.h"
 #include "core/light/spot.h"
@@ -31,10 +32,16 @@ void LightSources::index_sources() {
 void LightSources::settle(const Tracer& tracer, WarningSink& warnings, const Team& team) {
     index_sources();
     find_scattered(warnings);
-    if (options_.shadow_threshold > 0) {
+    const bool chosen = options_.ambient_bounces > 0 && options_.ambient_lights > 0;
+    if (options_.shadow_threshold > 0 || chosen) {
         const std::vector<float> rates = measure_hit_rates(*this, tracer, warnings, team);
         for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
     }
+    if (!chosen) return;
+    const std::vector<float> emissions = mean_emissions(*this, tracer);
+    for (std::size_t i = 0; i < emissions.size(); ++i)
+        sources_[i].worth = emissions[i] * visible_share(sources_[i]);
+    boxes_.set_worths(sources_, sampled_);
 }
 
 bool LightSources::shine() const {

@@ -179,6 +179,9 @@ SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const s
         set(kArea, static_cast<double>(source.size));
         set(kBehind, apex_behind(source));
         set(kReach, reach_of(source));
+        set(kRadius, source.distant
+                         ? 0
+                         : std::sqrt(std::max(length_squared(source.u), length_squared(source.v))));
     }
 }
 
@@ -218,6 +221,36 @@ void SourceBoxes::look(const Vec3& point, const Vec3* front, double size_over_di
         facing[i] = 1 - flat[i] - flat[i] * turned;
         margin[i] =
             (to_x * to_x + to_y * to_y + to_z * to_z) * size_squared - 4 * kRound * longest[i];
+    }
+}
+
+void SourceBoxes::set_worths(std::span<const LightSource> sources,
+                             std::span<const std::int32_t> which) {
+    for (std::size_t i = 0; i < which.size(); ++i)
+        rows_[kWorth * count_ + i] =
+            static_cast<double>(sources[static_cast<std::size_t>(which[i])].worth);
+}
+
+void SourceBoxes::rate(const SourceViews& views, bool one_sided, std::span<float> sizes) const {
+    using From = SourceViews::Row;
+    const double *x = views.row(From::kX), *y = views.row(From::kY), *z = views.row(From::kZ),
+                 *height = views.row(From::kHeight), *facing = views.row(From::kFacing),
+                 *local = row(kLocal), *flat = row(kFlat), *area = row(kArea),
+                 *radius = row(kRadius), *worth = row(kWorth);
+    const double both = one_sided ? 0 : 1;
+    float* __restrict__ out = sizes.data();
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const double squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] + kEpsilon * kEpsilon;
+        const double nearness = 1 / std::sqrt(squared);
+        // Parts of a near source may face the point more than its middle does. No solid angle is
+        // larger than a half sphere.
+        const double turned = std::min(1.0, (facing[i] + 0.5 * radius[i]) * nearness);
+        const double source_cosine = flat[i] * turned + (1 - flat[i]);
+        const double cosine = both + (1 - both) * std::min(1.0, height[i] * nearness);
+        const double spread = local[i] * (squared + area[i] * (0.5 / kPi)) + (1 - local[i]);
+        const double size = worth[i] * area[i] / spread * source_cosine * cosine;
+        out[i] = (height[i] + both > 0) & (facing[i] > 0) ? static_cast<float>(size) : 0.0f;
     }
 }
 

@@ -111,6 +111,12 @@ class SourceBoxes {
     /// @param size_over_distance  as Partition takes it
     void look(const Vec3& point, const Vec3* front, double size_over_distance,
               SourceViews& out) const;
+    /// The sources' worth, which is not known when the boxes are made.
+    void set_worths(std::span<const LightSource> sources, std::span<const std::int32_t> which);
+    /// About what each sends to the point, as `views` shows it: worth times solid angle, times the
+    /// cosine at the point if it is one-sided; rather too much where a source is near. 0: nothing.
+    /// @param sizes  out: one a source
+    void rate(const SourceViews& views, bool one_sided, std::span<float> sizes) const;
     /// Add the whole of box i, of source `index`, as `views` shows it.
     void add_whole(std::size_t i, std::int32_t index, const SourceViews& views,
                    SourceSamples& samples) const;
@@ -128,6 +134,8 @@ class SourceBoxes {
         kArea,
         kBehind,
         kReach,
+        kRadius,  ///< the longer half axis of local ones [m]
+        kWorth,   ///< LightSource::worth
         kRows
     };
     [[nodiscard]] const double* row(int r) const {

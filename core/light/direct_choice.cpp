@@ -1,0 +1,61 @@
+// Direct light where ambient rays arrive: of many sources, and then of many candidates, a few stand
+// for all. Each such point is one of hundreds in a hemisphere's mean, to which a shadow ray more
+// adds less than another point would.
+#include <algorithm>
+
+#include "core/light/direct_calculation.h"
+
+namespace lightwalk {
+namespace {
+
+/// Numbers of a point's own, for the choice of sources (0) and candidates (1).
+double random_of(const LitPoint& point, int choice) {
+    RandomStream stream = point.start.random;
+    RandomStream child = stream.child();
+    for (int i = 0; i < choice; ++i) child = stream.child();
+    return child.next();
+}
+
+}  // namespace
+
+/// Samples of a few real sources and of all virtual ones, most of which pass their relay by.
+void DirectCalculation::add_chosen_sources(LitPoint& point) {
+    const std::span<const std::int32_t> sampled = lights_.sampled();
+    scratch_.sizes.resize(sampled.size());
+    scratch_.scales.assign(lights_.all().size(), 1);
+    lights_.boxes().rate(scratch_.views, point.one_sided, scratch_.sizes);
+    choose_lights(scratch_.sizes, wanted_lights(), random_of(point, 0), scratch_.chosen);
+    for (const LightChoice& choice : scratch_.chosen) {
+        scratch_.scales[static_cast<std::size_t>(sampled[choice.which])] = choice.scale;
+        add_source(point, choice.which);
+    }
+    if (lights_.virtual_count() == 0) return;
+    for (std::size_t k = 0; k < sampled.size(); ++k)
+        if (lights_[sampled[k]].is_virtual) add_source(point, k);
+}
+
+/// Of the point's candidates a few, which bring more for it.
+void DirectCalculation::choose_candidates(LitPoint& point) {
+    if (point.count <= wanted_lights()) return;
+    scratch_.sizes.clear();
+    for (std::size_t i = 0; i < point.count; ++i) {
+        const LightCandidate& candidate = ranked(point, i);
+        const LightSource& source = lights_[candidate.source];
+        scratch_.sizes.push_back(candidate.state == CandidateState::unknown
+                                     ? brightness(candidate.coefficient) * source.worth
+                                     : candidate.brightness * visible_share(source));
+    }
+    choose_lights(scratch_.sizes, wanted_lights(), random_of(point, 1), scratch_.chosen);
+    for (std::size_t i = 0; i < scratch_.chosen.size(); ++i) {
+        const LightChoice& choice = scratch_.chosen[i];
+        std::uint32_t& place = scratch_.ranks[point.first + i];
+        std::swap(place, scratch_.ranks[point.first + choice.which]);
+        LightCandidate& candidate = scratch_.candidates[place];
+        candidate.coefficient *= choice.scale;
+        candidate.contribution *= choice.scale;
+        candidate.brightness *= choice.scale;
+    }
+    point.count = scratch_.chosen.size();
+}
+
+}  // namespace lightwalk

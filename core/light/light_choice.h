@@ -1,0 +1,29 @@
+#pragma once
+// A few of many light samples that stand for all.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lightwalk {
+
+/// One of the chosen.
+struct LightChoice {
+    std::uint32_t which = 0;  ///< index into the sizes
+    float scale = 1;          ///< 1 / the probability of being chosen
+};
+
+/// Choose about `wanted` of many, or all that are not 0 where these are fewer, so that the mean of
+/// what the chosen bring, each times its scale, is what all bring. Those that are larger than an
+/// even share of the rest are always chosen; the probability of the others goes with their size,
+/// but no scale is above 1000. Source: Madow, "On the theory of systematic sampling, II", Annals of
+/// Mathematical Statistics 20, 1949.
+/// @param sizes   about what each brings; not negative. All are chosen where their sum is not
+///                finite.
+/// @param wanted  at least 1
+/// @param random  uniform in [0, 1)
+/// @param chosen  out: in ascending order
+void choose_lights(std::span<const float> sizes, std::size_t wanted, double random,
+                   std::vector<LightChoice>& chosen);
+
+}  // namespace lightwalk
