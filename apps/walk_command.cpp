@@ -21,7 +21,8 @@ Value named_value(OptionWords& words,
     std::string expected;
     for (const auto& [name, value] : values) {
         if (word == name) return value;
-        expected += (expected.empty() ? "" : ", ") + std::string(name);
+        if (!expected.empty()) expected += ", ";
+        expected += name;
     }
     throw UsageError("option " + option + ": expected one of " + expected + ", found \"" + word +
                      "\"");

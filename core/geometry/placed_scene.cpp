@@ -241,11 +241,13 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
 bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
     if (what.frame != kWorld) enter(ray, what.frame);
+    // First whether it is met: most are not, and what a surface is stands elsewhere in memory.
+    const std::optional<Candidate> candidate = cross(ray, what);
+    if (!candidate) return false;
     const ShadowClass shadow = shadow_class(ray, what);
     if (shadow == ShadowClass::ignored) return false;
     if (shadow == ShadowClass::special && ray.result == Visibility::special) return false;
-    const std::optional<Candidate> candidate = cross(ray, what);
-    if (!candidate || !is_in_the_way(ray, *candidate)) return false;
+    if (!is_in_the_way(ray, *candidate)) return false;
     if (shadow != ShadowClass::blocks) {
         ray.result = Visibility::special;
         return false;

@@ -66,7 +66,7 @@ class DirectCalculation {
                                                               const Vec3& direction);
 
     // direct_choice.cpp
-    void add_chosen_sources(LitPoint& point);
+    [[nodiscard]] std::span<const std::uint32_t> choose_sources(const LitPoint& point);
     void choose_candidates(LitPoint& point);
     [[nodiscard]] std::size_t wanted_lights() const {
         return static_cast<std::size_t>(tracer_.options().ambient_lights);

@@ -18,20 +18,23 @@ double random_of(const LitPoint& point, int choice) {
 
 }  // namespace
 
-/// Samples of a few real sources and of all virtual ones, most of which pass their relay by.
-void DirectCalculation::add_chosen_sources(LitPoint& point) {
+/// A few real sources, and all virtual ones: most of their samples pass the relay by.
+std::span<const std::uint32_t> DirectCalculation::choose_sources(const LitPoint& point) {
     const std::span<const std::int32_t> sampled = lights_.sampled();
     scratch_.sizes.resize(sampled.size());
     scratch_.scales.assign(lights_.all().size(), 1);
     lights_.boxes().rate(scratch_.views, point.one_sided, scratch_.sizes);
     choose_lights(scratch_.sizes, wanted_lights(), random_of(point, 0), scratch_.chosen);
+    std::vector<std::uint32_t>& which = scratch_.chosen_sources;
+    which.clear();
     for (const LightChoice& choice : scratch_.chosen) {
         scratch_.scales[static_cast<std::size_t>(sampled[choice.which])] = choice.scale;
-        add_source(point, choice.which);
+        which.push_back(choice.which);
     }
-    if (lights_.virtual_count() == 0) return;
-    for (std::size_t k = 0; k < sampled.size(); ++k)
-        if (lights_[sampled[k]].is_virtual) add_source(point, k);
+    if (lights_.virtual_count() == 0) return which;
+    for (const std::uint32_t k : lights_.each())
+        if (lights_[sampled[k]].is_virtual) which.push_back(k);
+    return which;
 }
 
 /// Of the point's candidates a few, which bring more for it.

@@ -1,12 +1,10 @@
 // What light sources send towards a point, when nothing else is in the scene.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
 #include "core/geometry/polygon.h"
 #include "core/light/direct_calculation.h"
-#include "core/texture/function_binding.h"
 
 namespace lightwalk {
 
@@ -116,36 +114,34 @@ void DirectCalculation::find_radiances(std::span<const std::uint32_t> candidates
 /// The same for up to kSideBySide candidates whose sources have the same patterns.
 void DirectCalculation::find_side_by_side(std::span<const std::uint32_t> group,
                                           ModifierId patterns) {
-    std::array<RayHit, kSideBySide> hits;
-    std::array<std::uint32_t, kSideBySide> which{};
+    PatternGroup& g = scratch_.group;
     std::size_t size = 0;
     for (const std::uint32_t i : group) {
         LightCandidate& candidate = scratch_.candidates[i];
-        if (meet(candidate, hits[size].hit)) {
+        if (meet(candidate, g.hits[size].hit)) {
             const Tracer::ShadowStart& start = point_of(candidate).start;
-            hits[size].way = {candidate.direction, start.path_length, start.shadow_length};
-            which[size++] = i;
+            g.hits[size].way = {candidate.direction, start.path_length, start.shadow_length};
+            g.pattern[size] = 1.0f;
+            g.which[size++] = i;
         } else {
             set_radiance(candidate, {});
         }
     }
-    std::array<std::optional<float>, kSideBySide> pattern;
-    pattern.fill(1.0f);
-    std::array<std::optional<double>, kSideBySide> values;
+    const auto hits = std::span(g.hits).first(size);
     for (ModifierId m = patterns; m != kVoid; m = tracer_.scene().modifier(m).next) {
         const FunctionBinding* function = tracer_.scene().modifier(m).node->brightness_function();
-        function->evaluate_all(std::span(hits).first(size), values, context_);
+        function->evaluate_all(hits, g.values, context_);
         for (std::size_t k = 0; k < size; ++k) {
-            if (pattern[k] && values[k])
-                *pattern[k] *= static_cast<float>(*values[k]);
+            if (g.pattern[k] && g.values[k])
+                *g.pattern[k] *= static_cast<float>(*g.values[k]);
             else
-                pattern[k].reset();
+                g.pattern[k].reset();
         }
     }
     for (std::size_t k = 0; k < size; ++k) {
-        LightCandidate& candidate = scratch_.candidates[which[k]];
-        if (pattern[k])
-            set_radiance(candidate, lights_[candidate.source].radiance * *pattern[k]);
+        LightCandidate& candidate = scratch_.candidates[g.which[k]];
+        if (g.pattern[k])
+            set_radiance(candidate, lights_[candidate.source].radiance * *g.pattern[k]);
         else
             find_radiance(candidate);
     }

@@ -52,11 +52,8 @@ void DirectCalculation::find_samples(LitPoint& point) {
     lights_.boxes().look(point.position, point.one_sided ? &point.front : nullptr, point.part_size,
                          scratch_.views);
     scratch_.samples.clear();
-    if (point.chosen) {
-        add_chosen_sources(point);
-    } else {
-        for (std::size_t k = 0; k < lights_.sampled().size(); ++k) add_source(point, k);
-    }
+    for (const std::uint32_t k : point.chosen ? choose_sources(point) : lights_.each())
+        add_source(point, k);
     scratch_.samples.sample(lights_.all(), point.position);
     if (lights_.virtual_count() == 0) return;
     scratch_.samples.retain([&](std::size_t i) {

@@ -1,7 +1,9 @@
 #pragma once
 // The direct calculation's buffers: one set per thread, which allocates only while growing.
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/geometry.h"
@@ -9,6 +11,7 @@
 #include "core/light/shadow_order.h"
 #include "core/light/source_samples.h"
 #include "core/math/rgb.h"
+#include "core/texture/function_binding.h"
 #include "core/transport/tracer.h"
 
 namespace lightwalk {
@@ -59,6 +62,15 @@ struct LitPoint {
     ShadowTally tally;                      ///< adaptive
 };
 
+/// Candidates whose sources' patterns are evaluated side by side: a place each. Nothing is cleared
+/// between two groups: most are small.
+struct PatternGroup {
+    std::array<std::uint32_t, kSideBySide> which{};  ///< candidate
+    std::array<RayHit, kSideBySide> hits;            ///< on its source
+    std::array<std::optional<float>, kSideBySide> pattern;
+    std::array<std::optional<double>, kSideBySide> values;  ///< of one of the patterns
+};
+
 /// The buffers of one calculation.
 struct DirectScratch {
     SourceViews views;              ///< of all sources, seen from one point
@@ -66,20 +78,22 @@ struct DirectScratch {
     SourceSamples samples;          ///< of all
     std::vector<Rgb> coefficients;  ///< of these
     std::vector<LitPoint> points;
-    std::vector<LightCandidate> candidates;   ///< of one point after the other
-    std::vector<std::uint32_t> ranks;         ///< candidates of one point after the other, in the
-                                              ///< order of tests
-    std::vector<float> sizes;                 ///< of sources or candidates, a few to be chosen
-    std::vector<LightChoice> chosen;          ///< of these
-    std::vector<float> scales;                ///< of chosen sources, by source
-    std::vector<std::uint64_t> keys;          ///< of the candidates that are being ranked
-    std::vector<float> tails;                 ///< by rank, and one more a point: see next_block()
-    std::vector<std::uint32_t> tests;         ///< candidates that are being tested
-    std::vector<std::uint32_t> by_source;     ///< of these, those that plain visibility decides
-    std::vector<std::uint32_t> source_ends;   ///< in by_source
-    std::vector<ShadowQuery> shadow_queries;  ///< of these
-    std::vector<Visibility> answers;          ///< to these
-    std::vector<std::uint32_t> side_by_side;  ///< candidates whose patterns go side by side
+    std::vector<LightCandidate> candidates;     ///< of one point after the other
+    std::vector<std::uint32_t> ranks;           ///< candidates of one point after the other, in the
+                                                ///< order of tests
+    std::vector<float> sizes;                   ///< of sources or candidates, a few to be chosen
+    std::vector<LightChoice> chosen;            ///< of these
+    std::vector<std::uint32_t> chosen_sources;  ///< among the sampled ones
+    std::vector<float> scales;                  ///< of these, by source
+    std::vector<std::uint64_t> keys;            ///< of the candidates that are being ranked
+    std::vector<float> tails;                   ///< by rank, and one more a point: see next_block()
+    std::vector<std::uint32_t> tests;           ///< candidates that are being tested
+    std::vector<std::uint32_t> by_source;       ///< of these, those that plain visibility decides
+    std::vector<std::uint32_t> source_ends;     ///< in by_source
+    std::vector<ShadowQuery> shadow_queries;    ///< of these
+    std::vector<Visibility> answers;            ///< to these
+    std::vector<std::uint32_t> side_by_side;    ///< candidates whose patterns go side by side
+    PatternGroup group;                         ///< some of these
 };
 
 struct LightScratch {

@@ -1,6 +1,7 @@
 #include "core/light/light_sources.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/light/emission.h"
 #include "core/light/hit_rates.h"
@@ -24,6 +25,8 @@ void LightSources::index_sources() {
         if (!source.unusable) sampled_.push_back(static_cast<std::int32_t>(i));
         if (source.distant && !source.is_virtual) distant_.push_back(static_cast<std::int32_t>(i));
     }
+    each_.resize(sampled_.size());
+    std::iota(each_.begin(), each_.end(), 0U);
     boxes_ = SourceBoxes(sources_, sampled_);
     virtual_count_ = static_cast<std::size_t>(std::count_if(
         sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));

@@ -35,6 +35,8 @@ class LightSources {
     [[nodiscard]] bool shine() const;
     /// Indices of the sources that the direct calculation samples, ascending.
     [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
+    /// Their numbers, from 0 on.
+    [[nodiscard]] std::span<const std::uint32_t> each() const { return each_; }
     /// The boxes of these.
     [[nodiscard]] const SourceBoxes& boxes() const { return boxes_; }
 
@@ -83,6 +85,7 @@ class LightSources {
     std::vector<LightSource> sources_;
     std::vector<Shape> shapes_;  ///< of each source
     std::vector<std::int32_t> sampled_;
+    std::vector<std::uint32_t> each_;
     SourceBoxes boxes_;
     std::size_t virtual_count_ = 0;
     std::vector<std::int32_t> distant_;                        ///< real sources at infinity
