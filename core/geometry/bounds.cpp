@@ -136,6 +136,12 @@ std::vector<Bounds> outline_of(std::span<const Bounds> boxes) {
     return cells;
 }
 
+double half_area(const Bounds& bounds) {
+    if (bounds.empty()) return 0;
+    const Vec3 size = bounds.upper - bounds.lower;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
 Bounds transformed(const Bounds& bounds, const Matrix& matrix) {
     Bounds result;
     if (bounds.empty()) return result;

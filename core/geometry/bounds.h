@@ -22,6 +22,8 @@ namespace lightwalk {
 [[nodiscard]] Bounds grown(Bounds bounds, double margin);
 
 /// Box around the transformed box.
+/// Half of the surface of a box: the share of rays that meet it goes by that [m²].
+[[nodiscard]] double half_area(const Bounds& bounds);
 [[nodiscard]] Bounds transformed(const Bounds& bounds, const Matrix& matrix);
 
 /// The cube around a box as Radiance's octrees have it: same centre, 1e-5 more on each side [m].

@@ -60,6 +60,11 @@ class ModelPrimitives {
     [[nodiscard]] Bounds hit_bounds(std::uint32_t primitive) const;
     /// The primitive's shape where it is a polygon.
     [[nodiscard]] std::optional<PolygonShape> polygon(std::uint32_t primitive) const;
+    /// The primitive's shape where it is a cone, cup, cylinder or tube; else null.
+    [[nodiscard]] const ConeShape* cone(std::uint32_t primitive) const {
+        if (is_triangle(primitive) || rows_[primitive].kind != ShapeKind::cone) return nullptr;
+        return &part_->shapes->cone(rows_[primitive].index());
+    }
     /// Box around all surfaces and triangles themselves.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     /// Box around what hit_bounds gives for all of them.

@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "core/geometry/bounds.h"
+#include "core/geometry/cone_slices.h"
 #include "core/geometry/polygon.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kDivisions = 20000;   ///< of all polygons of a model, and half as many as it
-                                            ///< has primitives
+constexpr std::size_t kDivisions = 20000;   ///< of all polygons of a model, of all its cones, too;
+                                            ///< and half as many as it has primitives
 constexpr int kMostPieces = 64;             ///< of one polygon
 constexpr std::size_t kMostVertices = 128;  ///< of a polygon that is divided
 constexpr double kLeastGain = 1e-5;         ///< of a division, relative to the model's box
@@ -240,12 +241,6 @@ Task task_for(const Projection& polygon, std::size_t number, const Cell& cell, C
     return task;
 }
 
-double half_area(const Bounds& bounds) {
-    if (bounds.empty()) return 0;
-    const Vec3 size = bounds.upper - bounds.lower;
-    return size.x * size.y + size.y * size.z + size.z * size.x;
-}
-
 Bounds common(Bounds a, const Bounds& b) {
     for (std::size_t k = 0; k < 3; ++k) {
         a.lower[k] = std::max(a.lower[k], b.lower[k]);
@@ -254,13 +249,18 @@ Bounds common(Bounds a, const Bounds& b) {
     return a;
 }
 
+double least_gain(const ModelPrimitives& model) {
+    return kLeastGain * half_area(model.bounds());
+}
+std::size_t most_divisions(const ModelPrimitives& model) {
+    return kDivisions + model.size() / 2;
+}
+
 /// Divides the polygons of a model, always where most is won next.
 class Division {
   public:
     explicit Division(const ModelPrimitives& model)
-        : model_(model),
-          least_(kLeastGain * half_area(model.bounds())),
-          budget_(kDivisions + model.size() / 2) {}
+        : model_(model), least_(least_gain(model)), budget_(most_divisions(model)) {}
 
     /// A first look, at any number of primitives at once: false for what is never divided.
     [[nodiscard]] bool is_candidate(std::uint32_t primitive) const {
@@ -349,6 +349,47 @@ std::vector<std::uint32_t> select_primitives(std::size_t count, const Team& team
     return all;
 }
 
+/// A cone that is divided.
+struct SlicedCone {
+    std::uint32_t primitive = 0;
+    ConeSlices slices;
+};
+
+/// Those of a model from which most is won, in their order.
+std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const Team& team) {
+    const double least = least_gain(model);
+    const auto slices = [&](std::uint32_t i) {
+        const ConeShape* const cone = model.cone(i);
+        return cone ? slices_of(*cone, least) : ConeSlices{};
+    };
+    std::vector<SlicedCone> cones;
+    for (const std::uint32_t i : select_primitives(
+             model.size(), team, [&](std::uint32_t k) { return slices(k).count > 1; }))
+        cones.push_back({i, slices(i)});
+    std::stable_sort(cones.begin(), cones.end(), [](const SlicedCone& a, const SlicedCone& b) {
+        return a.slices.gain > b.slices.gain;
+    });
+    std::size_t budget = most_divisions(model), taken = 0;
+    for (; taken < cones.size(); ++taken) {
+        const auto cuts = static_cast<std::size_t>(cones[taken].slices.count - 1);
+        if (cuts > budget) break;
+        budget -= cuts;
+    }
+    cones.resize(taken);
+    std::sort(cones.begin(), cones.end(),
+              [](const SlicedCone& a, const SlicedCone& b) { return a.primitive < b.primitive; });
+    return cones;
+}
+
+void append(const std::vector<SlicedCone>& cones, const ModelPrimitives& model, Pieces& pieces) {
+    for (const auto& [primitive, slices] : cones) {
+        for (int i = 0; i < slices.count; ++i) {
+            pieces.primitive_of.push_back(primitive);
+            pieces.boxes.push_back(hit_bounds(*model.cone(primitive), i, slices.count));
+        }
+    }
+}
+
 /// Pairs of primitives, then those that stay alone.
 struct Grouping {
     std::vector<std::uint32_t> pairs, alone;
@@ -408,10 +449,13 @@ Bounds Pieces::box(std::size_t piece, const ModelPrimitives& model) const {
 
 Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
     Division division(model);
-    const std::vector<std::uint32_t> divided =
+    std::vector<std::uint32_t> divided =
         division.add(select_primitives(model.size(), team,
                                        [&](std::uint32_t i) { return division.is_candidate(i); }),
                      team);
+    const std::vector<SlicedCone> cones = slice_cones(model, team);
+    for (const SlicedCone& cone : cones) divided.push_back(cone.primitive);
+    std::sort(divided.begin(), divided.end());
     Grouping whole;
     whole.alone = select_primitives(model.size(), team, [&](std::uint32_t i) {
         return model.is_finite(i) && !std::binary_search(divided.begin(), divided.end(), i);
@@ -428,6 +472,7 @@ Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
         return pieces;
     }
     division.run(pieces);
+    append(cones, model, pieces);
     pieces.primitive_of.shrink_to_fit();
     return pieces;
 }

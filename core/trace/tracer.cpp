@@ -46,7 +46,7 @@ class OpenRay {
 constexpr std::size_t kMostWaves = 3;
 /// Rays of a wave: those of pixels lie near each other, ambient ones do not. Each costs two of the
 /// mappings of memory of which a process has some 65,000.
-constexpr std::size_t kPixelRays = 32, kAmbientRays = 16;
+constexpr std::size_t kPixelRays = 64, kAmbientRays = 16;
 /// Candidates a point from which waves are faster (measured on seven models).
 constexpr std::size_t kWorthWaiting = 2;
 

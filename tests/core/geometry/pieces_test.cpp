@@ -1,9 +1,11 @@
-// Boxes of parts of polygons: they leave nothing out, and holes and corners free.
+// Boxes of parts of polygons and cones: they leave nothing out, and holes, corners and the air
+// around branches free.
 #include "core/geometry/pieces.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/geometry/bounds.h"
@@ -15,9 +17,11 @@ namespace {
 using test::surface;
 
 struct Divided {
-    explicit Divided(std::vector<double> corners) {
+    explicit Divided(std::vector<double> corners)
+        : Divided({surface(PrimitiveType::polygon, std::move(corners), 0, test::kOpaque)}) {}
+    explicit Divided(std::vector<test::TestSurface> surfaces) {
         test::TestModels scene;
-        scene.add(surface(PrimitiveType::polygon, std::move(corners), 0, test::kOpaque));
+        for (test::TestSurface& surface : surfaces) scene.add(std::move(surface));
         tables = std::make_unique<test::TestModels::Tables>(scene);
         model = std::make_unique<ModelPrimitives>(tables->surfaces, tables->input.models[0],
                                                   TeamOfOne());
@@ -128,6 +132,65 @@ TEST_CASE("every point that a small slanted triangle takes for its own is in its
         }
     }
     CHECK(beyond > 100);
+}
+
+TEST_CASE(
+    "the boxes of a slanted branch leave the air around it free; an upright trunk is one box") {
+    const Divided branch(
+        {surface(PrimitiveType::cone, {0, 0, 0, 4, 4, 4, 0.1, 0.05}, 0, test::kOpaque)});
+    CHECK(branch.pieces.size() == 16);
+    CHECK_FALSE(branch.holds({1, 2, 2}));
+    CHECK_FALSE(branch.holds({3.5, 3.5, 3}));
+    for (const double s : {0.0, 0.3, 2.0, 4.0}) CHECK(branch.holds({s, s, s}));
+    for (const PrimitiveType type : {PrimitiveType::cylinder, PrimitiveType::tube})
+        CHECK(Divided({surface(type, {1, 1, 0, 1, 1, 9, 0.2}, 0, test::kOpaque)}).pieces.size() ==
+              1);
+}
+
+TEST_CASE("every hit of a cone, cup, cylinder or tube is in one of its boxes") {
+    RandomStream random(8);
+    std::size_t most = 0;
+    int hits = 0;
+    for (int round = 0; round < 300; ++round) {
+        const auto type = std::array{PrimitiveType::cone, PrimitiveType::cup,
+                                     PrimitiveType::cylinder, PrimitiveType::tube}[round % 4U];
+        const auto somewhere = [&](double size) {
+            return Vec3{random.next() - 0.5, random.next() - 0.5, random.next() - 0.5} * size;
+        };
+        const Vec3 from = somewhere(20), to = from + somewhere(8);
+        std::vector<double> reals{from.x, from.y, from.z, to.x, to.y, to.z};
+        reals.push_back(random.next() * (round % 3 == 0 ? 1 : 0.1));
+        if (round % 4 < 2) reals.push_back(random.next() < 0.2 ? 0 : random.next());
+        const Divided cone({surface(type, reals, 0, test::kOpaque)});
+        if (cone.pieces.size() == 0) continue;  // degenerate
+        most = std::max(most, cone.pieces.size());
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 aim = from + (to - from) * random.next() + somewhere(0.2),
+                       origin = aim + somewhere(20);
+            const Vec3 direction = normalize(aim - origin);
+            const auto hit = cone.model->intersect(0, origin, direction, kHuge);
+            if (!hit) continue;
+            REQUIRE(cone.holds(origin + direction * hit->t));
+            ++hits;
+        }
+    }
+    CHECK(most == 16);
+    CHECK(hits > 20'000);
+}
+
+TEST_CASE("of many branches the long ones are divided, up to a bound for all together") {
+    std::vector<test::TestSurface> branches;
+    constexpr std::size_t kCount = 4000;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const double length = i % 2 == 0 ? 3 : 2, x = 0.01 * static_cast<double>(i);
+        branches.push_back(surface(PrimitiveType::cylinder,
+                                   {x, 0, 0, x + length, length, length, 0.001}, 0, test::kOpaque));
+    }
+    const Divided all(std::move(branches));
+    CHECK(all.pieces.size() > kCount + 20'000 + kCount / 2 - 16);
+    CHECK(all.pieces.size() <= kCount + 20'000 + kCount / 2);
+    for (std::size_t i = all.pieces.whole; i < all.pieces.size(); ++i)
+        CHECK(all.pieces.primitive(i) % 2 == 0);
 }
 
 TEST_CASE("in a large model the two triangles of a cell are a pair, and rays meet each of them") {

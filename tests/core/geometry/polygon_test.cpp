@@ -151,6 +151,40 @@ TEST_CASE("the index of edges changes no answer") {
     }
 }
 
+TEST_CASE("the index of edges changes no answer of small outlines, beside edges and corners either") {
+    Random random(27);
+    int inside_count = 0, on_edge = 0;
+    for (int k = 0; k < 3000; ++k) {
+        const double size = std::pow(10, random.uniform(-6.5, 2));
+        std::vector<std::pair<double, double>> corners;
+        for (int i = 0; i < 3 + k % 4; ++i) {
+            corners.emplace_back(random.uniform(-size, size), random.uniform(-size, size));
+            if (i > 0 && random.below(3) == 0) corners.back().second = corners[0].second;
+        }
+        std::vector<double> reals;
+        for (const auto& [x, y] : corners) reals.insert(reals.end(), {x, y, 0});
+        const auto valid = make_shape(kept_primitive(PrimitiveType::polygon, reals)).shape;
+        const auto* polygon = std::get_if<PolygonShape>(&valid);
+        if (!polygon) continue;  // without area
+        const EdgeIndex edge_by_edge(*polygon);
+        for (int i = 0; i < 100; ++i) {  // beside an edge, or the line through it
+            const Vec3 a = polygon->vertices[static_cast<std::size_t>(random.below(3))],
+                       b = polygon->vertices[static_cast<std::size_t>(random.below(3))];
+            const double s = random.below(3) == 0 ? 0 : random.uniform(-0.5, 1.5),
+                         off = i % 2 == 0 ? 3e-6 : size / 2;
+            const Vec3 p = a + (b - a) * s +
+                           Vec3{random.uniform(-off, off),
+                                random.below(4) == 0 ? 0 : random.uniform(-off, off), 0};
+            const bool expected = contains(*polygon, p, &edge_by_edge);
+            REQUIRE(contains(*polygon, p, nullptr) == expected);
+            inside_count += expected ? 1 : 0;
+            on_edge += expected && i % 2 == 0 ? 1 : 0;
+        }
+    }
+    CHECK(inside_count > 60'000);
+    CHECK(on_edge > 30'000);
+}
+
 TEST_CASE("an outline of a million vertices is built and hit in no time") {
     std::vector<double> reals;
     constexpr int kCount = 1'000'000;
