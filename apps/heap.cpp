@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kHeap = std::size_t{32} << 20;       ///< reserved, not used [bytes]
 constexpr std::size_t kOwnMapping = std::size_t{4} << 20;  ///< from this size given back at once
+constexpr int kSmallPad = 128 << 10;                       ///< free and kept, where memory counts
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
 }  // namespace
@@ -32,6 +33,11 @@ void prepare_heap() {
     char* const start = before + (kLargePage - beyond) % kLargePage;
     if (end > start)  // it is this allocator that grew it
         (void)madvise(start, static_cast<std::size_t>(end - start), MADV_HUGEPAGE);
+}
+
+void give_back_heap() {
+    (void)mallopt(M_TOP_PAD, kSmallPad);  // NOLINT(concurrency-mt-unsafe): takes the heap's lock
+    (void)malloc_trim(0);
 }
 
 }  // namespace lightwalk

@@ -10,4 +10,8 @@ namespace lightwalk {
 /// changes.
 void prepare_heap();
 
+/// Give the system what is free of the heap, now and from now on. Before and after a large scene is
+/// built: what was needed for that is not needed again, and each rank of a machine would hold it.
+void give_back_heap();
+
 }  // namespace lightwalk

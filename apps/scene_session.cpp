@@ -5,6 +5,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "apps/heap.h"
 #include "apps/piece_pipe.h"
 #include "apps/progress.h"
 #include "apps/rank_link.h"
@@ -24,6 +25,14 @@ std::int64_t now_ns() {
     using std::chrono::duration_cast;
     using std::chrono::nanoseconds;
     return duration_cast<nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Beyond this a process holds on to no memory that it has done with; of a smaller one the pages
+/// are worth more where they are [bytes].
+constexpr std::uint64_t kLarge = std::uint64_t{64} << 20;
+
+void settle_heap() {
+    if (peak_memory_bytes() > kLarge) give_back_heap();
 }
 
 class NoWarnings final : public WarningSink {
@@ -117,7 +126,9 @@ void SceneSession::compile(Resources& asked) {
 
 void SceneSession::compile(Resources& asked, const Team& team) {
     raise_problems(asked);
+    settle_heap();
     built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, team);
+    settle_heap();
 }
 
 void SceneSession::build(const RenderSettings& settings, RankLink* link) {

@@ -1,6 +1,7 @@
 #include "core/geometry/embree_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -103,6 +104,13 @@ void enter(const Query& query, TracedRay& ray, FrameId frame) {
         PlacedScene::enter(ray, frame, query.within->space());
 }
 
+ClusterRay cluster_ray(RTCRayN* rays, unsigned count, unsigned lane) {
+    return {{RTCRayN_org_x(rays, count, lane), RTCRayN_org_y(rays, count, lane),
+             RTCRayN_org_z(rays, count, lane)},
+            {RTCRayN_dir_x(rays, count, lane), RTCRayN_dir_y(rays, count, lane),
+             RTCRayN_dir_z(rays, count, lane)}};
+}
+
 unsigned active_lanes(const int* valid, unsigned count) {
     return static_cast<unsigned>(std::count_if(valid, valid + count, [](int v) { return v != 0; }));
 }
@@ -179,6 +187,64 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
                 break;
             }
         }
+    }
+}
+
+void cluster_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    *args->bounds_o = rounded(model.clusters[args->primID].box());
+}
+
+[[gnu::flatten]] void intersect_cluster(const RTCIntersectFunctionNArguments* args) {
+    auto& query = *static_cast<NearestQuery*>(args->context);
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    const Cluster& cluster = model.clusters[args->primID];
+    const FrameId frame = frame_of(query);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        float& end = RTCRayN_tfar(rays, args->N, lane);
+        const ClusterHits hits = boxes_met(cluster, cluster_ray(rays, args->N, lane), end);
+        if (hits.met == 0) continue;
+        const unsigned i = RTCRayN_id(rays, args->N, lane);
+        NearestRay& ray = query.rays[i];
+        enter(query, ray, frame);
+        for (std::uint32_t met = hits.met; met != 0; met &= met - 1) {
+            const auto at = static_cast<std::size_t>(std::countr_zero(met));
+            const PieceRef piece = cluster.pieces[at];
+            if (piece.is_none()) break;
+            if (hits.first[at] > end * kEndRoundUp) continue;
+            for (std::uint32_t primitive = piece.first(); primitive < piece.end(); ++primitive) {
+                if (query.placed->propose(ray, {frame, primitive}))
+                    end = embree_end(ray.limit, query.start[i]);
+            }
+        }
+    }
+}
+
+[[gnu::flatten]] void occlude_cluster(const RTCOccludedFunctionNArguments* args) {
+    auto& query = *static_cast<ShadowQueries*>(args->context);
+    const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
+    const Cluster& cluster = model.clusters[args->primID];
+    const FrameId frame = frame_of(query);
+    const auto is_blocked = [&](ShadowRay& ray, std::uint32_t boxes) {
+        enter(query, ray, frame);
+        for (; boxes != 0; boxes &= boxes - 1) {
+            const PieceRef piece =
+                cluster.pieces[static_cast<std::size_t>(std::countr_zero(boxes))];
+            if (piece.is_none()) return false;
+            for (std::uint32_t primitive = piece.first(); primitive < piece.end(); ++primitive)
+                if (query.placed->propose(ray, {frame, primitive})) return true;
+        }
+        return false;
+    };
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        float& end = RTCRayN_tfar(args->ray, args->N, lane);
+        const std::uint32_t met =
+            boxes_met(cluster, cluster_ray(args->ray, args->N, lane), end).met;
+        if (met != 0 && is_blocked(query.rays[RTCRayN_id(args->ray, args->N, lane)], met))
+            end = -std::numeric_limits<float>::infinity();
     }
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/geometry/clusters.h"
 #include "core/geometry/pieces.h"
 #include "core/geometry/placed_scene.h"
 #include "core/geometry/search_space.h"
@@ -38,7 +39,10 @@ struct Copies {
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
-    Pieces pieces;  ///< what Embree calls primitives; their boxes only while the tree is built
+    // What Embree calls primitives: pieces, their boxes only while the tree is built; or clusters
+    // of them, which take their place.
+    Pieces pieces;
+    std::vector<Cluster> clusters;
     Copies copies;
     ScenePtr scene;
     std::vector<Bounds> outline;  ///< of all in the tree, in the search coordinates; while trees
@@ -78,6 +82,10 @@ void close_lanes(RTCRayHit16& packet);
 void primitive_bounds(const RTCBoundsFunctionArguments* args);
 void intersect_primitive(const RTCIntersectFunctionNArguments* args);
 void occlude_primitive(const RTCOccludedFunctionNArguments* args);
+// The same of clusters.
+void cluster_bounds(const RTCBoundsFunctionArguments* args);
+void intersect_cluster(const RTCIntersectFunctionNArguments* args);
+void occlude_cluster(const RTCOccludedFunctionNArguments* args);
 void copy_bounds(const RTCBoundsFunctionArguments* args);
 void intersect_copy(const RTCIntersectFunctionNArguments* args);
 void occlude_copy(const RTCOccludedFunctionNArguments* args);

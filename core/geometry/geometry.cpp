@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/geometry/bounds.h"
+#include "core/geometry/embree_clusters.h"
 #include "core/geometry/embree_search.h"
 
 // Embree proposes, doubles decide. Every surface is a user geometry whose box is a little too
@@ -32,6 +33,8 @@ struct ReleaseGeometry {
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
+/// Above so many a tree ends in clusters of pieces, which weigh less.
+constexpr std::size_t kMostSinglePieces = std::size_t{1} << 17;
 constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
 
 /// False for NaN as well.
@@ -63,7 +66,8 @@ void extend_transformed(Bounds& bounds, const Bounds& box, const Matrix& matrix)
 
 std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
     std::vector<Bounds> boxes = model.copies.boxes;
-    boxes.reserve(boxes.size() + model.pieces.size());
+    boxes.reserve(boxes.size() + model.pieces.size() + model.clusters.size());
+    for (const Cluster& cluster : model.clusters) boxes.push_back(cluster.box());
     for (std::size_t i = 0; i < model.pieces.size(); ++i)
         boxes.push_back(model.space.box(model.pieces.box(i, *model.primitives)));
     return outline_of(boxes);
@@ -100,7 +104,6 @@ struct Geometry::Impl {
     void open_device(const std::string& options);
     void check(const char* doing) const;
     void add_surfaces(Hierarchy& model, const Team& team);
-    static void set_quality(Hierarchy& model);
     void add_copies(std::uint32_t model);
     [[nodiscard]] std::optional<Copy> copy_of(const PlacedChild& child,
                                               const Hierarchy& around) const;
@@ -123,7 +126,7 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, con
         check("creating a scene");
         add_surfaces(built, team);
         add_copies(*model);
-        set_quality(built);
+        rtcSetSceneBuildQuality(built.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         rtcCommitScene(built.scene.get());
         check("building a search tree");
         if (*model != 0) built.outline = outline_of_tree(built);  // nothing is around the scene
@@ -162,26 +165,28 @@ void Geometry::Impl::check(const char* doing) const {
     throw std::runtime_error(std::string("Embree failed while ") + doing + ": " + embree_message);
 }
 
-/// Of few surfaces a tree of good quality, of many a compact one: 25 bytes a surface for some 90,
-/// built three times as fast (measured; rays through it are a few percent slower).
-void Geometry::Impl::set_quality(Hierarchy& model) {
-    constexpr std::size_t kMany = std::size_t{1} << 17;
-    const bool many = model.pieces.size() > kMany;
-    rtcSetSceneFlags(model.scene.get(), many ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(model.scene.get(),
-                            many ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
-}
-
 void Geometry::Impl::add_surfaces(Hierarchy& model, const Team& team) {
     model.pieces = divide_primitives(*model.primitives, team);
     if (model.pieces.size() == 0) return;
+    if (model.pieces.size() > kMostSinglePieces) {
+        model.clusters =
+            make_clusters(model.pieces, *model.primitives, model.space, device.get(), team);
+        check("clustering the surfaces");
+        if (model.clusters.empty()) throw std::runtime_error("Embree has lost surfaces");
+        model.pieces = Pieces();
+    }
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(model.pieces.size()));
+    const bool clustered = !model.clusters.empty();
+    rtcSetGeometryUserPrimitiveCount(
+        geometry.get(),
+        static_cast<unsigned>(clustered ? model.clusters.size() : model.pieces.size()));
     rtcSetGeometryUserData(geometry.get(), &model);
-    rtcSetGeometryBoundsFunction(geometry.get(), primitive_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry.get(), intersect_primitive);
-    rtcSetGeometryOccludedFunction(geometry.get(), occlude_primitive);
+    rtcSetGeometryBoundsFunction(geometry.get(), clustered ? cluster_bounds : primitive_bounds,
+                                 nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(),
+                                    clustered ? intersect_cluster : intersect_primitive);
+    rtcSetGeometryOccludedFunction(geometry.get(), clustered ? occlude_cluster : occlude_primitive);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(model.scene.get(), geometry.get(), kOwnSurfaces);
     check("adding the surfaces");
@@ -316,6 +321,7 @@ SearchMemory Geometry::memory() const {
                         impl_->placed.memory_bytes()};
     for (const Hierarchy& model : impl_->models)
         memory.tables += model.pieces.primitive_of.capacity() * sizeof(std::uint32_t) +
+                         model.clusters.capacity() * sizeof(Cluster) +
                          model.copies.all.capacity() * sizeof(Copy);
     return memory;
 }

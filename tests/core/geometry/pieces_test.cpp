@@ -135,7 +135,7 @@ TEST_CASE("every point that a small slanted triangle takes for its own is in its
 }
 
 TEST_CASE(
-    "the boxes of a slanted branch leave the air around it free; an upright trunk is one box") {
+    "the boxes of a slanted branch leave the air around it free, an upright trunk is one box") {
     const Divided branch(
         {surface(PrimitiveType::cone, {0, 0, 0, 4, 4, 4, 0.1, 0.05}, 0, test::kOpaque)});
     CHECK(branch.pieces.size() == 16);

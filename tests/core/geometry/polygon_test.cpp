@@ -151,7 +151,8 @@ TEST_CASE("the index of edges changes no answer") {
     }
 }
 
-TEST_CASE("the index of edges changes no answer of small outlines, beside edges and corners either") {
+TEST_CASE(
+    "the index of edges changes no answer of small outlines, beside edges and corners either") {
     Random random(27);
     int inside_count = 0, on_edge = 0;
     for (int k = 0; k < 3000; ++k) {

@@ -1,0 +1,128 @@
+#include "core/geometry/embree_clusters.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <span>
+
+namespace lightwalk {
+namespace {
+
+struct ReleaseBvh {
+    void operator()(RTCBVHTy* bvh) const noexcept { rtcReleaseBVH(bvh); }
+};
+
+/// Boxes as Embree's builder takes them, and sorts them: those of a leaf side by side.
+class Boxes {
+  public:
+    Boxes(const Pieces& pieces, const ModelPrimitives& model, const SearchSpace& space,
+          const Team& team);
+    /// False where the builder has failed.
+    bool divide(RTCDevice device);
+
+    [[nodiscard]] std::size_t size() const { return all_.size(); }
+    [[nodiscard]] bool ends_leaf(std::size_t i) const { return all_[i].geomID == kEnd; }
+    /// The leaf that ends with box i.
+    [[nodiscard]] std::span<const RTCBuildPrimitive> leaf(std::size_t i) const {
+        std::size_t first = i;
+        while (first > 0 && !ends_leaf(first - 1)) --first;
+        return std::span(all_).subspan(first, i + 1 - first);
+    }
+
+  private:
+    static constexpr unsigned kInside = 0, kEnd = 1;  ///< what the builder leaves as it is
+    void mark(const RTCBuildPrimitive* leaf, std::size_t count);
+
+    std::vector<RTCBuildPrimitive> all_;
+    std::atomic<std::size_t> marked_{0};  ///< in leaves: these are made on several threads
+};
+
+Boxes::Boxes(const Pieces& pieces, const ModelPrimitives& model, const SearchSpace& space,
+             const Team& team)
+    : all_(pieces.size()) {
+    for_each_part(team, all_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const RTCBounds b = rounded(space.box(pieces.box(i, model)));
+            all_[i] = {b.lower_x, b.lower_y, b.lower_z, kInside,
+                       b.upper_x, b.upper_y, b.upper_z, static_cast<unsigned>(i)};
+        }
+    });
+    std::erase_if(all_, [](const RTCBuildPrimitive& box) {  // made of no numbers: nothing hits it
+        return !(box.lower_x <= box.upper_x && box.lower_y <= box.upper_y &&
+                 box.lower_z <= box.upper_z);
+    });
+}
+
+/// A leaf of up to eight costs the same for any number: its boxes are tested at once. Of the tree
+/// nothing is kept but which boxes make a leaf.
+bool Boxes::divide(RTCDevice device) {
+    const std::unique_ptr<RTCBVHTy, ReleaseBvh> bvh(rtcNewBVH(device));
+    RTCBuildArguments build = rtcDefaultBuildArguments();
+    build.bvh = bvh.get();
+    build.maxBranchingFactor = 2;
+    build.maxDepth = 64;
+    build.sahBlockSize = build.maxLeafSize = kClusterSize;
+    build.primitives = all_.data();
+    build.primitiveCount = build.primitiveArrayCapacity = all_.size();
+    build.userPtr = this;
+    build.createNode = [](RTCThreadLocalAllocator, unsigned, void* boxes) { return boxes; };
+    build.setNodeChildren = [](void*, void**, unsigned, void*) {};
+    build.setNodeBounds = [](void*, const RTCBounds**, unsigned, void*) {};
+    build.createLeaf = [](RTCThreadLocalAllocator, const RTCBuildPrimitive* leaf, std::size_t count,
+                          void* boxes) {
+        static_cast<Boxes*>(boxes)->mark(leaf, count);
+        return boxes;
+    };
+    rtcBuildBVH(&build);
+    return marked_ == all_.size();
+}
+
+void Boxes::mark(const RTCBuildPrimitive* leaf, std::size_t count) {
+    const std::less_equal<> no_later;  // also of what lies elsewhere: then none is marked
+    const RTCBuildPrimitive *const begin = all_.data(), *const end = begin + all_.size();
+    if (!(no_later(begin, leaf) && no_later(leaf + count, end))) return;
+    all_[static_cast<std::size_t>(leaf - begin) + count - 1].geomID = kEnd;
+    marked_.fetch_add(count, std::memory_order_relaxed);
+}
+
+Bounds bounds_of(const RTCBuildPrimitive& box) {
+    return {{static_cast<double>(box.lower_x), static_cast<double>(box.lower_y),
+             static_cast<double>(box.lower_z)},
+            {static_cast<double>(box.upper_x), static_cast<double>(box.upper_y),
+             static_cast<double>(box.upper_z)}};
+}
+
+Cluster cluster_of_leaf(std::span<const RTCBuildPrimitive> leaf, const Pieces& pieces) {
+    std::array<Bounds, kClusterSize> boxes;
+    std::array<PieceRef, kClusterSize> refs;
+    for (std::size_t i = 0; i < leaf.size(); ++i) {
+        boxes[i] = bounds_of(leaf[i]);
+        refs[i] = {pieces.primitive(leaf[i].primID), pieces.count(leaf[i].primID)};
+    }
+    return cluster_of({boxes.data(), leaf.size()}, {refs.data(), leaf.size()});
+}
+
+}  // namespace
+
+std::vector<Cluster> make_clusters(const Pieces& pieces, const ModelPrimitives& model,
+                                   const SearchSpace& space, RTCDevice device, const Team& team) {
+    Boxes boxes(pieces, model, space, team);
+    if (!boxes.divide(device)) return {};
+    std::vector<std::size_t> before(part_count(boxes.size()) + 1, 0);
+    for_each_part(team, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+        std::size_t leaves = 0;
+        for (std::size_t i = first; i < last; ++i) leaves += boxes.ends_leaf(i) ? 1 : 0;
+        before[part + 1] = leaves;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    std::vector<Cluster> clusters(before.back());
+    for_each_part(team, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+        std::size_t next = before[part];
+        for (std::size_t i = first; i < last; ++i)
+            if (boxes.ends_leaf(i)) clusters[next++] = cluster_of_leaf(boxes.leaf(i), pieces);
+    });
+    return clusters;
+}
+
+}  // namespace lightwalk

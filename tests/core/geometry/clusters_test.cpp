@@ -1,0 +1,202 @@
+// Clusters of pieces: each piece is in one, no ray that meets a piece's box is told that it does
+// not, and a model of clusters is hit where its surfaces are.
+#include "core/geometry/clusters.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+
+#include "core/geometry/bounds.h"
+#include "core/geometry/embree_clusters.h"
+#include "tests/core/geometry/geometry_scenes.h"
+
+namespace lightwalk {
+namespace {
+
+struct ReleaseDevice {
+    void operator()(RTCDeviceTy* device) const noexcept { rtcReleaseDevice(device); }
+};
+
+/// A model's pieces, and the clusters of them.
+struct Clustered {
+    explicit Clustered(const test::TestModels& scene)
+        : tables(scene), model(tables.surfaces, tables.input.models[0], TeamOfOne()) {
+        space.center = {1, -2, 3};
+        space.margin = 1e-5;
+        pieces = divide_primitives(model, TeamOfOne());
+        const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(""));
+        clusters = make_clusters(pieces, model, space, device.get(), TeamOfOne());
+    }
+    test::TestModels::Tables tables;
+    ModelPrimitives model;
+    SearchSpace space;
+    Pieces pieces;
+    std::vector<Cluster> clusters;
+};
+
+std::array<float, 3> floats(const Vec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+test::TestModels random_scene(int count) {
+    test::Random random(11);
+    test::TestModels scene;
+    for (int i = 0; i < count; ++i) scene.add(test::random_surface(random));
+    return scene;
+}
+
+/// A small surface of any kind.
+test::TestSurface speck(test::Random& random, int i) {
+    const Vec3 p = random.in_box(5), q = p + random.in_box(0.06), n = random.direction();
+    const Vec3 a = random.in_box(0.05), b = random.in_box(0.05);
+    using enum PrimitiveType;
+    switch (i % 4) {
+        case 0:
+            return test::surface(sphere, {p.x, p.y, p.z, 0.02}, 0, test::kOpaque);
+        case 1:
+            return test::surface(cylinder, {p.x, p.y, p.z, q.x, q.y, q.z, 0.01}, 0, test::kOpaque);
+        case 2:
+            return test::surface(ring, {p.x, p.y, p.z, n.x, n.y, n.z, 0, 0.03}, 0, test::kOpaque);
+        default:
+            return test::surface(
+                polygon,
+                {p.x, p.y, p.z, p.x + a.x, p.y + a.y, p.z + a.z, p.x + b.x, p.y + b.y, p.z + b.z},
+                0, test::kOpaque);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("each piece is in one cluster, and clusters are well filled") {
+    const Clustered scene(random_scene(3000));
+    std::vector<int> times(scene.model.size());
+    std::size_t all = 0;
+    for (const Cluster& cluster : scene.clusters) {
+        bool ended = false;
+        for (const PieceRef piece : cluster.pieces) {
+            REQUIRE_FALSE((ended && !piece.is_none()));  // those that there are come first
+            ended = piece.is_none();
+            if (ended) continue;
+            ++all;
+            for (std::uint32_t i = piece.first(); i < piece.end(); ++i) ++times[i];
+        }
+    }
+    CHECK(all == scene.pieces.size());
+    std::vector<int> wanted(scene.model.size());
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i)
+        for (std::uint32_t k = 0; k < scene.pieces.count(i); ++k)
+            ++wanted[scene.pieces.primitive(i) + k];
+    CHECK(times == wanted);
+    CHECK(scene.clusters.size() < all / 4);
+}
+
+TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes besides") {
+    const Clustered scene(random_scene(400));
+    test::Random random(3);
+    int hits = 0, met = 0, tested = 0;
+    for (int turn = 0; turn < 3000; ++turn) {
+        const Vec3 from = random.in_box(6);
+        // Also along the axes, where a direction is nought.
+        Vec3 direction = random.direction();
+        if (turn % 5 == 0) direction = Vec3{turn % 2 == 0 ? -1.0 : 1.0, 0, 0};
+        if (turn % 7 == 0) direction = normalize(Vec3{0, -direction.y, direction.z});
+        const double far = turn % 3 == 0 ? 2 : 100;
+        const ClusterRay ray(floats(from - scene.space.center), floats(direction));
+        for (const Cluster& cluster : scene.clusters) {
+            const ClusterHits boxes = boxes_met(cluster, ray, static_cast<float>(far));
+            for (std::size_t i = 0; i < kClusterSize; ++i) {
+                const PieceRef piece = cluster.pieces[i];
+                if (piece.is_none()) break;
+                const bool is_met = (boxes.met >> i & 1U) != 0;
+                ++tested;
+                met += is_met ? 1 : 0;
+                for (std::uint32_t k = piece.first(); k < piece.end(); ++k) {
+                    const auto hit = scene.model.intersect(k, from, direction, far);
+                    if (!hit) continue;
+                    ++hits;
+                    // Of a primitive with several pieces another one may hold the crossing.
+                    bool is_held =
+                        is_met && static_cast<double>(boxes.first[i]) <= hit->t * (1 + 1e-6) + 1e-6;
+                    for (const Cluster& other : scene.clusters) {
+                        if (is_held) break;
+                        const ClusterHits there = boxes_met(other, ray, static_cast<float>(far));
+                        for (std::size_t j = 0; j < kClusterSize; ++j)
+                            is_held = is_held ||
+                                      ((there.met >> j & 1U) != 0 && !other.pieces[j].is_none() &&
+                                       other.pieces[j].first() <= k && k < other.pieces[j].end());
+                    }
+                    REQUIRE(is_held);
+                }
+            }
+        }
+    }
+    CHECK(hits > 10'000);
+    CHECK(met < tested / 8);
+    CHECK(met < 8 * hits);
+}
+
+TEST_CASE("a cluster's boxes are its pieces' own, a thousandth of the cluster larger at most") {
+    const Clustered scene(random_scene(400));
+    for (const Cluster& cluster : scene.clusters) {
+        const Bounds all = cluster.box();
+        Bounds together;
+        for (std::size_t i = 0; i < kClusterSize && !cluster.pieces[i].is_none(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const unsigned shift = 10 * static_cast<unsigned>(k);
+                const double step = static_cast<double>(cluster.step[k]),
+                             begin = all.lower[k] + step * (cluster.begin[i] >> shift & 1023U),
+                             end = all.lower[k] + step * (cluster.end[i] >> shift & 1023U);
+                together.lower[k] = std::min(together.lower[k], begin);
+                together.upper[k] = std::max(together.upper[k], end);
+                REQUIRE(begin < end);
+            }
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double step = (all.upper[k] - all.lower[k]) / 1023;
+            CHECK(together.lower[k] <= all.lower[k] + 2 * step);
+            CHECK(together.upper[k] >= all.upper[k] - 2 * step);
+        }
+    }
+}
+
+TEST_CASE("a large model, placed as well, is hit where its surfaces are") {
+    test::Random random(5);
+    test::TestModels scene;
+    scene.models.resize(2);
+    constexpr int kCount = 140'000;
+    for (int i = 0; i < kCount; ++i) scene.add(speck(random, i), 1);
+    const Transform turned = test::similarity(0.5, true, {1, 2, 3}, 1, {20, 0, 0});
+    scene.place(1, 0, turned);
+    scene.place(1, 0, Transform{});
+    const test::TestModels::Tables tables(scene);
+    const ModelPrimitives model(tables.surfaces, tables.input.models[1], TeamOfOne());
+    const Geometry geometry(tables.input);
+    int hits = 0;
+    for (int turn = 0; turn < 24; ++turn) {
+        const bool in_turned = turn % 2 == 0;
+        const Vec3 origin = random.in_box(4), direction = random.direction();
+        const double length = random.uniform(0.5, 3);
+        double nearest = length;
+        for (std::uint32_t i = 0; i < model.size(); ++i) {
+            const auto hit = model.intersect(i, origin, direction, nearest);
+            if (hit) nearest = hit->t;
+        }
+        const bool exists = nearest < length;
+        hits += exists ? 1 : 0;
+        const double size = in_turned ? 0.5 : 1;
+        const RaySegment ray{in_turned ? turned.forward.point(origin) : origin,
+                             in_turned ? normalize(turned.forward.vector(direction)) : direction,
+                             length * size};
+        const Hit hit = geometry.intersect(ray);
+        REQUIRE(hit.exists() == exists);
+        if (exists) REQUIRE(hit.t == doctest::Approx(nearest * size).epsilon(1e-6));
+        REQUIRE((geometry.visibility(ray, kNoSurface) != Visibility::clear) == exists);
+    }
+    CHECK(hits > 6);
+    CHECK(hits < 22);
+}
+
+}  // namespace lightwalk
