@@ -32,12 +32,11 @@ struct Pieces {
 
 /// Pieces that hold every finite primitive. Neighbours in number whose boxes are nearly one, such
 /// as the two triangles of a cell, are a pair in meshes and large models: half the boxes, and a ray
-/// that meets one meets both.
-/// Polygons with holes, slanted ones and triangles
-/// are divided where most is won, slanted cones by slices across their axis, so that a ray through
-/// a window does not have to be tested against the wall around it, nor one in the attic against the
-/// roof. Idea: Stich, Friedrich & Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG
-/// 2009; here before the tree is built.
+/// that meets one meets both. Polygons with holes, slanted ones and triangles are divided where
+/// most is won, slanted cones by slices across their axis, so that a ray through a window does not
+/// have to be tested against the wall around it, nor one in the attic against the roof. Idea:
+/// Stich, Friedrich & Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009; here
+/// before the tree is built.
 [[nodiscard]] Pieces divide_primitives(const ModelPrimitives& model, const Team& team);
 
 }  // namespace lightwalk

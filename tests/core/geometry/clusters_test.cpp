@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "core/geometry/bounds.h"
 #include "core/geometry/embree_clusters.h"
@@ -138,26 +139,35 @@ TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes be
     CHECK(met < 8 * hits);
 }
 
-TEST_CASE("a cluster's boxes are its pieces' own, a thousandth of the cluster larger at most") {
-    const Clustered scene(random_scene(400));
-    for (const Cluster& cluster : scene.clusters) {
-        const Bounds all = cluster.box();
-        Bounds together;
-        for (std::size_t i = 0; i < kClusterSize && !cluster.pieces[i].is_none(); ++i) {
+TEST_CASE("a cluster's boxes hold its pieces' own, and are two steps larger at most") {
+    test::Random random(4);
+    for (int turn = 0; turn < 2000; ++turn) {
+        const double size = std::pow(10, random.uniform(-4, 6));
+        std::vector<Bounds> boxes(1 + static_cast<std::size_t>(random.below(8)));
+        std::vector<PieceRef> pieces;
+        for (Bounds& box : boxes) {
+            const Vec3 from = random.in_box(size), to = from + random.in_box(size / 10);
+            for (const Vec3& corner : {from, to}) {
+                const std::array<float, 3> p = floats(corner);
+                box.extend({static_cast<double>(p[0]), static_cast<double>(p[1]),
+                            static_cast<double>(p[2])});
+            }
+            pieces.emplace_back(static_cast<std::uint32_t>(pieces.size()), 1);
+        }
+        const Cluster cluster = cluster_of(boxes, pieces);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            REQUIRE(cluster.pieces[i].first() == i);
             for (std::size_t k = 0; k < 3; ++k) {
                 const unsigned shift = 10 * static_cast<unsigned>(k);
-                const double step = static_cast<double>(cluster.step[k]),
-                             begin = all.lower[k] + step * (cluster.begin[i] >> shift & 1023U),
-                             end = all.lower[k] + step * (cluster.end[i] >> shift & 1023U);
-                together.lower[k] = std::min(together.lower[k], begin);
-                together.upper[k] = std::max(together.upper[k], end);
-                REQUIRE(begin < end);
+                const double lower = cluster.box().lower[k],
+                             step = static_cast<double>(cluster.step[k]), rounding = 1e-9 * step,
+                             begin = lower + step * (cluster.begin[i] >> shift & 1023U),
+                             end = lower + step * (cluster.end[i] >> shift & 1023U);
+                REQUIRE(begin <= boxes[i].lower[k] + rounding);
+                REQUIRE(end >= boxes[i].upper[k] - rounding);
+                REQUIRE(begin >= boxes[i].lower[k] - 2 * step);
+                REQUIRE(end <= boxes[i].upper[k] + 2 * step);
             }
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double step = (all.upper[k] - all.lower[k]) / 1023;
-            CHECK(together.lower[k] <= all.lower[k] + 2 * step);
-            CHECK(together.upper[k] >= all.upper[k] - 2 * step);
         }
     }
 }
