@@ -19,6 +19,11 @@ class AddressNotes {
     /// What stood at these addresses before may have been left in the middle of functions: marks
     /// around their variables would be taken for those of the new ones.
     AddressNotes(void* bottom, std::size_t size) : bottom_(bottom), size_(size) {
+        freeing(bottom, size);
+    }
+    /// A fiber is left in the middle of the functions that it began in. Their marks would stay for
+    /// what is mapped there next, and a thread that finds its errno there does not clear them.
+    static void freeing(void* bottom, std::size_t size) {
         ASAN_UNPOISON_MEMORY_REGION(bottom, size);
     }
     void entering() { __sanitizer_start_switch_fiber(&outer_fake_, bottom_, size_); }
@@ -46,6 +51,7 @@ class ThreadNotes {
   public:
     ThreadNotes(void*, std::size_t) : inner_(__tsan_create_fiber(0)) {}
     ~ThreadNotes() { __tsan_destroy_fiber(inner_); }
+    static void freeing(void*, std::size_t) {}
     ThreadNotes(const ThreadNotes&) = delete;
     ThreadNotes& operator=(const ThreadNotes&) = delete;
     [[gnu::always_inline]] void entering() {
@@ -65,10 +71,12 @@ using StackNotes = ThreadNotes;
 #else
 
 /// Calls in the order in which a fiber is used: entering() before it takes over, entered() on it;
-/// leaving() on it before it gives up, for good or not, left() after that.
+/// leaving() on it before it gives up, for good or not, left() after that; freeing() once it was
+/// left for good, before its addresses are given back.
 class NoNotes {
   public:
     NoNotes(void*, std::size_t) {}
+    static void freeing(void*, std::size_t) {}
     void entering() {}
     void entered() {}
     void leaving(bool) {}

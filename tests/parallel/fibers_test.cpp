@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,18 @@ TEST_CASE("fibers: marks that an earlier stack left at their addresses are none 
         CHECK(fibers.start(0, [&] { steps = steps_down(fibers); }));
         CHECK(steps > 100);
     }
+}
+
+TEST_CASE("fibers: their own marks are gone with them") {
+    constexpr std::uintptr_t kPage = 4096;  // stacks end with one
+    auto made = make_context_fibers(1);
+    REQUIRE(made->prepare(0));
+    char* here = nullptr;
+    CHECK(made->start(0, [&] { here = static_cast<char*>(__builtin_frame_address(0)); }));
+    const std::size_t above = kPage - reinterpret_cast<std::uintptr_t>(here) % kPage;
+    CHECK(__asan_region_is_poisoned(here, above) != nullptr);  // functions that it is still in
+    made.reset();
+    CHECK(__asan_region_is_poisoned(here, above) == nullptr);
 }
 #endif
 
