@@ -98,7 +98,7 @@ class Bounds:
     """What memory may take: each is told once where it is exceeded."""
     MOST_BYTES, MANY = 250, 1_000_000       # a polygon of four vertices, in models of so many
     MOST_OF_FIVE_MILLION = 1.5e9            # [bytes], cells of two triangles, too
-    MOST_OF_TRIANGLE = 120                  # [bytes], in meshes of MANY
+    MOST_OF_TRIANGLE, MANY_TRIANGLES = 120, 100_000  # [bytes], in meshes of so many
     MOST_OF_SECOND_RANK = 0.2               # of the first one's
     MOST_OF_CABIN = 60e6                    # [bytes], with a picture of 640 x 480
 

@@ -33,8 +33,10 @@ struct ReleaseGeometry {
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
-/// Above so many a tree ends in clusters of pieces, which weigh less.
-constexpr std::size_t kMostSinglePieces = std::size_t{1} << 17;
+/// Above so many a tree ends in clusters of pieces, which weigh less. A mesh's triangles are as
+/// soon found in them where there are few; other surfaces later, by some 3 %.
+constexpr std::size_t kMostSinglePieces = std::size_t{1} << 17,
+                      kMostSingleOfMesh = std::size_t{1} << 13;
 constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
 
 /// False for NaN as well.
@@ -168,7 +170,9 @@ void Geometry::Impl::check(const char* doing) const {
 void Geometry::Impl::add_surfaces(Hierarchy& model, const Team& team) {
     model.pieces = divide_primitives(*model.primitives, team);
     if (model.pieces.size() == 0) return;
-    if (model.pieces.size() > kMostSinglePieces) {
+    const auto last = static_cast<std::uint32_t>(model.primitives->size() - 1);
+    const bool is_mesh = model.primitives->is_triangle(last);  // they are models of their own
+    if (model.pieces.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePieces)) {
         model.clusters =
             make_clusters(model.pieces, *model.primitives, model.space, device.get(), team);
         check("clustering the surfaces");

@@ -87,6 +87,10 @@ class Column {
         values_ = {own_.get(), count};
         return {own_.get(), count};
     }
+    /// Takes room for so many in advance: it is not touched before they are there.
+    void reserve(std::size_t count) {
+        if (count > capacity_) move_to(count);
+    }
     /// Gives back what growing has taken in advance.
     void trim() {
         if (own_ == nullptr || size() == capacity_) return;

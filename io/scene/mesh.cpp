@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -49,7 +50,11 @@ class MeshDecoder {
         const std::int64_t patches = reader_.integer(4);
         if (patches < 0) reader_.fail("negative number of patches");
         if (patches > kMostPatches) reader_.fail("too many patches");
-        for (std::int64_t i = 0; i < patches; ++i) read_patch(static_cast<std::uint32_t>(i));
+        const std::size_t bytes = reader_.remaining();
+        for (std::int64_t i = 0; i < patches; ++i) {
+            read_patch(static_cast<std::uint32_t>(i));
+            if (i == 0) expect_like_first(static_cast<std::size_t>(patches), bytes);
+        }
         for (Triangle& triangle : mesh_.triangles.own_values()) settle(triangle);
         drop_unused_tables();
         trim();
@@ -86,6 +91,19 @@ class MeshDecoder {
         read_local_triangles(number);
         read_single_joiners(number);
         read_double_joiners(number);
+    }
+
+    /// Patches are mostly as large as the first: arrays that grow side by side would leave the
+    /// holes of all their steps behind. No more than the file's bytes can hold.
+    void expect_like_first(std::size_t patches, std::size_t bytes) {
+        const std::size_t first = bytes - reader_.remaining(),
+                          count = std::min(patches, bytes / first + 1);
+        const auto reserve = [&](auto& column) { column.reserve(column.size() * count); };
+        reserve(mesh_.positions);
+        reserve(mesh_.normals);
+        reserve(mesh_.us);
+        reserve(mesh_.vs);
+        reserve(mesh_.triangles);
     }
 
     void read_positions(std::int64_t count) {

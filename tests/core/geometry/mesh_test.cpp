@@ -138,6 +138,49 @@ TEST_CASE("no ray slips between the triangles of a closed mesh") {
     }
 }
 
+TEST_CASE("a mesh of many triangles is hit where they are, and weighs little in the search") {
+    // a height field: cells of two triangles, whose materials take turns
+    constexpr std::uint32_t kCells = 100;
+    Random random(8);
+    MeshModel mesh;
+    for (std::uint32_t i = 0; i <= kCells; ++i) {
+        for (std::uint32_t j = 0; j <= kCells; ++j)
+            mesh.positions.push_back({1.0 * i, 1.0 * j, random.uniform(-1, 1)});
+    }
+    for (std::uint32_t i = 0; i < kCells; ++i) {
+        for (std::uint32_t j = 0; j < kCells; ++j) {
+            const std::uint32_t at = i * (kCells + 1) + j, next = at + kCells + 1;
+            MeshModel::Triangle low, high;  // of the diagonal from (i, j)
+            low.v[0] = at, low.v[1] = next, low.v[2] = next + 1, low.material = 0;
+            high.v[0] = at, high.v[1] = next + 1, high.v[2] = at + 1, high.material = 1;
+            mesh.triangles.push_back(low);
+            mesh.triangles.push_back(high);
+        }
+    }
+    const Transform turned = similarity(0.3, false, {1, 2, 3}, 1.1, {5, -3, 2});
+    const TestModels scene = placed(mesh, turned);
+    const BuiltGeometry geometry = scene.build();
+    for (int ray = 0; ray < 2000; ++ray) {
+        const double x = random.uniform(0, kCells), y = random.uniform(0, kCells);
+        const auto i = static_cast<std::uint32_t>(x), j = static_cast<std::uint32_t>(y);
+        const double u = x - i, v = y - j;
+        const bool low = u > v;
+        const auto z = [&](std::uint32_t a, std::uint32_t b) {
+            return mesh.positions[(i + a) * (kCells + 1) + j + b].z;
+        };
+        const double height = low ? z(0, 0) * (1 - u) + z(1, 0) * (u - v) + z(1, 1) * v
+                                  : z(0, 0) * (1 - v) + z(0, 1) * (v - u) + z(1, 1) * u;
+        const Vec3 origin = turned.forward.point({x, y, 3});
+        const Vec3 direction = normalize(turned.forward.vector({0, 0, -1}));
+        const Hit hit = geometry.intersect({origin, direction});
+        REQUIRE(hit.exists());
+        CHECK(hit.modifier == ModifierId{low ? 20 : 21});
+        CHECK(length(hit.position - turned.forward.point({x, y, height})) < 1e-10);
+    }
+    const double triangles = static_cast<double>(mesh.triangles.size());
+    CHECK(static_cast<double>(geometry.memory().tree) < 25 * triangles);
+}
+
 TEST_CASE("damaged meshes are refused") {
     const auto build = [](const MeshModel& mesh) {
         return placed(mesh, Transform{}).build().frame_count();

@@ -51,6 +51,25 @@ TEST_CASE("values to be filled in are zero at first, and none need no memory") {
     CHECK(column.empty());
 }
 
+TEST_CASE("room that is taken in advance is room for as many, and gone once trimmed") {
+    Column<int> column;
+    column.reserve(100);
+    CHECK(column.empty());
+    CHECK(column.own_bytes() == 100 * sizeof(int));
+    column.reserve(50);
+    const int* const first = [&] {
+        column.push_back(0);
+        return column.data();
+    }();
+    for (int i = 1; i < 100; ++i) column.push_back(i);
+    CHECK(column.data() == first);
+    CHECK(column.own_bytes() == 100 * sizeof(int));
+    column.reserve(200);
+    column.trim();
+    CHECK(column.own_bytes() == 100 * sizeof(int));
+    CHECK(column.back() == 99);
+}
+
 TEST_CASE("mapped values are shown, and weigh nothing") {
     const std::vector<int> elsewhere{1, 2, 3};
     Column<int> column = Column<int>::mapped(elsewhere);
