@@ -271,7 +271,7 @@ def main():
             pathlib.Path(scene).write_text(LAMP + "void mesh wave 1 wave.rtm 0 0\n")
             result = measure(arguments, arguments.scratch, [scene])
             tell("mesh", triangles, result, least)
-            if triangles >= bounds.MANY:
+            if triangles >= bounds.MANY_TRIANGLES:
                 bounds.check(f"mesh of {triangles}: bytes a triangle", (result[2] - least) / triangles, bounds.MOST_OF_TRIANGLE)
         for side in sides:
             rows = max(side // 10, 1)

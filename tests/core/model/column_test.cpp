@@ -57,10 +57,8 @@ TEST_CASE("room that is taken in advance is room for as many, and gone once trim
     CHECK(column.empty());
     CHECK(column.own_bytes() == 100 * sizeof(int));
     column.reserve(50);
-    const int* const first = [&] {
-        column.push_back(0);
-        return column.data();
-    }();
+    column.push_back(0);
+    const int* const first = column.data();
     for (int i = 1; i < 100; ++i) column.push_back(i);
     CHECK(column.data() == first);
     CHECK(column.own_bytes() == 100 * sizeof(int));
