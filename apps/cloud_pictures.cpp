@@ -17,7 +17,7 @@ std::optional<Frame> CloudPictures::take() {
     }
     if (!meter_) begin_progress(options);
     WalkFrame drawn;
-    if (play_overture(*request, anew))
+    if (run_prepass(*request, anew))
         drawn = draw_walk_frame(*frames_, session_.tracer(), sights_, request->camera, options,
                                 executor_, contexts_, interrupt_flag());
     statistics_.rays += drawn.frame.rays;
@@ -49,10 +49,10 @@ void CloudPictures::end_progress(bool complete) {
 
 /// The first frame fills the ambient cache for all; with --deterministic each frame does, whose
 /// rays find the cache frozen. False: interrupted.
-bool CloudPictures::play_overture(const PictureRequest& request, bool first) {
-    if (!session_.freezable || (!first && overture_ != Overture::deterministic)) return true;
-    const OvertureResult played = fill_ambient_cache(
-        session_.tracer(), request.camera, request.options, overture_, *session_.freezable,
+bool CloudPictures::run_prepass(const PictureRequest& request, bool first) {
+    if (!session_.freezable || (!first && prepass_ != CachePrepass::deterministic)) return true;
+    const CachePrepassResult played = fill_ambient_cache(
+        session_.tracer(), request.camera, request.options, prepass_, *session_.freezable,
         executor_, contexts_, interrupt_flag(), [](const FrameProgress&) {});
     statistics_.rays += played.rays;
     statistics_.ambient += played.ambient;

@@ -9,7 +9,7 @@
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
 #include "core/cloud/scene_sights.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 #include "parallel/walk/cloud_frames.h"
 
 namespace lightwalk {
@@ -19,11 +19,11 @@ class CloudPictures final : public PictureMaker {
     /// Everything must outlive this; `statistics` gets what the frames cost. Frames of another size
     /// than the one before start anew.
     /// @param frames  that will be asked for
-    CloudPictures(const SceneSession& session, Overture overture, const CloudOptions& options,
+    CloudPictures(const SceneSession& session, CachePrepass prepass, const CloudOptions& options,
                   std::size_t frames, Executor& executor, WorkerContexts& contexts,
                   ProgressOptions progress, StderrWarnings& warnings, RunStatistics& statistics)
         : session_(session),
-          overture_(overture),
+          prepass_(prepass),
           options_(options),
           frames_wanted_(frames),
           executor_(executor),
@@ -42,10 +42,10 @@ class CloudPictures final : public PictureMaker {
   private:
     void begin_progress(const FrameOptions& options);
     void end_progress(bool complete);
-    [[nodiscard]] bool play_overture(const PictureRequest& request, bool first);
+    [[nodiscard]] bool run_prepass(const PictureRequest& request, bool first);
 
     const SceneSession& session_;
-    Overture overture_;
+    CachePrepass prepass_;
     CloudOptions options_;
     std::size_t frames_wanted_, frames_done_ = 0;
     Executor& executor_;

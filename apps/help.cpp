@@ -72,7 +72,7 @@ Light (the most used; see rpict(1) for the rest)
                      bring, stand for all: the same mean, little more noise; 0: all are tested
   -ae -ai MODIFIER   leave out, or take only, surfaces of this modifier; -aE -aI FILE: of those in the file
   -af FILE           keep ambient values in a file; several runs may share it, also Radiance's
-  --overture auto|off   fill the ambient cache by a coarse picture first (default: auto)
+  --prepass auto|off   fill the ambient cache by a coarse picture first (default: auto)
   --deterministic    the same bytes with any number of threads also with -ab: the cache is filled in rounds
   -ss -st -lr -lw                specular samples and threshold, limits of reflections and weight
   -i                 irradiance instead of radiance

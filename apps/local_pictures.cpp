@@ -9,13 +9,13 @@ std::optional<Frame> LocalPictures::take() {
     const std::shared_ptr<const PictureRequest> request = std::move(requests_.front());
     requests_.pop_front();
     const std::vector<WorkPhase> phases =
-        plan_picture(request->options, overture_, executor_.concurrency());
+        plan_picture(request->options, prepass_, executor_.concurrency());
     const std::size_t picture = phases.size() - 1;
     ProgressMeter meter(progress_, phases);
     warnings_.use_terminal_line(progress_.bar);
     const RayCounters before = statistics_.rays;
     Frame frame;
-    if (play_overture(*request, meter)) {
+    if (run_prepass(*request, meter)) {
         frame = render_frame(
             session_.tracer(), request->camera, request->options, executor_, contexts_,
             interrupt_flag(),
@@ -31,10 +31,10 @@ std::optional<Frame> LocalPictures::take() {
 }
 
 /// False: interrupted.
-bool LocalPictures::play_overture(const PictureRequest& request, ProgressMeter& meter) {
+bool LocalPictures::run_prepass(const PictureRequest& request, ProgressMeter& meter) {
     if (!session_.freezable) return true;
-    const OvertureResult played =
-        fill_ambient_cache(session_.tracer(), request.camera, request.options, overture_,
+    const CachePrepassResult played =
+        fill_ambient_cache(session_.tracer(), request.camera, request.options, prepass_,
                            *session_.freezable, executor_, contexts_, interrupt_flag(),
                            [&](const FrameProgress& progress) { meter.update(0, progress); });
     statistics_.rays += played.rays;

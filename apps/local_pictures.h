@@ -6,18 +6,18 @@
 #include "apps/progress.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 
 namespace lightwalk {
 
 class LocalPictures final : public PictureMaker {
   public:
     /// Everything must outlive this; `statistics` gets what pictures cost.
-    LocalPictures(const SceneSession& session, Overture overture, Executor& executor,
+    LocalPictures(const SceneSession& session, CachePrepass prepass, Executor& executor,
                   WorkerContexts& contexts, const ProgressOptions& progress,
                   StderrWarnings& warnings, RunStatistics& statistics)
         : session_(session),
-          overture_(overture),
+          prepass_(prepass),
           executor_(executor),
           contexts_(contexts),
           progress_(progress),
@@ -31,10 +31,10 @@ class LocalPictures final : public PictureMaker {
     [[nodiscard]] std::size_t ahead() const override { return 1; }
 
   private:
-    [[nodiscard]] bool play_overture(const PictureRequest& request, ProgressMeter& meter);
+    [[nodiscard]] bool run_prepass(const PictureRequest& request, ProgressMeter& meter);
 
     const SceneSession& session_;
-    Overture overture_;
+    CachePrepass prepass_;
     Executor& executor_;
     WorkerContexts& contexts_;
     ProgressOptions progress_;

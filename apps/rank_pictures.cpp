@@ -79,13 +79,13 @@ void LeadPictures::order(std::shared_ptr<const PictureRequest> request) {
     if (request->previous) order.previous = request->previous->view();
     order.width = options.width;
     order.height = options.height;
-    if (overture_ == Overture::quick) {
+    if (prepass_ == CachePrepass::quick) {
         PictureOrder coarse = order;
         coarse.step = kQuickStep;
         link_.submit(
-            {next_++, quick_overture(options).whole(), 1, false, encode_order(coarse), {}, false});
+            {next_++, quick_prepass(options).whole(), 1, false, encode_order(coarse), {}, false});
     }
-    order.deterministic = overture_ == Overture::deterministic;
+    order.deterministic = prepass_ == CachePrepass::deterministic;
     const BlockRenderer renderer(tracer_, request->camera, options, contexts_, interrupt_flag());
     const JobId job = next_++;
     link_.submit({job, options.area(), renderer.alignment(), true, encode_order(order), {}, false},
@@ -119,7 +119,7 @@ std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
     FrameOptions options = options_;
     options.width = order.width;
     options.height = order.height;
-    if (order.step > 1) options = quick_overture(options, order.step);
+    if (order.step > 1) options = quick_prepass(options, order.step);
     const auto picture =
         std::make_shared<OrderedPicture>(order, options, tracer_, contexts_, stop_);
     if (order.deterministic && cache_ != nullptr)
@@ -132,21 +132,21 @@ void RankPictures::fill(const Camera& camera, const FrameOptions& options) {
     // The tracing threads wait meanwhile, and theirs is not to be called from one of its own tasks.
     WorkerContexts contexts(tracer_, warnings_, contexts_.size());
     const auto executor = make_executor(ExecutorKind::threads, contexts.size());
-    const OvertureResult played = fill_ambient_cache(
-        tracer_, camera, options, Overture::deterministic, *cache_, *executor, contexts, stop_,
+    const CachePrepassResult played = fill_ambient_cache(
+        tracer_, camera, options, CachePrepass::deterministic, *cache_, *executor, contexts, stop_,
         [](const FrameProgress&) {}, &link_.rounds());
-    overture_rays_ += played.rays;
-    overture_ambient_ += played.ambient;
+    prepass_rays_ += played.rays;
+    prepass_ambient_ += played.ambient;
 }
 
 RayCounters RankPictures::rays() const {
-    RayCounters sum = overture_rays_;
+    RayCounters sum = prepass_rays_;
     sum += contexts_.rays();
     return sum;
 }
 
 AmbientCounters RankPictures::ambient() const {
-    AmbientCounters sum = overture_ambient_;
+    AmbientCounters sum = prepass_ambient_;
     sum += contexts_.ambient();
     return sum;
 }

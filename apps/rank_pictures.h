@@ -13,7 +13,7 @@
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"
 #include "parallel/freezable_cache.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 
 namespace lightwalk {
 
@@ -35,11 +35,11 @@ struct PictureOrder {
 class LeadPictures final : public PictureMaker {
   public:
     /// Everything must outlive this.
-    LeadPictures(RankLink& link, const Tracer& tracer, Overture overture, WorkerContexts& contexts,
+    LeadPictures(RankLink& link, const Tracer& tracer, CachePrepass prepass, WorkerContexts& contexts,
                  const ProgressOptions& progress)
         : link_(link),
           tracer_(tracer),
-          overture_(overture),
+          prepass_(prepass),
           contexts_(contexts),
           progress_(progress) {}
 
@@ -48,7 +48,7 @@ class LeadPictures final : public PictureMaker {
     /// The next picture's blocks are there when the last ones of this one are still out. But before
     /// a deterministic one all rays of the one before must have ended.
     [[nodiscard]] std::size_t ahead() const override {
-        return overture_ == Overture::deterministic ? 1 : 2;
+        return prepass_ == CachePrepass::deterministic ? 1 : 2;
     }
 
   private:
@@ -58,7 +58,7 @@ class LeadPictures final : public PictureMaker {
     };
     RankLink& link_;
     const Tracer& tracer_;
-    Overture overture_;
+    CachePrepass prepass_;
     WorkerContexts& contexts_;
     ProgressOptions progress_;
     std::deque<Ordered> ordered_;
@@ -96,8 +96,8 @@ class RankPictures final : public RankWork {
     WorkerContexts& contexts_;
     WarningSink& warnings_;
     const StopFlag& stop_;
-    RayCounters overture_rays_;
-    AmbientCounters overture_ambient_;
+    RayCounters prepass_rays_;
+    AmbientCounters prepass_ambient_;
 };
 
 /// The pieces put together. Throws InputError for pieces that do not make the picture.

@@ -113,37 +113,37 @@ std::unique_ptr<WalkRays> RankWalk::make_rays(const CloudOrder& order, Executor&
                                            direct_->contexts, stop_);
     auto rays = std::make_unique<SceneRays>(picture.view, session_.tracer(), sights_, options,
                                             contexts_, stop_);
-    if (order.rules.empty || overture_ == Overture::deterministic)
-        play_overture(rays->camera(), options, executor);
+    if (order.rules.empty || prepass_ == CachePrepass::deterministic)
+        run_prepass(rays->camera(), options, executor);
     return rays;
 }
 
 /// Of a quick one each rank plays a part: what it finds goes to the others as all values do.
-void RankWalk::play_overture(const Camera& camera, FrameOptions options, Executor& executor) {
-    if (overture_ == Overture::none || !session_.freezable) return;
+void RankWalk::run_prepass(const Camera& camera, FrameOptions options, Executor& executor) {
+    if (prepass_ == CachePrepass::none || !session_.freezable) return;
     RoundExchange& rounds = link_.rounds();
-    if (overture_ == Overture::quick) {
+    if (prepass_ == CachePrepass::quick) {
         const SubImages parts(options.whole(), static_cast<std::size_t>(rounds.count()));
         options.window = parts[static_cast<std::size_t>(rounds.index())];
         if (options.window->empty()) return;
     }
     WorkerContexts contexts(session_.tracer(), warnings_, executor.concurrency());
-    const OvertureResult played = fill_ambient_cache(
-        session_.tracer(), camera, options, overture_, *session_.freezable, executor, contexts,
+    const CachePrepassResult played = fill_ambient_cache(
+        session_.tracer(), camera, options, prepass_, *session_.freezable, executor, contexts,
         stop_, [](const FrameProgress&) {},
-        overture_ == Overture::deterministic ? &rounds : nullptr);
-    overture_rays_ += played.rays;
-    overture_ambient_ += played.ambient;
+        prepass_ == CachePrepass::deterministic ? &rounds : nullptr);
+    prepass_rays_ += played.rays;
+    prepass_ambient_ += played.ambient;
 }
 
 RayCounters RankWalk::rays() const {
-    RayCounters sum = overture_rays_;
+    RayCounters sum = prepass_rays_;
     sum += contexts_.rays();
     return sum;
 }
 
 AmbientCounters RankWalk::ambient() const {
-    AmbientCounters sum = overture_ambient_;
+    AmbientCounters sum = prepass_ambient_;
     sum += contexts_.ambient();
     return sum;
 }

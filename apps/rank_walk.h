@@ -11,7 +11,7 @@
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
 #include "core/cloud/scene_sights.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 #include "parallel/ranks/cloud_lead.h"
 #include "parallel/walk/live_frames.h"
 #include "parallel/worker_contexts.h"
@@ -60,12 +60,12 @@ class RankWalk final : public RankWork {
     /// Everything must outlive this.
     /// @param options     of all frames, but for what an order says
     /// @param projectors  ranks that own a part of the frames, at most
-    RankWalk(RankLink& link, const SceneSession& session, Overture overture,
+    RankWalk(RankLink& link, const SceneSession& session, CachePrepass prepass,
              const FrameOptions& options, const CloudOptions& cloud, int projectors,
              WorkerContexts& contexts, WarningSink& warnings, const StopFlag& stop)
         : link_(link),
           session_(session),
-          overture_(overture),
+          prepass_(prepass),
           options_(options),
           cloud_(cloud),
           projectors_(projectors),
@@ -83,11 +83,11 @@ class RankWalk final : public RankWork {
 
   private:
     [[nodiscard]] std::unique_ptr<WalkRays> make_rays(const CloudOrder& order, Executor& executor);
-    void play_overture(const Camera& camera, FrameOptions options, Executor& executor);
+    void run_prepass(const Camera& camera, FrameOptions options, Executor& executor);
 
     RankLink& link_;
     const SceneSession& session_;
-    Overture overture_;
+    CachePrepass prepass_;
     FrameOptions options_;
     CloudOptions cloud_;
     int projectors_;
@@ -96,8 +96,8 @@ class RankWalk final : public RankWork {
     const StopFlag& stop_;
     SceneSights sights_;
     WalkLight* direct_ = nullptr;
-    RayCounters overture_rays_;
-    AmbientCounters overture_ambient_;
+    RayCounters prepass_rays_;
+    AmbientCounters prepass_ambient_;
 };
 
 }  // namespace lightwalk

@@ -25,7 +25,7 @@
 #include "io/files/library_path.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 
 namespace lightwalk {
 namespace {
@@ -77,9 +77,9 @@ class RenderRun {
     std::unique_ptr<PictureMaker> local_pictures() {
         if (reuses())
             return std::make_unique<CloudPictures>(
-                *session_, overture(), command_.walk->cloud, walk_length(*command_.walk),
+                *session_, prepass(), command_.walk->cloud, walk_length(*command_.walk),
                 *executor_, *contexts_, progress_options(), warnings_, statistics_);
-        return std::make_unique<LocalPictures>(*session_, overture(), *executor_, *contexts_,
+        return std::make_unique<LocalPictures>(*session_, prepass(), *executor_, *contexts_,
                                                progress_options(), warnings_, statistics_);
     }
 
@@ -110,10 +110,10 @@ class RenderRun {
         return {bar, command_.report_interval, program_};
     }
 
-    [[nodiscard]] Overture overture() const {
-        if (!session_->freezable) return Overture::none;
-        if (command_.deterministic) return Overture::deterministic;
-        return command_.overture ? Overture::quick : Overture::none;
+    [[nodiscard]] CachePrepass prepass() const {
+        if (!session_->freezable) return CachePrepass::none;
+        if (command_.deterministic) return CachePrepass::deterministic;
+        return command_.prepass ? CachePrepass::quick : CachePrepass::none;
     }
 
     void save_statistics() {
@@ -159,7 +159,7 @@ class RenderRun {
         session_ =
             build_on_ranks(*link_, command_.common, command_.settings, command_.history, warnings_);
         // The rounds of all ranks begin with the same cache.
-        if (overture() == Overture::deterministic)
+        if (prepass() == CachePrepass::deterministic)
             link_->spread(session_->known, *session_->ambient);
         make_threads();
     }
@@ -170,7 +170,7 @@ class RenderRun {
     std::unique_ptr<RankWork> rank_work() {
         const FrameOptions options = frame_options(command_, {});
         if (reuses())
-            return std::make_unique<RankWalk>(*link_, *session_, overture(), options,
+            return std::make_unique<RankWalk>(*link_, *session_, prepass(), options,
                                               command_.walk->cloud, command_.walk->projectors,
                                               *contexts_, warnings_, interrupt_flag());
         return std::make_unique<RankPictures>(*link_, session_->tracer(), options,
@@ -183,7 +183,7 @@ class RenderRun {
             return std::make_unique<LeadWalk>(*link_, session_->tracer(), command_.walk->cloud,
                                               walk_length(*command_.walk), progress_options(),
                                               warnings_, statistics_);
-        return std::make_unique<LeadPictures>(*link_, session_->tracer(), overture(), *contexts_,
+        return std::make_unique<LeadPictures>(*link_, session_->tracer(), prepass(), *contexts_,
                                               progress_options());
     }
 

@@ -109,7 +109,7 @@ bool parse_output_option(OptionWords& words, RenderCommand& command) {
         const std::string when = words.text();
         if (when != "auto" && when != "off")
             throw UsageError("option --overture: expected auto or off, found \"" + when + "\"");
-        command.overture = when == "auto";
+        command.prepass = when == "auto";
     } else if (word == "-S") {
         command.first_frame = words.integer();
         if (command.first_frame < 1)

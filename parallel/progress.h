@@ -6,7 +6,7 @@
 
 namespace lightwalk {
 
-/// Of a frame or an overture, since it began.
+/// Of a frame or an prepass, since it began.
 struct FrameProgress {
     double done = 0;                   ///< share of the pixels, 0 ... 1
     std::uint64_t rays = 0;            ///< traced so far

@@ -10,7 +10,7 @@ namespace {
 
 // Measured on pictures of two furnished rooms, with one and two bounces and spacings
 // of 1 and 4; the tests replay some of them.
-constexpr double kUsualExponent = 0.85;  ///< of an overture's work over its share done
+constexpr double kUsualExponent = 0.85;  ///< of an prepass's work over its share done
 /// Before a phase begins, what was expected of it weighs as much as this share of it will; the less
 /// of it is left, the less.
 constexpr double kTrust = 0.6;
@@ -25,17 +25,17 @@ constexpr double kFitRange = 4;   ///< ratio of the shares between which an expo
 
 }  // namespace
 
-std::vector<WorkPhase> plan_picture(const FrameOptions& options, Overture overture, int workers) {
+std::vector<WorkPhase> plan_picture(const FrameOptions& options, CachePrepass prepass, int workers) {
     std::vector<WorkPhase> phases;
-    if (overture != Overture::none) {
-        phases.push_back({WorkPhase::Kind::overture,
-                          static_cast<double>(overture_pixels(options, overture)), 1,
+    if (prepass != CachePrepass::none) {
+        phases.push_back({WorkPhase::Kind::prepass,
+                          static_cast<double>(prepass_pixels(options, prepass)), 1,
                           static_cast<double>(workers)});
     }
     phases.push_back({WorkPhase::Kind::picture, static_cast<double>(options.area().pixels()),
                       (options.pixels.spacing > 1 ? kTracedShare : 1.0) * options.pixels.samples,
                       static_cast<double>(workers)});
-    if (overture == Overture::deterministic) phases.back().late_values = 0;
+    if (prepass == CachePrepass::deterministic) phases.back().late_values = 0;
     return phases;
 }
 
@@ -70,7 +70,7 @@ void TimeEstimator::add(std::size_t phase, double seconds, const FrameProgress& 
 }
 
 void TimeEstimator::fit_block(const FrameProgress& now) {
-    if (phases_[phase_].kind != WorkPhase::Kind::overture) return;
+    if (phases_[phase_].kind != WorkPhase::Kind::prepass) return;
     const double p = (now.done - now_.done) * phases_[phase_].pixels;
     const auto v = static_cast<double>(now.ambient_values - now_.ambient_values);
     const auto r = static_cast<double>(now.rays - now_.rays);
@@ -105,7 +105,7 @@ double TimeEstimator::exponent() const {
 
 /// Of the present phase [s].
 double TimeEstimator::present_left() const {
-    if (phases_[phase_].kind == WorkPhase::Kind::overture)
+    if (phases_[phase_].kind == WorkPhase::Kind::prepass)
         return elapsed_ * (std::pow(now_.done, -exponent()) - 1);
     const double trust = expected_ ? kTrust * (1 - now_.done) : 0;
     return (elapsed_ + trust * expected_.value_or(0)) / (now_.done + trust) - elapsed_;
@@ -116,7 +116,7 @@ double TimeEstimator::expected_total(const WorkPhase& phase) const {
     const WorkPhase& present = phases_[phase_];
     const auto rays = static_cast<double>(now_.rays);
     if (rays <= 0) return 0;
-    const double share = present.kind == WorkPhase::Kind::overture ? exponent() : 1;
+    const double share = present.kind == WorkPhase::Kind::prepass ? exponent() : 1;
     const double all_rays = rays / std::pow(now_.done, share);
     const double pixel_rays = rays_a_pixel();
     const double value_rays = std::max(all_rays - pixel_rays * present.pixels, 0.0);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "parallel/frame_options.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 #include "parallel/progress.h"
 
 namespace lightwalk {
@@ -13,20 +13,20 @@ namespace lightwalk {
 /// A part of the making of a picture, as it is planned.
 struct WorkPhase {
     enum class Kind {
-        overture,  ///< coarse pictures that fill the ambient cache
+        prepass,  ///< coarse pictures that fill the ambient cache
         picture,
     };
     Kind kind = Kind::picture;
     double pixels = 0;   ///< that will be reported done
     double rays = 1;     ///< primary ones a pixel, about: samples, or a share of the pixels
     double workers = 1;  ///< that share the work
-    /// That it computes, where each pixel has a ray, per value of its overture; measured as the
+    /// That it computes, where each pixel has a ray, per value of its prepass; measured as the
     /// constants of the model are.
     double late_values = 2.5;
 };
 
-/// The phases of a picture: its overture, when it has one, and itself.
-[[nodiscard]] std::vector<WorkPhase> plan_picture(const FrameOptions& options, Overture overture,
+/// The phases of a picture: its prepass, when it has one, and itself.
+[[nodiscard]] std::vector<WorkPhase> plan_picture(const FrameOptions& options, CachePrepass prepass,
                                                   int workers);
 
 struct TimeEstimate {
@@ -35,9 +35,9 @@ struct TimeEstimate {
 };
 
 /// A model of what the phases of a picture cost, fitted to what they did cost. A picture costs so
-/// much a pixel, throughout: its blocks lie scattered. An overture's pixels cost less and less,
+/// much a pixel, throughout: its blocks lie scattered. An prepass's pixels cost less and less,
 /// because later ones find ambient values of earlier ones: its work grows as a power of the share
-/// done, whose exponent is fitted. What the picture after it will cost is told by the overture: so
+/// done, whose exponent is fitted. What the picture after it will cost is told by the prepass: so
 /// many rays a pixel, and so many for each value, of which a share is still to be computed. Pure:
 /// it knows no clock.
 class TimeEstimator {
@@ -69,7 +69,7 @@ class TimeEstimator {
     std::optional<double> expected_;  ///< time of the present phase, as it was expected before [s]
     FrameProgress now_;               ///< of the present phase
     std::vector<Point> points_;       ///< of the present phase, ever farther apart
-    /// Sums over an overture's reports, to split its rays into those of pixels (p) and values (v).
+    /// Sums over an prepass's reports, to split its rays into those of pixels (p) and values (v).
     double pp_ = 0, pv_ = 0, vv_ = 0, pr_ = 0, vr_ = 0;
     TimeEstimate estimate_;
 };

@@ -1,7 +1,7 @@
 // What tracing each part of a picture costs: the input of scaling_model.
 //   cost_map OPTIONS OF lightwalk render > map.json
 // One thread traces the picture cell by cell, three times, and the shortest processor time of each
-// cell counts: what else the machine does hardly disturbs it. With ambient values an overture and
+// cell counts: what else the machine does hardly disturbs it. With ambient values an prepass and
 // the picture are traced once with an empty cache, which tells what making values takes, and again
 // with the full one.
 #include <time.h>
@@ -18,7 +18,7 @@
 #include "core/error.h"
 #include "io/files/file_source.h"
 #include "parallel/block_renderer.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 #include "parallel/ranks/piece_codec.h"
 
 namespace {
@@ -92,15 +92,15 @@ class Measurement {
         (void)contexts[0];
         const double setup = processor_seconds() - before;
         std::optional<BlockRenderer> coarse;
-        if (session_.ambient && command_.overture)
-            coarse.emplace(session_.tracer(), camera, quick_overture(options), contexts, stop_);
+        if (session_.ambient && command_.prepass)
+            coarse.emplace(session_.tracer(), camera, quick_prepass(options), contexts, stop_);
         // What comes first fills the cache.
-        const Json fills_overture = coarse ? fill(*coarse, 8) : Json();
+        const Json fills_prepass = coarse ? fill(*coarse, 8) : Json();
         const Json fills_picture = session_.ambient ? fill(renderer, cell_of(renderer)) : Json();
         Json json{{"setup_seconds", setup}};
         const double block_seconds = measure_block(renderer, json);
         json["picture"] = measure(renderer, cell_of(renderer), fills_picture, block_seconds);
-        if (coarse) json["overture"] = measure(*coarse, 8, fills_overture, block_seconds);
+        if (coarse) json["overture"] = measure(*coarse, 8, fills_prepass, block_seconds);
         measure_pieces(renderer, json);
         json["crowding"] = measure_crowding(renderer, threads);
         return json;

@@ -67,7 +67,7 @@ Json counts_of(const MessageCounts& counts) {
 
 /// Every pixel takes `work` times what was measured, as with several samples a pixel.
 CostMap with_work(CostMap map, double work) {
-    for (CellCosts* cells : {&map.picture, &map.overture}) {
+    for (CellCosts* cells : {&map.picture, &map.prepass}) {
         for (double& seconds : cells->seconds) seconds *= work;
     }
     return map;

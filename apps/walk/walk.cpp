@@ -109,7 +109,7 @@ class RankShare {
               const Tracer* direct, StderrWarnings& warnings)
         : executor_(make_executor(command.common.executor, command.common.workers)),
           contexts_(session.tracer(), warnings, executor_->concurrency()),
-          walk_(link, session, Overture::none, walk_picture_options(command),
+          walk_(link, session, CachePrepass::none, walk_picture_options(command),
                 walk_cloud_options(command), command.walk->projectors, contexts_, warnings,
                 interrupt_flag()) {
         if (direct == nullptr) return;

@@ -8,7 +8,7 @@ namespace lightwalk {
 
 AmbientSites::AmbientSites(const CostMap& map, double reach, std::uint64_t seed)
     : bins_(static_cast<std::size_t>(kBins) * kBins) {
-    if (map.overture.width > 0) add(map.overture, true, seed);
+    if (map.prepass.width > 0) add(map.prepass, true, seed);
     add(map.picture, false, seed + 1);
     for (std::size_t i = 0; i < sites_.size(); ++i)
         bins_[bin_of(sites_[i].x, sites_[i].y)].push_back(static_cast<std::uint32_t>(i));
@@ -19,7 +19,7 @@ AmbientSites::AmbientSites(const CostMap& map, double reach, std::uint64_t seed)
     reach_y_ = reach * apart / map.picture.height;
 }
 
-void AmbientSites::add(const CellCosts& cells, bool overture, std::uint64_t seed) {
+void AmbientSites::add(const CellCosts& cells, bool prepass, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> place(0, 1);
     for (std::size_t i = 0; i < cells.values.size(); ++i) {
@@ -28,7 +28,7 @@ void AmbientSites::add(const CellCosts& cells, bool overture, std::uint64_t seed
             const double x = (static_cast<double>(i % columns) + place(random)) * cells.cell;
             const double y = (static_cast<double>(i / columns) + place(random)) * cells.cell;
             sites_.push_back({std::min(x / cells.width, 1.0), std::min(y / cells.height, 1.0),
-                              cells.making[i] / cells.values[i], overture});
+                              cells.making[i] / cells.values[i], prepass});
         }
     }
 }
@@ -40,7 +40,7 @@ std::size_t AmbientSites::bin_of(double x, double y) const {
     return bin(y) * kBins + bin(x);
 }
 
-void AmbientSites::needed(double x0, double y0, double x1, double y1, bool overture,
+void AmbientSites::needed(double x0, double y0, double x1, double y1, bool prepass,
                           std::vector<std::uint32_t>& found) const {
     found.clear();
     x0 -= reach_x_, x1 += reach_x_, y0 -= reach_y_, y1 += reach_y_;
@@ -50,7 +50,7 @@ void AmbientSites::needed(double x0, double y0, double x1, double y1, bool overt
             for (const std::uint32_t i : bins_[row * kBins + column]) {
                 const Site& site = sites_[i];
                 if (site.x >= x0 && site.x <= x1 && site.y >= y0 && site.y <= y1 &&
-                    (site.overture || !overture))
+                    (site.prepass || !prepass))
                     found.push_back(i);
             }
         }

@@ -19,16 +19,16 @@ class AmbientSites {
     [[nodiscard]] std::size_t size() const { return sites_.size(); }
     [[nodiscard]] double making(std::uint32_t site) const { return sites_[site].making; }
     /// Needed by a region whose corners are shares of the picture's sides.
-    void needed(double x0, double y0, double x1, double y1, bool overture,
+    void needed(double x0, double y0, double x1, double y1, bool prepass,
                 std::vector<std::uint32_t>& found) const;
 
   private:
     struct Site {
         double x = 0, y = 0;  ///< shares of the picture's sides
         double making = 0;    ///< [s]
-        bool overture = false;
+        bool prepass = false;
     };
-    void add(const CellCosts& cells, bool overture, std::uint64_t seed);
+    void add(const CellCosts& cells, bool prepass, std::uint64_t seed);
     [[nodiscard]] std::size_t bin_of(double x, double y) const;
 
     static constexpr int kBins = 64;  ///< along each side, to find sites by place

@@ -34,7 +34,7 @@ CostMap read_cost_map(const nlohmann::json& json) {
     try {
         CostMap map;
         map.picture = read_cells(json.at("picture"));
-        if (json.contains("overture")) map.overture = read_cells(json["overture"]);
+        if (json.contains("overture")) map.prepass = read_cells(json["overture"]);
         map.setup_seconds = json.at("setup_seconds");
         map.block_seconds = json.at("block_seconds");
         map.encode_seconds = json.at("encode_seconds");

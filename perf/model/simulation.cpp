@@ -18,8 +18,8 @@ constexpr double kOrderBytes = 400;  ///< of what a JobStart says of view and op
 constexpr double kHeadStart = 10;  ///< ranks are there so long before the picture is asked for [s]
 constexpr double kReach = 0.5;     ///< of an ambient value, see AmbientSites
 
-CellCosts overture_cells(const CostMap& map) {
-    return map.overture.width > 0 ? map.overture : map.picture;
+CellCosts prepass_cells(const CostMap& map) {
+    return map.prepass.width > 0 ? map.prepass : map.picture;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ Simulation::Simulation(const CostMap& map, const Machine& machine, const Simulat
       machine_(machine),
       run_(run),
       picture_costs_(map.picture, run.width, run.height),
-      overture_costs_(overture_cells(map), overture_cells(map).width, overture_cells(map).height) {
+      prepass_costs_(prepass_cells(map), prepass_cells(map).width, prepass_cells(map).height) {
     const bool exchange = run.ambient && run.ambient_batch > 0;
     if (run.variant == Variant::threads) {
         topology_.ranks = 1;
@@ -42,7 +42,7 @@ Simulation::Simulation(const CostMap& map, const Machine& machine, const Simulat
     longest_wait_ = std::chrono::duration<double>(patience.longest).count();
     if (run.ambient) {
         sites_ = std::make_unique<AmbientSites>(map, kReach, run.seed);
-        picture_ = map.overture.width > 0 ? 1 : 0;
+        picture_ = map.prepass.width > 0 ? 1 : 0;
         prediction_.values_needed = sites_->size();
     }
     ranks_.resize(static_cast<std::size_t>(topology_.ranks));
@@ -131,13 +131,13 @@ Prediction Simulation::run() {
     return std::move(prediction_);
 }
 
-/// One process: threads pull blocks from a list, first those of the overture.
+/// One process: threads pull blocks from a list, first those of the prepass.
 void Simulation::start_threads() {
     const auto begin_job = [&](JobId job) {
         const PixelRectangle area =
-            is_overture(job) ? map_.overture.area() : PixelRectangle{0, 0, run_.width, run_.height};
+            is_prepass(job) ? map_.prepass.area() : PixelRectangle{0, 0, run_.width, run_.height};
         const int side = block_side(area.width(), area.height(), run_.threads,
-                                    is_overture(job) ? 8 : run_.alignment);
+                                    is_prepass(job) ? 8 : run_.alignment);
         for (const Block& block : make_blocks(area, side)) ranks_[0].blocks.push_back({job, block});
     };
     for (JobId job = 0; job <= picture_; ++job) begin_job(job);
@@ -184,10 +184,10 @@ void Simulation::act(const Event& event) {
             return;
         case Kind::request: {
             const PixelRectangle whole{0, 0, run_.width, run_.height};
-            const bool coarse = is_overture(event.what);
+            const bool coarse = is_prepass(event.what);
             JobStart start;
             start.job = event.what;
-            start.area = coarse ? map_.overture.area() : whole;
+            start.area = coarse ? map_.prepass.area() : whole;
             start.alignment = coarse ? 1 : run_.alignment;
             start.keep = !coarse;
             post(0, {{0, Role::program}, {0, Role::master}, std::move(start)});

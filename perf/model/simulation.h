@@ -94,14 +94,14 @@ class Simulation {
     void keep(std::size_t rank, std::uint32_t value);
     [[nodiscard]] std::size_t node_of(std::size_t rank) const;
     void look_ahead(std::size_t node);
-    [[nodiscard]] bool is_overture(JobId job) const { return job < picture_; }
+    [[nodiscard]] bool is_prepass(JobId job) const { return job < picture_; }
 
     CostMap map_;
     Machine machine_;
     SimulatedRun run_;
     BlockCosts picture_costs_;
-    BlockCosts overture_costs_;
-    PixelRectangle overture_area_;
+    BlockCosts prepass_costs_;
+    PixelRectangle prepass_area_;
     std::unique_ptr<AmbientSites> sites_;
     Topology topology_;
     double shortest_wait_ = 0, longest_wait_ = 0;  ///< see Patience [s]

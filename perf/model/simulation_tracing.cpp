@@ -11,9 +11,9 @@ void Simulation::trace(std::size_t number) {
     Rank& rank = ranks_[number];
     while (rank.free_threads > 0 && rank.next_block < rank.blocks.size()) {
         const JobBlock work = rank.blocks[rank.next_block];
-        // The picture's threads of one process wait until all have ended the overture.
-        if (run_.variant == Variant::threads && !is_overture(work.job) &&
-            rank.next_block > threads_done_ && is_overture(rank.blocks[threads_done_].job))
+        // The picture's threads of one process wait until all have ended the prepass.
+        if (run_.variant == Variant::threads && !is_prepass(work.job) &&
+            rank.next_block > threads_done_ && is_prepass(rank.blocks[threads_done_].job))
             return;
         ++rank.next_block;
         if (rank.next_block == rank.blocks.size() && run_.variant != Variant::threads) {
@@ -59,7 +59,7 @@ void Simulation::next_step(int task) {
     t.next_row = part.y1;
     double work = t.setup;
     t.setup = 0;
-    work += is_overture(t.work.job) ? overture_costs_.seconds(part) : picture_costs_.seconds(part);
+    work += is_prepass(t.work.job) ? prepass_costs_.seconds(part) : picture_costs_.seconds(part);
     if (sites_) work += make_values(t, part);
     const std::size_t node = node_of(t.rank);
     nodes_[node].add(now_, task, work * machine_.slowness);
@@ -68,9 +68,9 @@ void Simulation::next_step(int task) {
 
 /// Seconds to make the values that are missing for a part of the picture.
 double Simulation::make_values(Task& task, const PixelRectangle& part) {
-    const bool coarse = is_overture(task.work.job);
-    const double width = coarse ? map_.overture.width : run_.width;
-    const double height = coarse ? map_.overture.height : run_.height;
+    const bool coarse = is_prepass(task.work.job);
+    const double width = coarse ? map_.prepass.width : run_.width;
+    const double height = coarse ? map_.prepass.height : run_.height;
     sites_->needed(part.x0 / width, part.y0 / height, part.x1 / width, part.y1 / height, coarse,
                    needed_);
     Rank& rank = ranks_[task.rank];

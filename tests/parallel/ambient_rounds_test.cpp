@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "parallel/concurrent_cache.h"
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
@@ -142,9 +142,9 @@ struct Process {
         view.direction = {0, 1, 0};
         return Camera(view);
     }
-    OvertureResult play(RoundExchange* exchange = nullptr) {
+    CachePrepassResult play(RoundExchange* exchange = nullptr) {
         return fill_ambient_cache(
-            scene.tracer, camera, options, Overture::deterministic, cache, executor, contexts, stop,
+            scene.tracer, camera, options, CachePrepass::deterministic, cache, executor, contexts, stop,
             [&](const FrameProgress&) { told(); }, exchange);
     }
     std::vector<Rgb> picture() {

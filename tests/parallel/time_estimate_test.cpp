@@ -20,7 +20,7 @@ struct Report {
 struct Recording {
     std::string name;
     int width, height, spacing;
-    Overture overture;
+    CachePrepass prepass;
     std::vector<Report> reports;
 };
 
@@ -31,7 +31,7 @@ const std::vector<Recording> kRecordings{
      256,
      192,
      4,
-     Overture::quick,
+     CachePrepass::quick,
      {{0, 0.026, 0.04801, 21671, 23},   {0, 0.0288, 0.06602, 25123, 26},
       {0, 0.0401, 0.114, 38692, 39},    {0, 0.059, 0.162, 61671, 60},
       {0, 0.0748, 0.2041, 80104, 78},   {0, 0.0931, 0.2521, 100827, 98},
@@ -55,7 +55,7 @@ const std::vector<Recording> kRecordings{
      192,
      144,
      4,
-     Overture::quick,
+     CachePrepass::quick,
      {{0, 0.1453, 0.08696, 107245, 304}, {0, 0.1993, 0.1739, 130993, 364},
       {0, 0.254, 0.2609, 162752, 440},   {0, 0.3085, 0.337, 191508, 519},
       {0, 0.3182, 0.4239, 205268, 554},  {0, 0.3276, 0.5, 213321, 573},
@@ -73,7 +73,7 @@ const std::vector<Recording> kRecordings{
      192,
      144,
      1,
-     Overture::quick,
+     CachePrepass::quick,
      {{0, 0.1736, 0.08696, 117017, 58},  {0, 0.4575, 0.1739, 234382, 113},
       {0, 0.574, 0.2609, 376671, 176},   {0, 0.8898, 0.337, 498983, 236},
       {0, 1.051, 0.4239, 628348, 299},   {0, 1.137, 0.5, 728641, 347},
@@ -92,7 +92,7 @@ const std::vector<Recording> kRecordings{
      192,
      144,
      4,
-     Overture::deterministic,
+     CachePrepass::deterministic,
      {{0, 1.673e-06, 0.008895, 128, 0},  {0, 0.4479, 0.02104, 74641, 17},
       {0, 1.747, 0.0668, 406228, 81},    {0, 2.306, 0.08895, 552198, 109},
       {0, 2.307, 0.1015, 552693, 109},   {0, 3.235, 0.1236, 877929, 173},
@@ -114,7 +114,7 @@ const std::vector<Recording> kRecordings{
      640,
      480,
      4,
-     Overture::none,
+     CachePrepass::none,
      {{0, 0.0247, 0.01394, 30267, 0},  {0, 0.164, 0.05577, 222967, 0},
       {0, 0.3244, 0.0976, 404921, 0},  {0, 0.4619, 0.1418, 624451, 0},
       {0, 0.5933, 0.2, 826633, 0},     {0, 0.7265, 0.2418, 972151, 0},
@@ -130,7 +130,7 @@ const std::vector<Recording> kRecordings{
      640,
      480,
      4,
-     Overture::none,
+     CachePrepass::none,
      {{0, 0.0097, 0.01394, 648, 0},
       {0, 0.0286, 0.05577, 16828, 0},
       {0, 0.0543, 0.1115, 34198, 0},
@@ -153,7 +153,7 @@ const std::vector<Recording> kRecordings{
      400,
      300,
      4,
-     Overture::quick,
+     CachePrepass::quick,
      {{0, 0.0941, 0.0199, 80149, 17},    {0, 0.1317, 0.02736, 96313, 20},
       {0, 0.2455, 0.04726, 163493, 33},  {0, 0.3677, 0.06716, 210189, 42},
       {0, 0.4288, 0.08707, 262534, 54},  {0, 0.6352, 0.107, 333558, 67},
@@ -190,7 +190,7 @@ const std::vector<Recording> kRecordings{
      240,
      180,
      4,
-     Overture::quick,
+     CachePrepass::quick,
      {{0, 0.0716, 0.05517, 52278, 341},  {0, 0.1193, 0.1103, 88461, 604},
       {0, 0.2193, 0.1655, 138527, 929},  {0, 0.2544, 0.2, 155935, 1020},
       {0, 0.2993, 0.2552, 164645, 1064}, {0, 0.3034, 0.3103, 183654, 1155},
@@ -214,7 +214,7 @@ TimeEstimator estimator_for(const Recording& recording) {
     options.width = recording.width;
     options.height = recording.height;
     options.pixels.spacing = recording.spacing;
-    return TimeEstimator(plan_picture(options, recording.overture, 2));
+    return TimeEstimator(plan_picture(options, recording.prepass, 2));
 }
 
 void add(TimeEstimator& estimator, const Report& report, double scale = 1) {
@@ -285,7 +285,7 @@ TEST_CASE("work at a constant rate is predicted exactly, and nothing before it b
 
 TEST_CASE("an overture whose later pixels cost less is not taken for a steady one") {
     // Work grows with the root of the share; linear extrapolation would say ten times too much.
-    TimeEstimator estimator({{WorkPhase::Kind::overture, 1000, 1, 1}});
+    TimeEstimator estimator({{WorkPhase::Kind::prepass, 1000, 1, 1}});
     for (const double done : {0.0001, 0.001, 0.003, 0.01}) {
         const double work = std::sqrt(done);
         estimator.add(
@@ -299,7 +299,7 @@ TEST_CASE("an overture whose later pixels cost less is not taken for a steady on
 TEST_CASE("one thread's overture tells of a picture by many, which is sooner done") {
     double left[2];
     for (const int workers : {1, 10}) {
-        TimeEstimator estimator({{WorkPhase::Kind::overture, 100, 1, 1},
+        TimeEstimator estimator({{WorkPhase::Kind::prepass, 100, 1, 1},
                                  {WorkPhase::Kind::picture, 1e5, 1, static_cast<double>(workers)}});
         estimator.add(0, 1, {1, 1000, 0});
         left[workers == 1 ? 0 : 1] = *estimator.estimate().seconds_left;
@@ -313,20 +313,20 @@ TEST_CASE(
     FrameOptions options;
     options.width = 60;
     options.height = 60;
-    CHECK(plan_picture(options, Overture::none, 4).size() == 1);
-    const std::vector<WorkPhase> quick = plan_picture(options, Overture::quick, 4);
+    CHECK(plan_picture(options, CachePrepass::none, 4).size() == 1);
+    const std::vector<WorkPhase> quick = plan_picture(options, CachePrepass::quick, 4);
     REQUIRE(quick.size() == 2);
-    CHECK(quick[0].kind == WorkPhase::Kind::overture);
+    CHECK(quick[0].kind == WorkPhase::Kind::prepass);
     CHECK(quick[0].pixels == 100);
     CHECK(quick[0].workers == 4);
     CHECK(quick[1].pixels == 3600);
     CHECK(quick[1].rays < 1);  // a spacing of 4
-    const std::vector<WorkPhase> rounds = plan_picture(options, Overture::deterministic, 4);
+    const std::vector<WorkPhase> rounds = plan_picture(options, CachePrepass::deterministic, 4);
     CHECK(rounds[0].workers == 4);
     CHECK(quick[1].late_values > 0);
     CHECK(rounds[1].late_values == 0);
     options.pixels.spacing = 1;
     options.pixels.samples = 8;
-    CHECK(plan_picture(options, Overture::quick, 4)[0].rays == 1);
-    CHECK(plan_picture(options, Overture::quick, 4)[1].rays == 8);
+    CHECK(plan_picture(options, CachePrepass::quick, 4)[0].rays == 1);
+    CHECK(plan_picture(options, CachePrepass::quick, 4)[1].rays == 8);
 }

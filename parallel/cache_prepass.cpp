@@ -1,4 +1,4 @@
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@ namespace lightwalk {
 namespace {
 
 /// Every how many pixels, in either direction, one is traced: picture by picture.
-std::vector<int> steps_of(Overture overture) {
-    switch (overture) {
-        case Overture::none:
+std::vector<int> steps_of(CachePrepass prepass) {
+    switch (prepass) {
+        case CachePrepass::none:
             break;
-        case Overture::quick:
+        case CachePrepass::quick:
             return {kQuickStep};
-        case Overture::deterministic:
+        case CachePrepass::deterministic:
             return {16, 8, 4, 2, 1};
     }
     return {};
@@ -33,7 +33,7 @@ PixelRectangle coarser(const PixelRectangle& window, int step) {
             (window.y1 + step - 1) / step};
 }
 
-FrameOptions coarse_options(const FrameOptions& options, Overture overture, int step) {
+FrameOptions coarse_options(const FrameOptions& options, CachePrepass prepass, int step) {
     FrameOptions coarse = options;
     coarse.step = step;
     coarse.pixels.spacing = 1;
@@ -43,17 +43,17 @@ FrameOptions coarse_options(const FrameOptions& options, Overture overture, int 
         coarse.pixels.samples = 1;
         coarse.previous = nullptr;
     }
-    if (options.window && overture != Overture::deterministic)
+    if (options.window && prepass != CachePrepass::deterministic)
         coarse.window = coarser(*options.window, step);
     return coarse;
 }
 
-/// Adds up the coarse pictures of an overture, and tells how far it is. A finer one has more
+/// Adds up the coarse pictures of an prepass, and tells how far it is. A finer one has more
 /// pixels, but less of what they miss is still to be computed: its share goes with the root of its
 /// pixels' density.
-class OvertureSum {
+class CachePrepassSum {
   public:
-    OvertureSum(const std::vector<int>& steps, TakeProgress progress) : progress_(progress) {
+    CachePrepassSum(const std::vector<int>& steps, TakeProgress progress) : progress_(progress) {
         for (const int step : steps) all_ += share_of(step);
     }
 
@@ -70,8 +70,8 @@ class OvertureSum {
         result_.rays += rays;
         result_.ambient += ambient;
     }
-    [[nodiscard]] OvertureResult result(bool complete) const {
-        OvertureResult result = result_;
+    [[nodiscard]] CachePrepassResult result(bool complete) const {
+        CachePrepassResult result = result_;
         result.complete = complete;
         return result;
     }
@@ -81,7 +81,7 @@ class OvertureSum {
 
     TakeProgress progress_;
     double all_ = 0, before_ = 0;
-    OvertureResult result_;
+    CachePrepassResult result_;
 };
 
 /// What a rendering of coarse pictures needs.
@@ -96,9 +96,9 @@ struct Players {
 };
 
 /// Finds what the pixels of one coarse picture after another miss, and has it computed in rounds.
-class DeterministicOverture {
+class DeterministicPrepass {
   public:
-    DeterministicOverture(const Players& players, OvertureSum& sum)
+    DeterministicPrepass(const Players& players, CachePrepassSum& sum)
         : players_(players),
           sum_(sum),
           rounds_(players.tracer, players.cache, players.executor, players.contexts,
@@ -127,7 +127,7 @@ class DeterministicOverture {
         for (const int step : {16, 8, 4, 2}) {
             const Frame frame =
                 render_frame(players_.tracer, players_.camera,
-                             coarse_options(options, Overture::deterministic, step), *one,
+                             coarse_options(options, CachePrepass::deterministic, step), *one,
                              players_.contexts, players_.stop, [](const FrameProgress&) {});
             sum_.add(frame.rays, frame.ambient);
             if (!frame.complete) return false;
@@ -167,7 +167,7 @@ class DeterministicOverture {
     }
 
     Players players_;
-    OvertureSum& sum_;
+    CachePrepassSum& sum_;
     int step_ = 1;            ///< of the picture at hand
     std::size_t points_ = 0;  ///< that its pixels miss
     double told_ = 0;
@@ -176,28 +176,28 @@ class DeterministicOverture {
 
 }  // namespace
 
-FrameOptions quick_overture(const FrameOptions& options, int step) {
-    return coarse_options(options, Overture::quick, step);
+FrameOptions quick_prepass(const FrameOptions& options, int step) {
+    return coarse_options(options, CachePrepass::quick, step);
 }
 
-std::size_t overture_pixels(const FrameOptions& options, Overture overture) {
+std::size_t prepass_pixels(const FrameOptions& options, CachePrepass prepass) {
     std::size_t pixels = 0;
-    for (const int step : steps_of(overture))
-        pixels += coarse_options(options, overture, step).area().pixels();
+    for (const int step : steps_of(prepass))
+        pixels += coarse_options(options, prepass, step).area().pixels();
     return pixels;
 }
 
-OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
-                                  const FrameOptions& options, Overture overture,
+CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
+                                  const FrameOptions& options, CachePrepass prepass,
                                   FreezableCache& cache, Executor& executor,
                                   WorkerContexts& contexts, const StopFlag& stop,
                                   TakeProgress progress, RoundExchange* exchange) {
-    const std::vector<int> steps = steps_of(overture);
-    OvertureSum sum(steps, progress);
+    const std::vector<int> steps = steps_of(prepass);
+    CachePrepassSum sum(steps, progress);
     NoExchange alone;
-    std::optional<DeterministicOverture> rounds;
+    std::optional<DeterministicPrepass> rounds;
     cache.freeze(false);
-    if (overture == Overture::deterministic) {
+    if (prepass == CachePrepass::deterministic) {
         const Players players{tracer,   camera,   cache,
                               executor, contexts, exchange != nullptr ? *exchange : alone,
                               stop};
@@ -205,7 +205,7 @@ OvertureResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
     }
     bool complete = true;
     for (const int step : steps) {
-        const FrameOptions coarse = coarse_options(options, overture, step);
+        const FrameOptions coarse = coarse_options(options, prepass, step);
         if (rounds) {
             complete = rounds->play(coarse);
         } else {

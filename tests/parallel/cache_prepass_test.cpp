@@ -1,4 +1,4 @@
-#include "parallel/overture.h"
+#include "parallel/cache_prepass.h"
 
 #include <doctest/doctest.h>
 
@@ -38,9 +38,9 @@ RenderOptions indirect(int bounces) {
     return options;
 }
 
-/// A scene with a cache of its own, the overture played and a picture made after it.
+/// A scene with a cache of its own, the prepass played and a picture made after it.
 struct Played {
-    explicit Played(Overture overture, int workers = 1, const FrameOptions& frame = small(),
+    explicit Played(CachePrepass prepass, int workers = 1, const FrameOptions& frame = small(),
                     int bounces = 1, const std::string& more = "")
         : scene(kRoom + more, indirect(bounces)),
           shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.5, 8)),
@@ -49,7 +49,7 @@ struct Played {
           contexts(scene.tracer, scene.warnings, workers),
           options(frame) {
         scene.tracer.use_ambient_cache(&cache);
-        result = play(overture, [](const FrameProgress&) {});
+        result = play(prepass, [](const FrameProgress&) {});
     }
 
     static FrameOptions small() {
@@ -66,8 +66,8 @@ struct Played {
         return Camera(view);
     }
 
-    OvertureResult play(Overture overture, TakeProgress progress) {
-        return fill_ambient_cache(scene.tracer, eye, options, overture, cache, *executor, contexts,
+    CachePrepassResult play(CachePrepass prepass, TakeProgress progress) {
+        return fill_ambient_cache(scene.tracer, eye, options, prepass, cache, *executor, contexts,
                                   stop, progress);
     }
     Frame picture() {
@@ -83,7 +83,7 @@ struct Played {
     FrameOptions options;
     Camera eye = camera();
     StopFlag stop;
-    OvertureResult result;
+    CachePrepassResult result;
 };
 
 bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
@@ -96,12 +96,12 @@ TEST_CASE("the overture computes most of the values that the picture needs, and 
     FrameOptions large = Played::small();
     large.width = 198;
     large.height = 150;
-    Played none(Overture::none, 1, large);
+    Played none(CachePrepass::none, 1, large);
     CHECK(none.result.complete);
     CHECK(none.result.rays.total() == 0);
     CHECK(none.shared.size() == 0);
     const std::uint64_t alone = none.picture().ambient.computed;
-    Played quick(Overture::quick, 1, large);
+    Played quick(CachePrepass::quick, 1, large);
     CHECK(quick.result.complete);
     CHECK(quick.result.rays.primary == 33 * 25);  // one pixel of 6 x 6
     CHECK(quick.result.ambient.computed > 0);
@@ -114,7 +114,7 @@ TEST_CASE("the overture computes most of the values that the picture needs, and 
 TEST_CASE("after a deterministic overture the cache is closed and pictures are the same bytes") {
     for (const int bounces : {1, 2, 3}) {
         CAPTURE(bounces);
-        Played expected(Overture::deterministic, 1, Played::small(), bounces);
+        Played expected(CachePrepass::deterministic, 1, Played::small(), bounces);
         const std::size_t values = expected.shared.size();
         CHECK(values > 0);
         const Frame picture = expected.picture();
@@ -122,7 +122,7 @@ TEST_CASE("after a deterministic overture the cache is closed and pictures are t
         CHECK(expected.picture().radiance == picture.radiance);
         for (const int workers : {2, 7}) {
             CAPTURE(workers);
-            Played other(Overture::deterministic, workers, Played::small(), bounces);
+            Played other(CachePrepass::deterministic, workers, Played::small(), bounces);
             CHECK(other.shared.size() == values);
             CHECK(other.result.rays.total() == expected.result.rays.total());
             CHECK(same_bytes(other.picture().radiance, picture.radiance));
@@ -135,7 +135,7 @@ TEST_CASE("a deterministic overture leaves nothing for the picture to compute") 
     sampled.pixels.samples = 3;
     for (const FrameOptions& options : {Played::small(), sampled}) {
         for (const int bounces : {1, 2}) {
-            Played played(Overture::deterministic, 2, options, bounces);
+            Played played(CachePrepass::deterministic, 2, options, bounces);
             CHECK(played.result.ambient.computed > 0);
             CHECK(played.picture().ambient.computed == 0);
         }
@@ -150,8 +150,8 @@ TEST_CASE(
     large.height = 100;
     for (const int bounces : {1, 2}) {
         CAPTURE(bounces);
-        Played rounds(Overture::deterministic, 2, large, bounces),
-            quick(Overture::quick, 1, large, bounces), none(Overture::none, 1, large, bounces);
+        Played rounds(CachePrepass::deterministic, 2, large, bounces),
+            quick(CachePrepass::quick, 1, large, bounces), none(CachePrepass::none, 1, large, bounces);
         none.scene.tracer.use_ambient_cache(nullptr);
         const Frame exact = none.picture(), serial = quick.picture(), picture = rounds.picture();
         const auto error = [&](const Frame& frame) {
@@ -172,21 +172,21 @@ TEST_CASE(
 
 TEST_CASE("a deterministic overture fills clipped matter, too, with the same bytes") {
     const std::string cut = "void antimatter hole 1 paint 0 0\nhole sphere cut 0 0 4 0 .2 1 .8\n";
-    Played expected(Overture::deterministic, 1, Played::small(), 1, cut);
+    Played expected(CachePrepass::deterministic, 1, Played::small(), 1, cut);
     const std::size_t values = expected.shared.size();
     const Frame picture = expected.picture();
-    CHECK(values > Played(Overture::quick, 1, Played::small(), 1, cut).shared.size() / 2);
+    CHECK(values > Played(CachePrepass::quick, 1, Played::small(), 1, cut).shared.size() / 2);
     CHECK(picture.ambient.computed < values / 2);  // most of the hole is filled
-    Played other(Overture::deterministic, 2, Played::small(), 1, cut);
+    Played other(CachePrepass::deterministic, 2, Played::small(), 1, cut);
     CHECK(other.shared.size() == values);
     CHECK(same_bytes(other.picture().radiance, picture.radiance));
 }
 
 TEST_CASE("windows of a picture after a deterministic overture are parts of the whole") {
-    const Frame whole = Played(Overture::deterministic, 2).picture();
+    const Frame whole = Played(CachePrepass::deterministic, 2).picture();
     FrameOptions part = Played::small();
     part.window = PixelRectangle{13, 5, 40, 31};
-    const Frame window = Played(Overture::deterministic, 2, part).picture();
+    const Frame window = Played(CachePrepass::deterministic, 2, part).picture();
     REQUIRE(window.width == 27);
     for (int y = 5; y < 31; ++y) {
         for (int x = 13; x < 40; ++x) {
@@ -195,20 +195,20 @@ TEST_CASE("windows of a picture after a deterministic overture are parts of the 
         }
     }
     // The quick one looks at no more than it has to.
-    CHECK(overture_pixels(part, Overture::quick) == 5 * 6);
-    CHECK(overture_pixels(Played::small(), Overture::quick) == 11 * 9);
-    CHECK(overture_pixels(part, Overture::none) == 0);
-    CHECK(overture_pixels(part, Overture::deterministic) ==
-          overture_pixels(Played::small(), Overture::deterministic));
+    CHECK(prepass_pixels(part, CachePrepass::quick) == 5 * 6);
+    CHECK(prepass_pixels(Played::small(), CachePrepass::quick) == 11 * 9);
+    CHECK(prepass_pixels(part, CachePrepass::none) == 0);
+    CHECK(prepass_pixels(part, CachePrepass::deterministic) ==
+          prepass_pixels(Played::small(), CachePrepass::deterministic));
 }
 
 TEST_CASE(
     "the overture tells how far it is: to all of its pixels, rays and values, over all steps") {
-    for (const Overture overture : {Overture::quick, Overture::deterministic}) {
-        Played scene(Overture::none);
+    for (const CachePrepass prepass : {CachePrepass::quick, CachePrepass::deterministic}) {
+        Played scene(CachePrepass::none);
         FrameProgress last;
         std::size_t told = 0;
-        const OvertureResult result = scene.play(overture, [&](const FrameProgress& now) {
+        const CachePrepassResult result = scene.play(prepass, [&](const FrameProgress& now) {
             CHECK(now.done > last.done);
             CHECK(now.rays >= last.rays);
             CHECK(now.ambient_values >= last.ambient_values);
@@ -223,12 +223,12 @@ TEST_CASE(
 }
 
 TEST_CASE("a requested stop ends the overture early, and the cache stays open") {
-    for (const Overture overture : {Overture::quick, Overture::deterministic}) {
-        Played scene(Overture::none, 2);
-        const OvertureResult result =
-            scene.play(overture, [&](const FrameProgress&) { scene.stop.request(); });
+    for (const CachePrepass prepass : {CachePrepass::quick, CachePrepass::deterministic}) {
+        Played scene(CachePrepass::none, 2);
+        const CachePrepassResult result =
+            scene.play(prepass, [&](const FrameProgress&) { scene.stop.request(); });
         CHECK_FALSE(result.complete);
-        CHECK(result.rays.primary < overture_pixels(scene.options, overture));
+        CHECK(result.rays.primary < prepass_pixels(scene.options, prepass));
         scene.stop.clear();
         const std::size_t before = scene.shared.size();
         CHECK(scene.picture().complete);
