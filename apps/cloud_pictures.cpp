@@ -18,7 +18,7 @@ std::optional<Frame> CloudPictures::take() {
     if (!meter_) begin_progress(options);
     WalkFrame drawn;
     if (run_prepass(*request, anew))
-        drawn = draw_walk_frame(*frames_, session_.tracer(), sights_, request->camera, options,
+        drawn = draw_walk_frame(*frames_, session_.tracer(), probe_, request->camera, options,
                                 executor_, contexts_, interrupt_flag());
     statistics_.rays += drawn.frame.rays;
     statistics_.ambient += drawn.frame.ambient;

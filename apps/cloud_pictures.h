@@ -8,7 +8,7 @@
 #include "apps/progress.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 #include "parallel/cache_prepass.h"
 #include "parallel/walk/cloud_frames.h"
 
@@ -31,7 +31,7 @@ class CloudPictures final : public PictureMaker {
           progress_(std::move(progress)),
           warnings_(warnings),
           statistics_(statistics),
-          sights_(session.tracer()) {}
+          probe_(session.tracer()) {}
 
     void order(std::shared_ptr<const PictureRequest> request) override {
         requests_.push_back(std::move(request));
@@ -53,7 +53,7 @@ class CloudPictures final : public PictureMaker {
     ProgressOptions progress_;
     StderrWarnings& warnings_;
     RunStatistics& statistics_;
-    SceneSights sights_;
+    VisibilityProbe probe_;
     std::optional<ProgressMeter> meter_;  ///< of the whole walk, while it lasts
     std::optional<CloudFrames> frames_;
     int width_ = 0, height_ = 0;  ///< of frames_

@@ -142,7 +142,7 @@ rays wherever these are true.
                      how much two rays of a pixel differ. Default 1
   --audit-limit PERCENT  when so many more of them are off by a tenth than two rays differ by as much, reuse is
                      tightened (ages, angles, distances) until it holds, then slowly loosened. Default 10, 0: never
-  --budget MS        milliseconds a frame: the worst holes are traced first, what does not fit is filled from around
+  --budget MS        milliseconds a frame: the worst uncached are traced first, what does not fit is filled from around
                      it, and traced in later frames. Default 0: all are traced
   --refine PERCENT   when a frame has the view of the frame before, that share of its pixels is made better (10): those
                      filled, then those reused, oldest first, then, with further rays, those at steps of brightness

@@ -13,15 +13,15 @@ namespace {
 /// A view of the scene, and its rays.
 class SceneRays final : public WalkRays {
   public:
-    SceneRays(const View& view, const Tracer& tracer, const SceneSights& sights,
+    SceneRays(const View& view, const Tracer& tracer, const VisibilityProbe& visibility,
               const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop)
         : camera_(view),
           contexts_(contexts),
-          caster_(tracer, sights, camera_, options, contexts, stop) {}
+          caster_(tracer, visibility, camera_, options, contexts, stop) {}
     [[nodiscard]] const Camera& camera() const override { return camera_; }
-    void look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
               int worker) override {
-        caster_.look(places, sights, worker);
+        caster_.probe(places, visibility, worker);
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker) override {
@@ -109,9 +109,9 @@ std::unique_ptr<WalkRays> RankWalk::make_rays(const CloudOrder& order, Executor&
     options.height = order.height;
     const PictureOrder picture = decode_order(order.payload);
     if (direct_ != nullptr && !picture.indirect)
-        return std::make_unique<SceneRays>(picture.view, direct_->tracer, direct_->sights, options,
+        return std::make_unique<SceneRays>(picture.view, direct_->tracer, direct_->visibility, options,
                                            direct_->contexts, stop_);
-    auto rays = std::make_unique<SceneRays>(picture.view, session_.tracer(), sights_, options,
+    auto rays = std::make_unique<SceneRays>(picture.view, session_.tracer(), probe_, options,
                                             contexts_, stop_);
     if (order.rules.empty || prepass_ == CachePrepass::deterministic)
         run_prepass(rays->camera(), options, executor);

@@ -10,7 +10,7 @@
 #include "apps/rank_work.h"
 #include "apps/scene_session.h"
 #include "apps/warnings.h"
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 #include "parallel/cache_prepass.h"
 #include "parallel/ranks/cloud_lead.h"
 #include "parallel/walk/live_frames.h"
@@ -72,7 +72,7 @@ class RankWalk final : public RankWork {
           contexts_(contexts),
           warnings_(warnings),
           stop_(stop),
-          sights_(session.tracer()) {}
+          probe_(session.tracer()) {}
 
     /// Orders that want direct light alone get this; without, they get what the session has.
     void set_direct(WalkLight& direct) { direct_ = &direct; }
@@ -94,7 +94,7 @@ class RankWalk final : public RankWork {
     WorkerContexts& contexts_;
     WarningSink& warnings_;
     const StopFlag& stop_;
-    SceneSights sights_;
+    VisibilityProbe probe_;
     WalkLight* direct_ = nullptr;
     RayCounters prepass_rays_;
     AmbientCounters prepass_ambient_;

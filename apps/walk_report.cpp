@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/cloud/audit.h"
+#include "core/cloud/reuse_error_controller.h"
 
 namespace lightwalk {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeast = 1e-5;         ///< of an error that counts
 constexpr double kBinsADecade = 120.0;  ///< each is 1.9 % wide
 
-constexpr std::array<const char*, kHoleCauses> kCauseNames{
+constexpr std::array<const char*, kTraceCauses> kCauseNames{
     "none", "uncovered", "hidden", "unsteady", "turned", "uneven", "audited", "refined"};
 
 }  // namespace
@@ -63,11 +63,11 @@ nlohmann::ordered_json WalkReport::json_of(const Audit& audit) {
 
 nlohmann::ordered_json WalkReport::json_of(const Drawn& frame) {
     const CloudReport& report = frame.report;
-    nlohmann::ordered_json holes;
-    for (std::size_t cause = 1; cause < kHoleCauses; ++cause)
-        holes[kCauseNames[cause]] = report.holes[cause];
+    nlohmann::ordered_json uncached;
+    for (std::size_t cause = 1; cause < kTraceCauses; ++cause)
+        uncached[kCauseNames[cause]] = report.uncached[cause];
     nlohmann::ordered_json json{{"reused", report.reused},
-                                {"traced", holes},
+                                {"traced", uncached},
                                 {"filled", report.filled},
                                 {"points", report.points},
                                 {"tightness", report.tightness},

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 #include "core/material/modifier_factories.h"
 #include "core/view/view_path.h"
 #include "io/scene/file_resources.h"
@@ -32,10 +32,10 @@ class LodgeScene {
           scene_(read_scene(std::vector<std::string>{"lodge.rad", "day.rad"}, options_, warnings_),
                  modifier_factory, resources_, warnings_),
           tracer_(scene_, RenderOptions{}, warnings_),
-          sights_(tracer_) {}
+          probe_(tracer_) {}
 
     [[nodiscard]] const Tracer& tracer() const { return tracer_; }
-    [[nodiscard]] const SceneSights& sights() const { return sights_; }
+    [[nodiscard]] const VisibilityProbe& visibility() const { return probe_; }
     [[nodiscard]] NoWarnings& warnings() { return warnings_; }
 
   private:
@@ -45,7 +45,7 @@ class LodgeScene {
     FileResources resources_;
     Scene scene_;
     Tracer tracer_;
-    SceneSights sights_;
+    VisibilityProbe probe_;
 };
 
 View living_room() {
@@ -75,15 +75,15 @@ void frames_of_a_turn(benchmark::State& state) {
     CloudFrames frames(options.width, options.height, {});
     const auto draw = [&](int step) {
         const Camera camera(turned_view(living_room(), 0.6 * step));
-        SceneCaster caster(scene.tracer(), scene.sights(), camera, options, contexts, stop);
-        const auto look = [&](std::span<const PixelPlace> places, std::span<PixelSights> sights,
-                              int worker) { caster.look(places, sights, worker); };
+        SceneCaster caster(scene.tracer(), scene.visibility(), camera, options, contexts, stop);
+        const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+                              int worker) { caster.probe(places, visibility, worker); };
         const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                                int, int worker) {
-            std::vector<PixelSights> sights(places.size());
-            caster.look(places, sights, worker);
+            std::vector<PixelVisibility> visibility(places.size());
+            caster.probe(places, visibility, worker);
             for (std::size_t i = 0; i < places.size(); ++i)
-                pixels[i] = {sights[i], Rgb::grey(1), {}, sights[i].ahead.distance};
+                pixels[i] = {visibility[i], Rgb::grey(1), {}, visibility[i].ahead.distance};
         };
         return frames.draw(camera, {look, trace}, *executor, stop);
     };

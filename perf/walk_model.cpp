@@ -22,7 +22,7 @@ WalkCosts read_costs(const nlohmann::json& json) {
     const std::map<std::string, double*> names{
         {"project", &c.project}, {"check", &c.check},   {"trace", &c.trace},
         {"keep", &c.keep},       {"encode", &c.encode}, {"decode", &c.decode},
-        {"points", &c.points},   {"holes", &c.holes},   {"packed_bytes", &c.packed_bytes},
+        {"points", &c.points},   {"holes", &c.uncached},   {"packed_bytes", &c.packed_bytes},
         {"shift", &c.shift}};
     for (const auto& [name, value] : json.items()) {
         if (names.find(name) == names.end())
@@ -61,7 +61,7 @@ Json predictions(const nlohmann::json& cases) {
         row["gathered"] = p.gathered;
         row["master_busy"] = p.master_busy;
         row["bytes_a_frame"] = p.bytes_a_frame;
-        row["holes_of_fullest"] = p.holes_of_fullest;
+        row["holes_of_fullest"] = p.uncached_of_fullest;
         all.push_back(std::move(row));
     }
     return {{"predictions", std::move(all)}};

@@ -67,16 +67,16 @@ WalkFrame RankFrames::draw(const View& view, double budget, double refine, const
     return result;
 }
 
-const RestingPicture* RankFrames::resting(const StopFlag& stop) {
-    if (!view_ || lead_->resting() != nullptr) return view_ ? lead_->resting() : nullptr;
+const ProgressivePicture* RankFrames::progressive(const StopFlag& stop) {
+    if (!view_ || lead_->progressive() != nullptr) return view_ ? lead_->progressive() : nullptr;
     const std::optional<FinishedFrame> finished =
         finish(lead_->ask_origins(payload(*view_, walks_by_indirect_)), stop);
     if (!finished) return nullptr;
     lead_->take_origins(*finished);
-    return lead_->resting();
+    return lead_->progressive();
 }
 
-std::vector<PixelValue> RankFrames::trace(const View& view, const RestingWork& work, double seconds,
+std::vector<PixelValue> RankFrames::trace(const View& view, const ProgressiveWork& work, double seconds,
                                           const StopFlag& stop) {
     lead_->set_limits(seconds, cloud_.refine);
     const std::optional<FinishedFrame> finished =

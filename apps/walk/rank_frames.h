@@ -24,8 +24,8 @@ class RankFrames final : public LiveFrames {
     void begin(int width, int height, bool indirect) override;
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
-    [[nodiscard]] const RestingPicture* resting(const StopFlag& stop) override;
-    [[nodiscard]] std::vector<PixelValue> trace(const View& view, const RestingWork& work,
+    [[nodiscard]] const ProgressivePicture* progressive(const StopFlag& stop) override;
+    [[nodiscard]] std::vector<PixelValue> trace(const View& view, const ProgressiveWork& work,
                                                 double seconds, const StopFlag& stop) override;
     void add_small_sources(const View& view, Frame& frame) override;
     [[nodiscard]] std::uint64_t rays() const override { return rays_; }

@@ -62,7 +62,7 @@ void WalkGlare::forget(WalkDesk& desk) {
 
 void WalkGlare::step(double budget, const StopFlag& stop, WalkDesk& desk) {
     const Camera field(field_of(view_));
-    const auto trace = [&](const RestingWork& work) {
+    const auto trace = [&](const ProgressiveWork& work) {
         return trace_pixels(tracer_, contexts_, field, picture_options(), work, budget, executor_,
                             stop);
     };

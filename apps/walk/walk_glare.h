@@ -7,7 +7,7 @@
 #include "apps/walk/walk_desk.h"
 #include "core/transport/tracer.h"
 #include "parallel/executor.h"
-#include "parallel/walk/resting_light.h"
+#include "parallel/walk/progressive_light.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
@@ -42,7 +42,7 @@ class WalkGlare {
     WorkerContexts contexts_;
     std::vector<Asked> asked_;
     View view_;
-    std::optional<RestingLight> picture_;
+    std::optional<ProgressiveLight> picture_;
     double told_ = 0;  ///< share that was told last
 };
 

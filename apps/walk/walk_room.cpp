@@ -13,7 +13,7 @@ namespace {
 constexpr double kUsualEyeHeight = 1.6;  // [m]
 constexpr double kHighestStep = 0.35;    // as a share of the eye's height
 // At rest most of the time goes to better pixels: compressing them can wait.
-constexpr std::chrono::milliseconds kRestingInterval{100};
+constexpr std::chrono::milliseconds kProgressiveInterval{100};
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
 constexpr std::chrono::milliseconds kIdle{100};
@@ -81,7 +81,7 @@ void WalkRoom::step(const StopFlag& stop) {
     draw(stop);
     const Clock::time_point now = Clock::now();
     const bool hurries = live_.picture().phase == LivePhase::moving;
-    const bool shows = drawn_ && (hurries || now - shown_at_ >= kRestingInterval);
+    const bool shows = drawn_ && (hurries || now - shown_at_ >= kProgressiveInterval);
     if (shows) show(now);
     screen_.acked(desk_.take_acks());  // that came meanwhile: they tell who may be sent a frame
     screen_.send(desk_, Clock::now());

@@ -10,7 +10,7 @@ namespace lightwalk {
 namespace {
 
 constexpr int kPieceWidth = 160, kPieceHeight = 120;  // [pixels]
-constexpr int kMovingQuality = 75, kRestingQuality = 95;
+constexpr int kMovingQuality = 75, kProgressiveQuality = 95;
 constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how bright a picture is
 
 }  // namespace
@@ -50,7 +50,7 @@ void WalkScreen::show(const LivePicture& picture, const DisplaySettings& setting
     const Display display(settings, eye_, brightness);
     exposure_ = static_cast<float>(display.exposure());
     view_ = view;
-    const int quality = view.at_rest ? kRestingQuality : kMovingQuality;
+    const int quality = view.at_rest ? kProgressiveQuality : kMovingQuality;
     executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
         colour(pieces_[i], picture, display, quality);
         contents_[i] = pieces_[i].content;

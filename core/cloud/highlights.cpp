@@ -40,7 +40,7 @@ class LightOnSurface {
     void drop_hidden(const Geometry& geometry);
     /// How far the eye may turn before the colour changes by kChange, if that is less than `most`
     /// [rad].
-    [[nodiscard]] double steady_turn(double most) const;
+    [[nodiscard]] double max_view_angle(double most) const;
 
   private:
     [[nodiscard]] double dark_turn(const LitPart& part) const;
@@ -141,7 +141,7 @@ double LightOnSurface::dark_turn(double most) const {
     return most;
 }
 
-double LightOnSurface::steady_turn(double most) const {
+double LightOnSurface::max_view_angle(double most) const {
     if (count_ == 0) return most;
     const double dark = dark_turn(most);
     if (dark >= most) return most;
@@ -167,9 +167,9 @@ double Highlights::slope(const Hit& hit, const Vec3& direction, const GlossyLobe
     double turn = kMostTurn;
     for (const std::int32_t i : lights_.sampled()) {
         LightOnSurface light(lights_[i], at, lobe, part_size);
-        if (light.steady_turn(turn) >= turn) continue;
+        if (light.max_view_angle(turn) >= turn) continue;
         light.drop_hidden(geometry_);  // dear, and most lights do not come so far
-        turn = light.steady_turn(turn);
+        turn = light.max_view_angle(turn);
     }
     return turn < kMostTurn ? kChange / std::max(turn, kLeastTurn) : 0;
 }

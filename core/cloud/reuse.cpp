@@ -21,7 +21,7 @@ constexpr float kSteepContrast = 0.6f;
 
 /// A point on the pixel, or no farther from its ray, shows the pixel as it is; of farther ones what
 /// lies between them is truer than any of them [pixels²].
-constexpr float kSharp2 = 0.49f;
+constexpr float kOwnPixel2 = 0.49f;
 
 /// What is mirrored may be anything where it brings no more than this share of the rest.
 constexpr float kFaint = 0.05f;
@@ -39,9 +39,9 @@ bool depths_jump(float a, float b) {
 constexpr int kWellKnown = 5, kSmooth = 4, kWitnesses = 3;
 
 /// Direction from where the pixel's ray begins to a point beside it.
-Vec3 toward(const CloudPoint& point, const PixelSights& sights, const Sight& sight) {
-    const double scale = 1 / std::max(static_cast<double>(sight.distance), kEpsilon);
-    return normalize(sights.direction + (point.place() - sight.position) * scale);
+Vec3 toward(const CloudPoint& point, const PixelVisibility& visibility, const PrimaryVisibility& seen_thing) {
+    const double scale = 1 / std::max(static_cast<double>(seen_thing.distance), kEpsilon);
+    return normalize(visibility.direction + (point.place() - seen_thing.position) * scale);
 }
 
 }  // namespace
@@ -69,23 +69,23 @@ struct PointFinder::Search {
     bool turned = false;  ///< some were seen from elsewhere
 };
 
-inline float PointFinder::squared_distance(std::uint32_t index, const PixelSights& sights) const {
-    const float dx = places_[index].x - sights.x, dy = places_[index].y - sights.y;
+inline float PointFinder::squared_distance(std::uint32_t index, const PixelVisibility& visibility) const {
+    const float dx = places_[index].x - visibility.x, dy = places_[index].y - visibility.y;
     return dx * dx + dy * dy;
 }
 
 /// @param squared  the point's squared_distance()
-inline void PointFinder::look_at(std::uint32_t index, float squared, const PixelSights& sights,
-                                 const Sight& sight, Search& found) const {
+inline void PointFinder::consider(std::uint32_t index, float squared, const PixelVisibility& visibility,
+                                 const PrimaryVisibility& seen_thing, Search& found) const {
     found.any = true;
     const CloudPoint& point = points_[index];
     const float light = brightness(point.radiance);
     if (light > found.faint) {
-        if (point.surface != sight.surface) return;
+        if (point.surface != seen_thing.surface) return;
         const float distance = places_[index].distance;
-        if (std::abs(distance - sight.distance) > kSameDepth * sight.distance) return;
-        if (point.turn != kAnyTurn &&
-            !holds_from(point, toward(point, sights, sight), rules_.tightness)) {
+        if (std::abs(distance - seen_thing.distance) > kSameDepth * seen_thing.distance) return;
+        if (point.max_view_angle != kAnyViewAngle &&
+            !holds_from(point, toward(point, visibility, seen_thing), rules_.tightness)) {
             found.turned = true;
             return;
         }
@@ -93,7 +93,7 @@ inline void PointFinder::look_at(std::uint32_t index, float squared, const Pixel
     ++found.points;
     found.darkest = std::min(found.darkest, light);
     found.brightest = std::max(found.brightest, light);
-    if (squared > kSharp2) {
+    if (squared > kOwnPixel2) {
         const float weight = 1 / (squared * squared);
         found.sum += point.radiance * weight;
         found.weight += weight;
@@ -106,11 +106,11 @@ inline void PointFinder::look_at(std::uint32_t index, float squared, const Pixel
     found.best = index;
 }
 
-/// Look at the points around a pixel: at those that are not near only where no near one shows what
+/// Search at the points around a pixel: at those that are not near only where no near one shows what
 /// the ray sees, for else they change nothing.
-/// @param near  squared, at most kSharp2 [pixels²]
-void PointFinder::look_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
-                              const PixelSights& sights, const Sight& sight, Search& found) const {
+/// @param near  squared, at most kOwnPixel2 [pixels²]
+void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
+                              const PixelVisibility& visibility, const PrimaryVisibility& seen_thing, Search& found) const {
     std::array<std::uint32_t, 8> far;
     std::array<float, 8> far_squared;
     std::size_t count = 0;
@@ -120,9 +120,9 @@ void PointFinder::look_around(const DepthGrid& grid, const PixelPlace& pixel, fl
         for (int x = std::max(pixel.x - 1, 0); x <= x1; ++x) {
             const std::uint32_t index = grid.winner(x, y);
             if (index == kNoPoint || (x == pixel.x && y == pixel.y)) continue;
-            const float squared = squared_distance(index, sights);
+            const float squared = squared_distance(index, visibility);
             if (squared <= near) {
-                look_at(index, squared, sights, sight, found);
+                consider(index, squared, visibility, seen_thing, found);
             } else {
                 far[count] = index;
                 far_squared[count++] = squared;
@@ -130,56 +130,56 @@ void PointFinder::look_around(const DepthGrid& grid, const PixelPlace& pixel, fl
         }
     }
     if (found.points > 0) return;
-    for (std::size_t i = 0; i < count; ++i) look_at(far[i], far_squared[i], sights, sight, found);
+    for (std::size_t i = 0; i < count; ++i) consider(far[i], far_squared[i], visibility, seen_thing, found);
 }
 
 /// Adds to the answer. What it shows already counts: points may differ by a share of the sum. What
 /// lies between points is their mean by the fourth power of the distance (Shepard, "A
 /// two-dimensional interpolation function for irregularly-spaced data", ACM 1968).
-HoleCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
-                              const PixelSights& sights, const Sight& sight, std::uint32_t& best,
+TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
+                              const PixelVisibility& visibility, const PrimaryVisibility& seen_thing, std::uint32_t& best,
                               PixelAnswer& answer) const {
     Search found;
     const float base = brightness(answer.radiance);
     if (base > 0) found.faint = kFaint * base;
     const float near = rules_.near * rules_.near;
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
-    if (own != kNoPoint) look_at(own, squared_distance(own, sights), sights, sight, found);
+    if (own != kNoPoint) consider(own, squared_distance(own, visibility), visibility, seen_thing, found);
     // What lies on the pixel itself is as good a sample of it as its ray's.
     const bool inside_pixel = found.points > 0;
     if (rules_.look_back && !inside_pixel)
-        look_around(grid, pixel, std::min(near, kSharp2), sights, sight, found);
+        search_around(grid, pixel, std::min(near, kOwnPixel2), visibility, seen_thing, found);
     best = found.best;
     answer.apart = std::max(answer.apart, std::sqrt(found.squared));
     if (found.points == 0)
-        return found.turned ? HoleCause::turned
-               : found.any  ? HoleCause::hidden
-                            : HoleCause::uncovered;
-    const bool sharp = inside_pixel || found.squared <= kSharp2;
+        return found.turned ? TraceCause::turned
+               : found.any  ? TraceCause::hidden
+                            : TraceCause::uncovered;
+    const bool sharp = inside_pixel || found.squared <= kOwnPixel2;
     answer.radiance += sharp ? points_[best].radiance : found.sum * (1 / found.weight);
-    if (!rules_.look_back || inside_pixel || found.squared <= near) return HoleCause::none;
-    if (found.brightest <= found.faint) return HoleCause::none;
-    if (found.points < kFewPoints) return HoleCause::uneven;
+    if (!rules_.look_back || inside_pixel || found.squared <= near) return TraceCause::none;
+    if (found.brightest <= found.faint) return TraceCause::none;
+    if (found.points < kFewPoints) return TraceCause::uneven;
     const float contrast =
         (found.brightest - found.darkest) / std::max(found.brightest + base, 1e-30f);
-    return found.squared <= squared_reach(contrast) ? HoleCause::none : HoleCause::uneven;
+    return found.squared <= squared_reach(contrast) ? TraceCause::none : TraceCause::uneven;
 }
 
-inline void PointFinder::check(const PixelPlace& pixel, const PixelSights& sights,
+inline void PointFinder::check(const PixelPlace& pixel, const PixelVisibility& visibility,
                                PixelAnswer& answer) const {
-    answer = {HoleCause::none, kNoPoint, kNoPoint, 0, {}};
-    if ((sights.ahead.seen && sights.ahead.slope == kUnsteady) ||
-        (sights.mirrored.seen && sights.mirrored.slope == kUnsteady)) {
-        answer.cause = HoleCause::unsteady;
+    answer = {TraceCause::none, kNoPoint, kNoPoint, 0, {}};
+    if ((visibility.ahead.seen && visibility.ahead.slope == kNeverReuse) ||
+        (visibility.mirrored.seen && visibility.mirrored.slope == kNeverReuse)) {
+        answer.cause = TraceCause::never_reused;
         return;
     }
-    if (sights.ahead.seen) {
-        answer.cause = search(grids_.ahead, pixel, sights, sights.ahead, answer.ahead, answer);
+    if (visibility.ahead.seen) {
+        answer.cause = search(grids_.ahead, pixel, visibility, visibility.ahead, answer.ahead, answer);
         if (!answer.found()) return;
     }
-    if (sights.mirrored.seen)
+    if (visibility.mirrored.seen)
         answer.cause =
-            search(grids_.mirrored, pixel, sights, sights.mirrored, answer.mirrored, answer);
+            search(grids_.mirrored, pixel, visibility, visibility.mirrored, answer.mirrored, answer);
 }
 
 /// Fetch the pixels' points into the cache.
@@ -193,34 +193,34 @@ void PointFinder::expect(std::span<const PixelPlace> pixels) const {
     }
 }
 
-void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
+void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelVisibility> visibility,
                           std::span<PixelAnswer> answers) const {
     expect(pixels);
-    for (std::size_t i = 0; i < pixels.size(); ++i) check(pixels[i], sights[i], answers[i]);
+    for (std::size_t i = 0; i < pixels.size(); ++i) check(pixels[i], visibility[i], answers[i]);
 }
 
-PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelSights& sights) const {
+PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelVisibility& visibility) const {
     PixelAnswer answer;
-    checked({&pixel, 1}, {&sights, 1}, {&answer, 1});
+    checked({&pixel, 1}, {&visibility, 1}, {&answer, 1});
     return answer;
 }
 
-/// What fell onto the pixel, whatever it is: HoleCause::uncovered where a part of it is missing.
+/// What fell onto the pixel, whatever it is: TraceCause::uncovered where a part of it is missing.
 /// @param mirrors  whether there may be a point of what is mirrored
 void PointFinder::find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const {
     const std::uint32_t ahead = grids_.ahead.winner(pixel.x, pixel.y);
     const std::uint32_t mirrored = mirrors ? grids_.mirrored.winner(pixel.x, pixel.y) : kNoPoint;
     const bool lone_mirror = mirrored != kNoPoint && !points_[mirrored].paired;
-    answer.cause = HoleCause::uncovered;
+    answer.cause = TraceCause::uncovered;
     answer.ahead = answer.mirrored = kNoPoint;
     if (ahead == kNoPoint && !lone_mirror) return;
-    answer.cause = HoleCause::none;
+    answer.cause = TraceCause::none;
     answer.ahead = ahead;
     answer.apart = 0;
     answer.radiance = {};
     if (ahead == kNoPoint || points_[ahead].paired) {
         answer.mirrored = mirrored;
-        if (mirrored == kNoPoint) answer.cause = HoleCause::uncovered;
+        if (mirrored == kNoPoint) answer.cause = TraceCause::uncovered;
     }
     for (const std::uint32_t index : {answer.ahead, answer.mirrored})
         if (index != kNoPoint) answer.radiance += points_[index].radiance;
@@ -231,11 +231,11 @@ PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
     find_own(pixel, true, answer);
     if (!answer.found()) return answer;
     if (contradicts(pixel, answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead)) {
-        answer.cause = HoleCause::hidden;
+        answer.cause = TraceCause::hidden;
         return answer;
     }
     for (const std::uint32_t index : {answer.ahead, answer.mirrored})
-        if (index != kNoPoint && !holds(points_[index], pixel)) answer.cause = HoleCause::turned;
+        if (index != kNoPoint && !holds(points_[index], pixel)) answer.cause = TraceCause::turned;
     return answer;
 }
 
@@ -249,8 +249,8 @@ bool PointFinder::holds(const CloudPoint& point, const PixelPlace& pixel) const 
 
 /// The answer of a pixel's point, or, where it has none, of those around it, as if a ray had told
 /// that it sees their surface: if that is one, and the last frame has shown some of them.
-PixelAnswer PointFinder::vouched(const PixelPlace& pixel) const {
-    PixelSights sights;
+PixelAnswer PointFinder::inferred(const PixelPlace& pixel) const {
+    PixelVisibility visibility;
     float sum = 0;
     int count = 0, fresh = 0;
     for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
@@ -258,8 +258,8 @@ PixelAnswer PointFinder::vouched(const PixelPlace& pixel) const {
             const std::uint32_t index = inside(x, y) ? grids_.ahead.winner(x, y) : kNoPoint;
             if (index == kNoPoint) continue;
             const CloudPoint& point = points_[index];
-            if (point.paired || (count > 0 && point.surface != sights.ahead.surface)) return {};
-            sights.ahead.surface = point.surface;
+            if (point.paired || (count > 0 && point.surface != visibility.ahead.surface)) return {};
+            visibility.ahead.surface = point.surface;
             sum += places_[index].distance;
             ++count;
             if (point.age == 0) ++fresh;
@@ -269,15 +269,15 @@ PixelAnswer PointFinder::vouched(const PixelPlace& pixel) const {
     const double h = pixel.x + 0.5, v = pixel.y + 0.5;
     const auto ray = projector_.camera().ray(h / projector_.width(), v / projector_.height());
     if (!ray) return {};
-    sights.x = static_cast<float>(h);
-    sights.y = static_cast<float>(v);
-    sights.direction = ray->direction;
-    sights.ahead.seen = true;
-    sights.ahead.distance = sum / static_cast<float>(count);
-    sights.ahead.position =
-        ray->origin + ray->direction * static_cast<double>(sights.ahead.distance);
+    visibility.x = static_cast<float>(h);
+    visibility.y = static_cast<float>(v);
+    visibility.direction = ray->direction;
+    visibility.ahead.seen = true;
+    visibility.ahead.distance = sum / static_cast<float>(count);
+    visibility.ahead.position =
+        ray->origin + ray->direction * static_cast<double>(visibility.ahead.distance);
     PixelAnswer answer;
-    check(pixel, sights, answer);
+    check(pixel, visibility, answer);
     return answer;
 }
 
@@ -294,7 +294,7 @@ bool PointFinder::is_amidst(const PixelSquare& square, const PixelPlace& pixel) 
            (!square.mirrors || grids_.mirrored.winner(pixel.x, pixel.y) == kNoPoint);
 }
 
-void PointFinder::steady(const PixelSquare& square, std::span<const PixelPlace> pixels,
+void PointFinder::temporal(const PixelSquare& square, std::span<const PixelPlace> pixels,
                          std::span<PixelAnswer> answers) const {
     expect(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -304,10 +304,10 @@ void PointFinder::steady(const PixelSquare& square, std::span<const PixelPlace> 
         if (!is_amidst(square, pixel)) continue;
         const std::uint32_t own = grids_.ahead.winner(pixel.x, pixel.y);
         if (own == kNoPoint || points_[own].age > 0)
-            answer = vouched(pixel);
+            answer = inferred(pixel);
         else if (const CloudPoint& point = points_[own];
-                 !point.paired && (point.turn == kAnyTurn || holds(point, pixel)))
-            answer = {HoleCause::none, own, kNoPoint, 0, point.radiance};
+                 !point.paired && (point.max_view_angle == kAnyViewAngle || holds(point, pixel)))
+            answer = {TraceCause::none, own, kNoPoint, 0, point.radiance};
     }
 }
 
@@ -328,13 +328,13 @@ void PointFinder::find_around(const PixelPlace& pixel, PixelAnswer& answer) cons
         }
     }
     if (best == kNoPoint || points_[best].paired) return;
-    answer.cause = HoleCause::none;
+    answer.cause = TraceCause::none;
     answer.ahead = best;
     answer.apart = std::sqrt(least);
     answer.radiance = points_[best].radiance;
 }
 
-void PointFinder::glimpse(const PixelSquare& square, const PixelPlace& pixel,
+void PointFinder::fill_unverified(const PixelSquare& square, const PixelPlace& pixel,
                           PixelAnswer& answer) const {
     find_own(pixel, square.mirrors, answer);
     if (!answer.found()) {
@@ -344,13 +344,13 @@ void PointFinder::glimpse(const PixelSquare& square, const PixelPlace& pixel,
     const DepthGrid& grid = answer.ahead == kNoPoint ? grids_.mirrored : grids_.ahead;
     const bool level =
         answer.ahead != kNoPoint && square.ahead.spread[square.at(pixel)] <= DepthGrid::kBehind;
-    if (!level && grid.is_behind(pixel.x, pixel.y)) answer.cause = HoleCause::hidden;
+    if (!level && grid.is_behind(pixel.x, pixel.y)) answer.cause = TraceCause::hidden;
 }
 
-void PointFinder::glimpsed(const PixelSquare& square, std::span<const PixelPlace> pixels,
+void PointFinder::unverified(const PixelSquare& square, std::span<const PixelPlace> pixels,
                            std::span<PixelAnswer> answers) const {
     expect(pixels);
-    for (std::size_t i = 0; i < pixels.size(); ++i) glimpse(square, pixels[i], answers[i]);
+    for (std::size_t i = 0; i < pixels.size(); ++i) fill_unverified(square, pixels[i], answers[i]);
 }
 
 /// Distances of the points that fell onto the pixel and those around it, from below, left to
@@ -393,7 +393,7 @@ bool PointFinder::is_edge(const PixelPlace& pixel) const {
 }
 
 bool PointFinder::is_guess(const PixelAnswer& answer) const {
-    if (answer.cause != HoleCause::uneven) return false;
+    if (answer.cause != TraceCause::uneven) return false;
     return answer.ahead == kNoPoint || !points_[answer.ahead].paired || answer.mirrored != kNoPoint;
 }
 

@@ -7,26 +7,26 @@
 #include "core/cloud/depth_grid.h"
 #include "core/cloud/point.h"
 #include "core/cloud/projection.h"
-#include "core/cloud/sight.h"
+#include "core/cloud/primary_visibility.h"
 
 namespace lightwalk {
 
 /// Why a pixel has to be traced, the worst first.
-enum class HoleCause : std::uint8_t {
+enum class TraceCause : std::uint8_t {
     none,       ///< it has not
     uncovered,  ///< no point lies there
     hidden,     ///< what lies there belongs to another surface, or is not what the ray meets
-    unsteady,   ///< its colour holds for this ray only
+    never_reused,   ///< its colour holds for this ray only
     turned,     ///< its colour was seen from too different a side
     uneven,     ///< the points around disagree, and none of them is near enough
-    audited,    ///< it is not a hole, but traced all the same
-    refined,    ///< it is not a hole, but the view stands still, and there is time
+    audited,    ///< it is not a uncached pixel, but traced all the same
+    refined,    ///< it is not a uncached pixel, but the view stands still, and there is time
 };
-inline constexpr std::size_t kHoleCauses = 8;
+inline constexpr std::size_t kTraceCauses = 8;
 
 /// When a point answers a pixel.
 struct ReuseRules {
-    /// Look around the pixel for the nearest point of what its ray meets; false: only the point
+    /// Search around the pixel for the nearest point of what its ray meets; false: only the point
     /// that fell onto the pixel counts (forward projection alone).
     bool look_back = true;
     float near = 1;         ///< a point as near as this to the ray is as good as its own [pixels]
@@ -41,11 +41,11 @@ struct ReuseRules {
 
 /// What answers a pixel: the sum of up to two points.
 struct PixelAnswer {
-    HoleCause cause = HoleCause::uncovered;
+    TraceCause cause = TraceCause::uncovered;
     std::uint32_t ahead = kNoPoint, mirrored = kNoPoint;
     float apart = 0;  ///< of the farther one from the pixel's ray [pixels]
     Rgb radiance;     ///< theirs; where none is near, of what lies around [W/(m² sr)]
-    [[nodiscard]] bool found() const { return cause == HoleCause::none; }
+    [[nodiscard]] bool found() const { return cause == TraceCause::none; }
 };
 
 /// What the grids hold in a square of 8 x 8 pixels, with corners at multiples of 8, and around it.
@@ -78,9 +78,9 @@ class PointFinder {
         grids_.mirrored.prefetch(pixel.x, pixel.y);
     }
     /// For a pixel of which a ray has told what it sees.
-    [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel, const PixelSights& sights) const;
+    [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel, const PixelVisibility& visibility) const;
     /// For many of them, which is faster: what they need is fetched into the cache together.
-    void checked(std::span<const PixelPlace> pixels, std::span<const PixelSights> sights,
+    void checked(std::span<const PixelPlace> pixels, std::span<const PixelVisibility> visibility,
                  std::span<PixelAnswer> answers) const;
     /// For a pixel of which nothing is known: the point that fell onto it.
     [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
@@ -88,14 +88,14 @@ class PointFinder {
     [[nodiscard]] PixelSquare square_of(const PixelPlace& pixel) const;
     /// For pixels of a square, which are shown for a moment only: the points that fell onto them,
     /// though they may have been seen from elsewhere, or, in the midst of a surface, those around.
-    void glimpsed(const PixelSquare& square, std::span<const PixelPlace> pixels,
+    void unverified(const PixelSquare& square, std::span<const PixelPlace> pixels,
                   std::span<PixelAnswer> answers) const;
     /// For pixels of which no ray has told, in the midst of a surface: where no depth around steps,
     /// nothing is mirrored, and the last frame has shown what lies there, what is there still.
-    /// Elsewhere HoleCause::uncovered, and nothing is known. A point that a ray finds hidden is not
+    /// Elsewhere TraceCause::uncovered, and nothing is known. A point that a ray finds hidden is not
     /// used, and vouches for nothing in the next frame.
     /// @param pixels  of the square
-    void steady(const PixelSquare& square, std::span<const PixelPlace> pixels,
+    void temporal(const PixelSquare& square, std::span<const PixelPlace> pixels,
                 std::span<PixelAnswer> answers) const;
     /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
     /// without a point, where depths jump.
@@ -109,22 +109,22 @@ class PointFinder {
 
   private:
     struct Search;
-    void check(const PixelPlace& pixel, const PixelSights& sights, PixelAnswer& answer) const;
-    [[nodiscard]] HoleCause search(const DepthGrid& grid, const PixelPlace& pixel,
-                                   const PixelSights& sights, const Sight& sight,
+    void check(const PixelPlace& pixel, const PixelVisibility& visibility, PixelAnswer& answer) const;
+    [[nodiscard]] TraceCause search(const DepthGrid& grid, const PixelPlace& pixel,
+                                   const PixelVisibility& visibility, const PrimaryVisibility& seen_thing,
                                    std::uint32_t& best, PixelAnswer& answer) const;
-    void look_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
-                     const PixelSights& sights, const Sight& sight, Search& found) const;
-    void look_at(std::uint32_t index, float squared, const PixelSights& sights, const Sight& sight,
+    void search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
+                     const PixelVisibility& visibility, const PrimaryVisibility& seen_thing, Search& found) const;
+    void consider(std::uint32_t index, float squared, const PixelVisibility& visibility, const PrimaryVisibility& seen_thing,
                  Search& found) const;
     void expect(std::span<const PixelPlace> pixels) const;
     void find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const;
     void find_around(const PixelPlace& pixel, PixelAnswer& answer) const;
-    void glimpse(const PixelSquare& square, const PixelPlace& pixel, PixelAnswer& answer) const;
+    void fill_unverified(const PixelSquare& square, const PixelPlace& pixel, PixelAnswer& answer) const;
     [[nodiscard]] bool is_amidst(const PixelSquare& square, const PixelPlace& pixel) const;
-    [[nodiscard]] PixelAnswer vouched(const PixelPlace& pixel) const;
+    [[nodiscard]] PixelAnswer inferred(const PixelPlace& pixel) const;
     [[nodiscard]] bool holds(const CloudPoint& point, const PixelPlace& pixel) const;
-    [[nodiscard]] float squared_distance(std::uint32_t index, const PixelSights& sights) const;
+    [[nodiscard]] float squared_distance(std::uint32_t index, const PixelVisibility& visibility) const;
     [[nodiscard]] float squared_reach(float contrast) const;
     [[nodiscard]] bool contradicts(const PixelPlace& pixel, const DepthGrid& grid) const;
     [[nodiscard]] std::array<float, 9> depths(const PixelPlace& pixel, const DepthGrid& grid) const;

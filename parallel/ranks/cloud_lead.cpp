@@ -21,7 +21,7 @@ void add_part(const CloudReport& part, CloudReport& all) {
     all.reused += part.reused;
     all.filled += part.filled;
     all.rays += part.rays;
-    for (std::size_t i = 0; i < all.holes.size(); ++i) all.holes[i] += part.holes[i];
+    for (std::size_t i = 0; i < all.uncached.size(); ++i) all.uncached[i] += part.uncached[i];
     for (double CloudReport::*seconds : {&CloudReport::project_seconds, &CloudReport::check_seconds,
                                          &CloudReport::trace_seconds, &CloudReport::keep_seconds})
         all.*seconds = std::max(all.*seconds, part.*seconds);
@@ -37,15 +37,15 @@ CloudLead::CloudLead(int width, int height, const CloudOptions& options, WalkFra
     : width_(width),
       height_(height),
       options_(options),
-      guard_(options.audit_limit),
+      error_controller_(options.audit_limit),
       frame_(first),
-      resting_(width, height, options.samples) {}
+      progressive_(width, height, options.samples) {}
 
 CloudOrder CloudLead::new_order(std::string payload) const {
     CloudOrder order;
     order.width = width_;
     order.height = height_;
-    order.rules = {frame_, empty_, guard_.tightness(), room_};
+    order.rules = {frame_, empty_, error_controller_.tightness(), room_};
     order.payload = std::move(payload);
     order.budget = options_.budget;
     return order;
@@ -53,15 +53,15 @@ CloudOrder CloudLead::new_order(std::string payload) const {
 
 CloudOrder CloudLead::order(const View& view, const View* next, std::string payload) {
     CloudOrder order = new_order(std::move(payload));
-    rests_ = resting_view_ == view;
+    rests_ = progressive_view_ == view;
     rest_follows_ = !rests_ && options_.refine > 0 && next != nullptr && *next == view;
     view_ = view;
     work_ = {};
     if (rests_) {
         const double pixels = static_cast<double>(width_) * static_cast<double>(height_);
-        work_ = resting_.next(static_cast<std::size_t>(std::ceil(options_.refine * pixels)));
+        work_ = progressive_.next(static_cast<std::size_t>(std::ceil(options_.refine * pixels)));
     } else {
-        resting_view_.reset();
+        progressive_view_.reset();
     }
     order.rests = rests_;
     order.rest_follows = rest_follows_;
@@ -78,7 +78,7 @@ CloudFrame CloudLead::take(const FinishedFrame& finished) {
     frame.radiance.resize(whole.pixels());
     frame.distance.resize(whole.pixels());
     frame.report.pixels = whole.pixels();
-    frame.report.tightness = guard_.tightness();
+    frame.report.tightness = error_controller_.tightness();
     add_up(parts, frame.report);
     if (rests_)
         refine(parts, frame);
@@ -89,7 +89,7 @@ CloudFrame CloudLead::take(const FinishedFrame& finished) {
         distance_ = frame.distance;
     }
     if (rest_follows_) remember(parts, frame.radiance);
-    guard_.take(frame.report.audit_errors, frame.report.audit_floors);
+    error_controller_.record(frame.report.audit_errors, frame.report.audit_floors);
     ++frame_;
     frame.complete = true;
     return frame;
@@ -110,7 +110,7 @@ void CloudLead::take_origins(const FinishedFrame& finished) {
     ++frame_;
 }
 
-CloudOrder CloudLead::trace(const RestingWork& work, std::string payload) {
+CloudOrder CloudLead::trace(const ProgressiveWork& work, std::string payload) {
     CloudOrder order = new_order(std::move(payload));
     work_ = work;
     order.rests = true;
@@ -182,8 +182,8 @@ void CloudLead::remember(std::span<const CloudPart* const> parts, std::span<cons
         for_pixels(part->area,
                    [&](std::size_t at, std::size_t i) { origins[at] = part->origins[i]; });
     }
-    resting_.begin(radiance, origins);
-    resting_view_ = view_;
+    progressive_.begin(radiance, origins);
+    progressive_view_ = view_;
 }
 
 /// What the parts have of the work that was ordered, in its order.
@@ -203,10 +203,10 @@ std::vector<PixelValue> CloudLead::refined_values(std::span<const CloudPart* con
     return values;
 }
 
-/// Put what was traced into the picture of a resting view.
+/// Put what was traced into the picture of a progressive view.
 void CloudLead::refine(std::span<const CloudPart* const> parts, CloudFrame& frame) {
     const std::vector<PixelValue> values = refined_values(parts);
-    RestingWork done{work_.sample, {}};
+    ProgressiveWork done{work_.sample, {}};
     std::vector<Rgb> radiance;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (!(values[i].distance >= 0)) continue;  // there was no time
@@ -217,11 +217,11 @@ void CloudLead::refine(std::span<const CloudPart* const> parts, CloudFrame& fram
         distance_[static_cast<std::size_t>(place.y) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(place.x)] = values[i].distance;
     }
-    resting_.take(done, radiance);
-    frame.radiance = resting_.picture();
+    progressive_.record(done, radiance);
+    frame.radiance = progressive_.picture();
     frame.distance = distance_;
-    frame.report.holes[static_cast<std::size_t>(HoleCause::refined)] = radiance.size();
-    frame.report.filled = resting_.guessed_pixels();
+    frame.report.uncached[static_cast<std::size_t>(TraceCause::refined)] = radiance.size();
+    frame.report.filled = progressive_.guessed_pixels();
     frame.report.reused = frame.report.pixels - frame.report.filled;
 }
 

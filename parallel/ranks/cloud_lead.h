@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/cloud/audit.h"
-#include "core/cloud/resting.h"
+#include "core/cloud/reuse_error_controller.h"
+#include "core/cloud/progressive.h"
 #include "core/view/view.h"
 #include "parallel/ranks/cloud_messages.h"
 #include "parallel/walk/cloud_frame.h"
@@ -43,11 +43,11 @@ class CloudLead {
     [[nodiscard]] CloudOrder ask_origins(std::string payload);
     void take_origins(const FinishedFrame& finished);
     /// The last frame's pixels as far as that is known; else null.
-    [[nodiscard]] const RestingPicture* resting() const {
-        return resting_view_ ? &resting_ : nullptr;
+    [[nodiscard]] const ProgressivePicture* progressive() const {
+        return progressive_view_ ? &progressive_ : nullptr;
     }
     /// Pixels that are no part of the frames, and leave no points.
-    [[nodiscard]] CloudOrder trace(const RestingWork& work, std::string payload);
+    [[nodiscard]] CloudOrder trace(const ProgressiveWork& work, std::string payload);
     /// The distance of those that there was no time for is negative.
     [[nodiscard]] std::vector<PixelValue> take_traced(const FinishedFrame& finished);
     /// Number of the next order.
@@ -75,17 +75,17 @@ class CloudLead {
 
     int width_, height_;
     CloudOptions options_;
-    AuditGuard guard_;
+    ReuseErrorController guard_;
     WalkFrameId frame_;
     bool empty_ = true;
     AgeLimit room_;
     // The frame that was ordered.
     std::optional<View> view_;
     bool rests_ = false, rest_follows_ = false;
-    RestingWork work_;
+    ProgressiveWork work_;
     // Of a view that rests.
-    std::optional<View> resting_view_;
-    RestingPicture resting_;
+    std::optional<View> progressive_view_;
+    ProgressivePicture progressive_;
     std::vector<Rgb> radiance_;  ///< of the last frame, in case it rests
     std::vector<float> distance_;
 };

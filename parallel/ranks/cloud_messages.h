@@ -6,7 +6,7 @@
 
 #include "core/cloud/ageing.h"
 #include "core/cloud/point.h"
-#include "core/cloud/resting.h"
+#include "core/cloud/progressive.h"
 #include "core/view/pixels.h"
 #include "parallel/walk/cloud_frame.h"
 #include "parallel/walk/cloud_region.h"
@@ -45,32 +45,32 @@ struct CloudUsed {
 };
 
 /// Tracer to its own worker, and that one to the master: pixels of its part that are to be traced.
-struct CloudHoles {
+struct UncachedPixels {
     WalkFrameId frame = 0;
-    std::uint32_t twins = 0;         ///< so many of the last places are to be traced by other rays
+    std::uint32_t noise_pairs = 0;         ///< so many of the last places are to be traced by other rays
     std::vector<PixelPlace> places;  ///< that messages name by their number
 };
 
 /// Tracer to master: this many pieces of work more are wanted.
-struct AskHoles {
+struct AskUncachedPixels {
     std::uint32_t count = 0;
 };
 
 /// Master to worker, and that one to its tracer: pixels of one part that are to be traced.
-struct GiveHoles {
+struct GiveUncachedPixels {
     WalkFrameId frame = 0;
     std::uint32_t owner = 0;         ///< of the part, among the workers
     std::uint32_t first = 0;         ///< number of the first of them
-    bool twins = false;              ///< by other rays
+    bool noise_pairs = false;              ///< by other rays
     bool at_once = false;            ///< whatever the time is
     std::vector<PixelPlace> places;  ///< none: the frame has no more work
 };
 
 /// Tracer to the worker that owns the pixels.
-struct TracedHoles {
+struct TracedPixelResults {
     WalkFrameId frame = 0;
     std::uint32_t first = 0, count = 0;  ///< numbers of the pixels
-    std::vector<TracedHole> traced;      ///< none: it was too late for them
+    std::vector<TracedPixelResult> traced;      ///< none: it was too late for them
 };
 
 /// Worker to its own tracer: of the others ...

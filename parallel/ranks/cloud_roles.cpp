@@ -35,11 +35,11 @@ void CloudMasterRole::handle(Envelope envelope, Outbox& out) {
     const int from = envelope.from.rank;
     if (auto* order = std::get_if<CloudOrder>(&envelope.message)) {
         begin(std::move(*order), out);
-    } else if (auto* holes = std::get_if<CloudHoles>(&envelope.message)) {
-        store(from, std::move(*holes));
+    } else if (auto* uncached = std::get_if<UncachedPixels>(&envelope.message)) {
+        store(from, std::move(*uncached));
         serve(out);
         tell_end(out);
-    } else if (const auto* ask = std::get_if<AskHoles>(&envelope.message)) {
+    } else if (const auto* ask = std::get_if<AskUncachedPixels>(&envelope.message)) {
         wishes_.push_back({from, ask->count});
         serve(out);
         tell_end(out);
@@ -59,33 +59,33 @@ void CloudMasterRole::begin(CloudOrder order, Outbox& out) {
     for (const int rank : workers_) out.push_back({self_, {rank, Role::worker}, order});
 }
 
-void CloudMasterRole::store(int rank, CloudHoles holes) {
+void CloudMasterRole::store(int rank, UncachedPixels uncached) {
     const auto worker = std::find(workers_.begin(), workers_.end(), rank);
     const auto owner = static_cast<std::size_t>(worker - workers_.begin());
-    if (!drawing_ || holes.frame != frame_ || owner >= stores_.size() || stores_[owner].told ||
-        holes.twins > holes.places.size())
+    if (!drawing_ || uncached.frame != frame_ || owner >= stores_.size() || stores_[owner].told ||
+        uncached.noise_pairs > uncached.places.size())
         refuse();
-    left_ += holes.places.size();
-    stores_[owner] = {true, false, std::move(holes), 0};
+    left_ += uncached.places.size();
+    stores_[owner] = {true, false, std::move(uncached), 0};
     --untold_;
 }
 
 /// The owners' in turn, so that no owner's results pile up.
-GiveHoles CloudMasterRole::next_piece() {
-    while (stores_[turn_].next == stores_[turn_].holes.places.size())
+GiveUncachedPixels CloudMasterRole::next_piece() {
+    while (stores_[turn_].next == stores_[turn_].uncached.places.size())
         turn_ = (turn_ + 1) % stores_.size();
     Store& store = stores_[turn_];
-    const std::vector<PixelPlace>& places = store.holes.places;
-    const std::size_t own = places.size() - store.holes.twins;  // those that are no twins
-    const bool twins = store.next >= own;
-    const std::size_t end = twins ? places.size() : own;
+    const std::vector<PixelPlace>& places = store.uncached.places;
+    const std::size_t own = places.size() - store.uncached.noise_pairs;  // those that are no noise pairs
+    const bool noise_pairs = store.next >= own;
+    const std::size_t end = noise_pairs ? places.size() : own;
     const std::size_t count =
         std::min(std::clamp(left_ / (kShares * slots_), kFewest, kMost), end - store.next);
     const auto first = places.begin() + static_cast<std::ptrdiff_t>(store.next);
-    GiveHoles piece{frame_,
+    GiveUncachedPixels piece{frame_,
                     static_cast<std::uint32_t>(turn_),
                     static_cast<std::uint32_t>(store.next),
-                    twins,
+                    noise_pairs,
                     !std::exchange(begun_, true),
                     {first, first + static_cast<std::ptrdiff_t>(count)}};
     store.next += count;
@@ -110,7 +110,7 @@ void CloudMasterRole::serve(Outbox& out) {
 void CloudMasterRole::tell_end(Outbox& out) {
     if (!drawing_ || untold_ > 0 || left_ > 0 || std::exchange(ended_, true)) return;
     for (const int rank : workers_)
-        out.push_back({self_, {rank, Role::worker}, GiveHoles{frame_, 0, 0, false, false, {}}});
+        out.push_back({self_, {rank, Role::worker}, GiveUncachedPixels{frame_, 0, 0, false, false, {}}});
 }
 
 void CloudMasterRole::gather(int rank, CloudPart part, Outbox& out) {
@@ -127,7 +127,7 @@ void CloudMasterRole::gather(int rank, CloudPart part, Outbox& out) {
 
 void CloudWorkerRole::begin(Outbox& out) {
     out.push_back({options_.self, options_.master,
-                   AskHoles{static_cast<std::uint32_t>(options_.slots + options_.ahead)}});
+                   AskUncachedPixels{static_cast<std::uint32_t>(options_.slots + options_.ahead)}});
 }
 
 bool CloudWorkerRole::is_early(WalkFrameId frame) const {
@@ -139,7 +139,7 @@ void CloudWorkerRole::handle(Envelope envelope, Outbox& out) {
     Message& message = envelope.message;
     const WalkFrameId* frame = frame_in<CloudPoints>(message);
     if (frame == nullptr) frame = frame_in<CloudUsed>(message);
-    if (frame == nullptr) frame = frame_in<TracedHoles>(message);
+    if (frame == nullptr) frame = frame_in<TracedPixelResults>(message);
     if (frame != nullptr && is_early(*frame)) {
         early_.push_back(std::move(envelope));
         return;
@@ -150,14 +150,14 @@ void CloudWorkerRole::handle(Envelope envelope, Outbox& out) {
         if (points_missing_-- == 0) refuse();
     } else if (std::holds_alternative<CloudUsed>(message)) {
         if (used_missing_-- == 0) refuse();
-    } else if (const auto* traced = std::get_if<TracedHoles>(&message)) {
+    } else if (const auto* traced = std::get_if<TracedPixelResults>(&message)) {
         note(*traced);
-    } else if (const auto* holes = std::get_if<CloudHoles>(&message)) {
-        expect(*holes);
+    } else if (const auto* uncached = std::get_if<UncachedPixels>(&message)) {
+        expect(*uncached);
     }
     const bool starts = std::holds_alternative<CloudOrder>(message);
     const bool own =
-        std::holds_alternative<CloudHoles>(message) || std::holds_alternative<CloudPart>(message);
+        std::holds_alternative<UncachedPixels>(message) || std::holds_alternative<CloudPart>(message);
     out.push_back({options_.self, own ? options_.master : tracer(), std::move(message)});
     tell_stages(out);
     if (!starts) return;
@@ -168,7 +168,7 @@ void CloudWorkerRole::start(const CloudOrder& order) {
     if (!pixels_told_ || (frame_ && order.rules.frame <= *frame_)) refuse();
     frame_ = order.rules.frame;
     if (!owns()) return;
-    holes_known_ = points_told_ = pixels_told_ = false;
+    uncached_known_ = points_told_ = pixels_told_ = false;
     points_missing_ = used_missing_ = 0;
     if (order.rests) {  // nothing is projected
         points_told_ = true;
@@ -180,17 +180,17 @@ void CloudWorkerRole::start(const CloudOrder& order) {
     used_missing_ = owners_beside(parts, options_.index, order.width, order.height).size();
 }
 
-void CloudWorkerRole::expect(const CloudHoles& holes) {
-    if (!frame_ || holes.frame != *frame_ || holes_known_) refuse();
-    holes_known_ = true;
-    pixels_missing_ = holes.places.size();
+void CloudWorkerRole::expect(const UncachedPixels& uncached) {
+    if (!frame_ || uncached.frame != *frame_ || uncached_known_) refuse();
+    uncached_known_ = true;
+    pixels_missing_ = uncached.places.size();
     there_.assign(pixels_missing_, false);
 }
 
-void CloudWorkerRole::note(const TracedHoles& traced) {
+void CloudWorkerRole::note(const TracedPixelResults& traced) {
     const std::size_t end = std::size_t{traced.first} + traced.count;
     const bool whole = traced.traced.empty() || traced.traced.size() == traced.count;
-    if (!holes_known_ || !whole || end > there_.size()) refuse();
+    if (!uncached_known_ || !whole || end > there_.size()) refuse();
     for (std::size_t i = traced.first; i < end; ++i) {
         if (there_[i]) refuse();
         there_[i] = true;
@@ -203,7 +203,7 @@ void CloudWorkerRole::tell_stages(Outbox& out) {
         points_told_ = true;
         out.push_back({options_.self, tracer(), CloudStage{*frame_, CloudStage::Kind::points}});
     }
-    if (!pixels_told_ && holes_known_ && pixels_missing_ == 0 && used_missing_ == 0) {
+    if (!pixels_told_ && uncached_known_ && pixels_missing_ == 0 && used_missing_ == 0) {
         pixels_told_ = true;
         out.push_back({options_.self, tracer(), CloudStage{*frame_, CloudStage::Kind::pixels}});
     }

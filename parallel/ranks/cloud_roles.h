@@ -13,7 +13,7 @@
 
 namespace lightwalk {
 
-/// Passes on the orders of frames, deals out their holes, and gathers their parts.
+/// Passes on the orders of frames, deals out their uncached pixels, and gathers their parts.
 class CloudMasterRole {
   public:
     /// @param self     its own address
@@ -23,7 +23,7 @@ class CloudMasterRole {
     CloudMasterRole(Address self, std::vector<int> workers, std::size_t owners, int slots);
 
     /// From the program: CloudOrder, the next one when the frame before is there. From owners:
-    /// CloudHoles, CloudPart. From tracers: AskHoles. To the program: FinishedFrame. Throws
+    /// UncachedPixels, CloudPart. From tracers: AskUncachedPixels. To the program: FinishedFrame. Throws
     /// InputError for what nobody should have sent.
     void handle(Envelope envelope, Outbox& out);
 
@@ -32,7 +32,7 @@ class CloudMasterRole {
     struct Store {
         bool told = false;      ///< the owner has said which these are
         bool finished = false;  ///< and has sent its part
-        CloudHoles holes;
+        UncachedPixels uncached;
         std::size_t next = 0;  ///< place that is dealt out next
     };
     struct Wish {
@@ -40,10 +40,10 @@ class CloudMasterRole {
         std::uint32_t count = 0;
     };
     void begin(CloudOrder order, Outbox& out);
-    void store(int rank, CloudHoles holes);
+    void store(int rank, UncachedPixels uncached);
     void gather(int rank, CloudPart part, Outbox& out);
     void serve(Outbox& out);
-    [[nodiscard]] GiveHoles next_piece();
+    [[nodiscard]] GiveUncachedPixels next_piece();
     void tell_end(Outbox& out);
 
     Address self_;
@@ -54,8 +54,8 @@ class CloudMasterRole {
     bool drawing_ = false;  ///< a frame
     WalkFrameId frame_ = 0;
     std::size_t left_ = 0;          ///< places in the stores
-    std::size_t untold_ = 0;        ///< owners whose holes are not known
-    std::size_t turn_ = 0;          ///< owner whose holes are dealt out next
+    std::size_t untold_ = 0;        ///< owners whose uncached pixels are not known
+    std::size_t turn_ = 0;          ///< owner whose uncached pixels are dealt out next
     bool begun_ = false;            ///< something has been dealt out
     bool ended_ = false;            ///< all were told that nothing more comes
     std::vector<CloudPart> parts_;  ///< so far
@@ -76,8 +76,8 @@ class CloudWorkerRole {
 
     /// Asks for the first pieces of work.
     void begin(Outbox& out);
-    /// From the master: CloudOrder, GiveHoles. From other tracers: CloudPoints, CloudUsed,
-    /// TracedHoles. From its own: CloudHoles, CloudPart. To it: these of others, CloudStage. Throws
+    /// From the master: CloudOrder, GiveUncachedPixels. From other tracers: CloudPoints, CloudUsed,
+    /// TracedPixelResults. From its own: UncachedPixels, CloudPart. To it: these of others, CloudStage. Throws
     /// InputError for what nobody should have sent.
     void handle(Envelope envelope, Outbox& out);
 
@@ -85,8 +85,8 @@ class CloudWorkerRole {
     [[nodiscard]] bool owns() const { return options_.index < options_.owners; }
     [[nodiscard]] bool is_early(WalkFrameId frame) const;
     void start(const CloudOrder& order);
-    void expect(const CloudHoles& holes);
-    void note(const TracedHoles& traced);
+    void expect(const UncachedPixels& uncached);
+    void note(const TracedPixelResults& traced);
     void tell_stages(Outbox& out);
     [[nodiscard]] Address tracer() const { return {options_.self.rank, Role::tracer}; }
 
@@ -96,7 +96,7 @@ class CloudWorkerRole {
     std::size_t points_missing_ = 0;  ///< messages of other owners
     std::size_t used_missing_ = 0;    ///< messages of the owners beside this one
     std::size_t pixels_missing_ = 0;
-    bool holes_known_ = false, points_told_ = true, pixels_told_ = true;
+    bool uncached_known_ = false, points_told_ = true, pixels_told_ = true;
     std::vector<bool> there_;  ///< which pixels are
 };
 

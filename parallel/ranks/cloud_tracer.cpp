@@ -19,16 +19,16 @@ void CloudTracer::take(Message message) {
         const std::lock_guard lock(mutex_);
         if (auto* order = std::get_if<CloudOrder>(&message)) {
             orders_.push_back(std::move(*order));
-        } else if (auto* holes = std::get_if<GiveHoles>(&message)) {
-            if (holes->places.empty())
-                frames_dealt_out_ = holes->frame + 1;
+        } else if (auto* uncached = std::get_if<GiveUncachedPixels>(&message)) {
+            if (uncached->places.empty())
+                frames_dealt_out_ = uncached->frame + 1;
             else
-                holes_.push_back(std::move(*holes));
+                uncached_.push_back(std::move(*uncached));
         } else if (auto* points = std::get_if<CloudPoints>(&message)) {
             points_.push_back(std::move(*points));
         } else if (auto* used = std::get_if<CloudUsed>(&message)) {
             used_.push_back(std::move(*used));
-        } else if (auto* traced = std::get_if<TracedHoles>(&message)) {
+        } else if (auto* traced = std::get_if<TracedPixelResults>(&message)) {
             traced_.push_back(std::move(*traced));
         } else if (const auto* stage = std::get_if<CloudStage>(&message)) {
             (stage->kind == CloudStage::Kind::points ? points_there_ : pixels_there_) = true;
@@ -60,17 +60,17 @@ bool CloudTracer::wait_for(CloudStage::Kind stage, const StopFlag& stop) {
 }
 
 /// Those of the next frame may be there already: where this one was none of the rank's business.
-std::optional<GiveHoles> CloudTracer::next_holes(WalkFrameId frame, int worker,
+std::optional<GiveUncachedPixels> CloudTracer::next_uncached(WalkFrameId frame, int worker,
                                                  const StopFlag& stop) {
     const TimedActivity waiting(timeline_, worker, Activity::wait);
     std::unique_lock lock(mutex_);
-    const auto here = [&] { return !holes_.empty() && holes_.front().frame == frame; };
+    const auto here = [&] { return !uncached_.empty() && uncached_.front().frame == frame; };
     while (!here() && frames_dealt_out_ <= frame && !finished_ && !stop.requested())
         changed_.wait_for(lock, kSignalPatience);
     if (!here() || stop.requested()) return std::nullopt;
-    GiveHoles holes = std::move(holes_.front());
-    holes_.pop_front();
-    return holes;
+    GiveUncachedPixels uncached = std::move(uncached_.front());
+    uncached_.pop_front();
+    return uncached;
 }
 
 void CloudTracer::run(Executor& executor, const StopFlag& stop) {
@@ -79,12 +79,12 @@ void CloudTracer::run(Executor& executor, const StopFlag& stop) {
 
 void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFlag& stop) {
     const double budget = order.budget;
-    const HoleTracer::Clock::time_point deadline = budget > 0
+    const UncachedPixelTracer::Clock::time_point deadline = budget > 0
                                                        ? deadline_of(budget - last_keep_seconds_)
-                                                       : HoleTracer::Clock::time_point::max();
+                                                       : UncachedPixelTracer::Clock::time_point::max();
     const std::unique_ptr<WalkRays> rays = make_(order);
-    const auto look = [&](std::span<const PixelPlace> places, std::span<PixelSights> sights,
-                          int worker) { rays->look(places, sights, worker); };
+    const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+                          int worker) { rays->probe(places, visibility, worker); };
     const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                            int sample, int worker) { rays->trace(places, pixels, sample, worker); };
     const PixelCaster caster{look, trace};
@@ -100,13 +100,13 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
         else if (!answer(frame))
             return;
     }
-    const auto traces = HoleTracer::Clock::now();
+    const auto traces = UncachedPixelTracer::Clock::now();
     const double unknown = owns ? region_->unknown() : 0;
-    serve(frame, HoleTracer(caster, options_.cloud.tolerance,
+    serve(frame, UncachedPixelTracer(caster, options_.cloud.tolerance,
                             tracing_deadline(deadline, budget, unknown)));
     if (!owns) return;
     region_->frame().report.trace_seconds =
-        std::chrono::duration<double>(HoleTracer::Clock::now() - traces).count();
+        std::chrono::duration<double>(UncachedPixelTracer::Clock::now() - traces).count();
     if (!finish(frame, rays->traced() - rays_before)) return;
     last_keep_seconds_ = region_->frame().report.keep_seconds;
 }
@@ -147,7 +147,7 @@ bool CloudTracer::answer(const Frame& frame) {
                     checking_deadline(frame.order.budget));
     if (frame.stop.requested()) return false;
     send_used(id);
-    send_holes(id);
+    send_uncached(id);
     return true;
 }
 
@@ -171,21 +171,21 @@ void CloudTracer::send_used(WalkFrameId frame) {
         post_(worker(i), CloudUsed{frame, used});
 }
 
-void CloudTracer::send_holes(WalkFrameId frame) {
-    CloudHoles message{frame, static_cast<std::uint32_t>(region_->twins().size()), {}};
-    for (const CloudHole& hole : region_->holes()) message.places.push_back(hole.place);
-    for (const std::uint32_t hole : region_->twins())
-        message.places.push_back(region_->holes()[hole].place);
+void CloudTracer::send_uncached(WalkFrameId frame) {
+    UncachedPixels message{frame, static_cast<std::uint32_t>(region_->noise_pairs().size()), {}};
+    for (const UncachedPixel& uncached_pixel : region_->uncached()) message.places.push_back(uncached_pixel.place);
+    for (const std::uint32_t uncached_pixel : region_->noise_pairs())
+        message.places.push_back(region_->uncached()[uncached_pixel].place);
     post_(worker(options_.index), std::move(message));
 }
 
 /// All threads trace what comes, until no more does.
-void CloudTracer::serve(const Frame& frame, const HoleTracer& tracer) {
+void CloudTracer::serve(const Frame& frame, const UncachedPixelTracer& tracer) {
     const auto task = [&](std::size_t, int worker) {
         try {
-            while (const std::optional<GiveHoles> holes =
-                       next_holes(frame.order.rules.frame, worker, frame.stop))
-                trace(*holes, tracer, frame.order.sample, worker);
+            while (const std::optional<GiveUncachedPixels> uncached =
+                       next_uncached(frame.order.rules.frame, worker, frame.stop))
+                trace(*uncached, tracer, frame.order.sample, worker);
         } catch (...) {
             take(Finish{});  // for the other threads
             throw;
@@ -195,21 +195,21 @@ void CloudTracer::serve(const Frame& frame, const HoleTracer& tracer) {
                             frame.stop);
 }
 
-void CloudTracer::trace(const GiveHoles& holes, const HoleTracer& tracer, int sample, int worker) {
-    if (holes.owner >= options_.owners) throw InputError("pixels of a part that nobody owns");
-    const auto count = static_cast<std::uint32_t>(holes.places.size());
-    TracedHoles result{holes.frame, holes.first, count, {}};
-    if (holes.at_once || !tracer.is_late()) {
+void CloudTracer::trace(const GiveUncachedPixels& uncached, const UncachedPixelTracer& tracer, int sample, int worker) {
+    if (uncached.owner >= options_.owners) throw InputError("pixels of a part that nobody owns");
+    const auto count = static_cast<std::uint32_t>(uncached.places.size());
+    TracedPixelResults result{uncached.frame, uncached.first, count, {}};
+    if (uncached.at_once || !tracer.is_late()) {
         const TimedActivity tracing(timeline_, worker, Activity::trace);
         result.traced.resize(count);
-        const auto keep = [&](std::size_t first, std::span<const TracedHole> traced) {
+        const auto keep = [&](std::size_t first, std::span<const TracedPixelResult> traced) {
             std::copy(traced.begin(), traced.end(),
                       result.traced.begin() + static_cast<std::ptrdiff_t>(first));
         };
-        tracer.trace_part(holes.places, holes.twins ? 1 : sample, worker, keep);
+        tracer.trace_part(uncached.places, uncached.noise_pairs ? 1 : sample, worker, keep);
     }
-    post_(this->worker(holes.owner), std::move(result));
-    post_({0, Role::master}, AskHoles{1});
+    post_(this->worker(uncached.owner), std::move(result));
+    post_({0, Role::master}, AskUncachedPixels{1});
 }
 
 /// The own part of the frame, when all its pixels are there. False: stopped.
@@ -231,7 +231,7 @@ CloudPart CloudTracer::part_of(const CloudOrder& order) {
     part.frame = order.rules.frame;
     part.area = region_->area();
     if (order.rests) {
-        for (std::size_t i = 0; i < region_->holes().size(); ++i)
+        for (std::size_t i = 0; i < region_->uncached().size(); ++i)
             part.refined.push_back(region_->is_traced(i) ? region_->traced(i).value
                                                          : PixelValue{{}, -1});
     } else {
@@ -249,25 +249,25 @@ void CloudTracer::refine(const CloudOrder& order) {
     for (const PixelPlace& place : order.refined)
         if (region_->area().contains(place)) own.push_back(place);
     region_->refine(own);
-    send_holes(order.rules.frame);
+    send_uncached(order.rules.frame);
 }
 
 void CloudTracer::take_traced() {
     std::vector<CloudUsed> used;
-    std::vector<TracedHoles> all;
+    std::vector<TracedPixelResults> all;
     {
         const std::lock_guard lock(mutex_);
         used.swap(used_);
         all.swap(traced_);
     }
     for (const CloudUsed& others : used) region_->mark_used(others.used);
-    const std::size_t holes = region_->holes().size();
-    for (const TracedHoles& some : all) {
+    const std::size_t uncached = region_->uncached().size();
+    for (const TracedPixelResults& some : all) {
         // What is dealt out together is either of the one kind or of the other.
-        if (some.first >= holes)
-            region_->take_twins(some.first - holes, some.traced);
-        else if (some.first + some.traced.size() <= holes)
-            region_->take(some.first, some.traced);
+        if (some.first >= uncached)
+            region_->record_noise_pairs(some.first - uncached, some.traced);
+        else if (some.first + some.traced.size() <= uncached)
+            region_->record(some.first, some.traced);
         else
             throw InputError("a rank has traced pixels together that do not belong together");
     }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/cloud/sight.h"
+#include "core/cloud/primary_visibility.h"
 #include "parallel/executor.h"
 #include "parallel/ranks/message.h"
 #include "parallel/ranks/roles.h"
@@ -18,7 +18,7 @@
 #include "parallel/ranks/topology.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_region.h"
-#include "parallel/walk/hole_tracer.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 
 namespace lightwalk {
 
@@ -27,7 +27,7 @@ class WalkRays {
   public:
     virtual ~WalkRays() = default;
     [[nodiscard]] virtual const Camera& camera() const = 0;
-    virtual void look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
+    virtual void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
                       int worker) = 0;
     virtual void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                        int sample, int worker) = 0;
@@ -75,7 +75,7 @@ class CloudTracer {
     };
     [[nodiscard]] std::optional<CloudOrder> next_order(const StopFlag& stop);
     [[nodiscard]] bool wait_for(CloudStage::Kind stage, const StopFlag& stop);
-    [[nodiscard]] std::optional<GiveHoles> next_holes(WalkFrameId frame, int worker,
+    [[nodiscard]] std::optional<GiveUncachedPixels> next_uncached(WalkFrameId frame, int worker,
                                                       const StopFlag& stop);
     void draw(const CloudOrder& order, Executor& executor, const StopFlag& stop);
     [[nodiscard]] double begin(const CloudOrder& order, Executor& executor);
@@ -83,9 +83,9 @@ class CloudTracer {
     void refine(const CloudOrder& order);
     void send_points(WalkFrameId frame);
     void send_used(WalkFrameId frame);
-    void send_holes(WalkFrameId frame);
-    void serve(const Frame& frame, const HoleTracer& tracer);
-    void trace(const GiveHoles& holes, const HoleTracer& tracer, int sample, int worker);
+    void send_uncached(WalkFrameId frame);
+    void serve(const Frame& frame, const UncachedPixelTracer& tracer);
+    void trace(const GiveUncachedPixels& uncached, const UncachedPixelTracer& tracer, int sample, int worker);
     [[nodiscard]] bool finish(const Frame& frame, std::uint64_t rays);
     void take_traced();
     [[nodiscard]] CloudPart part_of(const CloudOrder& order);
@@ -106,11 +106,11 @@ class CloudTracer {
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::deque<CloudOrder> orders_;
-    std::deque<GiveHoles> holes_;
-    WalkFrameId frames_dealt_out_ = 0;  ///< of frames before this one no more holes come
+    std::deque<GiveUncachedPixels> uncached_;
+    WalkFrameId frames_dealt_out_ = 0;  ///< of frames before this one no more uncached pixels come
     std::vector<CloudPoints> points_;
     std::vector<CloudUsed> used_;
-    std::vector<TracedHoles> traced_;
+    std::vector<TracedPixelResults> traced_;
     bool points_there_ = false, pixels_there_ = false;
     bool finished_ = false;
 };

@@ -75,7 +75,7 @@ template <class T>
 constexpr std::size_t least_bytes() {
     if (std::is_same_v<T, AmbientRecord>) return 68;
     if (std::is_same_v<T, CloudPoint>) return 40;
-    if (std::is_same_v<T, TracedHole>) return 17;
+    if (std::is_same_v<T, TracedPixelResult>) return 17;
     if (std::is_same_v<T, PixelValue>) return 16;
     if (std::is_same_v<T, PixelOrigin>) return 6;
     return std::is_same_v<T, float> ? 4 : 8;
@@ -161,18 +161,18 @@ void fields(Archive& archive, PixelPlace& place) {
 template <class Archive>
 void fields(Archive& archive, CloudPoint& p) {
     archive(p.position[0], p.position[1], p.position[2], p.radiance, p.surface, p.direction,
-            p.turn);
+            p.max_view_angle);
     enumerator(archive, p.kind, kPointKinds);
     archive(p.age, p.old, p.paired);
 }
 template <class Archive>
-void fields(Archive& archive, TracedHole& hole) {
-    auto count = static_cast<std::uint8_t>(hole.points.count);
-    archive(hole.value, count);
-    if (count > hole.points.points.size())
+void fields(Archive& archive, TracedPixelResult& uncached_pixel) {
+    auto count = static_cast<std::uint8_t>(uncached_pixel.points.count);
+    archive(uncached_pixel.value, count);
+    if (count > uncached_pixel.points.points.size())
         throw InputError("a message between ranks holds what cannot be");
-    hole.points.count = count;
-    for (std::size_t i = 0; i < count; ++i) fields(archive, hole.points.points[i]);
+    uncached_pixel.points.count = count;
+    for (std::size_t i = 0; i < count; ++i) fields(archive, uncached_pixel.points.points[i]);
 }
 template <class Archive>
 void fields(Archive& archive, CloudOrder& m) {
@@ -190,19 +190,19 @@ void fields(Archive& archive, CloudUsed& m) {
     archive(m.frame, m.used.ahead, m.used.mirrored);
 }
 template <class Archive>
-void fields(Archive& archive, CloudHoles& m) {
-    archive(m.frame, m.twins, m.places);
+void fields(Archive& archive, UncachedPixels& m) {
+    archive(m.frame, m.noise_pairs, m.places);
 }
 template <class Archive>
-void fields(Archive& archive, AskHoles& m) {
+void fields(Archive& archive, AskUncachedPixels& m) {
     archive(m.count);
 }
 template <class Archive>
-void fields(Archive& archive, GiveHoles& m) {
-    archive(m.frame, m.owner, m.first, m.twins, m.at_once, m.places);
+void fields(Archive& archive, GiveUncachedPixels& m) {
+    archive(m.frame, m.owner, m.first, m.noise_pairs, m.at_once, m.places);
 }
 template <class Archive>
-void fields(Archive& archive, TracedHoles& m) {
+void fields(Archive& archive, TracedPixelResults& m) {
     archive(m.frame, m.first, m.count, m.traced);
 }
 template <class Archive>
@@ -212,7 +212,7 @@ void fields(Archive& archive, CloudStage& m) {
 }
 template <class Archive>
 void fields(Archive& archive, CloudReport& r) {
-    archive(r.pixels, r.reused, r.filled, r.holes, r.points, r.rays, r.project_seconds,
+    archive(r.pixels, r.reused, r.filled, r.uncached, r.points, r.rays, r.project_seconds,
             r.check_seconds, r.trace_seconds, r.keep_seconds, r.tightness, r.audit_errors,
             r.audit_floors);
 }

@@ -309,7 +309,7 @@ void RankLoop::dispatch(Envelope first) {
 Activity RankLoop::activity_of(const Message& message) {
     if (std::holds_alternative<Pixels>(message) || std::holds_alternative<BlockDone>(message))
         return Activity::send;
-    if (std::holds_alternative<TracedHoles>(message) ||
+    if (std::holds_alternative<TracedPixelResults>(message) ||
         std::holds_alternative<CloudPoints>(message))
         return Activity::send;
     return std::holds_alternative<AmbientValues>(message) ? Activity::exchange : Activity::serve;

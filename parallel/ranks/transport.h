@@ -48,7 +48,7 @@ class Transport {
     [[noreturn]] virtual void abort(int status) = 0;
 };
 
-/// What a rank of the in-memory twin throws when another one has aborted.
+/// What a rank of the in-memory pair throws when another one has aborted.
 struct Aborted {
     int status = 0;
 };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/cloud/ageing.h"
-#include "core/cloud/resting.h"
+#include "core/cloud/progressive.h"
 #include "core/cloud/reuse.h"
 #include "core/math/rgb.h"
 
@@ -30,11 +30,11 @@ struct CloudOptions {
     double limit = 4;        ///< most points, as a multiple of the pixels
     double tolerance = 0.1;  ///< how far a view-dependent colour may be off, as a share
     double audit = 0;        ///< share of the reused pixels that are traced all the same
-    double audit_limit = 0;  ///< see AuditGuard
+    double audit_limit = 0;  ///< see ReuseErrorController
     double budget = 0;       ///< of a frame: what does not fit is filled from around; 0: none [s]
     double refine = 0;       ///< share of the pixels that are refined in a frame whose view is
                              ///< that of the frame before
-    int samples = RestingPicture::kMostSamples;  ///< rays that edges get then
+    int samples = ProgressivePicture::kMostSamples;  ///< rays that edges get then
     std::uint64_t seed = 0;                      ///< of the audit's choice
 
     /// Most points of a picture's cloud.
@@ -49,11 +49,11 @@ struct CloudReport {
     std::size_t pixels = 0;  ///< all of the picture
     std::size_t reused = 0;  ///< answered by points, audited and refined ones included
     std::size_t filled = 0;  ///< from their neighbours: there was no time for them
-    std::array<std::size_t, kHoleCauses> holes{};  ///< traced pixels, by cause (HoleCause)
+    std::array<std::size_t, kTraceCauses> uncached{};  ///< traced pixels, by cause (TraceCause)
     std::size_t points = 0;                        ///< in the cloud after the frame
     std::uint64_t rays = 0;                        ///< of all ranks, where many draw the frame
     double project_seconds = 0, check_seconds = 0, trace_seconds = 0, keep_seconds = 0;
-    double tightness = 1;             ///< of reuse (AuditGuard)
+    double tightness = 1;             ///< of reuse (ReuseErrorController)
     std::vector<float> audit_errors;  ///< of audited pixels: relative error of their luminance
     std::vector<float> audit_floors;  ///< of some of these: difference of two rays of the pixel
 };
@@ -62,7 +62,7 @@ struct CloudReport {
 struct CloudFrame {
     std::vector<Rgb> radiance;      ///< [W/(m² sr)]
     std::vector<float> distance;    ///< along the pixels' rays; 0 where there is no ray [m]
-    std::vector<HoleCause> causes;  ///< why each pixel was traced or filled; none: it was not
+    std::vector<TraceCause> causes;  ///< why each pixel was traced or filled; none: it was not
     CloudReport report;
     bool complete = false;  ///< false: stopped early
 };
@@ -71,7 +71,7 @@ struct CloudFrame {
 struct CloudRules {
     std::uint64_t frame = 0;  ///< its number
     bool empty = true;        ///< no frame has left points yet
-    double tightness = 1;     ///< of reuse (AuditGuard)
+    double tightness = 1;     ///< of reuse (ReuseErrorController)
     AgeLimit room{};          ///< points for which there is no room any more after the last frame
 };
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/cloud/gaps.h"
-#include "parallel/walk/hole_tracer.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 #include "parallel/walk/step_timer.h"
 
 namespace lightwalk {
@@ -14,8 +14,8 @@ struct CloudFrames::Step {
     const PixelCaster& caster;
     Executor& executor;
     const StopFlag& stop;
-    HoleTracer::Clock::time_point deadline;
-    RestingWork work;  ///< what the holes of a resting view are
+    UncachedPixelTracer::Clock::time_point deadline;
+    ProgressiveWork work;  ///< what the uncached pixels of a progressive view are
 };
 
 CloudFrames::CloudFrames(int width, int height, const CloudOptions& options, std::uint64_t first)
@@ -23,17 +23,17 @@ CloudFrames::CloudFrames(int width, int height, const CloudOptions& options, std
       height_(height),
       options_(options),
       region_({0, 0, width, height}, width, height, options),
-      guard_(options.audit_limit),
+      error_controller_(options.audit_limit),
       frame_(first),
-      resting_(width, height, options.samples) {}
+      progressive_(width, height, options.samples) {}
 
 const CloudFrame& CloudFrames::draw(const Camera& camera, const PixelCaster& caster,
                                     Executor& executor, const StopFlag& stop) {
-    Step step{caster, executor, stop, HoleTracer::Clock::time_point::max(), {}};
+    Step step{caster, executor, stop, UncachedPixelTracer::Clock::time_point::max(), {}};
     if (options_.budget > 0) step.deadline = deadline_of(options_.budget - last_keep_seconds_);
     const bool rests = view_ == camera.view();
-    if (rests) begin_resting();  // before the last frame is forgotten
-    region_.begin(camera, {frame_, region_.points().empty(), guard_.tightness(), {}});
+    if (rests) begin_progressive();  // before the last frame is forgotten
+    region_.begin(camera, {frame_, region_.points().empty(), error_controller_.tightness(), {}});
     if (rests) {
         plan_refinement(step);
     } else {
@@ -62,16 +62,16 @@ const CloudFrame& CloudFrames::draw(const Camera& camera, const PixelCaster& cas
     return frame;
 }
 
-const RestingPicture* CloudFrames::resting() {
+const ProgressivePicture* CloudFrames::progressive() {
     if (!view_) return nullptr;
-    begin_resting();
-    return &resting_;
+    begin_progressive();
+    return &progressive_;
 }
 
 /// Only once it is known that the view rests: the copies take longer than showing a frame.
-void CloudFrames::begin_resting() {
+void CloudFrames::begin_progressive() {
     if (begun_) return;
-    resting_.begin(region_.frame().radiance, region_.origins());
+    progressive_.begin(region_.frame().radiance, region_.origins());
     distance_ = region_.frame().distance;
     begun_ = true;
 }
@@ -82,35 +82,35 @@ void CloudFrames::plan_refinement(Step& step) {
     const StepTimer timer(report.check_seconds);
     const auto most =
         static_cast<std::size_t>(std::ceil(options_.refine * static_cast<double>(report.pixels)));
-    step.work = resting_.next(most);
+    step.work = progressive_.next(most);
     region_.refine(step.work.places);
 }
 
-/// Trace holes until the frame's time is over; some at least, or a short budget would never end.
+/// Trace uncached pixels until the frame's time is over; some at least, or a short budget would never end.
 void CloudFrames::trace(Step& step) {
     const StepTimer timer(region_.frame().report.trace_seconds);
-    const HoleTracer tracer(step.caster, options_.tolerance,
+    const UncachedPixelTracer tracer(step.caster, options_.tolerance,
                             tracing_deadline(step.deadline, options_.budget, region_.unknown()));
-    const std::span<const CloudHole> holes = region_.holes();
+    const std::span<const UncachedPixel> uncached = region_.uncached();
     tracer.trace(
-        holes.size(), [&](std::size_t hole) { return holes[hole].place; }, step.work.sample,
+        uncached.size(), [&](std::size_t uncached_pixel) { return uncached[uncached_pixel].place; }, step.work.sample,
         step.executor, step.stop,
-        [&](std::size_t first, std::span<const TracedHole> traced) {
-            region_.take(first, traced);
+        [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+            region_.record(first, traced);
         });
-    const std::span<const std::uint32_t> twins = region_.twins();
+    const std::span<const std::uint32_t> noise_pairs = region_.noise_pairs();
     tracer.trace(
-        twins.size(), [&](std::size_t twin) { return holes[twins[twin]].place; }, 1, step.executor,
+        noise_pairs.size(), [&](std::size_t pair) { return uncached[noise_pairs[pair]].place; }, 1, step.executor,
         step.stop,
-        [&](std::size_t first, std::span<const TracedHole> traced) {
-            region_.take_twins(first, traced);
+        [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+            region_.record_noise_pairs(first, traced);
         });
 }
 
 void CloudFrames::show(Executor& executor) {
     region_.show();
     const CloudReport& report = region_.frame().report;
-    guard_.take(report.audit_errors, report.audit_floors);
+    error_controller_.record(report.audit_errors, report.audit_floors);
     // Holes that there was no time for, from what lies around them.
     if (report.filled == 0) return;
     const auto by_rows = [&](int rows, FunctionRef<void(int, int)> part) {
@@ -124,25 +124,25 @@ void CloudFrames::show(Executor& executor) {
     fill_gaps(width_, height_, region_.frame().radiance, region_.known(), by_rows);
 }
 
-/// Put what was traced into the picture of a resting view.
+/// Put what was traced into the picture of a progressive view.
 void CloudFrames::refine(Step& step) {
     CloudFrame& frame = region_.frame();
-    RestingWork done{step.work.sample, {}};
+    ProgressiveWork done{step.work.sample, {}};
     std::vector<Rgb> radiance;
-    for (std::size_t i = 0; i < region_.holes().size(); ++i) {
+    for (std::size_t i = 0; i < region_.uncached().size(); ++i) {
         if (!region_.is_traced(i)) continue;
-        const PixelPlace& place = region_.holes()[i].place;
+        const PixelPlace& place = region_.uncached()[i].place;
         const PixelValue& traced = region_.traced(i).value;
         done.places.push_back(place);
         radiance.push_back(traced.radiance);
-        frame.causes[region_.pixel(place)] = HoleCause::refined;
+        frame.causes[region_.pixel(place)] = TraceCause::refined;
         if (step.work.sample == 0) distance_[region_.pixel(place)] = traced.distance;
     }
-    resting_.take(done, radiance);
-    frame.radiance = resting_.picture();
+    progressive_.record(done, radiance);
+    frame.radiance = progressive_.picture();
     frame.distance = distance_;
-    frame.report.holes[static_cast<std::size_t>(HoleCause::refined)] = radiance.size();
-    frame.report.filled = resting_.guessed_pixels();
+    frame.report.uncached[static_cast<std::size_t>(TraceCause::refined)] = radiance.size();
+    frame.report.filled = progressive_.guessed_pixels();
     frame.report.reused = frame.report.pixels - frame.report.filled;
 }
 

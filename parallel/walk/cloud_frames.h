@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/audit.h"
-#include "core/cloud/resting.h"
-#include "core/cloud/sight.h"
+#include "core/cloud/reuse_error_controller.h"
+#include "core/cloud/progressive.h"
+#include "core/cloud/primary_visibility.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_frame.h"
 #include "parallel/walk/cloud_region.h"
-#include "parallel/walk/hole_tracer.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 
 namespace lightwalk {
 
@@ -34,7 +34,7 @@ class CloudFrames {
 
     [[nodiscard]] std::span<const CloudPoint> points() const { return region_.points(); }
     /// The last frame as one to be refined; nothing before the first one, and without `refine`.
-    [[nodiscard]] const RestingPicture* resting();
+    [[nodiscard]] const ProgressivePicture* progressive();
     /// Time for each of the next frames; 0: none is too long [s].
     void set_budget(double seconds) { options_.budget = seconds; }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
@@ -45,19 +45,19 @@ class CloudFrames {
     void plan_refinement(Step& step);
     void trace(Step& step);
     void show(Executor& executor);
-    void begin_resting();
+    void begin_progressive();
     void refine(Step& step);
 
     int width_, height_;
     CloudOptions options_;
     CloudRegion region_;  ///< the whole picture
-    AuditGuard guard_;
+    ReuseErrorController error_controller_;
     std::uint64_t frame_;
     double last_keep_seconds_ = 0;  ///< of the frame before
     // With `refine`: the last frame.
     std::optional<View> view_;
     bool begun_ = false;  ///< to be refined: what follows is of it
-    RestingPicture resting_;
+    ProgressivePicture progressive_;
     std::vector<float> distance_;
 };
 

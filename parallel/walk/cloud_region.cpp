@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/cloud/audit.h"
+#include "core/cloud/reuse_error_controller.h"
 #include "core/cloud/point_order.h"
 #include "core/math/prefetch.h"
 #include "parallel/blocks.h"
@@ -59,14 +59,14 @@ void CloudRegion::begin(const Camera& camera, const CloudRules& rules) {
     frame_.report = {};
     frame_.report.pixels = pixels;
     frame_.report.tightness = rules.tightness;
-    holes_.clear();
-    twins_.clear();
+    uncached_.clear();
+    noise_pairs_.clear();
     finest_ = finest_grid();
     unanswered_ = left_ = answered_ = 0;
-    expect_holes();
+    expect_uncached();
 }
 
-/// So fine that a few times as many holes are noted as the last frame had time to trace.
+/// So fine that a few times as many uncached pixels are noted as the last frame had time to trace.
 int CloudRegion::finest_grid() const {
     constexpr std::size_t kEnough = 1024, kMoreThanTraced = 3;
     int level = 0;
@@ -116,17 +116,17 @@ void CloudRegion::add(std::span<const CloudPoint> points) {
 
 /// None of them is traced. What earlier frames left in `traced_` does no harm, and clearing it
 /// takes a millisecond.
-void CloudRegion::expect_holes() {
-    if (traced_.size() < holes_.size()) traced_.resize(holes_.size());
-    done_.assign(holes_.size(), 0);
-    twin_radiance_.resize(twins_.size());
-    twin_done_.assign(twins_.size(), 0);
+void CloudRegion::expect_uncached() {
+    if (traced_.size() < uncached_.size()) traced_.resize(uncached_.size());
+    done_.assign(uncached_.size(), 0);
+    pair_radiance_.resize(noise_pairs_.size());
+    pair_done_.assign(noise_pairs_.size(), 0);
 }
 
 void CloudRegion::refine(std::span<const PixelPlace> places) {
-    std::fill(frame_.causes.begin(), frame_.causes.end(), HoleCause::none);
-    for (const PixelPlace& place : places) holes_.push_back({place, HoleCause::refined});
-    expect_holes();
+    std::fill(frame_.causes.begin(), frame_.causes.end(), TraceCause::none);
+    for (const PixelPlace& place : places) uncached_.push_back({place, TraceCause::refined});
+    expect_uncached();
 }
 
 UsedPixels CloudRegion::used_beside() const {
@@ -153,48 +153,48 @@ void CloudRegion::mark_used(const UsedPixels& used) {
     mark_winners(used.mirrored, grids_.mirrored);
 }
 
-void CloudRegion::take(std::size_t first, std::span<const TracedHole> traced) {
+void CloudRegion::record(std::size_t first, std::span<const TracedPixelResult> traced) {
     std::copy(traced.begin(), traced.end(), traced_.begin() + static_cast<std::ptrdiff_t>(first));
     std::fill_n(done_.begin() + static_cast<std::ptrdiff_t>(first), traced.size(), std::uint8_t{1});
 }
 
-void CloudRegion::take_twins(std::size_t first, std::span<const TracedHole> traced) {
+void CloudRegion::record_noise_pairs(std::size_t first, std::span<const TracedPixelResult> traced) {
     for (std::size_t i = 0; i < traced.size(); ++i) {
-        twin_radiance_[first + i] = traced[i].value.radiance;
-        twin_done_[first + i] = 1;
+        pair_radiance_[first + i] = traced[i].value.radiance;
+        pair_done_[first + i] = 1;
     }
 }
 
 void CloudRegion::show() {
     CloudReport& report = frame_.report;
     report.reused = report.pixels - unanswered_;
-    for (std::size_t i = 0; i < twins_.size(); ++i) {
-        if (twin_done_[i] == 0 || done_[twins_[i]] == 0) continue;
+    for (std::size_t i = 0; i < noise_pairs_.size(); ++i) {
+        if (pair_done_[i] == 0 || done_[noise_pairs_[i]] == 0) continue;
         report.audit_floors.push_back(
-            relative_error(twin_radiance_[i], traced_[twins_[i]].value.radiance));
+            relative_error(pair_radiance_[i], traced_[noise_pairs_[i]].value.radiance));
     }
-    for (std::size_t i = 0; i < holes_.size(); ++i) {
+    for (std::size_t i = 0; i < uncached_.size(); ++i) {
         if (done_[i] == 0) continue;
-        const CloudHole& hole = holes_[i];
-        const std::size_t at = pixel(hole.place);
+        const UncachedPixel& uncached_pixel = uncached_[i];
+        const std::size_t at = pixel(uncached_pixel.place);
         const PixelValue& traced = traced_[i].value;
-        if (hole.cause == HoleCause::audited)
+        if (uncached_pixel.cause == TraceCause::audited)
             report.audit_errors.push_back(relative_error(frame_.radiance[at], traced.radiance));
         else
             ++answered_;
         frame_.radiance[at] = traced.radiance;
         frame_.distance[at] = traced.distance;
-        frame_.causes[at] = hole.cause;
+        frame_.causes[at] = uncached_pixel.cause;
         known_[at] = 1;
         if (!origins_.empty()) origins_[at] = {PixelOrigin::Kind::traced, 1, 0};
-        ++report.holes[static_cast<std::size_t>(hole.cause)];
+        ++report.uncached[static_cast<std::size_t>(uncached_pixel.cause)];
     }
     report.filled = unanswered_ - answered_;
 }
 
 void CloudRegion::leave_points() {
     fresh_.clear();
-    for (std::size_t i = 0; i < holes_.size(); ++i) {
+    for (std::size_t i = 0; i < uncached_.size(); ++i) {
         if (done_[i] == 0) continue;
         const PixelPoints& left = traced_[i].points;
         fresh_.insert(fresh_.end(), left.points.begin(),

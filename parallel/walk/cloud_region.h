@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/resting.h"
-#include "core/cloud/sight.h"
+#include "core/cloud/progressive.h"
+#include "core/cloud/primary_visibility.h"
 #include "core/math/random.h"
 #include "core/view/pixels.h"
 #include "parallel/executor.h"
@@ -21,13 +21,13 @@
 namespace lightwalk {
 
 /// A pixel that is to be traced.
-struct CloudHole {
+struct UncachedPixel {
     PixelPlace place;
-    HoleCause cause = HoleCause::uncovered;
+    TraceCause cause = TraceCause::uncovered;
 };
 
 /// A pixel that was traced: what it shows, and the points that it leaves.
-struct TracedHole {
+struct TracedPixelResult {
     PixelValue value;
     PixelPoints points;
 };
@@ -41,7 +41,7 @@ struct UsedPixels {
 [[nodiscard]] PixelRectangle widened(const PixelRectangle& area, int by, int width, int height);
 
 /// The steps of a frame, in this order: begin, project, [leaving, add,] answer, [used_beside,
-/// mark_used,] take for each traced hole, show, age, keep. Those in brackets are for regions that
+/// mark_used,] take for each traced uncached pixel, show, age, keep. Those in brackets are for regions that
 /// have others beside them. What comes of it depends on no order: neither of points nor of calls of
 /// add, mark_used and take.
 class CloudRegion {
@@ -69,27 +69,27 @@ class CloudRegion {
     void add(std::span<const CloudPoint> points);
 
     using Clock = std::chrono::steady_clock;
-    /// Find points for all pixels. What none answers is a hole. The caster's `look` is called.
+    /// Find points for all pixels. What none answers is a uncached pixel. The caster's `look` is called.
     /// @param check_until  with CloudCheck::rotating: after that no more rays check what points say
     void answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop,
                 Clock::time_point check_until = Clock::time_point::max());
-    [[nodiscard]] std::span<const CloudHole> holes() const { return holes_; }
-    /// Share of the pixels that no point answers, whether they are among the holes or not.
+    [[nodiscard]] std::span<const UncachedPixel> uncached() const { return uncached_; }
+    /// Share of the pixels that no point answers, whether they are among the uncached pixels or not.
     [[nodiscard]] double unknown() const {
         return static_cast<double>(unanswered_) / static_cast<double>(area_.pixels());
     }
-    /// Of the holes those that are to be traced by a second ray, too, to tell how much two differ.
-    [[nodiscard]] std::span<const std::uint32_t> twins() const { return twins_; }
+    /// Of the uncached pixels those that are to be traced by a second ray, too, to tell how much two differ.
+    [[nodiscard]] std::span<const std::uint32_t> noise_pairs() const { return noise_pairs_; }
     /// Pixels beside the region whose points answered pixels of it.
     [[nodiscard]] UsedPixels used_beside() const;
     /// What others' used_beside() says of this one.
     void mark_used(const UsedPixels& used);
 
-    /// Holes `first` ... are traced. For different holes from many threads at once.
-    void take(std::size_t first, std::span<const TracedHole> traced);
-    /// The twins `first` ... are traced.
-    void take_twins(std::size_t first, std::span<const TracedHole> traced);
-    [[nodiscard]] bool is_traced(std::size_t hole) const { return done_[hole] != 0; }
+    /// Holes `first` ... are traced. For different uncached pixels from many threads at once.
+    void take(std::size_t first, std::span<const TracedPixelResult> traced);
+    /// The noise pairs `first` ... are traced.
+    void record_noise_pairs(std::size_t first, std::span<const TracedPixelResult> traced);
+    [[nodiscard]] bool is_traced(std::size_t uncached_pixel) const { return done_[uncached_pixel] != 0; }
 
     /// Put what was traced into the frame.
     void show();
@@ -114,46 +114,46 @@ class CloudRegion {
     // A view that rests is not projected; instead of `answer` others say what is to be traced, and
     // instead of `age` points stay as they are.
     void refine(std::span<const PixelPlace> places);
-    [[nodiscard]] TracedHole& traced(std::size_t hole) { return traced_[hole]; }
+    [[nodiscard]] TracedPixelResult& traced(std::size_t uncached_pixel) { return traced_[uncached_pixel]; }
     /// @param leave  whether what was traced leaves points
     [[nodiscard]] AgeCounts rest(bool leave);
 
   private:
     [[nodiscard]] PixelRectangle inside_of_area() const;
-    static constexpr std::size_t kHoleRanks = kHoleCauses * kGridLevels;
+    static constexpr std::size_t kTraceRanks = kTraceCauses * kGridLevels;
     /// Of a block.
-    struct BlockHoles {
-        std::vector<CloudHole> holes;
-        std::array<std::uint32_t, kHoleRanks> ranked{};  ///< how many, then where the next one goes
+    struct BlockUncachedPixels {
+        std::vector<UncachedPixel> uncached;
+        std::array<std::uint32_t, kTraceRanks> ranked{};  ///< how many, then where the next one goes
         std::size_t left = 0;                            ///< pixels of which nothing is known
         std::size_t unanswered = 0;                      ///< pixels, noted or not
     };
     void blacken(const PixelRectangle& area);
     void answer_block(std::size_t block, const PixelCaster& caster, int worker);
     void answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
-                       const PixelCaster& caster, int worker, BlockHoles& block);
+                       const PixelCaster& caster, int worker, BlockUncachedPixels& block);
     [[nodiscard]] std::size_t answer_freely(std::span<PixelPlace> tile, const PointFinder& finder,
-                                            BlockHoles& block);
+                                            BlockUncachedPixels& block);
     [[nodiscard]] std::span<PixelPlace> with_rays(std::span<PixelPlace> tile) const;
     void forget(std::span<const PixelPlace> tile);
-    void leave(const PixelPlace& place, BlockHoles& block) const;
+    void leave(const PixelPlace& place, BlockUncachedPixels& block) const;
     [[nodiscard]] std::size_t leave_blank(std::span<PixelPlace> tile, const PixelSquare& square,
-                                          BlockHoles& block);
+                                          BlockUncachedPixels& block);
     [[nodiscard]] int finest_grid() const;
-    [[nodiscard]] std::size_t answer_steady(std::span<PixelPlace> tile, const PixelSquare& square,
-                                            const PointFinder& finder, BlockHoles& block);
+    [[nodiscard]] std::size_t answer_temporal(std::span<PixelPlace> tile, const PixelSquare& square,
+                                            const PointFinder& finder, BlockUncachedPixels& block);
     void answer_late(std::span<const PixelPlace> tile, const PixelSquare& square,
-                     const PointFinder& finder, BlockHoles& block);
+                     const PointFinder& finder, BlockUncachedPixels& block);
     [[nodiscard]] bool is_checked(const PixelPlace& place) const;
     void expect(const PixelPlace& place, const PointFinder& finder) const;
-    void settle(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
-                BlockHoles& block);
-    void settle_audited(const PixelPlace& place, const PointFinder& finder,
-                        const PixelAnswer& answer, BlockHoles& block);
-    [[nodiscard]] std::size_t rank(const CloudHole& hole) const;
-    void order_holes(Executor& executor);
-    void choose_twins();
-    void expect_holes();
+    void accept(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
+                BlockUncachedPixels& block);
+    void accept_or_audit(const PixelPlace& place, const PointFinder& finder,
+                        const PixelAnswer& answer, BlockUncachedPixels& block);
+    [[nodiscard]] std::size_t rank(const UncachedPixel& uncached_pixel) const;
+    void order_uncached(Executor& executor);
+    void choose_noise_pairs();
+    void expect_uncached();
     void leave_points();
     [[nodiscard]] RandomStream audit_stream(const PixelPlace& place) const;
 
@@ -174,18 +174,18 @@ class CloudRegion {
     std::vector<PixelOrigin> origins_;  ///< of each pixel; empty unless views that rest are refined
     Clock::time_point check_until_;
     std::vector<PixelRectangle> blocks_;
-    std::vector<BlockHoles> holes_of_;  ///< each block
+    std::vector<BlockUncachedPixels> uncached_of_;  ///< each block
     std::vector<std::uint8_t> known_;   ///< see known()
     std::size_t unanswered_ = 0;        ///< pixels that no point answers
     std::size_t left_ = 0;              ///< of these those of which nothing is known
     std::size_t answered_ = 0;          ///< of the unanswered those that were traced
-    int finest_ = kGridLevels - 1;      ///< of holes of which nothing is known (see grid_level)
-    std::vector<CloudHole> holes_;
-    std::vector<TracedHole> traced_;    ///< each hole
-    std::vector<std::uint8_t> done_;    ///< for each hole: not 0 where it was traced in time
-    std::vector<std::uint32_t> twins_;  ///< holes
-    std::vector<Rgb> twin_radiance_;
-    std::vector<std::uint8_t> twin_done_;
+    int finest_ = kGridLevels - 1;      ///< of uncached pixels of which nothing is known (see grid_level)
+    std::vector<UncachedPixel> uncached_;
+    std::vector<TracedPixelResult> traced_;    ///< each uncached pixel
+    std::vector<std::uint8_t> done_;    ///< for each uncached pixel: not 0 where it was traced in time
+    std::vector<std::uint32_t> noise_pairs_;  ///< uncached pixels
+    std::vector<Rgb> pair_radiance_;
+    std::vector<std::uint8_t> pair_done_;
 };
 
 }  // namespace lightwalk

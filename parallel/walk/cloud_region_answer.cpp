@@ -43,7 +43,7 @@ void CloudRegion::answer(const PixelCaster& caster, Executor& executor, const St
                          Clock::time_point check_until) {
     const StepTimer timer(frame_.report.check_seconds);
     check_until_ = check_until;
-    holes_of_.resize(blocks_.size());
+    uncached_of_.resize(blocks_.size());
     // Where time is short it is that of the last ones: others in each frame.
     const std::size_t first = rules_.frame * (blocks_.size() / 3 + 1);
     executor.for_each(
@@ -53,46 +53,46 @@ void CloudRegion::answer(const PixelCaster& caster, Executor& executor, const St
         },
         stop);
     if (stop.requested()) return;
-    order_holes(executor);
-    choose_twins();
-    expect_holes();
+    order_uncached(executor);
+    choose_noise_pairs();
+    expect_uncached();
 }
 
 /// Where time is short: the worst first, among equals coarse grids.
-std::size_t CloudRegion::rank(const CloudHole& hole) const {
+std::size_t CloudRegion::rank(const UncachedPixel& uncached_pixel) const {
     if (!(options_.budget > 0)) return 0;
-    return static_cast<std::size_t>(hole.cause) * kGridLevels +
-           static_cast<std::size_t>(grid_level(hole.place));
+    return static_cast<std::size_t>(uncached_pixel.cause) * kGridLevels +
+           static_cast<std::size_t>(grid_level(uncached_pixel.place));
 }
 
 /// By rank, and by block, where time is short another one first in each frame.
-void CloudRegion::order_holes(Executor& executor) {
+void CloudRegion::order_uncached(Executor& executor) {
     const std::size_t blocks = blocks_.size();
     const std::size_t first = options_.budget > 0 && blocks > 0 ? rules_.frame % blocks : 0;
     std::size_t count = 0;
-    for (std::size_t rank = 0; rank < kHoleRanks; ++rank) {
+    for (std::size_t rank = 0; rank < kTraceRanks; ++rank) {
         for (std::size_t k = 0; k < blocks; ++k) {
-            std::uint32_t& of_block = holes_of_[(first + k) % blocks].ranked[rank];
+            std::uint32_t& of_block = uncached_of_[(first + k) % blocks].ranked[rank];
             count += std::exchange(of_block, static_cast<std::uint32_t>(count));
         }
     }
-    for (const BlockHoles& block : holes_of_) {
+    for (const BlockUncachedPixels& block : uncached_of_) {
         unanswered_ += block.unanswered;
         left_ += block.left;
     }
-    holes_.resize(count);
+    uncached_.resize(count);
     executor.for_each(blocks, [&](std::size_t k, int) {
-        BlockHoles& block = holes_of_[k];
-        for (const CloudHole& hole : block.holes) holes_[block.ranked[rank(hole)]++] = hole;
+        BlockUncachedPixels& block = uncached_of_[k];
+        for (const UncachedPixel& uncached_pixel : block.uncached) uncached_[block.ranked[rank(uncached_pixel)]++] = uncached_pixel;
     });
 }
 
-void CloudRegion::choose_twins() {
-    for (std::size_t i = 0; i < holes_.size(); ++i) {
-        if (holes_[i].cause != HoleCause::audited) continue;
-        RandomStream random = audit_stream(holes_[i].place);
+void CloudRegion::choose_noise_pairs() {
+    for (std::size_t i = 0; i < uncached_.size(); ++i) {
+        if (uncached_[i].cause != TraceCause::audited) continue;
+        RandomStream random = audit_stream(uncached_[i].place);
         (void)random.next();  // has decided that it is audited
-        if (random.next() < kFloorShare) twins_.push_back(static_cast<std::uint32_t>(i));
+        if (random.next() < kFloorShare) noise_pairs_.push_back(static_cast<std::uint32_t>(i));
     }
 }
 
@@ -114,9 +114,9 @@ void CloudRegion::expect(const PixelPlace& place, const PointFinder& finder) con
     if (!origins_.empty()) prefetch(&origins_[at]);
 }
 
-/// Show what a pixel's answer brings, or note that it is a hole.
-void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
-                         const PixelAnswer& answer, BlockHoles& block) {
+/// Show what a pixel's answer brings, or note that it is a uncached pixel.
+void CloudRegion::accept(const PixelPlace& place, const PointFinder& finder,
+                         const PixelAnswer& answer, BlockUncachedPixels& block) {
     const std::size_t at = pixel(place);
     const bool reused = answer.found();
     const bool guessed = !reused && options_.budget > 0 && finder.is_guess(answer);
@@ -128,7 +128,7 @@ void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
     if (!reused) {
         using Kind = PixelOrigin::Kind;
         if (!origins_.empty()) origins_[at] = {guessed ? Kind::guessed : Kind::filled, 0, 0};
-        block.holes.push_back({place, answer.cause});
+        block.uncached.push_back({place, answer.cause});
         ++block.unanswered;
         return;
     }
@@ -141,28 +141,28 @@ void CloudRegion::settle(const PixelPlace& place, const PointFinder& finder,
 }
 
 /// The same for a pixel that this frame's audit may trace though it is reused.
-void CloudRegion::settle_audited(const PixelPlace& place, const PointFinder& finder,
-                                 const PixelAnswer& answer, BlockHoles& block) {
-    settle(place, finder, answer, block);
+void CloudRegion::accept_or_audit(const PixelPlace& place, const PointFinder& finder,
+                                 const PixelAnswer& answer, BlockUncachedPixels& block) {
+    accept(place, finder, answer, block);
     if (answer.found() && options_.audit > 0 && audit_stream(place).next() < options_.audit)
-        block.holes.push_back({place, HoleCause::audited});
+        block.uncached.push_back({place, TraceCause::audited});
 }
 
 /// What is read and written afterwards is fetched into the cache while rays are cast: writes are
 /// done in order, so that one that misses holds up all after it.
 void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointFinder& finder,
-                                const PixelCaster& caster, int worker, BlockHoles& block) {
-    std::array<PixelSights, 2 * kPacket> sights;
+                                const PixelCaster& caster, int worker, BlockUncachedPixels& block) {
+    std::array<PixelVisibility, 2 * kPacket> visibility;
     std::array<PixelAnswer, 2 * kPacket> answers;
     for (const PixelPlace& place : places) expect(place, finder);
-    caster.look(places, {sights.data(), places.size()}, worker);
-    finder.checked(places, {sights.data(), places.size()}, answers);
+    caster.probe(places, {visibility.data(), places.size()}, worker);
+    finder.checked(places, {visibility.data(), places.size()}, answers);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (answers[i].ahead != kNoPoint) prefetch(&used_[answers[i].ahead]);
     for (std::size_t i = 0; i < places.size(); ++i) {
         const PixelPlace& place = places[i];
-        if (sights[i].ray)
-            settle_audited(place, finder, answers[i], block);
+        if (visibility[i].ray)
+            accept_or_audit(place, finder, answers[i], block);
         else
             blacken({place.x, place.y, place.x + 1, place.y + 1});
     }
@@ -170,17 +170,17 @@ void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointF
 
 /// Answer those pixels of a tile that the last frame's surfaces seem to go through.
 /// @return  the number of those left, which are moved to the front
-std::size_t CloudRegion::answer_steady(std::span<PixelPlace> tile, const PixelSquare& square,
-                                       const PointFinder& finder, BlockHoles& block) {
+std::size_t CloudRegion::answer_temporal(std::span<PixelPlace> tile, const PixelSquare& square,
+                                       const PointFinder& finder, BlockUncachedPixels& block) {
     std::array<PixelAnswer, kPacket> answers;
     for (const PixelPlace& place : tile) expect(place, finder);
-    finder.steady(square, tile, answers);
+    finder.temporal(square, tile, answers);
     for (std::size_t i = 0; i < tile.size(); ++i)
         if (answers[i].found()) prefetch(&used_[answers[i].ahead]);
     std::size_t left = 0;
     for (std::size_t i = 0; i < tile.size(); ++i) {
         if (answers[i].found())
-            settle_audited(tile[i], finder, answers[i], block);
+            accept_or_audit(tile[i], finder, answers[i], block);
         else
             tile[left++] = tile[i];
     }
@@ -206,25 +206,25 @@ void CloudRegion::forget(std::span<const PixelPlace> tile) {
             std::fill_n(values.begin() + at, count, value);
         };
         fill(frame_.distance, 0.0f);
-        fill(frame_.causes, HoleCause::uncovered);
+        fill(frame_.causes, TraceCause::uncovered);
         fill(known_, std::uint8_t{0});
         if (!origins_.empty()) fill(origins_, PixelOrigin{});
         row = end;
     }
 }
 
-/// A pixel of which nothing is known stays a hole. Not all are noted where there is no time for
+/// A pixel of which nothing is known stays a uncached pixel. Not all are noted where there is no time for
 /// them anyway, only coarse grids of them.
-void CloudRegion::leave(const PixelPlace& place, BlockHoles& block) const {
+void CloudRegion::leave(const PixelPlace& place, BlockUncachedPixels& block) const {
     ++block.unanswered;
     ++block.left;
-    if (grid_level(place) <= finest_) block.holes.push_back({place, HoleCause::uncovered});
+    if (grid_level(place) <= finest_) block.uncached.push_back({place, TraceCause::uncovered});
 }
 
 /// Leave those pixels of a tile that no point can answer, whatever their rays see.
 /// @return  the number of the others, which are moved to the front
 std::size_t CloudRegion::leave_blank(std::span<PixelPlace> tile, const PixelSquare& square,
-                                     BlockHoles& block) {
+                                     BlockUncachedPixels& block) {
     forget(tile);
     std::size_t others = 0;
     for (const PixelPlace& place : tile) {
@@ -238,23 +238,23 @@ std::size_t CloudRegion::leave_blank(std::span<PixelPlace> tile, const PixelSqua
 
 /// Answer a tile for which there is no time. Nobody audits what is shown for a moment.
 void CloudRegion::answer_late(std::span<const PixelPlace> tile, const PixelSquare& square,
-                              const PointFinder& finder, BlockHoles& block) {
+                              const PointFinder& finder, BlockUncachedPixels& block) {
     std::array<PixelAnswer, kPacket> answers;
-    finder.glimpsed(square, tile, answers);
+    finder.unverified(square, tile, answers);
     for (std::size_t i = 0; i < tile.size(); ++i)
         if (answers[i].ahead != kNoPoint) prefetch(&used_[answers[i].ahead]);
     for (std::size_t i = 0; i < tile.size(); ++i) {
-        if (answers[i].cause == HoleCause::uncovered)
+        if (answers[i].cause == TraceCause::uncovered)
             leave(tile[i], block);
         else
-            settle(tile[i], finder, answers[i], block);
+            accept(tile[i], finder, answers[i], block);
     }
 }
 
 /// Answer those pixels of a tile that no ray checks.
 /// @return  the number of those left, which are moved to the front
 std::size_t CloudRegion::answer_freely(std::span<PixelPlace> tile, const PointFinder& finder,
-                                       BlockHoles& block) {
+                                       BlockUncachedPixels& block) {
     if (!rules_.empty && options_.check == CloudCheck::all) return tile.size();
     if (!rules_.empty && options_.check == CloudCheck::rotating) {
         if (!has_all_rays(projector_->camera())) tile = with_rays(tile);
@@ -266,14 +266,14 @@ std::size_t CloudRegion::answer_freely(std::span<PixelPlace> tile, const PointFi
             return 0;
         }
         if (others.empty() || is_checked(others.front())) return others.size();
-        return answer_steady(others, square, finder, block);
+        return answer_temporal(others, square, finder, block);
     }
     std::size_t left = 0;
     for (const PixelPlace& place : tile) {
         if (!rules_.empty && options_.check == CloudCheck::edges && finder.is_edge(place))
             tile[left++] = place;
         else
-            settle_audited(place, finder, finder.unchecked(place), block);
+            accept_or_audit(place, finder, finder.unchecked(place), block);
     }
     return left;
 }
@@ -285,7 +285,7 @@ void CloudRegion::blacken(const PixelRectangle& area) {
         const auto row = static_cast<std::ptrdiff_t>(pixel({area.x0, y}));
         std::fill_n(frame_.radiance.begin() + row, width, Rgb{});
         std::fill_n(frame_.distance.begin() + row, width, 0.0f);
-        std::fill_n(frame_.causes.begin() + row, width, HoleCause::none);
+        std::fill_n(frame_.causes.begin() + row, width, TraceCause::none);
         std::fill_n(known_.begin() + row, width, std::uint8_t{1});
         if (!origins_.empty()) std::fill_n(origins_.begin() + row, width, PixelOrigin{});
     }
@@ -294,8 +294,8 @@ void CloudRegion::blacken(const PixelRectangle& area) {
 void CloudRegion::answer_block(std::size_t block, const PixelCaster& caster, int worker) {
     const PointFinder finder(*projector_, points_, grids_, places_, reuse_);
     const PixelRectangle& area = blocks_[block];
-    BlockHoles& found = holes_of_[block];
-    found.holes.clear();
+    BlockUncachedPixels& found = uncached_of_[block];
+    found.uncached.clear();
     found.ranked.fill(0);
     found.unanswered = found.left = 0;
     if (!has_all_rays(projector_->camera())) blacken(area);
@@ -317,7 +317,7 @@ void CloudRegion::answer_block(std::size_t block, const PixelCaster& caster, int
         }
     }
     check();
-    for (const CloudHole& hole : found.holes) ++found.ranked[rank(hole)];
+    for (const UncachedPixel& uncached_pixel : found.uncached) ++found.ranked[rank(uncached_pixel)];
 }
 
 }  // namespace lightwalk

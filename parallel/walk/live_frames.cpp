@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "parallel/pixel_tracer.h"
-#include "parallel/walk/hole_tracer.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 #include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
@@ -15,16 +15,16 @@ constexpr std::size_t kPixelsATask = 16;
 
 std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
                                      const Camera& camera, const FrameOptions& options,
-                                     const RestingWork& work, double seconds, Executor& executor,
+                                     const ProgressiveWork& work, double seconds, Executor& executor,
                                      const StopFlag& stop) {
     const PixelRays rays = rays_of_sample(camera, options, work.sample);
-    const HoleTracer::Clock::time_point deadline = deadline_of(seconds);
+    const UncachedPixelTracer::Clock::time_point deadline = deadline_of(seconds);
     std::vector<PixelValue> values(work.places.size(), {{}, -1});
     contexts.reset_counters();
     executor.for_each(
         (work.places.size() + kPixelsATask - 1) / kPixelsATask,
         [&](std::size_t task, int worker) {
-            if (task > 0 && HoleTracer::Clock::now() > deadline) return;
+            if (task > 0 && UncachedPixelTracer::Clock::now() > deadline) return;
             const std::size_t first = task * kPixelsATask;
             const std::size_t count = std::min(kPixelsATask, work.places.size() - first);
             const std::span<PixelValue> part = std::span(values).subspan(first, count);
@@ -58,13 +58,13 @@ void LocalFrames::begin(int width, int height, bool indirect) {
 WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
     frames_->set_budget(budget);
     frames_->set_refine(refine);
-    WalkFrame drawn = draw_walk_frame(*frames_, walking_->tracer, walking_->sights, Camera(view),
+    WalkFrame drawn = draw_walk_frame(*frames_, walking_->tracer, walking_->visibility, Camera(view),
                                       options_, executor_, walking_->contexts, stop);
     rays_ = drawn.frame.rays.total();
     return drawn;
 }
 
-std::vector<PixelValue> LocalFrames::trace(const View& view, const RestingWork& work,
+std::vector<PixelValue> LocalFrames::trace(const View& view, const ProgressiveWork& work,
                                            double seconds, const StopFlag& stop) {
     std::vector<PixelValue> values =
         trace_pixels(indirect_->tracer, indirect_->contexts, Camera(view), options_, work, seconds,

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 #include "core/transport/tracer.h"
 #include "parallel/executor.h"
 #include "parallel/frame.h"
@@ -38,11 +38,11 @@ class LiveFrames {
                                          const StopFlag& stop) = 0;
     /// How good the pixels of the last frame are, if the next one has the same view. Null: there is
     /// none, or it was stopped.
-    [[nodiscard]] virtual const RestingPicture* resting(const StopFlag& stop) = 0;
+    [[nodiscard]] virtual const ProgressivePicture* progressive(const StopFlag& stop) = 0;
     /// Pixels by all light there is.
     /// @param seconds  after which no more are begun, but some are at once
     /// @return  of each; the distance of those that there was no time for is negative
-    [[nodiscard]] virtual std::vector<PixelValue> trace(const View& view, const RestingWork& work,
+    [[nodiscard]] virtual std::vector<PixelValue> trace(const View& view, const ProgressiveWork& work,
                                                         double seconds, const StopFlag& stop) = 0;
     /// See walk_frame.h; by all light there is.
     virtual void add_small_sources(const View& view, Frame& frame) = 0;
@@ -56,15 +56,15 @@ class LiveFrames {
 [[nodiscard]] std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
                                                    const Camera& camera,
                                                    const FrameOptions& options,
-                                                   const RestingWork& work, double seconds,
+                                                   const ProgressiveWork& work, double seconds,
                                                    Executor& executor, const StopFlag& stop);
 
 /// A tracer of a scene, and what goes with it.
 struct WalkLight {
     WalkLight(const Tracer& its_tracer, WarningSink& warnings, int workers)
-        : tracer(its_tracer), sights(its_tracer), contexts(its_tracer, warnings, workers) {}
+        : tracer(its_tracer), visibility(its_tracer), contexts(its_tracer, warnings, workers) {}
     const Tracer& tracer;
-    SceneSights sights;
+    VisibilityProbe visibility;
     WorkerContexts contexts;
 };
 
@@ -81,10 +81,10 @@ class LocalFrames final : public LiveFrames {
     void begin(int width, int height, bool indirect) override;
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
-    [[nodiscard]] const RestingPicture* resting(const StopFlag&) override {
-        return frames_->resting();
+    [[nodiscard]] const ProgressivePicture* progressive(const StopFlag&) override {
+        return frames_->progressive();
     }
-    [[nodiscard]] std::vector<PixelValue> trace(const View& view, const RestingWork& work,
+    [[nodiscard]] std::vector<PixelValue> trace(const View& view, const ProgressiveWork& work,
                                                 double seconds, const StopFlag& stop) override;
     void add_small_sources(const View& view, Frame& frame) override;
     [[nodiscard]] std::uint64_t rays() const override { return rays_; }

@@ -36,20 +36,20 @@ bool LiveWalk::next(const View& view, int width, int height, AmbientUse use, dou
                     const StopFlag& stop) {
     if (width_ != width || height_ != height || use_ != use) begin(width, height, use);
     if (view_ != view) {
-        resting_.reset();
+        progressive_.reset();
         refine_ = kFirstShare;
         view_ = view;
         if (draw(view, false, budget, stop)) return true;
         view_.reset();
         return false;
     }
-    if (resting_) return add_light(budget, stop);
-    const RestingPicture* picture = frames_.resting(stop);
+    if (progressive_) return add_light(budget, stop);
+    const ProgressivePicture* picture = frames_.progressive(stop);
     if (stop.requested()) return false;
     const bool adds_light = use_ == AmbientUse::rest && frames_.has_indirect();
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
-        resting_ = std::make_unique<RestingLight>(width, height, samples_);
-        resting_->begin(turned(std::span<const Rgb>(picture_.radiance), width),
+        progressive_ = std::make_unique<ProgressiveLight>(width, height, samples_);
+        progressive_->begin(turned(std::span<const Rgb>(picture_.radiance), width),
                         turned(std::span<const float>(picture_.distance), width));
         return add_light(budget, stop);
     }
@@ -75,28 +75,28 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     if (!rests) return true;
     const auto pixels = static_cast<double>(picture_.radiance.size());
     const auto traced =
-        static_cast<double>(picture_.report.holes[static_cast<std::size_t>(HoleCause::refined)]);
+        static_cast<double>(picture_.report.uncached[static_cast<std::size_t>(TraceCause::refined)]);
     refine_ = std::clamp(2 * traced / pixels, kLeastShare, 1.0);
-    const RestingPicture* resting = frames_.resting(stop);
-    const std::size_t open = resting != nullptr ? resting->open_pixels() : 0;
+    const ProgressivePicture* progressive = frames_.progressive(stop);
+    const std::size_t open = progressive != nullptr ? progressive->open_pixels() : 0;
     picture_.share = 1 - static_cast<double>(open) / pixels;
     picture_.phase = open > 0 ? LivePhase::filling : LivePhase::refining;
     return true;
 }
 
 bool LiveWalk::add_light(double budget, const StopFlag& stop) {
-    const bool worked = resting_->step(
-        [&](const RestingWork& work) { return frames_.trace(*view_, work, budget, stop); });
+    const bool worked = progressive_->step(
+        [&](const ProgressiveWork& work) { return frames_.trace(*view_, work, budget, stop); });
     Frame frame;
     frame.width = width_;
     frame.height = height_;
-    frame.radiance = turned(std::span<const Rgb>(resting_->picture()), width_);
-    frame.distance = turned(resting_->distance(), width_);
+    frame.radiance = turned(std::span<const Rgb>(progressive_->picture()), width_);
+    frame.distance = turned(progressive_->distance(), width_);
     frames_.add_small_sources(*view_, frame);
     picture_.radiance = std::move(frame.radiance);
     picture_.distance = std::move(frame.distance);
     picture_.rays = worked ? frames_.rays() : 0;
-    picture_.share = resting_->share();
+    picture_.share = progressive_->share();
     picture_.phase = !worked              ? LivePhase::done
                      : picture_.share < 1 ? LivePhase::ambient
                                           : LivePhase::refining;

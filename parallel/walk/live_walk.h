@@ -8,7 +8,7 @@
 #include "core/view/view.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/live_frames.h"
-#include "parallel/walk/resting_light.h"
+#include "parallel/walk/progressive_light.h"
 
 namespace lightwalk {
 
@@ -63,7 +63,7 @@ class LiveWalk {
     AmbientUse use_ = AmbientUse::off;
     double refine_ = 0;         ///< see LiveFrames::draw
     std::optional<View> view_;  ///< of the last picture
-    std::unique_ptr<RestingLight> resting_;
+    std::unique_ptr<ProgressiveLight> progressive_;
     LivePicture picture_;
 };
 

@@ -14,11 +14,11 @@ PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options, int 
     return {camera, options.previous, options.width, options.height, pixels, seed, options.step};
 }
 
-SceneCaster::SceneCaster(const Tracer& tracer, const SceneSights& sights, const Camera& camera,
+SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
                          const FrameOptions& options, WorkerContexts& contexts,
                          const StopFlag& stop)
     : tracer_(tracer),
-      sights_(sights),
+      probe_(visibility),
       camera_(camera),
       options_(options),
       rays_(rays_of_sample(camera, options, 0)),
@@ -26,76 +26,76 @@ SceneCaster::SceneCaster(const Tracer& tracer, const SceneSights& sights, const 
       stop_(stop),
       scratch_(static_cast<std::size_t>(contexts.size())) {}
 
-void SceneCaster::look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
+void SceneCaster::look(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
                        int worker) {
-    look_along(rays_, false, places, sights, scratch_[static_cast<std::size_t>(worker)]);
+    probe_along(rays_, false, places, visibility, scratch_[static_cast<std::size_t>(worker)]);
 }
 
 namespace {
 
 /// A ray and where it goes through its pixel.
 void set_out(const Camera::ViewRay& ray, double x, double y, RaySegment& segment,
-             PixelSights& sights) {
+             PixelVisibility& visibility) {
     segment.origin = ray.origin;
     segment.direction = ray.direction;
     segment.t_max = ray.limit > kEpsilon ? ray.limit : kHuge;
-    sights.ray = true;
-    sights.x = static_cast<float>(x);
-    sights.y = static_cast<float>(y);
+    visibility.ray = true;
+    visibility.x = static_cast<float>(x);
+    visibility.y = static_cast<float>(y);
 }
 
 }  // namespace
 
 void SceneCaster::set_out_plainly(const PixelRays& rays, std::span<const PixelPlace> places,
                                   std::span<RaySegment> segments,
-                                  std::span<PixelSights> sights) const {
+                                  std::span<PixelVisibility> visibility) const {
     const Camera camera = camera_;  // copies: nothing that is written can change them
     const PixelRays from = rays;
     const double width = options_.width, height = options_.height;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const PixelRays::Place at = from.place(places[i].x, places[i].y);
         set_out(camera.perspective_ray(at.h, at.v), at.h * width, at.v * height, segments[i],
-                sights[i]);
+                visibility[i]);
     }
 }
 
 void SceneCaster::set_out_anyhow(const PixelRays& rays, std::span<const PixelPlace> places,
                                  std::span<RaySegment> segments,
-                                 std::span<PixelSights> sights) const {
+                                 std::span<PixelVisibility> visibility) const {
     for (std::size_t i = 0; i < places.size(); ++i) {
         const PixelRay pixel = rays(places[i].x, places[i].y);
-        sights[i] = {};
+        visibility[i] = {};
         segments[i] = {{}, {}, 0};
         if (pixel.ray)
             set_out(*pixel.ray, pixel.h * options_.width, pixel.v * options_.height, segments[i],
-                    sights[i]);
+                    visibility[i]);
     }
 }
 
-void SceneCaster::look_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
-                             std::span<PixelSights> sights, Scratch& s) const {
+void SceneCaster::probe_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
+                             std::span<PixelVisibility> visibility, Scratch& s) const {
     s.segments.resize(places.size());
     s.hits.resize(places.size());
     if (camera_.view().type == 'v' && rays.pinhole())
-        set_out_plainly(rays, places, s.segments, sights);
+        set_out_plainly(rays, places, s.segments, visibility);
     else
-        set_out_anyhow(rays, places, s.segments, sights);
+        set_out_anyhow(rays, places, s.segments, visibility);
     tracer_.scene().geometry().intersect(s.segments, s.hits);
-    sights_.find(s.segments, s.hits, slopes, sights, s.ways);
+    probe_.find(s.segments, s.hits, slopes, visibility, s.ways);
 }
 
 void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                         int sample, int worker) {
     Scratch& s = scratch_[static_cast<std::size_t>(worker)];
-    s.sights.resize(places.size());
+    s.visibility.resize(places.size());
     s.values.resize(places.size());
     s.pixel_hits.resize(places.size());
     const PixelRays rays = rays_of_sample(camera_, options_, sample);
-    look_along(rays, true, places, s.sights, s);
+    probe_along(rays, true, places, s.visibility, s);
     PixelTracer trace_pixels(tracer_, rays, contexts_[worker], stop_);
     trace_pixels(places, s.values, s.pixel_hits);
     for (std::size_t i = 0; i < places.size(); ++i)
-        pixels[i] = {s.sights[i], s.values[i].radiance, s.pixel_hits[i].mirrored,
+        pixels[i] = {s.visibility[i], s.values[i].radiance, s.pixel_hits[i].mirrored,
                      s.values[i].distance};
 }
 

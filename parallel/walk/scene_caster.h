@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/scene_sights.h"
-#include "core/cloud/sight.h"
+#include "core/cloud/visibility_probe.h"
+#include "core/cloud/primary_visibility.h"
 #include "parallel/frame_options.h"
 #include "parallel/pixel_rays.h"
 #include "parallel/pixel_tracer.h"
@@ -23,12 +23,12 @@ namespace lightwalk {
 class SceneCaster {
   public:
     /// All must outlive this.
-    SceneCaster(const Tracer& tracer, const SceneSights& sights, const Camera& camera,
+    SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
                 const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop);
 
     /// What the pixels' (first) rays see; see PixelCaster.
-    void look(std::span<const PixelPlace> places, std::span<PixelSights> sights, int worker);
-    /// The pixels traced, with the same sights; see PixelCaster.
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility, int worker);
+    /// The pixels traced, with the same visibility; see PixelCaster.
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker);
 
@@ -37,22 +37,22 @@ class SceneCaster {
     struct Scratch {
         std::vector<RaySegment> segments;
         std::vector<Hit> hits;
-        SceneSights::Scratch ways;
-        std::vector<PixelSights> sights;
+        VisibilityProbe::Scratch ways;
+        std::vector<PixelVisibility> visibility;
         std::vector<PixelValue> values;
         std::vector<PixelHit> pixel_hits;
     };
 
     /// The rays of pixels: of perspective views that nothing blurs, which is faster, and of all.
     void set_out_plainly(const PixelRays& rays, std::span<const PixelPlace> places,
-                         std::span<RaySegment> segments, std::span<PixelSights> sights) const;
+                         std::span<RaySegment> segments, std::span<PixelVisibility> visibility) const;
     void set_out_anyhow(const PixelRays& rays, std::span<const PixelPlace> places,
-                        std::span<RaySegment> segments, std::span<PixelSights> sights) const;
-    void look_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
-                    std::span<PixelSights> sights, Scratch& scratch) const;
+                        std::span<RaySegment> segments, std::span<PixelVisibility> visibility) const;
+    void probe_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
+                    std::span<PixelVisibility> visibility, Scratch& scratch) const;
 
     const Tracer& tracer_;
-    const SceneSights& sights_;
+    const VisibilityProbe& probe_;
     const Camera& camera_;
     FrameOptions options_;
     PixelRays rays_;  ///< of sample 0

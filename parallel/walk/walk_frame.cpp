@@ -69,13 +69,13 @@ void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameO
     });
 }
 
-WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer, const SceneSights& sights,
+WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer, const VisibilityProbe& visibility,
                           const Camera& camera, const FrameOptions& options, Executor& executor,
                           WorkerContexts& contexts, const StopFlag& stop) {
     contexts.reset_counters();
-    SceneCaster caster(tracer, sights, camera, options, contexts, stop);
-    const auto look = [&](std::span<const PixelPlace> places, std::span<PixelSights> seen,
-                          int worker) { caster.look(places, seen, worker); };
+    SceneCaster caster(tracer, visibility, camera, options, contexts, stop);
+    const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> seen,
+                          int worker) { caster.probe(places, seen, worker); };
     const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                            int sample,
                            int worker) { caster.trace(places, pixels, sample, worker); };

@@ -1,6 +1,6 @@
 #pragma once
 // A frame of a walk through a scene.
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 #include "core/transport/tracer.h"
 #include "parallel/frame.h"
 #include "parallel/walk/cloud_frames.h"
@@ -11,7 +11,7 @@ namespace lightwalk {
 struct WalkFrame {
     Frame frame;
     CloudReport report;
-    std::vector<HoleCause> causes;  ///< by pixel, row by row from the bottom
+    std::vector<TraceCause> causes;  ///< by pixel, row by row from the bottom
 };
 
 /// Draw the next frame of a walk: the picture that render_frame makes of the same view when it
@@ -22,7 +22,7 @@ struct WalkFrame {
 /// @param contexts  one for each worker of the executor; their counters start from zero
 /// Throws what the tracer throws.
 [[nodiscard]] WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer,
-                                        const SceneSights& sights, const Camera& camera,
+                                        const VisibilityProbe& visibility, const Camera& camera,
                                         const FrameOptions& options, Executor& executor,
                                         WorkerContexts& contexts, const StopFlag& stop);
 

@@ -85,7 +85,7 @@ WalkPrediction WalkSimulation::run() {
         *sum /= frames;
     mean.seconds = (now_ - measured_from_) / frames;
     mean.master_busy = (ranks_[0].handling - handled_before_) / (now_ - measured_from_);
-    mean.holes_of_fullest = most_holes_ * static_cast<double>(owners_) / all_holes_;
+    mean.uncached_of_fullest = most_uncached_ * static_cast<double>(owners_) / all_uncached_;
     return mean;
 }
 
@@ -95,7 +95,7 @@ void WalkSimulation::at(double time, std::function<void()> act) {
 
 void WalkSimulation::order() {
     ordered_ = now_;
-    most_holes_ = all_holes_ = 0;
+    most_uncached_ = all_uncached_ = 0;
     CloudOrder next;
     next.width = walk_.width;
     next.height = walk_.height;
@@ -192,7 +192,7 @@ double WalkSimulation::bytes_of(const Envelope& envelope) const {
     if (std::holds_alternative<CloudPoints>(envelope.message))
         return bytes + kPointBytes * points_from(static_cast<std::size_t>(envelope.from.rank),
                                                  static_cast<std::size_t>(envelope.to.rank));
-    if (const auto* traced = std::get_if<TracedHoles>(&envelope.message))
+    if (const auto* traced = std::get_if<TracedPixelResults>(&envelope.message))
         return bytes + kTracedBytes * traced->count;
     if (const auto* part = std::get_if<CloudPart>(&envelope.message))
         return bytes + costs_.packed_bytes * static_cast<double>(part->area.pixels());
@@ -224,8 +224,8 @@ void WalkSimulation::tell_tracer(std::size_t rank, Message message) {
             check(rank);
         else
             gather(rank);
-    } else if (auto* holes = std::get_if<GiveHoles>(&message)) {
-        if (!holes->places.empty()) trace(rank, std::move(*holes));
+    } else if (auto* uncached = std::get_if<GiveUncachedPixels>(&message)) {
+        if (!uncached->places.empty()) trace(rank, std::move(*uncached));
     }
 }
 
@@ -259,22 +259,22 @@ void WalkSimulation::check(std::size_t rank) {
         for (const std::size_t i : owners_beside(parts, rank, walk_.width, walk_.height))
             post(rank, worker_of(i), CloudUsed{frame, {}});
         const double varied = std::uniform_real_distribution<double>(0.5, 1.5)(random_);
-        CloudHoles holes{frame, 0, {}};
-        holes.places.resize(
-            static_cast<std::size_t>(varied * costs_.holes * pixels_of(rank) + 0.5));
-        const auto count = static_cast<double>(holes.places.size());
-        most_holes_ = std::max(most_holes_, count);
-        all_holes_ += count;
-        post(rank, worker_of(rank), std::move(holes));
+        UncachedPixels uncached{frame, 0, {}};
+        uncached.places.resize(
+            static_cast<std::size_t>(varied * costs_.uncached * pixels_of(rank) + 0.5));
+        const auto count = static_cast<double>(uncached.places.size());
+        most_uncached_ = std::max(most_uncached_, count);
+        all_uncached_ += count;
+        post(rank, worker_of(rank), std::move(uncached));
     });
 }
 
-void WalkSimulation::trace(std::size_t rank, GiveHoles holes) {
-    const auto count = static_cast<std::uint32_t>(holes.places.size());
+void WalkSimulation::trace(std::size_t rank, GiveUncachedPixels uncached) {
+    const auto count = static_cast<std::uint32_t>(uncached.places.size());
     use_thread(rank, costs_.trace * count,
-               [this, rank, count, owner = holes.owner, frame = holes.frame, first = holes.first] {
-                   post(rank, worker_of(owner), TracedHoles{frame, first, count, {}});
-                   post(rank, {0, Role::master}, AskHoles{1});
+               [this, rank, count, owner = uncached.owner, frame = uncached.frame, first = uncached.first] {
+                   post(rank, worker_of(owner), TracedPixelResults{frame, first, count, {}});
+                   post(rank, {0, Role::master}, AskUncachedPixels{1});
                });
 }
 

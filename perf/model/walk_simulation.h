@@ -21,7 +21,7 @@ struct WalkCosts {
     double encode = 0, decode = 0;  ///< a pixel of a part that goes to rank 0
     double packed_bytes = 8;        ///< of a part, a pixel
     double points = 1;              ///< a pixel
-    double holes = 0.03;            ///< share of the pixels that no point answers
+    double uncached = 0.03;            ///< share of the pixels that no point answers
     double shift = 0.01;            ///< by which points move in a frame, as a share of the width
 };
 
@@ -44,11 +44,11 @@ struct WalkPrediction {
     double gathered = 0;          ///< then until the frame is there
     double master_busy = 0;       ///< share of the time that rank 0's messages took a core
     double bytes_a_frame = 0;     ///< between ranks
-    double holes_of_fullest = 0;  ///< most holes of one part, beside the mean
+    double uncached_of_fullest = 0;  ///< most uncached pixels of one part, beside the mean
 };
 
 /// Each rank's threads have a core each, and so has the loop that serves its messages. Work is
-/// spread evenly over a part; its holes vary by half.
+/// spread evenly over a part; its uncached pixels vary by half.
 class WalkSimulation {
   public:
     WalkSimulation(const WalkCosts& costs, const Machine& machine, const SimulatedWalk& walk);
@@ -92,7 +92,7 @@ class WalkSimulation {
     // Steps of a frame.
     void project(std::size_t rank);
     void check(std::size_t rank);
-    void trace(std::size_t rank, GiveHoles holes);
+    void trace(std::size_t rank, GiveUncachedPixels uncached);
     void gather(std::size_t rank);
     [[nodiscard]] double pixels_of(std::size_t owner) const;
     [[nodiscard]] double points_from(std::size_t owner, std::size_t to) const;
@@ -110,7 +110,7 @@ class WalkSimulation {
     double now_ = 0;
     int frames_done_ = 0;
     double ordered_ = 0, last_projected_ = 0, last_checked_ = 0, last_traced_ = 0;
-    double most_holes_ = 0, all_holes_ = 0;
+    double most_uncached_ = 0, all_uncached_ = 0;
     WalkPrediction sums_;
     double measured_from_ = 0, handled_before_ = 0;
 };

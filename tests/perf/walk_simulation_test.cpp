@@ -10,7 +10,7 @@ namespace {
 Machine free_messages() {
     Machine machine;
     machine.latency = machine.overhead = machine.byte_work = machine.gap = machine.byte_gap = 0;
-    machine.step = machine.oversleep = machine.wake = machine.look = 0;
+    machine.step = machine.oversleep = machine.wake = machine.probe = 0;
     machine.sleeps = false;
     return machine;
 }
@@ -24,13 +24,13 @@ WalkCosts some_costs() {
     costs.encode = 40e-9;
     costs.decode = 20e-9;
     costs.points = 1.5;
-    costs.holes = 0;
+    costs.uncached = 0;
     return costs;
 }
 
 constexpr double kPixels = 640.0 * 480;
 
-/// Of a frame without holes, but for what rank 0's program does alone.
+/// Of a frame without uncached pixels, but for what rank 0's program does alone.
 double spread_seconds(const WalkCosts& c) {
     return kPixels * (c.check + c.encode + c.points * (c.project + c.keep));
 }
@@ -69,13 +69,13 @@ TEST_CASE("walk model: no more ranks than there are projectors share the points"
 
 TEST_CASE("walk model: holes are traced by all ranks, whichever part they lie in") {
     WalkCosts costs = some_costs();
-    costs.holes = 0.05;
+    costs.uncached = 0.05;
     const double without = predicted(some_costs(), free_messages(), 4, 2).seconds;
     const WalkPrediction p = predicted(costs, free_messages(), 4, 2);
-    const double tracing = costs.trace * costs.holes * kPixels / 8;
-    CHECK(p.seconds - without > 0.7 * tracing);  // a frame's holes vary
+    const double tracing = costs.trace * costs.uncached * kPixels / 8;
+    CHECK(p.seconds - without > 0.7 * tracing);  // a frame's uncached pixels vary
     CHECK(p.seconds - without < 1.4 * tracing);
-    CHECK(p.holes_of_fullest > 1);
+    CHECK(p.uncached_of_fullest > 1);
 }
 
 TEST_CASE("walk model: what messages cost is added") {
@@ -84,7 +84,7 @@ TEST_CASE("walk model: what messages cost is added") {
     const WalkPrediction fast = predicted(costs, machine, 4, 1);
     CHECK(fast.master_busy == 0);
     machine.latency = 1e-3;
-    // Order, points, used points and holes, their dealing out, the part: at least three in a row.
+    // Order, points, used points and uncached pixels, their dealing out, the part: at least three in a row.
     CHECK(predicted(costs, machine, 4, 1).seconds > fast.seconds + 3e-3);
     machine.latency = 0;
     machine.byte_work = 1e-8;

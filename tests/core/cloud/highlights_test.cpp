@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;

@@ -29,9 +29,9 @@ struct Wall {
     ReuseRules rules;
 
     /// What the ray through (x, y) [pixels] sees of a surface `distance` away.
-    [[nodiscard]] PixelSights sights(double x, double y, std::uint32_t surface,
+    [[nodiscard]] PixelVisibility visibility(double x, double y, std::uint32_t surface,
                                      double distance = 4) const {
-        PixelSights s;
+        PixelVisibility s;
         const auto ray = camera.ray(x / kSide, y / kSide);
         s.ray = true;
         s.direction = ray->direction;
@@ -46,7 +46,7 @@ struct Wall {
 
     void add(double x, double y, std::uint32_t surface, float light, double distance = 4) {
         const PixelPoints left =
-            points_of({sights(x, y, surface, distance), Rgb::grey(light), {}, 0}, 0.05);
+            points_of({visibility(x, y, surface, distance), Rgb::grey(light), {}, 0}, 0.05);
         points.insert(points.end(), left.points.begin(), left.points.begin() + left.count);
     }
 
@@ -63,7 +63,7 @@ TEST_CASE("cloud: a point of the pixel's own surface and place answers it") {
     Wall wall;
     wall.add(5.4, 5.6, 1, 3);
     const PointFinder finder = wall.project();
-    const PixelAnswer answer = finder.checked({5, 5}, wall.sights(5.5, 5.5, 1));
+    const PixelAnswer answer = finder.checked({5, 5}, wall.visibility(5.5, 5.5, 1));
     REQUIRE(answer.found());
     CHECK(answer.radiance.g == 3);
     CHECK(finder.distance(answer) == doctest::Approx(4));
@@ -77,16 +77,16 @@ TEST_CASE("reuse: pixels checked together get the answers that each gets alone")
         wall.add(kSide * random.next(), kSide * random.next(), 1 + (i % 3 == 0), 1.0f);
     const PointFinder finder = wall.project();
     std::vector<PixelPlace> pixels;
-    std::vector<PixelSights> sights;
+    std::vector<PixelVisibility> visibility;
     for (int i = 0; i < 100; ++i) {
         pixels.push_back({i % kSide, i / kSide});
-        sights.push_back(wall.sights(pixels.back().x + 0.5, pixels.back().y + 0.5, 1));
+        visibility.push_back(wall.visibility(pixels.back().x + 0.5, pixels.back().y + 0.5, 1));
     }
     std::vector<PixelAnswer> answers(pixels.size());
-    finder.checked(pixels, sights, answers);
+    finder.checked(pixels, visibility, answers);
     std::size_t found = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const PixelAnswer one = finder.checked(pixels[i], sights[i]);
+        const PixelAnswer one = finder.checked(pixels[i], visibility[i]);
         CHECK(answers[i].cause == one.cause);
         CHECK(answers[i].ahead == one.ahead);
         CHECK(answers[i].apart == one.apart);
@@ -100,9 +100,9 @@ TEST_CASE("cloud: no point of another surface, or of another depth, shows throug
     Wall wall;
     wall.add(5.5, 5.5, 1, 3);
     const PointFinder finder = wall.project();
-    CHECK(finder.checked({5, 5}, wall.sights(5.5, 5.5, 2)).cause == HoleCause::hidden);
-    CHECK(finder.checked({5, 5}, wall.sights(5.5, 5.5, 1, 3)).cause == HoleCause::hidden);
-    CHECK(finder.checked({9, 9}, wall.sights(9.5, 9.5, 1)).cause == HoleCause::uncovered);
+    CHECK(finder.checked({5, 5}, wall.visibility(5.5, 5.5, 2)).cause == TraceCause::hidden);
+    CHECK(finder.checked({5, 5}, wall.visibility(5.5, 5.5, 1, 3)).cause == TraceCause::hidden);
+    CHECK(finder.checked({9, 9}, wall.visibility(9.5, 9.5, 1)).cause == TraceCause::uncovered);
 }
 
 TEST_CASE("cloud: a pixel between points is answered where these agree, and traced where not") {
@@ -115,12 +115,12 @@ TEST_CASE("cloud: a pixel between points is answered where these agree, and trac
                 wall.add(x + 0.5, y + 0.5, 1, edge && x > 5 ? 2.0f : 1.0f);
             }
         }
-        const PixelSights sights = wall.sights(5.5, 5.5, 1);
+        const PixelVisibility visibility = wall.visibility(5.5, 5.5, 1);
         wall.rules.near = 0.7f;
-        CHECK(wall.project().checked({5, 5}, sights).cause ==
-              (edge ? HoleCause::uneven : HoleCause::none));
+        CHECK(wall.project().checked({5, 5}, visibility).cause ==
+              (edge ? TraceCause::uneven : TraceCause::none));
         wall.rules.look_back = false;
-        CHECK(wall.project().checked({5, 5}, sights).cause == HoleCause::uncovered);
+        CHECK(wall.project().checked({5, 5}, visibility).cause == TraceCause::uncovered);
     }
 }
 
@@ -133,7 +133,7 @@ TEST_CASE(
         wall.points.clear();
         for (const double x : {-1.0, 0.0, 1.0}) wall.add(5.5 + x, 5.5 + distance, 1, 1);
         wall.points.back().radiance = Rgb::grey(light);
-        return wall.project().checked({5, 5}, wall.sights(5.5, 5.5, 1)).found();
+        return wall.project().checked({5, 5}, wall.visibility(5.5, 5.5, 1)).found();
     };
     CHECK(answered(1.4, 1));
     CHECK(answered(1.1, 0.7f));
@@ -148,7 +148,7 @@ TEST_CASE("cloud: between points that lie around a pixel it shows what lies betw
         wall.points.clear();
         wall.add(5.5 - left, 5.5, 1, 1);
         wall.add(5.5 + right, 5.5, 1, 2);
-        const PixelAnswer answer = wall.project().checked({5, 5}, wall.sights(5.5, 5.5, 1));
+        const PixelAnswer answer = wall.project().checked({5, 5}, wall.visibility(5.5, 5.5, 1));
         REQUIRE(answer.found());
         return static_cast<double>(answer.radiance.g);
     };
@@ -162,12 +162,12 @@ TEST_CASE("cloud: a reflection that brings next to nothing may be of anything") 
     for (const float light : {0.04f, 0.2f}) {
         CAPTURE(light);
         Wall wall;
-        TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(1 + light), Rgb::grey(light), 4};
-        pixel.sights.mirrored = pixel.sights.ahead;
-        pixel.sights.mirrored.kind = PointKind::mirrored;
+        TracedPixel pixel{wall.visibility(8.5, 8.5, 1), Rgb::grey(1 + light), Rgb::grey(light), 4};
+        pixel.visibility.mirrored = pixel.visibility.ahead;
+        pixel.visibility.mirrored.kind = PointKind::mirrored;
         const PixelPoints left = points_of(pixel, 0.05);
         wall.points.assign(left.points.begin(), left.points.end());
-        PixelSights moved = pixel.sights;
+        PixelVisibility moved = pixel.visibility;
         moved.mirrored.surface = 78;
         CHECK(wall.project().checked({8, 8}, moved).found() == (light < 0.05f));
         moved.ahead.surface = 78;  // what lies ahead is never faint
@@ -179,7 +179,7 @@ TEST_CASE("cloud: a point on the pixel itself answers it wherever its ray goes t
     Wall wall;
     wall.add(5.05, 5.05, 1, 3);
     wall.add(6.1, 5.95, 1, 1);  // nearer to the ray, but of the pixel beside it
-    const PixelAnswer answer = wall.project().checked({5, 5}, wall.sights(5.95, 5.95, 1));
+    const PixelAnswer answer = wall.project().checked({5, 5}, wall.visibility(5.95, 5.95, 1));
     REQUIRE(answer.found());
     CHECK(answer.ahead == 0);
 }
@@ -187,32 +187,32 @@ TEST_CASE("cloud: a point on the pixel itself answers it wherever its ray goes t
 TEST_CASE(
     "cloud: a view-dependent point holds until the view has turned as far as its slope allows") {
     Wall wall;
-    TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(1), {}, 4};
-    pixel.sights.ahead.slope = 2;  // 5 % of the colour in 0.025 rad
+    TracedPixel pixel{wall.visibility(8.5, 8.5, 1), Rgb::grey(1), {}, 4};
+    pixel.visibility.ahead.slope = 2;  // 5 % of the colour in 0.025 rad
     const PixelPoints left = points_of(pixel, 0.05);
     REQUIRE(left.count == 1);
     const CloudPoint& point = left.points[0];
-    CHECK(static_cast<double>(point.turn) == doctest::Approx(0.025));
-    const Vec3 d = pixel.sights.direction, side = perpendicular(d);
+    CHECK(static_cast<double>(point.max_view_angle) == doctest::Approx(0.025));
+    const Vec3 d = pixel.visibility.direction, side = perpendicular(d);
     CHECK(holds_from(point, normalize(d + side * 0.024), 1));
     CHECK(!holds_from(point, normalize(d + side * 0.026), 1));
     CHECK(!holds_from(point, normalize(d + side * 0.024), 0.5));
     wall.points.push_back(point);
-    PixelSights turned = pixel.sights;
+    PixelVisibility turned = pixel.visibility;
     turned.direction = normalize(d + side * 0.03);
-    CHECK(wall.project().checked({8, 8}, turned).cause == HoleCause::turned);
-    CHECK(wall.project().checked({8, 8}, pixel.sights).found());
+    CHECK(wall.project().checked({8, 8}, turned).cause == TraceCause::turned);
+    CHECK(wall.project().checked({8, 8}, pixel.visibility).found());
 }
 
 TEST_CASE(
     "cloud: a pixel with a reflection is the sum of two points, and lacks both if it lacks one") {
     Wall wall;
-    TracedPixel pixel{wall.sights(8.5, 8.5, 1), Rgb::grey(3), Rgb::grey(1), 4};
-    pixel.sights.mirrored = pixel.sights.ahead;
-    pixel.sights.mirrored.kind = PointKind::mirrored;
-    pixel.sights.mirrored.surface = 77;
-    pixel.sights.mirrored.distance = 9;
-    pixel.sights.mirrored.position = pixel.sights.direction * 9;
+    TracedPixel pixel{wall.visibility(8.5, 8.5, 1), Rgb::grey(3), Rgb::grey(1), 4};
+    pixel.visibility.mirrored = pixel.visibility.ahead;
+    pixel.visibility.mirrored.kind = PointKind::mirrored;
+    pixel.visibility.mirrored.surface = 77;
+    pixel.visibility.mirrored.distance = 9;
+    pixel.visibility.mirrored.position = pixel.visibility.direction * 9;
     PixelPoints left = points_of(pixel, 0.05);
     REQUIRE(left.count == 2);
     CHECK(left.points[0].radiance.g == 2);
@@ -221,23 +221,23 @@ TEST_CASE(
     wall.points.assign(left.points.begin(), left.points.end());
     {
         const PointFinder finder = wall.project();
-        const PixelAnswer answer = finder.checked({8, 8}, pixel.sights);
+        const PixelAnswer answer = finder.checked({8, 8}, pixel.visibility);
         REQUIRE(answer.found());
         CHECK(answer.radiance.g == 3);
         CHECK(finder.distance(answer) == doctest::Approx(4));
         CHECK(finder.unchecked({8, 8}).found());
-        PixelSights moved = pixel.sights;
+        PixelVisibility moved = pixel.visibility;
         moved.mirrored.surface = 78;  // something else is in the mirror
-        CHECK(finder.checked({8, 8}, moved).cause == HoleCause::hidden);
+        CHECK(finder.checked({8, 8}, moved).cause == TraceCause::hidden);
     }
     {
         wall.points[1].radiance = Rgb::grey(5);  // it shows the reflection more than the surface
         const PointFinder finder = wall.project();
-        CHECK(finder.distance(finder.checked({8, 8}, pixel.sights)) == doctest::Approx(9));
+        CHECK(finder.distance(finder.checked({8, 8}, pixel.visibility)) == doctest::Approx(9));
     }
-    pixel.sights.mirrored.slope = kUnsteady;
+    pixel.visibility.mirrored.slope = kNeverReuse;
     CHECK(points_of(pixel, 0.05).count == 0);
-    CHECK(wall.project().checked({8, 8}, pixel.sights).cause == HoleCause::unsteady);
+    CHECK(wall.project().checked({8, 8}, pixel.visibility).cause == TraceCause::never_reused);
 }
 
 TEST_CASE("cloud: without rays, points that show through a gap or stand alone are dropped") {
@@ -246,21 +246,21 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
         for (int x = 0; x < kSide; ++x)
             wall.add(x + 0.5, y + 0.5, 1, 1, x == 5 && y == 5 ? 8 : x == 9 && y == 9 ? 2 : 4);
     }
-    CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);  // behind the wall
-    CHECK(wall.project().unchecked({9, 9}).cause == HoleCause::hidden);  // alone before it
+    CHECK(wall.project().unchecked({5, 5}).cause == TraceCause::hidden);  // behind the wall
+    CHECK(wall.project().unchecked({9, 9}).cause == TraceCause::hidden);  // alone before it
     CHECK(wall.project().unchecked({12, 12}).found());
-    const auto glimpsed = [&](const PixelPlace& pixel) {
+    const auto unverified = [&](const PixelPlace& pixel) {
         const PointFinder& finder = wall.project();
         PixelAnswer found;
-        finder.glimpsed(finder.square_of(pixel), {&pixel, 1}, {&found, 1});
+        finder.unverified(finder.square_of(pixel), {&pixel, 1}, {&found, 1});
         return found;
     };
-    CHECK(glimpsed({5, 5}).cause == HoleCause::hidden);
-    CHECK(glimpsed({9, 9}).found());
-    CHECK(glimpsed({12, 12}).radiance.g == 1);
+    CHECK(unverified({5, 5}).cause == TraceCause::hidden);
+    CHECK(unverified({9, 9}).found());
+    CHECK(unverified({12, 12}).radiance.g == 1);
     wall.rules.drop_lonely = false;
     CHECK(wall.project().unchecked({9, 9}).found());
-    CHECK(wall.project().unchecked({5, 5}).cause == HoleCause::hidden);
+    CHECK(wall.project().unchecked({5, 5}).cause == TraceCause::hidden);
     wall.rules.drop_hidden = false;
     CHECK(wall.project().unchecked({5, 5}).found());
     CHECK(wall.project().is_edge({4, 5}));
@@ -270,7 +270,7 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
         wall.points[static_cast<std::size_t>(12 * kSide + x)].kind = PointKind::gone;
     wall.add(13.1, 12.5, 1, 3);
     wall.grids.ahead.clear(0, wall.grids.ahead.size());
-    CHECK(glimpsed({12, 12}).radiance.g == 3);  // the nearest one around
+    CHECK(unverified({12, 12}).radiance.g == 3);  // the nearest one around
 }
 
 TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide something is not") {
@@ -285,7 +285,7 @@ TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide 
         const PixelPlace pixel{5, 5};
         PixelAnswer found;
         const PointFinder& finder = wall.project();
-        finder.steady(finder.square_of(pixel), {&pixel, 1}, {&found, 1});
+        finder.temporal(finder.square_of(pixel), {&pixel, 1}, {&found, 1});
         return found;
     };
     REQUIRE(answer().found());
@@ -305,7 +305,7 @@ TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide 
         CHECK(!answer().found());
     }
     SUBCASE("a colour seen from elsewhere") {
-        point(5, 5).turn = 0.01f;
+        point(5, 5).max_view_angle = 0.01f;
         CHECK(answer().found());
         point(5, 5).direction = encode_direction({1, 0, 0});
         CHECK(!answer().found());

@@ -102,7 +102,7 @@ TEST_CASE(
     const View view;
     (void)lead.order(view, nullptr, "");
     (void)lead.take(frame_of(0));
-    CHECK(lead.resting() == nullptr);
+    CHECK(lead.progressive() == nullptr);
     const CloudOrder ask = lead.ask_origins("");
     CHECK(ask.rests);
     CHECK(ask.rest_follows);
@@ -112,8 +112,8 @@ TEST_CASE(
         part.origins.assign(part.area.pixels(), {PixelOrigin::Kind::filled, 0, 0});
     SUBCASE("it is") {
         lead.take_origins(told);
-        REQUIRE(lead.resting() != nullptr);
-        CHECK(lead.resting()->open_pixels() == std::size_t{kSide} * kSide);
+        REQUIRE(lead.progressive() != nullptr);
+        CHECK(lead.progressive()->open_pixels() == std::size_t{kSide} * kSide);
         const CloudOrder order = lead.order(view, nullptr, "");
         CHECK(order.rests);
         CHECK(order.leaves);
@@ -127,7 +127,7 @@ TEST_CASE(
 
 TEST_CASE("a walk's lead: pixels that are traced beside the frames come in the order of the work") {
     CloudLead lead(kSide, kSide, {}, 0);
-    const RestingWork work{3, {{kSide - 1, 0}, {0, 0}, {kSide - 2, 1}}};
+    const ProgressiveWork work{3, {{kSide - 1, 0}, {0, 0}, {kSide - 2, 1}}};
     const CloudOrder order = lead.trace(work, "light");
     CHECK(order.sample == 3);
     CHECK_FALSE(order.leaves);

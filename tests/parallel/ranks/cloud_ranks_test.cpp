@@ -107,7 +107,7 @@ class DelayingTransport final : public Transport {
 
 struct Room {
     TestScene scene{kRoom};
-    SceneSights sights{scene.tracer};
+    VisibilityProbe visibility{scene.tracer};
     StopFlag stop;
 };
 
@@ -116,12 +116,12 @@ class RoomRays final : public WalkRays {
     RoomRays(Room& room, const View& view, WorkerContexts& contexts)
         : camera_(view),
           contexts_(contexts),
-          caster_(room.scene.tracer, room.sights, camera_, frame_options(), contexts, room.stop) {}
+          caster_(room.scene.tracer, room.visibility, camera_, frame_options(), contexts, room.stop) {}
     [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
     [[nodiscard]] const Camera& camera() const override { return camera_; }
-    void look(std::span<const PixelPlace> places, std::span<PixelSights> sights,
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
               int worker) override {
-        caster_.look(places, sights, worker);
+        caster_.probe(places, visibility, worker);
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker) override {
@@ -156,7 +156,7 @@ std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
     std::vector<Drawn> result;
     for (const View& view : views) {
         RoomRays rays(room, view, contexts);
-        const auto look = [&](auto places, auto seen, int w) { rays.look(places, seen, w); };
+        const auto probe = [&](auto places, auto seen, int w) { rays.probe(places, seen, w); };
         const auto trace = [&](auto places, auto pixels, int sample, int w) {
             rays.trace(places, pixels, sample, w);
         };
@@ -283,7 +283,7 @@ void check_same(const std::vector<Drawn>& alone, const std::vector<Drawn>& toget
         CHECK(together[i].values == alone[i].values);
         const CloudReport &a = alone[i].report, &b = together[i].report;
         CHECK(b.reused == a.reused);
-        CHECK(b.holes == a.holes);
+        CHECK(b.uncached == a.uncached);
         CHECK(b.points == a.points);
         CHECK(b.tightness == a.tightness);
         CHECK(quantile(b.audit_errors, 0.5) == quantile(a.audit_errors, 0.5));
@@ -356,7 +356,7 @@ TEST_CASE("a walk by ranks with a budget misses no pixel") {
     for (const Drawn& drawn : draw_together(room, views, options, {Variant::hybrid, 3, 2}, 7)) {
         const CloudReport& report = drawn.report;
         std::size_t traced = 0;
-        for (const std::size_t count : report.holes) traced += count;
+        for (const std::size_t count : report.uncached) traced += count;
         CHECK(report.pixels == drawn.values.size());
         CHECK(report.reused + report.filled + traced == report.pixels);
         CHECK(traced > 0);
@@ -374,7 +374,7 @@ TEST_CASE("a walk by ranks whose view stands still becomes ever better, as by on
     options.refine = 0.4;
     options.audit = 0.1;
     const std::vector<Drawn> alone = draw_alone(room, views, options);
-    CHECK(alone[6].report.holes[static_cast<std::size_t>(HoleCause::refined)] > 0);
+    CHECK(alone[6].report.uncached[static_cast<std::size_t>(TraceCause::refined)] > 0);
     check_same(alone, draw_together(room, views, options, {Variant::hybrid, 3}, 8));
     check_same(alone, draw_together(room, views, options, {Variant::ranks, 5}, 9));
 }

@@ -23,7 +23,7 @@ struct WalkOptions {
     int workers = 3, slots = 1, ahead = 1;
     std::size_t owners = 3;
     std::uint64_t frames = 3;
-    int most_holes = 200, most_twins = 5;
+    int most_uncached = 200, most_noise_pairs = 5;
 };
 
 /// A walk through the roles in one thread: all that ranks do takes random times.
@@ -63,7 +63,7 @@ class Walk {
   private:
     struct Rank {
         CloudWorkerRole role;
-        std::deque<GiveHoles> holes;
+        std::deque<GiveUncachedPixels> uncached;
         int free_slots = 1;
         bool points_there = false;
     };
@@ -123,48 +123,48 @@ class Walk {
                          CloudPoints{order->rules.frame, {}});
             }
         } else if (const auto* stage = std::get_if<CloudStage>(&message)) {
-            if (stage->kind == CloudStage::Kind::points) return find_holes(rank, stage->frame);
+            if (stage->kind == CloudStage::Kind::points) return find_uncached(rank, stage->frame);
             ++pixel_stages;
             post(rank, schedule_.uniform(1), {rank, Role::worker}, part_of(stage->frame));
-        } else if (auto* holes = std::get_if<GiveHoles>(&message)) {
-            if (holes->places.empty())
+        } else if (auto* uncached = std::get_if<GiveUncachedPixels>(&message)) {
+            if (uncached->places.empty())
                 ++ends;
             else
-                ranks_[index].holes.push_back(std::move(*holes));
+                ranks_[index].uncached.push_back(std::move(*uncached));
             trace(rank);
         }
     }
 
-    void find_holes(int rank, std::uint64_t frame) {
+    void find_uncached(int rank, std::uint64_t frame) {
         const auto index = static_cast<std::size_t>(rank);
         const double answered = schedule_.uniform(1);
         const SubImages parts({0, 0, kWidth, kHeight}, options_.owners);
         for (const std::size_t i : owners_beside(parts, index, kWidth, kHeight))
             post(rank, answered, {static_cast<int>(i), Role::worker}, CloudUsed{frame, {}});
-        CloudHoles holes{frame, 0, {}};
-        const int count = static_cast<int>(schedule_.uniform(options_.most_holes));
-        holes.twins =
-            static_cast<std::uint32_t>(schedule_.uniform(std::min(count, options_.most_twins)));
-        holes.places.resize(static_cast<std::size_t>(count));
-        expected += holes.places.size();
-        post(rank, answered, {rank, Role::worker}, std::move(holes));
+        UncachedPixels uncached{frame, 0, {}};
+        const int count = static_cast<int>(schedule_.uniform(options_.most_uncached));
+        uncached.noise_pairs =
+            static_cast<std::uint32_t>(schedule_.uniform(std::min(count, options_.most_noise_pairs)));
+        uncached.places.resize(static_cast<std::size_t>(count));
+        expected += uncached.places.size();
+        post(rank, answered, {rank, Role::worker}, std::move(uncached));
     }
 
     void trace(int number) {
         Rank& rank = ranks_[static_cast<std::size_t>(number)];
-        while (rank.free_slots > 0 && !rank.holes.empty()) {
+        while (rank.free_slots > 0 && !rank.uncached.empty()) {
             --rank.free_slots;
-            const GiveHoles holes = std::move(rank.holes.front());
-            rank.holes.pop_front();
-            const auto count = static_cast<std::uint32_t>(holes.places.size());
+            const GiveUncachedPixels uncached = std::move(rank.uncached.front());
+            rank.uncached.pop_front();
+            const auto count = static_cast<std::uint32_t>(uncached.places.size());
             for (std::size_t i = 0; i < count; ++i)
-                ++traced[{holes.owner, holes.frame, holes.first + i}];
-            schedule_.after(schedule_.uniform(1), [this, number, holes, count] {
+                ++traced[{uncached.owner, uncached.frame, uncached.first + i}];
+            schedule_.after(schedule_.uniform(1), [this, number, uncached, count] {
                 Outbox out;
                 out.push_back({{number, Role::tracer},
-                               {static_cast<int>(holes.owner), Role::worker},
-                               TracedHoles{holes.frame, holes.first, count, {}}});
-                out.push_back({{number, Role::tracer}, {0, Role::master}, AskHoles{1}});
+                               {static_cast<int>(uncached.owner), Role::worker},
+                               TracedPixelResults{uncached.frame, uncached.first, count, {}}});
+                out.push_back({{number, Role::tracer}, {0, Role::master}, AskUncachedPixels{1}});
                 send(out);
                 ++ranks_[static_cast<std::size_t>(number)].free_slots;
                 trace(number);
@@ -187,7 +187,7 @@ TEST_CASE("a walk over ranks: each hole is traced once, and each frame ends, in 
         options.workers = 1 + static_cast<int>(seed % 7);
         options.owners = 1 + seed % static_cast<std::uint64_t>(options.workers);
         options.slots = 1 + static_cast<int>(seed % 3);
-        options.most_holes = seed % 5 == 0 ? 3 : 300;
+        options.most_uncached = seed % 5 == 0 ? 3 : 300;
         const Walk walk(options, seed);
         REQUIRE(walk.finished == options.frames);
         CHECK(walk.traced.size() == walk.expected);
@@ -214,19 +214,19 @@ TEST_CASE("a walk over ranks: what nobody asked for is refused") {
     };
     Outbox out;
     CloudWorkerRole role = worker(out);
-    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 0, 1, {}}), out), InputError);
+    CHECK_THROWS_AS(role.handle(from(TracedPixelResults{0, 0, 1, {}}), out), InputError);
     role = worker(out);
     role.handle(from(CloudPoints{0, {}}), out);
     CHECK_THROWS_AS(role.handle(from(CloudPoints{0, {}}), out), InputError);
     role = worker(out);
-    role.handle({{1, Role::tracer}, {1, Role::worker}, CloudHoles{0, 0, {{1, 1}, {2, 1}}}}, out);
-    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 1, 2, {}}), out), InputError);
-    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 0, 1, {{}, {}}}), out), InputError);
-    role.handle(from(TracedHoles{0, 1, 1, {}}), out);
-    CHECK_THROWS_AS(role.handle(from(TracedHoles{0, 1, 1, {}}), out), InputError);
+    role.handle({{1, Role::tracer}, {1, Role::worker}, UncachedPixels{0, 0, {{1, 1}, {2, 1}}}}, out);
+    CHECK_THROWS_AS(role.handle(from(TracedPixelResults{0, 1, 2, {}}), out), InputError);
+    CHECK_THROWS_AS(role.handle(from(TracedPixelResults{0, 0, 1, {{}, {}}}), out), InputError);
+    role.handle(from(TracedPixelResults{0, 1, 1, {}}), out);
+    CHECK_THROWS_AS(role.handle(from(TracedPixelResults{0, 1, 1, {}}), out), InputError);
     CloudMasterRole master({0, Role::master}, {1, 2}, 2, 2);
     CHECK_THROWS_AS(
-        master.handle({{1, Role::worker}, {0, Role::master}, CloudHoles{0, 0, {}}}, out),
+        master.handle({{1, Role::worker}, {0, Role::master}, UncachedPixels{0, 0, {}}}, out),
         InputError);
     CHECK_THROWS_AS(master.handle({{1, Role::worker}, {0, Role::master}, CloudPart{}}, out),
                     InputError);

@@ -42,13 +42,13 @@ std::vector<Message> some_messages() {
     std::vector<PixelValue> values(64);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = {{static_cast<float>(i), 1.0F / static_cast<float>(i + 1), -0.0F}, 1e10F};
-    const TracedHole one{values[1], {{some_point()}, 1}};
-    const TracedHole two{values[2], {{some_point(), some_point()}, 2}};
+    const TracedPixelResult one{values[1], {{some_point()}, 1}};
+    const TracedPixelResult two{values[2], {{some_point(), some_point()}, 2}};
     CloudPart part;
     part.frame = 3;
     part.area = work.block;
     part.pixels = "pixels";
-    part.report.holes[2] = 5;
+    part.report.uncached[2] = 5;
     part.report.audit_errors = {.5F, 1e-9F, 0};
     part.ages[25] = 77;
     part.origins = {{PixelOrigin::Kind::traced, 3, 0}, {PixelOrigin::Kind::reused, 0, 255}};
@@ -73,10 +73,10 @@ std::vector<Message> some_messages() {
                 640, 480, {3, false, .5, {25, 1000}}, "a view", .25, true, true, true, 2, {{1, 2}}},
             CloudPoints{3, {some_point(), {}}},
             CloudUsed{3, {{{1, 2}, {3, 4}}, {{5, 6}}}},
-            CloudHoles{3, 1, {{1, 2}, {1, 2}}},
-            AskHoles{2},
-            GiveHoles{3, 1, 7, true, false, {{1, 2}}},
-            TracedHoles{3, 7, 3, {{values[0], {}}, one, two}},
+            UncachedPixels{3, 1, {{1, 2}, {1, 2}}},
+            AskUncachedPixels{2},
+            GiveUncachedPixels{3, 1, 7, true, false, {{1, 2}}},
+            TracedPixelResults{3, 7, 3, {{values[0], {}}, one, two}},
             CloudStage{3, CloudStage::Kind::pixels},
             part,
             FinishedFrame{3, {part, part}}};

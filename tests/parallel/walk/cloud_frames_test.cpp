@@ -77,7 +77,7 @@ CloudOptions rotating() {
 
 struct Room {
     TestScene scene{kRoom};
-    SceneSights sights{scene.tracer};
+    VisibilityProbe visibility{scene.tracer};
     StopFlag stop;
     std::atomic<std::size_t> looked = 0;  ///< pixels that draw() has looked at
     std::vector<std::uint8_t> seen =      ///< for each pixel: not 0 if it is one of them
@@ -86,13 +86,13 @@ struct Room {
     CloudFrame draw(CloudFrames& frames, const View& view, Executor& executor) {
         WorkerContexts contexts(scene.tracer, scene.warnings, executor.concurrency());
         const Camera camera(view);
-        SceneCaster caster(scene.tracer, sights, camera, frame_options(), contexts, stop);
+        SceneCaster caster(scene.tracer, visibility, camera, frame_options(), contexts, stop);
         return frames.draw(camera,
                            {[&](auto places, auto sees, int w) {
                                 looked += places.size();
                                 for (const PixelPlace& place : places)
                                     seen[static_cast<std::size_t>(place.y * kWidth + place.x)] = 1;
-                                caster.look(places, sees, w);
+                                caster.probe(places, sees, w);
                             },
                             [&](auto places, auto out, int sample, int w) {
                                 caster.trace(places, out, sample, w);
@@ -104,7 +104,7 @@ struct Room {
     std::vector<TracedPixel> truth(const View& view) {
         WorkerContexts contexts(scene.tracer, scene.warnings, 1);
         const Camera camera(view);
-        SceneCaster caster(scene.tracer, sights, camera, frame_options(), contexts, stop);
+        SceneCaster caster(scene.tracer, visibility, camera, frame_options(), contexts, stop);
         std::vector<PixelPlace> places;
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) places.push_back({x, y});
@@ -124,7 +124,7 @@ std::size_t off_by_a_tenth(const std::vector<Rgb>& radiance, const std::vector<T
                            bool mirrored_only = false) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
-        if (mirrored_only && !truth[i].sights.mirrored.seen) continue;
+        if (mirrored_only && !truth[i].visibility.mirrored.seen) continue;
         const float is = brightness(radiance[i]), should = brightness(truth[i].radiance);
         if (std::abs(is - should) > 0.1f * should) ++off;
     }
@@ -152,7 +152,7 @@ TEST_CASE("cloud: the first frame is the picture, every pixel traced") {
             CHECK(first.distance[i] == picture.distance[j]);
         }
     }
-    CHECK(first.report.holes[static_cast<std::size_t>(HoleCause::uncovered)] ==
+    CHECK(first.report.uncached[static_cast<std::size_t>(TraceCause::uncovered)] ==
           first.report.pixels);
 }
 
@@ -280,14 +280,14 @@ TEST_CASE(
         const CloudFrame frame = room.draw(frames, view_at(0, 0, 1e-5 * i), *executor);
         const CloudReport& report = frame.report;
         std::size_t traced = 0;
-        for (std::size_t cause = 0; cause < kHoleCauses; ++cause)
-            if (static_cast<HoleCause>(cause) != HoleCause::audited) traced += report.holes[cause];
+        for (std::size_t cause = 0; cause < kTraceCauses; ++cause)
+            if (static_cast<TraceCause>(cause) != TraceCause::audited) traced += report.uncached[cause];
         REQUIRE(report.reused + report.filled + traced == report.pixels);
         if (i == 1) {
             for (std::size_t at = 0; at < frame.causes.size(); ++at) {
                 const PixelPlace place{static_cast<int>(at % kWidth),
                                        static_cast<int>(at / kWidth)};
-                const bool kept = frame.causes[at] == HoleCause::none;
+                const bool kept = frame.causes[at] == TraceCause::none;
                 if (kept || frame.distance[at] > 0) CHECK(grid_level(place) <= 1);
             }
         }
@@ -316,7 +316,7 @@ TEST_CASE("cloud: what a budget leaves out is filled from around, and traced in 
     CloudFrames frames(kWidth, kHeight, options);
     const View view = view_at(0, 0, 0);
     const CloudFrame first = room.draw(frames, view, *executor);
-    const std::size_t traced = first.report.holes[static_cast<std::size_t>(HoleCause::uncovered)];
+    const std::size_t traced = first.report.uncached[static_cast<std::size_t>(TraceCause::uncovered)];
     CHECK(traced > 0);
     CHECK(traced < first.report.pixels / 10);
     CHECK(first.report.filled == first.report.pixels - traced);
@@ -357,12 +357,12 @@ TEST_CASE("cloud: a view that stands still becomes the traced picture, then a sm
         const std::size_t now = wrong(frame);
         CHECK(now <= last);
         last = now;
-        CHECK(frame.report.holes[static_cast<std::size_t>(HoleCause::refined)] <=
+        CHECK(frame.report.uncached[static_cast<std::size_t>(TraceCause::refined)] <=
               truth.size() / 4 + 1);
     }
     CHECK(last == 0);
     const CloudFrame smoother = room.draw(frames, view, *executor);
-    CHECK(smoother.report.holes[static_cast<std::size_t>(HoleCause::refined)] > 100);
+    CHECK(smoother.report.uncached[static_cast<std::size_t>(TraceCause::refined)] > 100);
     CHECK(wrong(smoother) > 100);
     const CloudFrame on = room.draw(frames, view_of("forward", 5), *executor);  // and on it goes
     CHECK(on.report.reused > on.report.pixels * 8 / 10);

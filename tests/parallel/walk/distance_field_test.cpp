@@ -49,37 +49,37 @@ struct FieldCaster {
     /// @param aside  from the pixel's centre, to the right and up [pixels]
     [[nodiscard]] TracedPixel cast(const PixelPlace& place, double aside = 0) const {
         TracedPixel pixel;
-        PixelSights& sights = pixel.sights;
+        PixelVisibility& visibility = pixel.visibility;
         const double x = place.x + 0.5 + aside, y = place.y + 0.5 + aside;
-        sights.x = static_cast<float>(x);
-        sights.y = static_cast<float>(y);
+        visibility.x = static_cast<float>(x);
+        visibility.y = static_cast<float>(y);
         const auto ray = camera.ray(x / kWidth, y / kHeight);
-        sights.ray = true;
-        sights.direction = ray->direction;
-        sights.ahead.seen = true;
+        visibility.ray = true;
+        visibility.direction = ray->direction;
+        visibility.ahead.seen = true;
         double t = 0;
         for (int i = 0; i < 300; ++i) {
             const Field field = field_at(ray->origin + ray->direction * t);
             if (field.distance < 1e-5 * t) {
-                sights.ahead.surface = field.body;
+                visibility.ahead.surface = field.body;
                 break;
             }
             t += field.distance;
             if (t > 100) break;
         }
-        if (sights.ahead.surface == 0) t = kHuge;
-        sights.ahead.position = ray->origin + ray->direction * t;
-        sights.ahead.distance = pixel.distance = static_cast<float>(t);
-        pixel.radiance = sights.ahead.surface == 0
+        if (visibility.ahead.surface == 0) t = kHuge;
+        visibility.ahead.position = ray->origin + ray->direction * t;
+        visibility.ahead.distance = pixel.distance = static_cast<float>(t);
+        pixel.radiance = visibility.ahead.surface == 0
                              ? Rgb::grey(0.5f)
-                             : shade(sights.ahead.position, Body{sights.ahead.surface});
+                             : shade(visibility.ahead.position, Body{visibility.ahead.surface});
         return pixel;
     }
 
     CloudFrame draw(CloudFrames& frames, Executor& executor) const {
-        const auto look = [&](std::span<const PixelPlace> places, std::span<PixelSights> sights,
+        const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
                               int) {
-            for (std::size_t i = 0; i < places.size(); ++i) sights[i] = cast(places[i]).sights;
+            for (std::size_t i = 0; i < places.size(); ++i) visibility[i] = cast(places[i]).visibility;
         };
         const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                                int, int) {

@@ -28,7 +28,7 @@ View view(char type, double fore = 0, double aft = 0) {
 
 TEST_CASE("the check looks along the rays of the pixels, to the bit, in every kind of view") {
     TestScene room("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey bubble room 0 0 4 0 0 0 20\n");
-    const SceneSights sights(room.tracer);
+    const VisibilityProbe visibility(room.tracer);
     const StopFlag stop;
     WorkerContexts contexts(room.tracer, room.warnings, 1);
     FrameOptions options;
@@ -38,7 +38,7 @@ TEST_CASE("the check looks along the rays of the pixels, to the bit, in every ki
     for (int y = 0; y < options.height; ++y)
         for (int x = 0; x < options.width; ++x) places.push_back({x, y});
     // One memory for all: nothing of the view before may be left.
-    std::vector<PixelSights> seen(places.size());
+    std::vector<PixelVisibility> seen(places.size());
     long outside = 0;
     for (const View& v :
          {view('v'), view('h'), view('v', 0.5, 0.6), view('a'), view('l'), view('c'), view('s')}) {
@@ -49,8 +49,8 @@ TEST_CASE("the check looks along the rays of the pixels, to the bit, in every ki
             const Camera camera(v);
             const PixelRays rays(camera, nullptr, options.width, options.height, options.pixels,
                                  options.seed, options.step);
-            SceneCaster caster(room.tracer, sights, camera, options, contexts, stop);
-            caster.look(places, seen, 0);
+            SceneCaster caster(room.tracer, visibility, camera, options, contexts, stop);
+            caster.probe(places, seen, 0);
             for (std::size_t i = 0; i < places.size(); ++i) {
                 const PixelRay expected = rays(places[i].x, places[i].y);
                 REQUIRE(seen[i].ray == expected.ray.has_value());

@@ -35,19 +35,19 @@ struct PixelOrigin {
 };
 
 /// Pixels that are to be traced with the same sample number, the most needed first.
-struct RestingWork {
+struct ProgressiveWork {
     int sample = 0;
     std::vector<PixelPlace> places;
 };
 
-/// The picture of a resting view, and how good each of its pixels is.
-class RestingPicture {
+/// The picture of a progressive view, and how good each of its pixels is.
+class ProgressivePicture {
   public:
     /// Rays that a pixel at an edge gets in the end, unless told otherwise.
     static constexpr int kMostSamples = 8;
 
     /// @param samples  1 ... 255: rays that a pixel at an edge gets in the end
-    RestingPicture(int width, int height, int samples = kMostSamples)
+    ProgressivePicture(int width, int height, int samples = kMostSamples)
         : width_(width), height_(height), most_samples_(samples) {}
 
     /// A new picture to work on, row by row.
@@ -56,7 +56,7 @@ class RestingPicture {
     /// At most so many pixels: those filled from others, coarse grids first, guessed ones, then
     /// reused ones, oldest points first, then, one ray more a pixel each time, those that differ by
     /// more than a tenth from a neighbour. Nothing when the picture is as good as it gets.
-    [[nodiscard]] RestingWork next(std::size_t most) const;
+    [[nodiscard]] ProgressiveWork next(std::size_t most) const;
     /// Pixels that have not been traced.
     [[nodiscard]] std::size_t open_pixels() const;
     /// Pixels that show neither what was traced nor what points tell truthfully.
@@ -65,14 +65,14 @@ class RestingPicture {
     [[nodiscard]] std::vector<Rgb> picture() const;
 
     /// The first pixels of `work` were traced: the others were not.
-    void take(const RestingWork& work, std::span<const Rgb> traced);
+    void record(const ProgressiveWork& work, std::span<const Rgb> traced);
 
     [[nodiscard]] std::span<const Rgb> radiance() const { return radiance_; }
     [[nodiscard]] std::span<const PixelOrigin> origins() const { return origins_; }
 
   private:
-    [[nodiscard]] RestingWork open(std::size_t most) const;
-    [[nodiscard]] RestingWork steep(std::size_t most) const;
+    [[nodiscard]] ProgressiveWork open(std::size_t most) const;
+    [[nodiscard]] ProgressiveWork steep(std::size_t most) const;
     [[nodiscard]] bool is_steep(int x, int y) const;
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +

@@ -1,4 +1,4 @@
-#include "parallel/walk/resting_light.h"
+#include "parallel/walk/progressive_light.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +11,7 @@ constexpr std::size_t kMostPixels = 65536;
 
 }  // namespace
 
-void RestingLight::begin(std::span<const Rgb> radiance, std::span<const float> distance) {
+void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const float> distance) {
     before_.assign(radiance.begin(), radiance.end());
     distance_.assign(distance.begin(), distance.end());
     left_.assign(kGridLevels, 0);
@@ -27,13 +27,13 @@ void RestingLight::begin(std::span<const Rgb> radiance, std::span<const float> d
     chosen_ = {};
 }
 
-bool RestingLight::step(Trace trace) {
+bool ProgressiveLight::step(Trace trace) {
     if (chosen_.places.empty()) chosen_ = work_.next(kMostPixels);
     if (chosen_.places.empty()) return false;
-    const RestingWork work = std::move(chosen_);
+    const ProgressiveWork work = std::move(chosen_);
     chosen_ = {work.sample, {}};
     const std::vector<PixelValue> values = trace(work);
-    RestingWork finished{work.sample, {}};
+    ProgressiveWork finished{work.sample, {}};
     std::vector<Rgb> radiance;
     for (std::size_t i = 0; i < work.places.size(); ++i) {
         const PixelPlace& place = work.places[i];
@@ -47,12 +47,12 @@ bool RestingLight::step(Trace trace) {
         distance_[at(place.x, place.y)] = values[i].distance;
         --left_[static_cast<std::size_t>(grid_level(place))];
     }
-    work_.take(finished, radiance);
+    work_.record(finished, radiance);
     return true;
 }
 
 /// Spacing of the finest grid that is traced as a whole; 0: none is.
-int RestingLight::whole_grid() const {
+int ProgressiveLight::whole_grid() const {
     int spacing = 0;
     for (int level = 0; level < kGridLevels && left_[static_cast<std::size_t>(level)] == 0; ++level)
         spacing = 1 << (kGridLevels - 1 - level);
@@ -60,7 +60,7 @@ int RestingLight::whole_grid() const {
 }
 
 /// What the grid's pixels around have won, weighted as near as they are.
-Rgb RestingLight::difference(int x, int y, int spacing) const {
+Rgb ProgressiveLight::difference(int x, int y, int spacing) const {
     Rgb sum;
     float weights = 0;
     const int left = x - x % spacing, below = y - y % spacing;
@@ -76,7 +76,7 @@ Rgb RestingLight::difference(int x, int y, int spacing) const {
     return sum * (1 / weights);
 }
 
-std::vector<Rgb> RestingLight::picture() const {
+std::vector<Rgb> ProgressiveLight::picture() const {
     std::vector<Rgb> shown(work_.radiance().begin(), work_.radiance().end());
     const int spacing = whole_grid();
     if (spacing <= 1) return shown;
@@ -92,7 +92,7 @@ std::vector<Rgb> RestingLight::picture() const {
     return shown;
 }
 
-double RestingLight::share() const {
+double ProgressiveLight::share() const {
     std::size_t left = 0;
     for (const std::size_t count : left_) left += count;
     return before_.empty() ? 1

@@ -10,13 +10,13 @@
 namespace lightwalk {
 
 /// Of things whose colour holds for one ray only: nothing of them is reused.
-inline constexpr float kUnsteady = HUGE_VALF;
+inline constexpr float kNeverReuse = HUGE_VALF;
 /// Of things that change nobody knows how when the eye moves: curved mirrors, refraction. Eyes that
 /// only turn see them as they were.
-inline constexpr float kSharp = 100;
+inline constexpr float kMirrorLike = 100;
 
 /// One thing that a pixel's ray sees.
-struct Sight {
+struct PrimaryVisibility {
     bool seen = false;
     Vec3 position;              ///< on the ray, as far along it as the light has come; where there
                                 ///< is nothing, kHuge away [m]
@@ -25,32 +25,32 @@ struct Sight {
                                 ///< the same order the same number, of others another one
     PointKind kind = PointKind::plain;
     float slope = 0;  ///< relative change of its colour as the ray turns, at most [1/rad];
-                      ///< 0: it looks the same from everywhere; kUnsteady: who knows
+                      ///< 0: it looks the same from everywhere; kNeverReuse: who knows
 };
 
 /// What a pixel's ray sees: what lies ahead (a surface, or what shows through panes), and what the
 /// first surface mirrors. A mirror has nothing ahead.
-struct PixelSights {
+struct PixelVisibility {
     bool ray = false;    ///< false: outside the view's domain; the pixel is black
     Vec3 direction;      ///< of the ray, unit
     float x = 0, y = 0;  ///< where the ray goes through the picture [pixels from its lower left]
-    Sight ahead, mirrored;
+    PrimaryVisibility ahead, mirrored;
 };
 
 /// A pixel traced.
 struct TracedPixel {
-    PixelSights sights;
+    PixelVisibility visibility;
     Rgb radiance;        ///< of the whole pixel [W/(m² sr)]
-    Rgb mirrored;        ///< the part of it that belongs to sights.mirrored
+    Rgb mirrored;        ///< the part of it that belongs to visibility.mirrored
     float distance = 0;  ///< along the ray [m]
 };
 
 /// The caster of rays. Many workers call it at once, each with its own number.
 struct PixelCaster {
-    /// Cheap: what the pixels' rays see. Of slopes only kUnsteady counts.
-    FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelSights> sights, int worker)>
+    /// Cheap: what the pixels' rays see. Of slopes only kNeverReuse counts.
+    FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility, int worker)>
         look;
-    /// Dear: the pixels themselves, with the same sights.
+    /// Dear: the pixels themselves, with the same visibility.
     /// @param sample  0: the rays that were looked along; 1, 2, ...: others through the same
     /// pixels,
     ///                as good as these

@@ -1,4 +1,4 @@
-#include "core/cloud/resting.h"
+#include "core/cloud/progressive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,23 +18,23 @@ bool is_step(const Rgb& a, const Rgb& b) {
 
 }  // namespace
 
-void RestingPicture::begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins) {
+void ProgressivePicture::begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins) {
     radiance_.assign(radiance.begin(), radiance.end());
     origins_.assign(origins.begin(), origins.end());
 }
 
-RestingWork RestingPicture::next(std::size_t most) const {
-    RestingWork work = open(most);
+ProgressiveWork ProgressivePicture::next(std::size_t most) const {
+    ProgressiveWork work = open(most);
     return work.places.empty() ? steep(most) : work;
 }
 
-std::size_t RestingPicture::open_pixels() const {
+std::size_t ProgressivePicture::open_pixels() const {
     return static_cast<std::size_t>(std::count_if(
         origins_.begin(), origins_.end(),
         [](const PixelOrigin& pixel) { return pixel.kind != PixelOrigin::Kind::traced; }));
 }
 
-std::size_t RestingPicture::guessed_pixels() const {
+std::size_t ProgressivePicture::guessed_pixels() const {
     return static_cast<std::size_t>(
         std::count_if(origins_.begin(), origins_.end(), [](const PixelOrigin& pixel) {
             return pixel.kind == PixelOrigin::Kind::filled ||
@@ -42,7 +42,7 @@ std::size_t RestingPicture::guessed_pixels() const {
         }));
 }
 
-std::vector<Rgb> RestingPicture::picture() const {
+std::vector<Rgb> ProgressivePicture::picture() const {
     std::vector<Rgb> shown = radiance_;
     std::vector<std::uint8_t> known;
     known.reserve(origins_.size());
@@ -53,7 +53,7 @@ std::vector<Rgb> RestingPicture::picture() const {
 }
 
 /// Pixels that have not been traced, the most needed first.
-RestingWork RestingPicture::open(std::size_t most) const {
+ProgressiveWork ProgressivePicture::open(std::size_t most) const {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < origins_.size(); ++i)
         if (origins_[i].kind != PixelOrigin::Kind::traced) found.push_back(i);
@@ -76,14 +76,14 @@ RestingWork RestingPicture::open(std::size_t most) const {
         found.resize(most);
     }
     std::sort(found.begin(), found.end(), sooner);
-    RestingWork work;
+    ProgressiveWork work;
     work.places.reserve(found.size());
     for (const std::size_t i : found)
         work.places.push_back({static_cast<int>(i % width), static_cast<int>(i / width)});
     return work;
 }
 
-bool RestingPicture::is_steep(int x, int y) const {
+bool ProgressivePicture::is_steep(int x, int y) const {
     const Rgb& own = radiance_[at(x, y)];
     return (x > 0 && is_step(own, radiance_[at(x - 1, y)])) ||
            (x + 1 < width_ && is_step(own, radiance_[at(x + 1, y)])) ||
@@ -92,8 +92,8 @@ bool RestingPicture::is_steep(int x, int y) const {
 }
 
 /// Of the pixels at steps those with the fewest rays.
-RestingWork RestingPicture::steep(std::size_t most) const {
-    RestingWork work;
+ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
+    ProgressiveWork work;
     work.sample = most_samples_;
     for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
@@ -108,7 +108,7 @@ RestingWork RestingPicture::steep(std::size_t most) const {
     return work;
 }
 
-void RestingPicture::take(const RestingWork& work, std::span<const Rgb> traced) {
+void ProgressivePicture::record(const ProgressiveWork& work, std::span<const Rgb> traced) {
     for (std::size_t i = 0; i < traced.size(); ++i) {
         const std::size_t pixel = at(work.places[i].x, work.places[i].y);
         const auto before = static_cast<float>(work.sample);

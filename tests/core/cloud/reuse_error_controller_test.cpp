@@ -1,4 +1,4 @@
-#include "core/cloud/audit.h"
+#include "core/cloud/reuse_error_controller.h"
 
 #include <doctest/doctest.h>
 
@@ -17,8 +17,8 @@ std::vector<float> values(std::size_t count, double off) {
 }
 
 /// Frames whose audits find these shares of reused pixels, and of pairs of rays, off.
-void tell(AuditGuard& guard, double errors, double floors, int frames) {
-    for (int i = 0; i < frames; ++i) guard.take(values(1024, errors), values(256, floors));
+void tell(ReuseErrorController& controller, double errors, double floors, int frames) {
+    for (int i = 0; i < frames; ++i) controller.record(values(1024, errors), values(256, floors));
 }
 
 }  // namespace
@@ -31,38 +31,38 @@ TEST_CASE("audit: quantiles are values that the share lies below") {
 }
 
 TEST_CASE("audit: errors beyond the limit tighten reuse until it holds, then it loosens") {
-    AuditGuard guard(0.05);
-    tell(guard, 0.2, 0, 1);
-    CHECK(guard.tightness() == 0.5);
-    tell(guard, 0.2, 0, 1);
-    CHECK(guard.tightness() == 0.25);
-    tell(guard, 0.04, 0, 3);  // neither wrong nor so right that it could be looser
-    CHECK(guard.tightness() == 0.25);
-    tell(guard, 0.01, 0, 1);
-    CHECK(guard.tightness() == doctest::Approx(0.275));
-    tell(guard, 0.01, 0, 100);
-    CHECK(guard.tightness() == 1);
-    tell(guard, 1, 0, 100);
-    CHECK(guard.tightness() == 1.0 / 1024);
+    ReuseErrorController controller(0.05);
+    tell(controller, 0.2, 0, 1);
+    CHECK(controller.tightness() == 0.5);
+    tell(controller, 0.2, 0, 1);
+    CHECK(controller.tightness() == 0.25);
+    tell(controller, 0.04, 0, 3);  // neither wrong nor so right that it could be looser
+    CHECK(controller.tightness() == 0.25);
+    tell(controller, 0.01, 0, 1);
+    CHECK(controller.tightness() == doctest::Approx(0.275));
+    tell(controller, 0.01, 0, 100);
+    CHECK(controller.tightness() == 1);
+    tell(controller, 1, 0, 100);
+    CHECK(controller.tightness() == 1.0 / 1024);
 }
 
 TEST_CASE("audit: what two rays of a pixel differ by is no error, nor is what may be chance") {
-    AuditGuard guard(0.05);
-    tell(guard, 0.3, 0.3, 10);
-    CHECK(guard.tightness() == 1);
-    tell(guard, 0.3, 0.22, 10);  // 8 % beyond, give or take 6 %
-    CHECK(guard.tightness() == 1);
-    tell(guard, 0.3, 0.1, 1);
-    CHECK(guard.tightness() == 0.5);
+    ReuseErrorController controller(0.05);
+    tell(controller, 0.3, 0.3, 10);
+    CHECK(controller.tightness() == 1);
+    tell(controller, 0.3, 0.22, 10);  // 8 % beyond, give or record 6 %
+    CHECK(controller.tightness() == 1);
+    tell(controller, 0.3, 0.1, 1);
+    CHECK(controller.tightness() == 0.5);
 }
 
 TEST_CASE("audit: few pixels decide nothing, and no limit never tightens") {
-    AuditGuard guard(0.05);
-    guard.take(values(1023, 1), values(256, 0));
-    CHECK(guard.tightness() == 1);
-    guard.take(values(1, 1), {});
-    CHECK(guard.tightness() == 0.5);
-    AuditGuard without(0);
+    ReuseErrorController controller(0.05);
+    controller.record(values(1023, 1), values(256, 0));
+    CHECK(controller.tightness() == 1);
+    controller.record(values(1, 1), {});
+    CHECK(controller.tightness() == 0.5);
+    ReuseErrorController without(0);
     tell(without, 1, 0, 10);
     CHECK(without.tightness() == 1);
 }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/cloud/sight.h"
+#include "core/cloud/primary_visibility.h"
 #include "core/math/function_ref.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
@@ -26,18 +26,18 @@ namespace lightwalk {
 [[nodiscard]] std::chrono::steady_clock::time_point tracing_deadline(
     std::chrono::steady_clock::time_point deadline, double budget, double unknown);
 
-class HoleTracer {
+class UncachedPixelTracer {
   public:
     using Clock = std::chrono::steady_clock;
     /// Gets pixels `first` ... that were traced; called by many threads.
-    using Take = FunctionRef<void(std::size_t first, std::span<const TracedHole> traced)>;
+    using Take = FunctionRef<void(std::size_t first, std::span<const TracedPixelResult> traced)>;
 
     /// @param tolerance  see points_of
     /// The caster must outlive this.
-    HoleTracer(const PixelCaster& caster, double tolerance, Clock::time_point deadline)
+    UncachedPixelTracer(const PixelCaster& caster, double tolerance, Clock::time_point deadline)
         : caster_(caster), tolerance_(tolerance), deadline_(deadline) {}
 
-    /// Trace holes by all threads. After the deadline no more are begun, but some are at once.
+    /// Trace uncached pixels by all threads. After the deadline no more are begun, but some are at once.
     /// @param at  the place of each one
     void trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
                Executor& executor, const StopFlag& stop, Take take) const;

@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "core/cloud/highlights.h"
-#include "core/cloud/sight.h"
+#include "core/cloud/primary_visibility.h"
 #include "core/transport/tracer.h"
 
 namespace lightwalk {
 
-/// What one modifier's surfaces look like.
-struct SurfaceLook {
+/// What one modifier's surfaces appearance like.
+struct SurfaceAppearance {
     Appearance appearance = Appearance::unknown;
     float gloss = 0, roughness = 0, diffuse = 0;  ///< see MaterialTraits
     bool textured = false;                        ///< normals are turned
@@ -20,13 +20,13 @@ struct SurfaceLook {
 /// without material, along the reflection of flat mirrors. Whether the first surface mirrors
 /// something is told beside what lies ahead. Immutable; many threads may ask.
 ///
-/// Surfaces whose look nobody can tell are reused as long as the eye does not move: bent or curved
+/// Surfaces whose appearance nobody can tell are reused as long as the eye does not move: bent or curved
 /// mirrors, materials given by functions, refraction. In scenes with antimatter or a medium nothing
 /// is reused.
-class SceneSights {
+class VisibilityProbe {
   public:
     /// The tracer must outlive this.
-    explicit SceneSights(const Tracer& tracer);
+    explicit VisibilityProbe(const Tracer& tracer);
 
     /// Memory of searches, for the next ones. Each thread has its own.
     class Scratch;
@@ -34,19 +34,19 @@ class SceneSights {
     /// @param rays    the pixels'
     /// @param first   what each meets
     /// @param slopes  tell how steadily colours hold; else the slopes are only right where they are
-    ///                kUnsteady, which is cheaper
-    /// @param sights  of each ray; all but x and y are set, where `ray` says that there is one
+    ///                kNeverReuse, which is cheaper
+    /// @param visibility  of each ray; all but x and y are set, where `ray` says that there is one
     void find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
-              std::span<PixelSights> sights, Scratch& scratch) const;
+              std::span<PixelVisibility> visibility, Scratch& scratch) const;
 
   private:
     struct Walk;
-    [[nodiscard]] SurfaceLook look_of(ModifierId modifier) const;
-    [[nodiscard]] SurfaceLook look_at(const Hit& hit) const;
-    [[nodiscard]] bool reflects_flat(const Hit& hit, const SurfaceLook& look) const;
-    void end(const Walk& walk, const Hit& hit, const SurfaceLook& look) const;
+    [[nodiscard]] SurfaceAppearance appearance_of(ModifierId modifier) const;
+    [[nodiscard]] SurfaceAppearance appearance_at(const Hit& hit) const;
+    [[nodiscard]] bool reflects_flat(const Hit& hit, const SurfaceAppearance& appearance) const;
+    void end(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const;
     [[nodiscard]] float glossy_slope(const Walk& walk, const Hit& hit,
-                                     const SurfaceLook& look) const;
+                                     const SurfaceAppearance& appearance) const;
     [[nodiscard]] bool goes_on(Walk& walk, const Hit& hit) const;
     [[nodiscard]] bool begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const;
     void follow(std::vector<Walk>& walks, Scratch& scratch) const;
@@ -54,28 +54,28 @@ class SceneSights {
 
     const Tracer& tracer_;
     Highlights highlights_;
-    std::vector<SurfaceLook> looks_;  ///< by modifier
-    bool unsteady_ = false;           ///< all of the scene
+    std::vector<SurfaceAppearance> appearances_;  ///< by modifier
+    bool never_reuse_ = false;           ///< all of the scene
 };
 
 /// A ray on its way.
-struct SceneSights::Walk {
+struct VisibilityProbe::Walk {
     const RaySegment* pixel = nullptr;  ///< the ray it began as
-    Sight* sight = nullptr;             ///< that it ends in
-    Sight* image = nullptr;             ///< of what the first surface that counts mirrors; null
+    PrimaryVisibility* seen_thing = nullptr;             ///< that it ends in
+    PrimaryVisibility* image = nullptr;             ///< of what the first surface that counts mirrors; null
                                         ///< from there on
     RaySegment segment;                 ///< the way on
     bool slopes = true;                 ///< are asked for
     int surfaces = 0;                   ///< met, before that one or after
     double length = 0;                  ///< of the way so far [m]
-    std::uint32_t met = 0;              ///< see Sight::surface
+    std::uint32_t met = 0;              ///< see PrimaryVisibility::surface
 
     /// Goes on from a hit, straight or mirrored.
     void pass(const Hit& hit, bool reflect);
 };
 
-class SceneSights::Scratch {
-    friend class SceneSights;
+class VisibilityProbe::Scratch {
+    friend class VisibilityProbe;
     std::vector<Walk> ahead, images;  ///< on their ways
     std::vector<RaySegment> segments;
     std::vector<Hit> hits;

@@ -1,4 +1,4 @@
-#include "core/cloud/audit.h"
+#include "core/cloud/reuse_error_controller.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ ReuseRules tightened(ReuseRules rules, double tightness) {
     return rules;
 }
 
-void AuditGuard::take(std::span<const float> errors, std::span<const float> floors) {
+void ReuseErrorController::record(std::span<const float> errors, std::span<const float> floors) {
     if (!(limit_ > 0)) return;
     errors_.insert(errors_.end(), errors.begin(), errors.end());
     floors_.insert(floors_.end(), floors.begin(), floors.end());

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/resting.h"
+#include "core/cloud/progressive.h"
 #include "core/math/function_ref.h"
 #include "core/view/pixels.h"
 
@@ -13,13 +13,13 @@ namespace lightwalk {
 
 /// A picture that starts as one tracer drew it, and ends as another one draws it. Meanwhile pixels
 /// that are not traced yet get what the difference is around them.
-class RestingLight {
+class ProgressiveLight {
   public:
     /// Traces pixels; the distance of those that there was no time for is negative.
-    using Trace = FunctionRef<std::vector<PixelValue>(const RestingWork& work)>;
+    using Trace = FunctionRef<std::vector<PixelValue>(const ProgressiveWork& work)>;
 
     /// @param samples   rays that a pixel at an edge gets in the end, at least 1
-    RestingLight(int width, int height, int samples)
+    ProgressiveLight(int width, int height, int samples)
         : width_(width), height_(height), work_(width, height, samples) {}
 
     /// @param radiance, distance  row by row from the bottom
@@ -47,11 +47,11 @@ class RestingLight {
     [[nodiscard]] Rgb difference(int x, int y, int spacing) const;
 
     int width_, height_;
-    RestingPicture work_;
+    ProgressivePicture work_;
     std::vector<Rgb> before_;
     std::vector<float> distance_;
     std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
-    RestingWork chosen_;             ///< of them those that come next
+    ProgressiveWork chosen_;             ///< of them those that come next
 };
 
 }  // namespace lightwalk

@@ -1,4 +1,4 @@
-#include "parallel/walk/hole_tracer.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kHolesATask = 32;
+constexpr std::size_t kPixelsATask = 32;
 
 }  // namespace
 
 std::chrono::steady_clock::time_point deadline_of(double seconds) {
     const std::chrono::duration<double> span(seconds);
-    return HoleTracer::Clock::now() + std::chrono::duration_cast<HoleTracer::Clock::duration>(span);
+    return UncachedPixelTracer::Clock::now() + std::chrono::duration_cast<UncachedPixelTracer::Clock::duration>(span);
 }
 
 std::chrono::steady_clock::time_point checking_deadline(double budget) {
@@ -28,30 +28,30 @@ std::chrono::steady_clock::time_point tracing_deadline(
     return std::max(deadline, deadline_of(std::lerp(kLeastShare, kBlindShare, unknown) * budget));
 }
 
-void HoleTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
+void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
                             Take take) const {
-    std::array<TracedPixel, kHolesATask> traced;
-    std::array<TracedHole, kHolesATask> holes;
-    for (std::size_t first = 0; first < places.size(); first += kHolesATask) {
-        const std::size_t count = std::min(kHolesATask, places.size() - first);
+    std::array<TracedPixel, kPixelsATask> traced;
+    std::array<TracedPixelResult, kPixelsATask> uncached;
+    for (std::size_t first = 0; first < places.size(); first += kPixelsATask) {
+        const std::size_t count = std::min(kPixelsATask, places.size() - first);
         caster_.trace(places.subspan(first, count), {traced.data(), count}, sample, worker);
         for (std::size_t i = 0; i < count; ++i)
-            holes[i] = {{traced[i].radiance, traced[i].distance}, points_of(traced[i], tolerance_)};
-        take(first, {holes.data(), count});
+            uncached[i] = {{traced[i].radiance, traced[i].distance}, points_of(traced[i], tolerance_)};
+        take(first, {uncached.data(), count});
     }
 }
 
-void HoleTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
+void UncachedPixelTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
                        Executor& executor, const StopFlag& stop, Take take) const {
-    executor.for_each((count + kHolesATask - 1) / kHolesATask,
+    executor.for_each((count + kPixelsATask - 1) / kPixelsATask,
                       [&](std::size_t task, int worker) {
                           if (task > 0 && is_late()) return;
-                          const std::size_t begin = task * kHolesATask;
-                          std::array<PixelPlace, kHolesATask> places;
-                          const std::size_t some = std::min(kHolesATask, count - begin);
+                          const std::size_t begin = task * kPixelsATask;
+                          std::array<PixelPlace, kPixelsATask> places;
+                          const std::size_t some = std::min(kPixelsATask, count - begin);
                           for (std::size_t i = 0; i < some; ++i) places[i] = at(begin + i);
                           trace_part({places.data(), some}, sample, worker,
-                                     [&](std::size_t first, std::span<const TracedHole> traced) {
+                                     [&](std::size_t first, std::span<const TracedPixelResult> traced) {
                                          take(begin + first, traced);
                                      });
                       },

@@ -1,4 +1,4 @@
-#include "core/cloud/scene_sights.h"
+#include "core/cloud/visibility_probe.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,22 +32,22 @@ FresnelSlopes fresnel_slopes(double cosine, double at_normal) {
     return {slope / std::max(reflected, kEpsilon), slope / std::max(1 - reflected, kEpsilon)};
 }
 
-FresnelSlopes slopes_of(const Hit& hit, const SurfaceLook& look) {
-    return fresnel_slopes(std::abs(hit.cos_out), static_cast<double>(look.gloss));
+FresnelSlopes slopes_of(const Hit& hit, const SurfaceAppearance& appearance) {
+    return fresnel_slopes(std::abs(hit.cos_out), static_cast<double>(appearance.gloss));
 }
 
 }  // namespace
 
-SceneSights::SceneSights(const Tracer& tracer)
+VisibilityProbe::VisibilityProbe(const Tracer& tracer)
     : tracer_(tracer), highlights_(tracer.lights(), tracer.scene().geometry(), tracer.options()) {
     const Scene& scene = tracer.scene();
-    looks_.resize(scene.modifier_count());
-    for (std::size_t i = 0; i < looks_.size(); ++i)
-        looks_[i] = look_of(ModifierId{static_cast<std::int32_t>(i)});
-    unsteady_ = scene.has_antimatter() || max_component(tracer.options().extinction) > 0;
+    appearances_.resize(scene.modifier_count());
+    for (std::size_t i = 0; i < appearances_.size(); ++i)
+        appearances_[i] = appearance_of(ModifierId{static_cast<std::int32_t>(i)});
+    never_reuse_ = scene.has_antimatter() || max_component(tracer.options().extinction) > 0;
 }
 
-SurfaceLook SceneSights::look_of(ModifierId modifier) const {
+SurfaceAppearance VisibilityProbe::appearance_of(ModifierId modifier) const {
     const Scene& scene = tracer_.scene();
     std::optional<ModifierId> material = scene.material_of(modifier);
     MaterialTraits traits;
@@ -60,32 +60,32 @@ SurfaceLook SceneSights::look_of(ModifierId modifier) const {
     }
     if (!material) return {Appearance::absent, 0, 0, 0, false, false};
     const ModifierRecord& record = scene.modifier(*material);
-    SurfaceLook look;
-    look.appearance = traits.appearance;
-    look.gloss = static_cast<float>(traits.gloss);
-    look.roughness = static_cast<float>(traits.roughness);
-    look.diffuse = static_cast<float>(traits.diffuse);
+    SurfaceAppearance appearance;
+    appearance.appearance = traits.appearance;
+    appearance.gloss = static_cast<float>(traits.gloss);
+    appearance.roughness = static_cast<float>(traits.roughness);
+    appearance.diffuse = static_cast<float>(traits.diffuse);
     for (ModifierId m = modifier; m != kVoid; m = scene.modifier(m).next) {
         const PrimitiveKind kind = kind_of(scene.modifier(m).type);
-        look.textured = look.textured || kind == PrimitiveKind::texture;
-        look.patterned = look.patterned || kind == PrimitiveKind::pattern;
+        appearance.textured = appearance.textured || kind == PrimitiveKind::texture;
+        appearance.patterned = appearance.patterned || kind == PrimitiveKind::pattern;
     }
     // Lamps are measured: their patterns are functions of the direction.
-    if (is_light(record.type) && look.patterned && look.appearance == Appearance::constant)
-        look.appearance = Appearance::unknown;
-    return look;
+    if (is_light(record.type) && appearance.patterned && appearance.appearance == Appearance::constant)
+        appearance.appearance = Appearance::unknown;
+    return appearance;
 }
 
-SurfaceLook SceneSights::look_at(const Hit& hit) const {
+SurfaceAppearance VisibilityProbe::appearance_at(const Hit& hit) const {
     if (hit.modifier == kVoid) return {Appearance::absent, 0, 0, 0, false, false};
-    SurfaceLook look = looks_[static_cast<std::size_t>(index(hit.modifier))];
-    if (hit.cos_out >= 0 || look.appearance == Appearance::unknown) return look;
+    SurfaceAppearance appearance = appearances_[static_cast<std::size_t>(index(hit.modifier))];
+    if (hit.cos_out >= 0 || appearance.appearance == Appearance::unknown) return appearance;
     if (!tracer_.options().back_faces_visible) return {Appearance::absent, 0, 0, 0, false, false};
-    if (look.appearance == Appearance::mirror) look.appearance = Appearance::constant;  // black
-    return look;
+    if (appearance.appearance == Appearance::mirror) appearance.appearance = Appearance::constant;  // black
+    return appearance;
 }
 
-void SceneSights::Walk::pass(const Hit& hit, bool reflect) {
+void VisibilityProbe::Walk::pass(const Hit& hit, bool reflect) {
     length += hit.t;
     segment.origin = hit.position;
     segment.t_max = segment.t_max < kHuge ? segment.t_max - hit.t : kHuge;
@@ -94,102 +94,102 @@ void SceneSights::Walk::pass(const Hit& hit, bool reflect) {
     segment.t_max = kHuge;
 }
 
-bool SceneSights::reflects_flat(const Hit& hit, const SurfaceLook& look) const {
-    return !look.textured && tracer_.scene().surface(hit.surface).is_flat() &&
+bool VisibilityProbe::reflects_flat(const Hit& hit, const SurfaceAppearance& appearance) const {
+    return !appearance.textured && tracer_.scene().surface(hit.surface).is_flat() &&
            hit.perturbation == Vec3{};
 }
 
 /// The source at infinity that the walk ends at, as a surface met.
-std::uint32_t SceneSights::background(const Walk& walk) const {
+std::uint32_t VisibilityProbe::background(const Walk& walk) const {
     const Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
     const std::optional<SurfaceId> seen =
         walk.segment.t_max < kHuge ? std::nullopt : tracer_.lights().background(ray);
     return met_surface(walk.met, index(seen.value_or(kNoSurface)), 0);
 }
 
-float SceneSights::glossy_slope(const Walk& walk, const Hit& hit, const SurfaceLook& look) const {
-    const GlossyLobe lobe{static_cast<double>(look.gloss), static_cast<double>(look.diffuse),
-                          static_cast<double>(look.roughness)};
+float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const {
+    const GlossyLobe lobe{static_cast<double>(appearance.gloss), static_cast<double>(appearance.diffuse),
+                          static_cast<double>(appearance.roughness)};
     return static_cast<float>(highlights_.slope(hit, walk.segment.direction, lobe));
 }
 
 /// The walk ends at `hit`, or at infinity.
-void SceneSights::end(const Walk& walk, const Hit& hit, const SurfaceLook& look) const {
-    Sight& sight = *walk.sight;
-    sight.seen = true;
+void VisibilityProbe::end(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const {
+    PrimaryVisibility& seen_thing = *walk.seen_thing;
+    seen_thing.seen = true;
     const double length = hit.exists() ? walk.length + hit.t : kHuge;
-    sight.position = walk.pixel->origin + walk.pixel->direction * length;
-    sight.distance = static_cast<float>(length);
-    sight.surface = walk.met;
+    seen_thing.position = walk.pixel->origin + walk.pixel->direction * length;
+    seen_thing.distance = static_cast<float>(length);
+    seen_thing.surface = walk.met;
     float slope = 0;
     if (!hit.exists()) {
-        sight.surface = background(walk);
-    } else if (look.appearance == Appearance::glossy) {
-        if (walk.slopes) slope = glossy_slope(walk, hit, look);
-    } else if (look.appearance == Appearance::polished) {
-        slope = static_cast<float>(slopes_of(hit, look).left);
-    } else if (look.appearance != Appearance::constant) {
-        slope = kSharp;
+        seen_thing.surface = background(walk);
+    } else if (appearance.appearance == Appearance::glossy) {
+        if (walk.slopes) slope = glossy_slope(walk, hit, appearance);
+    } else if (appearance.appearance == Appearance::polished) {
+        slope = static_cast<float>(slopes_of(hit, appearance).left);
+    } else if (appearance.appearance != Appearance::constant) {
+        slope = kMirrorLike;
     }
-    sight.slope = unsteady_ ? kUnsteady : sight.slope + slope;
-    if (sight.kind == PointKind::plain && sight.slope > 0) sight.kind = PointKind::glossy;
+    seen_thing.slope = never_reuse_ ? kNeverReuse : seen_thing.slope + slope;
+    if (seen_thing.kind == PointKind::plain && seen_thing.slope > 0) seen_thing.kind = PointKind::glossy;
 }
 
 /// The next surface on the way. False: the light comes from there; true: from farther on.
-bool SceneSights::goes_on(Walk& walk, const Hit& hit) const {
+bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
     if (!hit.exists() || walk.surfaces++ == kMostSurfaces) {
         end(walk, hit, {});
         return false;
     }
-    const SurfaceLook look = look_at(hit);
+    const SurfaceAppearance appearance = appearance_at(hit);
     walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
-    const bool mirror = look.appearance == Appearance::mirror && reflects_flat(hit, look);
-    const bool pane = look.appearance == Appearance::pane && !look.textured;
-    if (!mirror && !pane && look.appearance != Appearance::absent) {
-        end(walk, hit, look);
+    const bool mirror = appearance.appearance == Appearance::mirror && reflects_flat(hit, appearance);
+    const bool pane = appearance.appearance == Appearance::pane && !appearance.textured;
+    if (!mirror && !pane && appearance.appearance != Appearance::absent) {
+        end(walk, hit, appearance);
         return false;
     }
     if (pane) {
-        walk.sight->slope += static_cast<float>(slopes_of(hit, look).left);
-        if (walk.sight->kind == PointKind::plain) walk.sight->kind = PointKind::through;
+        walk.seen_thing->slope += static_cast<float>(slopes_of(hit, appearance).left);
+        if (walk.seen_thing->kind == PointKind::plain) walk.seen_thing->kind = PointKind::through;
     }
     walk.pass(hit, mirror);
     return true;
 }
 
 /// The same up to the first surface that counts, which may mirror something: another walk.
-bool SceneSights::begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const {
+bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const {
     if (!hit.exists()) return goes_on(walk, hit);
-    const SurfaceLook look = look_at(hit);
-    if (look.appearance == Appearance::absent && walk.surfaces < kMostSurfaces) {
+    const SurfaceAppearance appearance = appearance_at(hit);
+    if (appearance.appearance == Appearance::absent && walk.surfaces < kMostSurfaces) {
         ++walk.surfaces;
         walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
         walk.pass(hit, false);
         return true;
     }
-    Sight* const image = walk.image;
+    PrimaryVisibility* const image = walk.image;
     walk.image = nullptr;
     walk.surfaces = 0;
-    const bool mirror = look.appearance == Appearance::mirror;
-    if (mirror || look.appearance == Appearance::pane || look.appearance == Appearance::polished) {
+    const bool mirror = appearance.appearance == Appearance::mirror;
+    if (mirror || appearance.appearance == Appearance::pane || appearance.appearance == Appearance::polished) {
         image->kind = PointKind::mirrored;
-        image->slope = static_cast<float>(slopes_of(hit, look).reflected);
+        image->slope = static_cast<float>(slopes_of(hit, appearance).reflected);
         Walk mirrored = walk;
-        mirrored.sight = image;
+        mirrored.seen_thing = image;
         mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
-        if (reflects_flat(hit, look)) {
+        if (reflects_flat(hit, appearance)) {
             mirrored.pass(hit, true);
             images.push_back(mirrored);
         } else {
             end(mirrored, hit, {Appearance::constant, 0, 0, 0, false, false});
-            image->slope = kSharp;
+            image->slope = kMirrorLike;
         }
     }
     return !mirror && goes_on(walk, hit);
 }
 
 /// To the ends of all walks, whose rays are cast together: neighbours go similar ways.
-void SceneSights::follow(std::vector<Walk>& walks, Scratch& scratch) const {
+void VisibilityProbe::follow(std::vector<Walk>& walks, Scratch& scratch) const {
     while (!walks.empty()) {
         scratch.segments.clear();
         for (const Walk& walk : walks) scratch.segments.push_back(walk.segment);
@@ -206,15 +206,15 @@ void SceneSights::follow(std::vector<Walk>& walks, Scratch& scratch) const {
     }
 }
 
-void SceneSights::find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
-                       std::span<PixelSights> sights, Scratch& scratch) const {
+void VisibilityProbe::find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
+                       std::span<PixelVisibility> visibility, Scratch& scratch) const {
     scratch.ahead.clear();
     scratch.images.clear();
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!sights[i].ray) continue;
-        sights[i].direction = rays[i].direction;
-        sights[i].ahead = sights[i].mirrored = {};
-        Walk walk{&rays[i], &sights[i].ahead, &sights[i].mirrored, rays[i], slopes};
+        if (!visibility[i].ray) continue;
+        visibility[i].direction = rays[i].direction;
+        visibility[i].ahead = visibility[i].mirrored = {};
+        Walk walk{&rays[i], &visibility[i].ahead, &visibility[i].mirrored, rays[i], slopes};
         if (begins(walk, first[i], scratch.images)) scratch.ahead.push_back(walk);
     }
     follow(scratch.ahead, scratch);

@@ -16,18 +16,18 @@ namespace lightwalk {
 
 /// Tightens reuse while it is found wrong, and loosens it again, slowly, when it is right. A
 /// function of what it was told: not of time.
-class AuditGuard {
+class ReuseErrorController {
   public:
     /// @param limit  most audited pixels that may be off by more than a tenth, as a share of them,
     ///               beyond the share of pixels of which two equally good rays differ by as much:
     ///               with patterns and edges that is a quarter of a picture, and its percentiles
     ///               say little. 0: any
-    explicit AuditGuard(double limit) : limit_(limit) {}
+    explicit ReuseErrorController(double limit) : limit_(limit) {}
 
     /// What one frame's audit found.
     /// @param errors  relative errors of reused pixels
     /// @param floors  relative differences of two equally good rays of a pixel
-    void take(std::span<const float> errors, std::span<const float> floors);
+    void record(std::span<const float> errors, std::span<const float> floors);
 
     /// For tightened(), 1/1024 ... 1.
     [[nodiscard]] double tightness() const { return tightness_; }

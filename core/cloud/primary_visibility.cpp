@@ -1,0 +1,46 @@
+#include "core/cloud/primary_visibility.h"
+
+#include <algorithm>
+
+namespace lightwalk {
+namespace {
+
+/// The point of one visible thing, unless nothing of it can be reused.
+void add_point(const PrimaryVisibility& seen_thing, const Rgb& radiance, const TracedPixel& pixel, double tolerance,
+               PixelPoints& result) {
+    if (!seen_thing.seen || seen_thing.slope == kNeverReuse) return;
+    CloudPoint& point = result.points[result.count++];
+    point.position = {static_cast<float>(seen_thing.position.x), static_cast<float>(seen_thing.position.y),
+                      static_cast<float>(seen_thing.position.z)};
+    point.radiance = radiance;
+    point.surface = seen_thing.surface;
+    point.direction = encode_direction(pixel.visibility.direction);
+    point.kind = seen_thing.kind;
+    // What is faint beside the other visible thing may change more.
+    const double whole = static_cast<double>(brightness(pixel.radiance));
+    const double part = static_cast<double>(brightness(radiance));
+    const double change = static_cast<double>(seen_thing.slope) * part;
+    constexpr double kHalfTurn = kPi;
+    if (change * kHalfTurn > tolerance * whole)
+        point.max_view_angle = static_cast<float>(tolerance * whole / change);
+}
+
+}  // namespace
+
+PixelPoints points_of(const TracedPixel& pixel, double tolerance) {
+    PixelPoints result;
+    if (!pixel.visibility.ray) return result;
+    const PixelVisibility& visibility = pixel.visibility;
+    // A pixel is reused whole: a point without its partner would never be.
+    if ((visibility.ahead.seen && visibility.ahead.slope == kNeverReuse) ||
+        (visibility.mirrored.seen && visibility.mirrored.slope == kNeverReuse))
+        return result;
+    const Rgb mirrored = visibility.mirrored.seen ? pixel.mirrored : Rgb{};
+    add_point(visibility.ahead, pixel.radiance - mirrored, pixel, tolerance, result);
+    add_point(visibility.mirrored, visibility.ahead.seen ? mirrored : pixel.radiance, pixel, tolerance,
+              result);
+    for (CloudPoint& point : result.points) point.paired = result.count == 2;
+    return result;
+}
+
+}  // namespace lightwalk
