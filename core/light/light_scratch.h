@@ -39,7 +39,7 @@ struct LightCandidate {
 };
 
 /// A shaded point whose direct light is being calculated. What every candidate asks of it stands
-/// here, together: the rays of a wave are too many for the nearest cache.
+/// here, together: the rays of a batch are too many for the nearest cache.
 struct LitPoint {
     explicit LitPoint(const DirectRequest& request);
 
@@ -100,7 +100,7 @@ struct LightScratch {
     std::deque<DirectScratch> nested;  ///< a shadow ray may meet what wants direct light, too
     std::size_t open = 0;              ///< of these: in use
     std::vector<Blocker> blockers;     ///< what hid each source last
-    /// Of late: shows whether points have so many candidates that waves are worth their while.
+    /// Of late: shows whether points have so many candidates that batches are worth their while.
     std::size_t points = 0, candidates = 0;
 };
 

@@ -7,7 +7,7 @@
 #include "core/light/light_sources.h"
 #include "core/relay/virtual_sources.h"
 #include "core/transport/tracer.h"
-#include "core/wave/ray_wave.h"
+#include "core/batch/shading_batch.h"
 
 namespace lightwalk {
 namespace {
@@ -32,7 +32,7 @@ bool is_finite(const Rgb& c) {
 class OpenRay {
   public:
     explicit OpenRay(TraceContext& context) : context_(context) {
-        if (context_.depth++ == 0 && !context_.wave) context_.start_path();
+        if (context_.depth++ == 0 && !context_.batch) context_.start_path();
     }
     ~OpenRay() { --context_.depth; }
     OpenRay(const OpenRay&) = delete;
@@ -42,26 +42,26 @@ class OpenRay {
     TraceContext& context_;
 };
 
-/// Waves of ambient rays are within those of the rays that ask. Deeper than this there are few.
-constexpr std::size_t kMostWaves = 3;
-/// Rays of a wave: those of pixels lie near each other, ambient ones do not. Each costs two of the
+/// Batches of ambient rays are within those of the rays that ask. Deeper than this there are few.
+constexpr std::size_t kMostBatches = 3;
+/// Rays of a batch: those of pixels lie near each other, ambient ones do not. Each costs two of the
 /// mappings of memory of which a process has some 65,000.
 constexpr std::size_t kPixelRays = 64, kAmbientRays = 16;
-/// Candidates a point from which waves are faster (measured on seven models).
+/// Candidates a point from which batches are faster (measured on seven models).
 constexpr std::size_t kWorthWaiting = 2;
 
-class OpenWave {
+class OpenBatch {
   public:
-    explicit OpenWave(TraceContext& context) : context_(context) {
-        if (context.open_waves == context.waves.size())
-            context.waves.push_back(std::make_unique<RayWave>(
-                context.make_fibers(context.waves.empty() ? kPixelRays : kAmbientRays)));
-        ++context.open_waves;
+    explicit OpenBatch(TraceContext& context) : context_(context) {
+        if (context.open_batches == context.batches.size())
+            context.batches.push_back(std::make_unique<ShadingBatch>(
+                context.make_fibers(context.batches.empty() ? kPixelRays : kAmbientRays)));
+        ++context.open_batches;
     }
-    ~OpenWave() { --context_.open_waves; }
-    OpenWave(const OpenWave&) = delete;
-    OpenWave& operator=(const OpenWave&) = delete;
-    RayWave* operator->() const { return context_.waves[context_.open_waves - 1].get(); }
+    ~OpenBatch() { --context_.open_batches; }
+    OpenBatch(const OpenBatch&) = delete;
+    OpenBatch& operator=(const OpenBatch&) = delete;
+    ShadingBatch* operator->() const { return context_.batches[context_.open_batches - 1].get(); }
 
   private:
     TraceContext& context_;
@@ -113,8 +113,8 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
 }
 
 void Tracer::go_deeper(TraceContext& context, FunctionRef<void()> deeper) {
-    if (context.wave && !context.wave->has_room())
-        context.wave->outside(deeper, context);
+    if (context.batch && !context.batch->has_room())
+        context.batch->outside(deeper, context);
     else
         deeper();
 }
@@ -125,23 +125,23 @@ void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
     // To wait and go on costs a ray as much as some candidates gain by going side by side.
     const bool few = context.light->candidates < kWorthWaiting * context.light->points;
     const bool alone = few || !context.make_fibers || rays.size() == 1 ||
-                       context.open_waves == kMostWaves || context.observer || context.misses ||
+                       context.open_batches == kMostBatches || context.observer || context.misses ||
                        lights_->sampled().empty();
     if (alone) {
         for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
         return;
     }
-    const OpenWave wave(context);
-    const auto serve = [&](std::span<const DirectRequest> requests) {
+    const OpenBatch batch(context);
+    const auto calculate = [&](std::span<const DirectRequest> requests) {
         lights_->add_direct(requests, context);
     };
-    wave->run(rays.size(), shade, serve, context);
+    batch->run(rays.size(), shade, calculate, context);
 }
 
 void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
     if (context.depth >= kMaxDepth) return;
-    if (context.wave && !context.wave->has_room()) {
-        context.wave->outside([&] { shade_hit(ray, hit, context); }, context);
+    if (context.batch && !context.batch->has_room()) {
+        context.batch->outside([&] { shade_hit(ray, hit, context); }, context);
         return;
     }
     const OpenRay open(context);
@@ -205,8 +205,8 @@ void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& c
                         const Vec3* front) const {
     if (context.misses != nullptr || lights_->sampled().empty()) return;
     const DirectRequest request{&ray, coefficient, front};
-    if (context.wave && context.wave->level() == context.ambient_level)
-        context.wave->wait(request, context);
+    if (context.batch && context.batch->level() == context.ambient_level)
+        context.batch->wait(request, context);
     else
         lights_->add_direct({&request, 1}, context);
 }

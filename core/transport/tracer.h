@@ -23,10 +23,10 @@ struct AmbientFinds;
 struct AmbientMisses;
 class LightSources;
 class Fibers;
-class RayWave;
+class ShadingBatch;
 class Tracer;
 
-using MakeFibers = std::unique_ptr<Fibers> (*)(std::size_t count);  ///< see core/wave/fibers.h
+using MakeFibers = std::unique_ptr<Fibers> (*)(std::size_t count);  ///< see core/batch/fibers.h
 
 /// Rays traced, by purpose.
 struct RayCounters {
@@ -93,9 +93,9 @@ struct TraceContext {
     std::unique_ptr<LightScratch> light;
     MakeFibers make_fibers = nullptr;  ///< for rays that wait for each other; null: none wait
     /// Of shade_hits(), one inside the other; made when first needed.
-    std::vector<std::unique_ptr<RayWave>> waves;
-    std::size_t open_waves = 0;  ///< of these: in use
-    RayWave* wave = nullptr;     ///< the one whose fiber this code runs on; null: on none
+    std::vector<std::unique_ptr<ShadingBatch>> batches;
+    std::size_t open_batches = 0;  ///< of these: in use
+    ShadingBatch* batch = nullptr;     ///< the one whose fiber this code runs on; null: on none
     int depth = 0;               ///< nesting of rays, bounded by Tracer::kMaxDepth
     int ambient_level = 0;       ///< ambient evaluations that are open
     AmbientCounters ambient;

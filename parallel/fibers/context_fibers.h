@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "core/wave/fibers.h"
+#include "core/batch/fibers.h"
 
 namespace lightwalk {
 

@@ -1,5 +1,5 @@
 // Rays side by side: they bring back what they bring back alone.
-#include "core/wave/ray_wave.h"
+#include "core/batch/shading_batch.h"
 
 #include <doctest/doctest.h>
 
@@ -21,25 +21,25 @@ constexpr std::size_t kRays = 64, kSome = kRays + 9;
 
 const std::string kLamp = "void light lamp 0 0 3 9 8 7\nlamp sphere bulb 0 0 4 0 0 4 .2\n";
 
-/// What a wave of rays that ask for direct light in vain is told and tells.
+/// What a batch of rays that ask for direct light in vain is told and tells.
 struct Asking {
     Asking() : scene(kLamp) {}
     void run(std::size_t count, FunctionRef<void(std::size_t)> body) {
-        const auto serve = [&](std::span<const DirectRequest> requests) {
-            CHECK(scene.context.wave == nullptr);
+        const auto calculate = [&](std::span<const DirectRequest> requests) {
+            CHECK(scene.context.batch == nullptr);
             served.push_back(requests.size());
             for (const DirectRequest& request : requests) request.ray->value += Rgb{1, 1, 1};
         };
-        wave.run(count, body, serve, scene.context);
-        CHECK(scene.context.wave == nullptr);
+        batch.run(count, body, calculate, scene.context);
+        CHECK(scene.context.batch == nullptr);
         CHECK(scene.context.depth == 0);
     }
     void ask(Ray& ray) {
         const auto none = one_by_one([](const Vec3&, double) { return Rgb{}; });
-        wave.wait({&ray, none}, scene.context);
+        batch.wait({&ray, none}, scene.context);
     }
     TestScene scene;
-    RayWave wave{make_context_fibers(kRays)};
+    ShadingBatch batch{make_context_fibers(kRays)};
     std::vector<std::size_t> served;
 };
 
@@ -149,7 +149,7 @@ TEST_CASE("ray waves: what serving throws reaches those that wait for it") {
             ++told;
         }
     };
-    asking.wave.run(4, body, fails, asking.scene.context);
+    asking.batch.run(4, body, fails, asking.scene.context);
     CHECK(told == 4);
 }
 
@@ -160,17 +160,17 @@ TEST_CASE("ray waves: work on the outer stack may not wait, and may throw") {
         TraceContext& context = asking.scene.context;
         context.depth += static_cast<int>(i);
         const auto work = [&] {
-            CHECK(context.wave == nullptr);
+            CHECK(context.batch == nullptr);
             CHECK(context.depth == static_cast<int>(i));
             if (i == 2) throw 2;
             ++done;
         };
         try {
-            asking.wave.outside(work, context);
+            asking.batch.outside(work, context);
         } catch (int thrown) {
             done += 10 * thrown;
         }
-        CHECK(context.wave == &asking.wave);
+        CHECK(context.batch == &asking.batch);
         CHECK(context.depth == static_cast<int>(i));
     });
     CHECK(done == 24);
@@ -232,11 +232,11 @@ TEST_CASE("ray waves: ambient rays go side by side, too, within those that ask")
     const std::vector<Hit> hits = hits_of(scene, together);
     for (std::size_t i = 0; i < alone.size(); ++i)
         scene.tracer.shade_hit(alone[i], hits[i], scene.context);
-    const std::size_t of_ambient_rays = scene.context.waves.size();
+    const std::size_t of_ambient_rays = scene.context.batches.size();
     CHECK(of_ambient_rays >= 1);
     scene.tracer.shade_hits(together, hits, scene.context);
-    CHECK(scene.context.waves.size() == of_ambient_rays + 1);
-    CHECK(scene.context.open_waves == 0);
+    CHECK(scene.context.batches.size() == of_ambient_rays + 1);
+    CHECK(scene.context.open_batches == 0);
     for (std::size_t i = 0; i < alone.size(); ++i)
         CHECK(same_bits(together[i].value, alone[i].value));
 }

@@ -1,0 +1,119 @@
+#include "core/batch/shading_batch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lightwalk {
+namespace {
+
+/// Says for its lifetime which batch the code that runs may wait in.
+class BatchScope {
+  public:
+    BatchScope(TraceContext& context, ShadingBatch* batch)
+        : context_(context), before_(std::exchange(context.batch, batch)) {}
+    ~BatchScope() { context_.batch = before_; }
+    BatchScope(const BatchScope&) = delete;
+    BatchScope& operator=(const BatchScope&) = delete;
+
+  private:
+    TraceContext& context_;
+    ShadingBatch* before_;
+};
+
+}  // namespace
+
+void ShadingBatch::run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
+                  TraceContext& context) {
+    level_ = context.ambient_level;
+    around_ = context.batch;
+    for (std::size_t first = 0; first < count; first += tasks_.size())
+        run_part(first, std::min(tasks_.size(), count - first), body, calculate, context);
+}
+
+void ShadingBatch::run_part(std::size_t first, std::size_t count, FunctionRef<void(std::size_t)> body,
+                       Calculate calculate, TraceContext& context) {
+    const int depth = context.depth;
+    if (depth == 0) context.start_path();  // one for all
+    const auto work = [&] {
+        ShadingTask& own = tasks_[running_];
+        try {
+            body(first + running_);
+        } catch (...) {
+            own.failed = std::current_exception();
+        }
+    };
+    const FunctionRef<void()> work_ref(work);
+    const auto run_on = [&](std::size_t i, auto&& enter) {
+        const BatchScope batch_scope(context, this);
+        running_ = i;
+        context.depth = tasks_[i].depth;
+        bool done = enter();
+        while (!done && tasks_[i].outside) {
+            go_outside(tasks_[i], context);
+            context.depth = tasks_[i].depth;
+            done = fibers_->resume(i);
+        }
+        if (!done) waiting_.push_back(i);
+        context.depth = depth;
+    };
+    waiting_.clear();
+    std::size_t begun = 0;
+    for (; begun < count && fibers_->prepare(begun); ++begun) {
+        tasks_[begun] = {nullptr, nullptr, depth, nullptr};
+        run_on(begun, [&] { return fibers_->start(begun, work_ref); });
+    }
+    while (!waiting_.empty()) {
+        calculate_all(calculate, context);
+        answered_.swap(waiting_);
+        waiting_.clear();
+        for (const std::size_t i : answered_) run_on(i, [&] { return fibers_->resume(i); });
+    }
+    for (std::size_t i = 0; i < begun; ++i)
+        if (tasks_[i].failed) std::rethrow_exception(std::exchange(tasks_[i].failed, nullptr));
+    const BatchScope alone(context, around_);  // where there is no memory for stacks
+    for (std::size_t i = begun; i < count; ++i) body(first + i);
+}
+
+void ShadingBatch::calculate_all(Calculate calculate, TraceContext& context) {
+    requests_.clear();
+    for (const std::size_t i : waiting_) requests_.push_back(*tasks_[i].request);
+    const BatchScope outside(context, around_);
+    const int depth = context.depth;
+    context.depth = tasks_[waiting_.front()].depth;  // of shadow rays' parents
+    try {
+        calculate(requests_);
+    } catch (...) {
+        for (const std::size_t i : waiting_) tasks_[i].failed = std::current_exception();
+    }
+    context.depth = depth;
+}
+
+void ShadingBatch::go_outside(ShadingTask& task, TraceContext& context) {
+    const BatchScope outside(context, around_);
+    context.depth = task.depth;
+    try {
+        (*task.outside)();
+    } catch (...) {
+        task.failed = std::current_exception();
+    }
+    task.outside = nullptr;
+}
+
+void ShadingBatch::leave(TraceContext& context) {
+    const std::size_t own = running_;
+    tasks_[own].depth = context.depth;
+    fibers_->wait();
+    if (tasks_[own].failed) std::rethrow_exception(std::exchange(tasks_[own].failed, nullptr));
+}
+
+void ShadingBatch::wait(const DirectRequest& request, TraceContext& context) {
+    tasks_[running_].request = &request;
+    leave(context);
+}
+
+void ShadingBatch::outside(FunctionRef<void()> work, TraceContext& context) {
+    tasks_[running_].outside = &work;
+    leave(context);
+}
+
+}  // namespace lightwalk
