@@ -46,7 +46,7 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
         // Shading finds sources at infinity; what is nearer was known before.
         const Hit& first = hits_[k].exists() ? hits_[k] : ray.hit;
         hits[targets_[k]] = {true,           first.surface,         first.modifier,
-                             first.position, ray.mirrored_distance, ray.mirrored};
+                             first.position, ray.reflected_path_length, ray.mirrored};
     }
 }
 

@@ -32,7 +32,7 @@ struct Hit {
 enum class Visibility : std::uint8_t {
     clear,    ///< nothing but material-less surfaces in between
     blocked,  ///< an opaque surface lies in between
-    special,  ///< no opaque surface, but at least one ShadowClass::special one
+    needs_shading,  ///< no opaque surface, but at least one ShadowClass::needs shading one
 };
 
 /// Axis-aligned bounds.

@@ -242,16 +242,16 @@ bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
     if (what.frame != kWorld) enter(ray, what.frame);
     // First whether it is met: most are not, and what a surface is stands elsewhere in memory.
-    // Behind special surfaces only what blocks matters: of leaves a ray passes many.
-    const bool passed_special = ray.result == Visibility::special;
-    if (passed_special && shadow_class(ray, what) != ShadowClass::blocks) return false;
+    // Behind needs shading surfaces only what blocks matters: of leaves a ray passes many.
+    const bool passed_shaded = ray.result == Visibility::needs_shading;
+    if (passed_shaded && shadow_class(ray, what) != ShadowClass::blocks) return false;
     const std::optional<Candidate> candidate = cross(ray, what);
     if (!candidate) return false;
     const ShadowClass shadow = shadow_class(ray, what);
     if (shadow == ShadowClass::ignored) return false;
     if (!is_in_the_way(ray, *candidate)) return false;
     if (shadow != ShadowClass::blocks) {
-        ray.result = Visibility::special;
+        ray.result = Visibility::needs_shading;
         return false;
     }
     ray.result = Visibility::blocked;

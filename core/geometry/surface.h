@@ -15,7 +15,7 @@ enum class ShadowClass : std::uint8_t {
     ignored,  ///< no material: the ray passes as if nothing were there
     blocks,   ///< the first such surface before the light ends the matter, whatever else lies in
               ///< between
-    special,  ///< glass, trans, mixtures, illum, ...: has to be shaded to know
+    needs_shading,  ///< glass, trans, mixtures, illum, ...: has to be shaded to know
 };
 
 /// Tie rules of coincident surfaces and shadow queries, derived from the modifier chain.

@@ -40,27 +40,27 @@ DirectCalculation::~DirectCalculation() {
     --shared_.open;
 }
 
-std::span<const float> DirectCalculation::tails(const LitPoint& point) const {
+std::span<const float> DirectCalculation::remaining_sums(const ShadingPoint& point) const {
     const auto number = static_cast<std::size_t>(&point - scratch_.points.data());
-    return std::span(scratch_.tails).subspan(point.first + number, point.count + 1);
+    return std::span(scratch_.remaining_sums).subspan(point.first + number, point.count + 1);
 }
 
 void DirectCalculation::run(std::span<const DirectRequest> requests) {
     gather(requests);
-    for (LitPoint& point : scratch_.points) {
+    for (ShadingPoint& point : scratch_.points) {
         if (point.chosen) choose_candidates(point);
         plan(point);
     }
     sort();
     while (select_tests()) {
         test();
-        for (LitPoint& point : scratch_.points) sum_tested(point);
+        for (ShadingPoint& point : scratch_.points) sum_tested(point);
     }
-    for (LitPoint& point : scratch_.points) add_untested(point);
+    for (ShadingPoint& point : scratch_.points) add_untested(point);
 }
 
 /// Which of the point's candidates are to be tested, and in which order.
-void DirectCalculation::plan(LitPoint& point) {
+void DirectCalculation::plan(ShadingPoint& point) {
     const RenderOptions& options = tracer_.options();
     bool all = options.shadow_threshold <= 0 || point.count <= kFirstBlock;
     for (std::size_t i = 0; i < point.count && !all && point.count <= kFewPatterned; ++i)
@@ -73,7 +73,7 @@ void DirectCalculation::sort() {
     scratch_.tests.clear();
     const bool told = context_.observer != nullptr;  // of the brightest first
     bool any = false;
-    for (const LitPoint& point : scratch_.points) {
+    for (const ShadingPoint& point : scratch_.points) {
         if (!point.adaptive && !told) continue;
         any = true;
         for (std::size_t i = 0; i < point.count; ++i)
@@ -81,13 +81,13 @@ void DirectCalculation::sort() {
     }
     if (!any) return;
     find_radiances(scratch_.tests, CandidateState::unknown);
-    scratch_.tails.resize(scratch_.candidates.size() + scratch_.points.size());
-    for (LitPoint& point : scratch_.points) {
+    scratch_.remaining_sums.resize(scratch_.candidates.size() + scratch_.points.size());
+    for (ShadingPoint& point : scratch_.points) {
         if (point.adaptive || told) rank(point);
     }
 }
 
-void DirectCalculation::rank(LitPoint& point) {
+void DirectCalculation::rank(ShadingPoint& point) {
     std::vector<std::uint64_t>& keys = scratch_.keys;
     keys.clear();
     for (std::size_t i = 0; i < point.count; ++i) {
@@ -101,7 +101,7 @@ void DirectCalculation::rank(LitPoint& point) {
     point.count = keys.size();
     point.ahead = look_ahead(point.count, tracer_.options().shadow_certainty);
     const auto number = static_cast<std::size_t>(&point - scratch_.points.data());
-    float* const tail = scratch_.tails.data() + point.first + number;
+    float* const tail = scratch_.remaining_sums.data() + point.first + number;
     tail[point.count] = 0;
     for (std::size_t i = point.count; i-- > 0;) tail[i] = tail[i + 1] + ranked(point, i).brightness;
 }
@@ -110,9 +110,9 @@ void DirectCalculation::rank(LitPoint& point) {
 bool DirectCalculation::select_tests() {
     bool any = false;
     const double threshold = tracer_.options().shadow_threshold;
-    for (LitPoint& point : scratch_.points) {
+    for (ShadingPoint& point : scratch_.points) {
         point.block_end = point.adaptive
-                              ? next_block(tails(point), point.ahead, threshold / point.ray->weight,
+                              ? next_block(remaining_sums(point), point.ahead, threshold / point.ray->weight,
                                            point.tested, point.tally.brightness)
                               : point.count;
         any = any || point.block_end > point.tested;
@@ -120,7 +120,7 @@ bool DirectCalculation::select_tests() {
     return any;
 }
 
-void DirectCalculation::sum_tested(LitPoint& point) {
+void DirectCalculation::sum_tested(ShadingPoint& point) {
     if (point.tested == point.block_end) return;
     Rgb& value = point.ray->value;
     for (; point.tested < point.block_end; ++point.tested) {
@@ -132,7 +132,7 @@ void DirectCalculation::sum_tested(LitPoint& point) {
     point.tally.brightness = brightness(value);
 }
 
-void DirectCalculation::add_untested(LitPoint& point) {
+void DirectCalculation::add_untested(ShadingPoint& point) {
     if (point.tested == point.count) return;
     const auto factor = static_cast<float>(point.tally.factor());
     for (std::size_t i = point.tested; i < point.count; ++i) {

@@ -29,16 +29,16 @@ class DirectCalculation {
     /// bring is found later: by sort() for all, by test() only where they are seen.
     void gather(std::span<const DirectRequest> requests);
     /// Rank the candidates of the points that are adaptive, brightest first; those that bring
-    /// nothing go. Fills the tails.
+    /// nothing go. Fills the remaining sums.
     void sort();
     /// Test the visibility of all candidates from rank `tested` to `block_end`, of all points.
     void test();
 
-    [[nodiscard]] LitPoint& point(std::size_t i) { return scratch_.points[i]; }
-    [[nodiscard]] const LightCandidate& ranked(const LitPoint& point, std::size_t rank) const {
+    [[nodiscard]] ShadingPoint& point(std::size_t i) { return scratch_.points[i]; }
+    [[nodiscard]] const LightCandidate& ranked(const ShadingPoint& point, std::size_t rank) const {
         return scratch_.candidates[scratch_.ranks[point.first + rank]];
     }
-    [[nodiscard]] std::span<const float> tails(const LitPoint& point) const;
+    [[nodiscard]] std::span<const float> remaining_sums(const ShadingPoint& point) const;
 
   private:
     struct Emission {
@@ -46,8 +46,8 @@ class DirectCalculation {
         double distance = kHuge;  ///< to the source's surface [m]
     };
     // direct_gather.cpp
-    void find_samples(LitPoint& point);
-    void add_source(LitPoint& point, std::size_t k);
+    void find_samples(ShadingPoint& point);
+    void add_source(ShadingPoint& point, std::size_t k);
     void consider_samples(std::uint32_t point);
     [[nodiscard]] const PolygonShape* polygon_of(std::int32_t source) const;
     void consider(std::uint32_t point, std::int32_t source, const PolygonShape* polygon,
@@ -66,15 +66,15 @@ class DirectCalculation {
                                                               const Vec3& direction);
 
     // direct_choice.cpp
-    [[nodiscard]] std::span<const std::uint32_t> choose_sources(const LitPoint& point);
-    void choose_candidates(LitPoint& point);
+    [[nodiscard]] std::span<const std::uint32_t> choose_sources(const ShadingPoint& point);
+    void choose_candidates(ShadingPoint& point);
     [[nodiscard]] std::size_t wanted_lights() const {
         return static_cast<std::size_t>(tracer_.options().ambient_lights);
     }
 
     // direct_shadows.cpp
     void test_plainly();
-    [[nodiscard]] bool is_special(LightCandidate& candidate) const;
+    [[nodiscard]] bool mark_needs_shading(LightCandidate& candidate) const;
     void sort_by_source();
     [[nodiscard]] ShadowQuery shadow_query(const LightCandidate& candidate);
     void take(LightCandidate& candidate, Visibility found) const;
@@ -85,20 +85,20 @@ class DirectCalculation {
     void find_side_by_side(std::span<const std::uint32_t> group, ModifierId patterns);
     void find_radiance(LightCandidate& candidate);
     [[nodiscard]] Rgb emission(const LightCandidate& candidate) const;
-    [[nodiscard]] Emission traced_emission(const LitPoint& point, std::int32_t source,
+    [[nodiscard]] Emission traced_emission(const ShadingPoint& point, std::int32_t source,
                                            const Vec3& direction) const;
-    [[nodiscard]] Ray aimed_ray(const LitPoint& point, std::int32_t source,
+    [[nodiscard]] Ray aimed_ray(const ShadingPoint& point, std::int32_t source,
                                 const Vec3& direction) const;
     [[nodiscard]] bool meet(const LightCandidate& candidate, Hit& hit) const;
     static void set_radiance(LightCandidate& candidate, const Rgb& radiance);
 
     // direct.cpp
-    void plan(LitPoint& point);
-    void rank(LitPoint& point);
+    void plan(ShadingPoint& point);
+    void rank(ShadingPoint& point);
     [[nodiscard]] bool select_tests();
-    void sum_tested(LitPoint& point);
-    void add_untested(LitPoint& point);
-    [[nodiscard]] const LitPoint& point_of(const LightCandidate& candidate) const {
+    void sum_tested(ShadingPoint& point);
+    void add_untested(ShadingPoint& point);
+    [[nodiscard]] const ShadingPoint& point_of(const LightCandidate& candidate) const {
         return scratch_.points[candidate.point];
     }
 
@@ -110,7 +110,7 @@ class DirectCalculation {
 };
 
 /// Whether lights of this source have to be followed by a ray, whatever lies between.
-[[nodiscard]] inline bool needs_tracing(const LightSource& source, const LitPoint& point) {
+[[nodiscard]] inline bool needs_tracing(const LightSource& source, const ShadingPoint& point) {
     return source.follow || point.clipped;
 }
 

@@ -9,7 +9,7 @@ namespace lightwalk {
 namespace {
 
 /// Numbers of a point's own, for the choice of sources (0) and candidates (1).
-double random_of(const LitPoint& point, int choice) {
+double random_of(const ShadingPoint& point, int choice) {
     RandomStream stream = point.start.random;
     RandomStream child = stream.child();
     for (int i = 0; i < choice; ++i) child = stream.child();
@@ -19,7 +19,7 @@ double random_of(const LitPoint& point, int choice) {
 }  // namespace
 
 /// A few real sources, and all virtual ones: most of their samples pass the relay by.
-std::span<const std::uint32_t> DirectCalculation::choose_sources(const LitPoint& point) {
+std::span<const std::uint32_t> DirectCalculation::choose_sources(const ShadingPoint& point) {
     const std::span<const std::int32_t> sampled = lights_.sampled();
     scratch_.sizes.resize(sampled.size());
     scratch_.scales.assign(lights_.all().size(), 1);
@@ -38,7 +38,7 @@ std::span<const std::uint32_t> DirectCalculation::choose_sources(const LitPoint&
 }
 
 /// Of the point's candidates a few, which bring more for it.
-void DirectCalculation::choose_candidates(LitPoint& point) {
+void DirectCalculation::choose_candidates(ShadingPoint& point) {
     if (point.count <= wanted_lights()) return;
     scratch_.sizes.clear();
     for (std::size_t i = 0; i < point.count; ++i) {

@@ -13,7 +13,7 @@ bool brings_light(float brightness) {
 }
 
 /// A ray from the point that sees the source and nothing else.
-Ray DirectCalculation::aimed_ray(const LitPoint& point, std::int32_t source,
+Ray DirectCalculation::aimed_ray(const ShadingPoint& point, std::int32_t source,
                                  const Vec3& direction) const {
     Ray& parent = *point.ray;
     const RandomStream before = parent.random;
@@ -31,7 +31,7 @@ Ray DirectCalculation::aimed_ray(const LitPoint& point, std::int32_t source,
 /// distance is known already, and only the outline remains to be asked.
 bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
     const LightSource& source = lights_[candidate.source];
-    const LitPoint& point = point_of(candidate);
+    const ShadingPoint& point = point_of(candidate);
     const Vec3& direction = candidate.direction;
     const double t = candidate.distance;
     const auto* polygon =
@@ -58,7 +58,7 @@ bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
 /// cut short.
 Rgb DirectCalculation::emission(const LightCandidate& candidate) const {
     const LightSource& source = lights_[candidate.source];
-    const LitPoint& point = point_of(candidate);
+    const ShadingPoint& point = point_of(candidate);
     if (!source.plain || !point.clear_air)
         return traced_emission(point, candidate.source, candidate.direction).radiance;
     Hit hit;
@@ -70,7 +70,7 @@ Rgb DirectCalculation::emission(const LightCandidate& candidate) const {
 }
 
 /// Radiance of any source, and how far its surface is.
-DirectCalculation::Emission DirectCalculation::traced_emission(const LitPoint& point,
+DirectCalculation::Emission DirectCalculation::traced_emission(const ShadingPoint& point,
                                                                std::int32_t source,
                                                                const Vec3& direction) const {
     Ray aimed = aimed_ray(point, source, direction);

@@ -12,7 +12,7 @@ constexpr std::size_t kLate = 4096;  ///< points after which half of what was is
 
 }  // namespace
 
-LitPoint::LitPoint(const DirectRequest& request)
+ShadingPoint::ShadingPoint(const DirectRequest& request)
     : position(request.ray->hit.position),
       one_sided(request.front != nullptr),
       coefficient(request.coefficient),
@@ -26,12 +26,12 @@ LitPoint::LitPoint(const DirectRequest& request)
 
 void DirectCalculation::gather(std::span<const DirectRequest> requests) {
     for (const DirectRequest& request : requests) {
-        LitPoint& point = scratch_.points.emplace_back(request);
+        ShadingPoint& point = scratch_.points.emplace_back(request);
         point.part_size = partition_size(tracer_.options().source_subdivision, point.start.weight);
         point.chosen = tracer_.options().ambient_lights > 0 && point.ray->in(kAmbient);
     }
     for (std::uint32_t number = 0; number < scratch_.points.size(); ++number) {
-        LitPoint& point = scratch_.points[number];
+        ShadingPoint& point = scratch_.points[number];
         point.first = scratch_.candidates.size();
         find_samples(point);
         consider_samples(number);
@@ -48,7 +48,7 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
 }
 
 /// What a point sees of all sources, as far as these alone can tell.
-void DirectCalculation::find_samples(LitPoint& point) {
+void DirectCalculation::find_samples(ShadingPoint& point) {
     lights_.boxes().look(point.position, point.one_sided ? &point.front : nullptr, point.part_size,
                          scratch_.views);
     scratch_.samples.clear();
@@ -64,7 +64,7 @@ void DirectCalculation::find_samples(LitPoint& point) {
 }
 
 /// The samples of one of the sampled sources.
-void DirectCalculation::add_source(LitPoint& point, std::size_t k) {
+void DirectCalculation::add_source(ShadingPoint& point, std::size_t k) {
     const double jitter = tracer_.options().source_jitter;
     const bool divided = point.part_size > 0;
     const SourceViews& views = scratch_.views;
@@ -88,7 +88,7 @@ void DirectCalculation::add_source(LitPoint& point, std::size_t k) {
 
 /// Candidates of the samples that the surface sends on.
 void DirectCalculation::consider_samples(std::uint32_t number) {
-    const LitPoint& point = scratch_.points[number];
+    const ShadingPoint& point = scratch_.points[number];
     const LightSamples lights = scratch_.samples.lights();
     if (lights.count == 0) return;
     if (scratch_.coefficients.size() < lights.count) scratch_.coefficients.resize(lights.count);
@@ -115,7 +115,7 @@ const PolygonShape* DirectCalculation::polygon_of(std::int32_t source) const {
 void DirectCalculation::consider(std::uint32_t number, std::int32_t index,
                                  const PolygonShape* polygon, const Vec3& direction, const Rgb& k) {
     const LightSource& source = lights_[index];
-    const LitPoint& point = scratch_.points[number];
+    const ShadingPoint& point = scratch_.points[number];
     if (is_constant(source) && point.clear_air) {
         if (const auto distance = front_distance(index, point.position, direction))
             add_candidate(number, index, direction, k, {source.radiance, *distance});

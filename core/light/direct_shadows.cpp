@@ -26,26 +26,26 @@ void set_seen(LightCandidate& candidate) {
 
 void DirectCalculation::test() {
     scratch_.tests.clear();
-    for (const LitPoint& point : scratch_.points) {
+    for (const ShadingPoint& point : scratch_.points) {
         for (std::size_t i = point.tested; i < point.block_end; ++i)
             scratch_.tests.push_back(scratch_.ranks[point.first + i]);
     }
     context_.counters.shadow += scratch_.tests.size();
     test_plainly();
     for (const std::uint32_t i : scratch_.tests) {
-        if (scratch_.candidates[i].special) trace_shadow(scratch_.candidates[i]);
+        if (scratch_.candidates[i].needs_shading) trace_shadow(scratch_.candidates[i]);
     }
     find_radiances(scratch_.tests, CandidateState::seen);
 }
 
 /// What lies between, where a ray that only asks for opaque surfaces can tell; the other candidates
-/// become special.
+/// become needs shading.
 void DirectCalculation::test_plainly() {
     const Geometry& geometry = tracer_.scene().geometry();
     if (scratch_.points.size() == 1) {
         for (const std::uint32_t i : scratch_.tests) {
             LightCandidate& candidate = scratch_.candidates[i];
-            if (is_special(candidate)) continue;
+            if (mark_needs_shading(candidate)) continue;
             const ShadowQuery query = shadow_query(candidate);
             take(candidate, geometry.visibility(query.ray, query.target, query.last));
         }
@@ -78,26 +78,26 @@ void DirectCalculation::test_plainly() {
 }
 
 /// Whether the candidate has to be traced in any case.
-bool DirectCalculation::is_special(LightCandidate& candidate) const {
-    candidate.special = needs_tracing(lights_[candidate.source], point_of(candidate));
-    return candidate.special;
+bool DirectCalculation::mark_needs_shading(LightCandidate& candidate) const {
+    candidate.needs_shading = needs_tracing(lights_[candidate.source], point_of(candidate));
+    return candidate.needs_shading;
 }
 
 /// Order the candidates that are tested by their source. Those that have to be traced in any case
-/// become special.
+/// become needs shading.
 void DirectCalculation::sort_by_source() {
     std::vector<std::uint32_t>& ends = scratch_.source_ends;
     ends.assign(lights_.all().size(), 0);
     for (const std::uint32_t i : scratch_.tests) {
         LightCandidate& candidate = scratch_.candidates[i];
-        if (!is_special(candidate)) ++ends[static_cast<std::size_t>(candidate.source)];
+        if (!mark_needs_shading(candidate)) ++ends[static_cast<std::size_t>(candidate.source)];
     }
     std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
     scratch_.by_source.resize(scratch_.tests.size());
     std::size_t plain = 0;
     for (const std::uint32_t i : scratch_.tests) {
         const LightCandidate& candidate = scratch_.candidates[i];
-        if (candidate.special) continue;
+        if (candidate.needs_shading) continue;
         scratch_.by_source[ends[static_cast<std::size_t>(candidate.source)]++] = i;
         ++plain;
     }
@@ -106,7 +106,7 @@ void DirectCalculation::sort_by_source() {
 
 ShadowQuery DirectCalculation::shadow_query(const LightCandidate& candidate) {
     const LightSource& source = lights_[candidate.source];
-    const LitPoint& point = point_of(candidate);
+    const ShadingPoint& point = point_of(candidate);
     const bool local = !source.distant || source.is_virtual;
     ShadowQuery query;
     query.ray = {point.position, candidate.direction,
@@ -120,7 +120,7 @@ ShadowQuery DirectCalculation::shadow_query(const LightCandidate& candidate) {
 }
 
 void DirectCalculation::take(LightCandidate& candidate, Visibility found) const {
-    if (context_.observer && found == Visibility::clear) found = Visibility::special;
+    if (context_.observer && found == Visibility::clear) found = Visibility::needs_shading;
     switch (found) {
         case Visibility::clear:
             set_seen(candidate);
@@ -128,8 +128,8 @@ void DirectCalculation::take(LightCandidate& candidate, Visibility found) const 
         case Visibility::blocked:
             set_dark(candidate);
             break;
-        case Visibility::special:
-            candidate.special = true;
+        case Visibility::needs_shading:
+            candidate.needs_shading = true;
     }
 }
 

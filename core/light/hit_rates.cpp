@@ -40,16 +40,16 @@ std::vector<Ledger> count_all(const std::vector<MeasuredPoint>& points, std::siz
     return all;
 }
 
-std::vector<float> tails_of(const MeasuredPoint& point) {
-    std::vector<float> tails(point.size() + 1, 0.0f);
-    for (std::size_t i = point.size(); i-- > 0;) tails[i] = tails[i + 1] + point[i].brightness;
-    return tails;
+std::vector<float> remaining_sums_of(const MeasuredPoint& point) {
+    std::vector<float> remaining_sums(point.size() + 1, 0.0f);
+    for (std::size_t i = point.size(); i-- > 0;) remaining_sums[i] = remaining_sums[i + 1] + point[i].brightness;
+    return remaining_sums;
 }
 
 /// What the direct calculation would leave untested at a point, entered by source.
 void count_untested(const MeasuredPoint& point, const std::vector<float>& rates, double certainty,
                     double threshold, std::vector<Ledger>& untested) {
-    const std::vector<float> tails = tails_of(point);
+    const std::vector<float> remaining_sums = remaining_sums_of(point);
     ShadowTally tally;
     const auto test = [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -58,7 +58,7 @@ void count_untested(const MeasuredPoint& point, const std::vector<float>& rates,
             tally.brightness += point[i].arriving;
         }
     };
-    const std::size_t tested = test_brightest(tails, certainty, threshold, tally, test);
+    const std::size_t tested = test_brightest(remaining_sums, certainty, threshold, tally, test);
     for (std::size_t i = tested; i < point.size(); ++i) {
         const auto source = static_cast<std::size_t>(point[i].source);
         const auto share = static_cast<double>(point[i].brightness);
@@ -81,13 +81,13 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
     DirectCalculation direct(lights, context);
     const DirectRequest request{&ray, coefficient};
     direct.gather({&request, 1});
-    LitPoint& lit = direct.point(0);
+    ShadingPoint& lit = direct.point(0);
     lit.adaptive = true;
     direct.sort();
     lit.block_end = lit.count;
     direct.test();
     MeasuredPoint point;
-    const float total = direct.tails(lit)[0];
+    const float total = direct.remaining_sums(lit)[0];
     for (std::size_t i = 0; i < lit.count; ++i) {
         const LightCandidate& c = direct.ranked(lit, i);
         point.push_back({c.source, c.brightness / total, brightness(c.contribution) / total});

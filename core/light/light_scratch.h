@@ -35,13 +35,13 @@ struct LightCandidate {
     Rgb contribution;         ///< V = K E, as `state` says
     float brightness = 0;     ///< of the contribution, for the order of tests
     CandidateState state = CandidateState::unknown;
-    bool special = false;  ///< a ray has to be followed through what is in the way
+    bool needs_shading = false;  ///< a ray has to be followed through what is in the way
 };
 
 /// A shaded point whose direct light is being calculated. What every candidate asks of it stands
 /// here, together: the rays of a batch are too many for the nearest cache.
-struct LitPoint {
-    explicit LitPoint(const DirectRequest& request);
+struct ShadingPoint {
+    explicit ShadingPoint(const DirectRequest& request);
 
     Vec3 position;
     Vec3 front;              ///< see Tracer::add_direct, where `one_sided`
@@ -77,7 +77,7 @@ struct DirectScratch {
     SourceParts parts;              ///< of one of them
     SourceSamples samples;          ///< of all
     std::vector<Rgb> coefficients;  ///< of these
-    std::vector<LitPoint> points;
+    std::vector<ShadingPoint> points;
     std::vector<LightCandidate> candidates;     ///< of one point after the other
     std::vector<std::uint32_t> ranks;           ///< candidates of one point after the other, in the
                                                 ///< order of tests
@@ -86,7 +86,7 @@ struct DirectScratch {
     std::vector<std::uint32_t> chosen_sources;  ///< among the sampled ones
     std::vector<float> scales;                  ///< of these, by source
     std::vector<std::uint64_t> keys;            ///< of the candidates that are being ranked
-    std::vector<float> tails;                   ///< by rank, and one more a point: see next_block()
+    std::vector<float> remaining_sums;                   ///< by rank, and one more a point: see next_block()
     std::vector<std::uint32_t> tests;           ///< candidates that are being tested
     std::vector<std::uint32_t> by_source;       ///< of these, those that plain visibility decides
     std::vector<std::uint32_t> source_ends;     ///< in by_source

@@ -32,7 +32,7 @@ void LightSources::index_sources() {
         sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
-void LightSources::settle(const Tracer& tracer, WarningSink& warnings, const Team& team) {
+void LightSources::finalize(const Tracer& tracer, WarningSink& warnings, const Team& team) {
     index_sources();
     find_scattered(warnings);
     const bool chosen = options_.ambient_bounces > 0 && options_.ambient_lights > 0;

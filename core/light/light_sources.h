@@ -40,7 +40,7 @@ class LightSources {
     /// The boxes of these.
     [[nodiscard]] const SourceBoxes& boxes() const { return boxes_; }
 
-    /// Add a virtual source; sampled() does not hold it before settle(). While the tracer is set
+    /// Add a virtual source; sampled() does not hold it before finalize(). While the tracer is set
     /// up only.
     void add(const LightSource& source) {
         sources_.push_back(source);
@@ -48,7 +48,7 @@ class LightSources {
     }
     /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
     /// Called once by Tracer's constructor, with that tracer, before any rendering.
-    void settle(const Tracer& tracer, WarningSink& warnings, const Team& team);
+    void finalize(const Tracer& tracer, WarningSink& warnings, const Team& team);
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;

@@ -133,7 +133,7 @@ void SmallSources::draw_pixel(const Outline& outline, int x, int y, TraceContext
     ++context.counters.shadow;
     tracer_.trace(ray, context);
     if (static_cast<double>(max_component(ray.value)) <= kEpsilon) return;
-    pixel({x, y, static_cast<float>(coverage), ray.value, ray.unmirrored_distance});
+    pixel({x, y, static_cast<float>(coverage), ray.value, ray.unreflected_path_length});
 }
 
 }  // namespace lightwalk

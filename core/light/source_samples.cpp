@@ -114,7 +114,7 @@ void SourceSamples::aim() {
                  *normal_z = row(kNormalZ), *area = row(kArea), *behind = row(kBehind),
                  *reach = row(kReach);
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < abreast(count_); ++i) {
+    for (std::size_t i = 0; i < round_up_to_simd_width(count_); ++i) {
         const double length = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
         const double shorter = 1 / length;
         const double to_x = x[i] * shorter, to_y = y[i] * shorter, to_z = z[i] * shorter;
@@ -157,7 +157,7 @@ std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& 
 }
 
 SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const std::int32_t> which)
-    : count_(abreast(which.size())), rows_(kRows * count_) {
+    : count_(round_up_to_simd_width(which.size())), rows_(kRows * count_) {
     for (std::size_t i = 0; i < which.size(); ++i) {
         const LightSource& source = sources[static_cast<std::size_t>(which[i])];
         const auto set = [&](int r, double value) {
@@ -207,7 +207,7 @@ void SourceBoxes::look(const Vec3& point, const Vec3* front, double size_over_di
     double* __restrict__ facing = height + count_;
     double* __restrict__ margin = facing + count_;
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < abreast(count_); ++i) {
+    for (std::size_t i = 0; i < round_up_to_simd_width(count_); ++i) {
         const double to_x = c_x[i] - local[i] * point.x, to_y = c_y[i] - local[i] * point.y,
                      to_z = c_z[i] - local[i] * point.z;
         x[i] = to_x;

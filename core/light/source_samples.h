@@ -141,7 +141,7 @@ class SourceBoxes {
     [[nodiscard]] const double* row(int r) const {
         return rows_.data() + static_cast<std::size_t>(r) * count_;
     }
-    std::size_t count_ = 0;  ///< a multiple of kAbreast
+    std::size_t count_ = 0;  ///< a multiple of kSimdWidth
     std::vector<double> rows_;
 };
 

@@ -164,7 +164,7 @@ void BrtdFunction::add_transmitted(Ray& ray, const Shading& s, TraceContext& con
     context.tracer.trace(child, context);
     Tracer::accumulate(ray, child);
     if (straight && brightness(s.transmitted) + brightness(s.reflected) < 1) {
-        ray.unmirrored_distance = ray.hit.t + child.effective_distance();
+        ray.unreflected_path_length = ray.hit.t + child.effective_distance();
     }
 }
 

@@ -128,7 +128,7 @@ void Dielectric::add_refracted(Ray& ray, const Crossing& at, const Refraction& r
     context.tracer.trace(child, context);
     Tracer::accumulate(ray, child);
     if (unfold || std::fabs(index_ - 1) <= kEpsilon) {
-        ray.unmirrored_distance = ray.hit.t + child.effective_distance();
+        ray.unreflected_path_length = ray.hit.t + child.effective_distance();
     }
 }
 

@@ -105,7 +105,7 @@ void Glass::add_transmitted(Ray& ray, bool perturbed, const Rgb& coef,
     }
     context.tracer.trace(child, context);
     Tracer::accumulate(ray, child);
-    if (straight) ray.unmirrored_distance = ray.hit.t + child.effective_distance();
+    if (straight) ray.unreflected_path_length = ray.hit.t + child.effective_distance();
 }
 
 void Glass::add_reflected(Ray& ray, bool perturbed, const PerturbedNormal& facing, const Rgb& coef,

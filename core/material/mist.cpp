@@ -80,8 +80,8 @@ bool Mist::shade(Ray& ray, TraceContext& context) const {
     context.tracer.trace(child, context);
     ray.value = child.value;
     ray.mirrored = child.mirrored;
-    ray.mirrored_distance = ray.hit.t + child.mirrored_distance;
-    ray.unmirrored_distance = ray.hit.t + child.unmirrored_distance;
+    ray.reflected_path_length = ray.hit.t + child.reflected_path_length;
+    ray.unreflected_path_length = ray.hit.t + child.unreflected_path_length;
     return true;
 }
 

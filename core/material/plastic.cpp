@@ -163,10 +163,10 @@ void Plastic::add_straight(Ray& ray, const Shading& s, TraceContext& context) co
     Tracer::accumulate(ray, child);
     if (s.tau_s >= 1 - kEpsilon) {  // as if it were not there
         ray.mirrored = child.mirrored * child.coef;
-        ray.mirrored_distance = ray.hit.t + child.mirrored_distance;
-        ray.unmirrored_distance = ray.hit.t + child.unmirrored_distance;
+        ray.reflected_path_length = ray.hit.t + child.reflected_path_length;
+        ray.unreflected_path_length = ray.hit.t + child.unreflected_path_length;
     } else if (s.tau_s > s.tau_d + s.rho_d) {
-        ray.unmirrored_distance = ray.hit.t + child.effective_distance();
+        ray.unreflected_path_length = ray.hit.t + child.effective_distance();
     }
 }
 
@@ -221,11 +221,11 @@ void Plastic::direct(const Shading& s, const Vec3& v, double jitter, const Light
         const std::size_t count = std::min(kTogether, lights.count - first);
         const double *x = lights.x + first, *y = lights.y + first, *z = lights.z + first,
                      *omega = lights.solid_angle + first;
-        for (std::size_t i = 0; i < abreast(count); ++i)
+        for (std::size_t i = 0; i < round_up_to_simd_width(count); ++i)
             cosine[i] = n.x * x[i] + n.y * y[i] + n.z * z[i];
         for (std::size_t i = 0; i < count && s.fresnel_diffuse; ++i)
             coat[i] = 1 - fresnel_estimate(std::abs(cosine[i]));
-        for (std::size_t i = 0; i < abreast(count); ++i) {
+        for (std::size_t i = 0; i < round_up_to_simd_width(count); ++i) {
             const double size = std::abs(cosine[i]);
             const double share = size > kEpsilon ? (cosine[i] > 0 ? front : back) : 0;
             diffuse[i] = static_cast<float>(share * coat[i] * size * omega[i] / kPi);

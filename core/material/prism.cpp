@@ -104,7 +104,7 @@ void Prism::send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
     child.target = target;
     context.tracer.trace(child, context);
     Tracer::accumulate(ray, child);
-    if (is_flat_hit(ray, context)) ray.unmirrored_distance = ray.hit.t + child.effective_distance();
+    if (is_flat_hit(ray, context)) ray.unreflected_path_length = ray.hit.t + child.effective_distance();
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ inline constexpr double kMinCosine = 1e-3;
 /// what is seen.
 inline void note_mirrored(Ray& ray, const Ray& child, const Rgb& contribution, bool unfold) {
     ray.mirrored = contribution;
-    ray.mirrored_distance = ray.hit.t;
-    if (unfold) ray.mirrored_distance += child.effective_distance();
+    ray.reflected_path_length = ray.hit.t;
+    if (unfold) ray.reflected_path_length += child.effective_distance();
 }
 
 }  // namespace lightwalk

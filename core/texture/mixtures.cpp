@@ -54,12 +54,12 @@ void combine_values(Ray& ray, const Ray& fore, const Ray& back, float c) {
     ray.mirrored = mix(fore.mirrored, back.mirrored, c);
     const float fore_mirrored = c * brightness(fore.mirrored);
     const float back_mirrored = (1 - c) * brightness(back.mirrored);
-    ray.mirrored_distance =
-        fore_mirrored > back_mirrored ? fore.mirrored_distance : back.mirrored_distance;
+    ray.reflected_path_length =
+        fore_mirrored > back_mirrored ? fore.reflected_path_length : back.reflected_path_length;
     const float fore_rest = c * brightness(fore.value) - fore_mirrored;
     const float back_rest = (1 - c) * brightness(back.value) - back_mirrored;
-    ray.unmirrored_distance =
-        fore_rest > back_rest ? fore.unmirrored_distance : back.unmirrored_distance;
+    ray.unreflected_path_length =
+        fore_rest > back_rest ? fore.unreflected_path_length : back.unreflected_path_length;
 }
 
 /// Evaluate both branches on copies of the ray. True: at least one was a material.

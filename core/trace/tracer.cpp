@@ -88,7 +88,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
     }
     ambient_ = std::make_unique<AmbientCalculation>(*this);
     VirtualSourceBuilder(*lights_, *this, warnings).build();
-    lights_->settle(*this, warnings, team);
+    lights_->finalize(*this, warnings, team);
 }
 Tracer::~Tracer() = default;
 
@@ -98,7 +98,7 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
         const OpenRay open(context);
         count(ray, context.counters);
         if (lights_->intersect_target(ray, *this)) {
-            ray.unmirrored_distance = ray.hit.t;
+            ray.unreflected_path_length = ray.hit.t;
             if (!shade_chain(ray, ray.hit.modifier, context)) {
                 const Surface surface = scene_.surface(ray.hit.surface);
                 throw InputError(surface.where(), "light source \"" + std::string(surface.name()) +
@@ -149,7 +149,7 @@ void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
     ray.hit = hit;
     ray.next_clip = ray.clip;
     if (hit.exists()) {
-        ray.unmirrored_distance = hit.t;
+        ray.unreflected_path_length = hit.t;
         if (ray.clip && ray.clip->contains(hit.modifier)) {
             pass_through(ray, context);
         } else {

@@ -11,17 +11,17 @@
 namespace lightwalk {
 
 /// So many numbers at a time are computed side by side.
-inline constexpr std::size_t kAbreast = 4;
+inline constexpr std::size_t kSimdWidth = 4;
 
 /// A number of elements rounded up, so that no loop has elements left over: most points see few
 /// lights.
-[[nodiscard]] constexpr std::size_t abreast(std::size_t count) {
-    return (count + kAbreast - 1) / kAbreast * kAbreast;
+[[nodiscard]] constexpr std::size_t round_up_to_simd_width(std::size_t count) {
+    return (count + kSimdWidth - 1) / kSimdWidth * kSimdWidth;
 }
 
 /// Lights as one point sees them, an array a number, so that they are looked at side by side: unit
 /// directions away from the surface, and solid angles [sr]. Each may be read up to
-/// abreast(count), where anything may stand.
+/// round up to simd width(count), where anything may stand.
 struct LightSamples {
     const double *x, *y, *z, *solid_angle;
     std::size_t count;

@@ -54,8 +54,8 @@ struct Ray {
 
     Rgb value;                           ///< radiance that the ray brings back [W/(m² sr)]
     Rgb mirrored;                        ///< the part of it that came by mirror-like reflection
-    double mirrored_distance = kHuge;    ///< Radiance's rmt
-    double unmirrored_distance = kHuge;  ///< Radiance's rxt
+    double reflected_path_length = kHuge;    ///< Radiance's rmt
+    double unreflected_path_length = kHuge;  ///< Radiance's rxt
 
     Rgb coef{1, 1, 1};  ///< factor relative to the parent
     double weight = 1;  ///< bound on the contribution to the primary ray
@@ -77,8 +77,8 @@ struct Ray {
     [[nodiscard]] bool in(std::uint16_t kinds) const { return (history & kinds) != 0; }
     /// Distance of what is seen: through or in a mirror-like surface where that dominates.
     [[nodiscard]] double effective_distance() const {
-        return brightness(mirrored) > 0.5f * brightness(value) ? mirrored_distance
-                                                               : unmirrored_distance;
+        return brightness(mirrored) > 0.5f * brightness(value) ? reflected_path_length
+                                                               : unreflected_path_length;
     }
     /// Whether a texture moved the normal (|d| > kEpsilon).
     [[nodiscard]] bool perturbed() const {

@@ -102,7 +102,7 @@ bool Tracer::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const
     child.hit = Hit{};
     child.pattern = {1, 1, 1};
     child.value = child.mirrored = Rgb{};
-    child.mirrored_distance = child.unmirrored_distance = kHuge;
+    child.reflected_path_length = child.unreflected_path_length = kHuge;
     child.next_clip = child.clip;
     if (child.weight <= 0) return false;
     if (child.in(kShadow)) return true;
@@ -130,8 +130,8 @@ void Tracer::pass_through(Ray& ray, TraceContext& context) const {
     trace(child, context);
     ray.value = child.value;
     ray.mirrored = child.mirrored;
-    ray.mirrored_distance = ray.hit.t + child.mirrored_distance;
-    ray.unmirrored_distance = ray.hit.t + child.unmirrored_distance;
+    ray.reflected_path_length = ray.hit.t + child.reflected_path_length;
+    ray.unreflected_path_length = ray.hit.t + child.unreflected_path_length;
 }
 
 PerturbedNormal perturb_normal(const Ray& ray) {

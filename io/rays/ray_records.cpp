@@ -151,9 +151,9 @@ void RayRecords::append_field(char letter, const RayRecord& traced, const Scene&
         case 'x':
             return append_color(traced.sensor ? ray.value : ray.value - ray.mirrored, output);
         case 'R':
-            return append_number(traced.sensor ? kHuge : ray.mirrored_distance, output);
+            return append_number(traced.sensor ? kHuge : ray.reflected_path_length, output);
         case 'X':
-            return append_number(traced.sensor ? ray.hit.t : ray.unmirrored_distance, output);
+            return append_number(traced.sensor ? ray.hit.t : ray.unreflected_path_length, output);
         default:
             output += "~\t";
     }

@@ -211,9 +211,9 @@ TEST_CASE(
             CHECK(image.v * 73 == doctest::Approx(y + 0.5).epsilon(1e-9));
             if (seen.back() == "ground") CHECK(std::abs(hit.position.z) < 1e-9);
             if (seen.back() == "glass")
-                CHECK(hit.mirrored_distance > length(hit.position - room_view().position));
+                CHECK(hit.reflected_path_length > length(hit.position - room_view().position));
             else
-                CHECK((seen.back() == "shiny" || hit.mirrored_distance == kHuge));
+                CHECK((seen.back() == "shiny" || hit.reflected_path_length == kHuge));
         }
     }
     for (const std::string wanted : {"ground", "shiny", "glass", "dome"})
@@ -243,6 +243,6 @@ TEST_CASE("nothing is hit where there is nothing, and interpolated pixels hit no
     for (const PixelHit& hit : dark.hits) {
         CHECK(hit.traced);
         CHECK(hit.surface == kNoSurface);
-        CHECK(hit.mirrored_distance == kHuge);
+        CHECK(hit.reflected_path_length == kHuge);
     }
 }

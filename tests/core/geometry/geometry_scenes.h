@@ -31,7 +31,7 @@ inline SurfacePrimitive kept_primitive(PrimitiveType type, std::vector<double> r
 }
 
 inline constexpr SurfaceTraits kOpaque{true, false, ShadowClass::blocks};
-inline constexpr SurfaceTraits kGlass{true, true, ShadowClass::special};
+inline constexpr SurfaceTraits kGlass{true, true, ShadowClass::needs_shading};
 inline constexpr SurfaceTraits kNoMaterial{false, false, ShadowClass::ignored};
 
 /// Traits belong to modifiers: each number stands for three modifiers, one for each of the above.
@@ -354,7 +354,7 @@ class BruteForce {
             if (shadow == ShadowClass::blocks)
                 result = Visibility::blocked;
             else if (result == Visibility::clear)
-                result = Visibility::special;
+                result = Visibility::needs_shading;
         }
         for (const Placement& p : tables_.input.models[model].placements) {
             visit_shadow(p.model, p.transform * place,

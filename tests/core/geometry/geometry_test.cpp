@@ -340,7 +340,7 @@ TEST_CASE("an opaque surface blocks whatever glass stands before or behind it") 
     for (const bool glass_first : {false, true}) {
         TestModels scene;
         scene.add(surface(PrimitiveType::polygon, square(glass_first ? 3 : 1), 0, kGlass));
-        CHECK(scene.build().visibility(kDown, kNoSurface) == Visibility::special);
+        CHECK(scene.build().visibility(kDown, kNoSurface) == Visibility::needs_shading);
         scene.add(surface(PrimitiveType::polygon, square(2), 0, kOpaque));
         CHECK(scene.build().visibility(kDown, kNoSurface) == Visibility::blocked);
     }

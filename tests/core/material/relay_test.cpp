@@ -23,7 +23,7 @@ TEST_CASE("a mirror shows what is before it, dimmed, at its unfolded distance") 
     CHECK(relative_error(ray.value.r, 1.8) < kFloatRounding);
     CHECK(relative_error(ray.value.b, 0.2) < kFloatRounding);
     CHECK(ray.effective_distance() == rounded(12));
-    CHECK(ray.unmirrored_distance == rounded(4));
+    CHECK(ray.unreflected_path_length == rounded(4));
     CHECK(scene.trace({9, 0, 2}, {-1, 0, 0}).value == Rgb{});  // its back
 }
 
