@@ -30,44 +30,44 @@ void put_in_order(std::vector<AmbientPoint>& points) {
 class Collecting {
   public:
     explicit Collecting(WorkerContexts& contexts)
-        : contexts_(contexts), misses_(static_cast<std::size_t>(contexts.size())) {
+        : contexts_(contexts), missing_(static_cast<std::size_t>(contexts.size())) {
         for (int w = 0; w < contexts.size(); ++w)
-            contexts[w].misses = &misses_[static_cast<std::size_t>(w)];
+            contexts[w].missing = &missing_[static_cast<std::size_t>(w)];
     }
     ~Collecting() {
-        for (int w = 0; w < contexts_.size(); ++w) contexts_[w].misses = nullptr;
+        for (int w = 0; w < contexts_.size(); ++w) contexts_[w].missing = nullptr;
     }
     Collecting(const Collecting&) = delete;
     Collecting& operator=(const Collecting&) = delete;
 
     [[nodiscard]] bool left_out() const {
-        return std::any_of(misses_.begin(), misses_.end(),
-                           [](const AmbientMisses& misses) { return misses.left_out; });
+        return std::any_of(missing_.begin(), missing_.end(),
+                           [](const MissingAmbient& missing) { return missing.left_out; });
     }
     [[nodiscard]] std::vector<AmbientPoint> points() const {
         std::vector<AmbientPoint> all;
-        for (const AmbientMisses& misses : misses_)
-            all.insert(all.end(), misses.points.begin(), misses.points.end());
+        for (const MissingAmbient& missing : missing_)
+            all.insert(all.end(), missing.points.begin(), missing.points.end());
         return all;
     }
 
   private:
     WorkerContexts& contexts_;
-    std::vector<AmbientMisses> misses_;
+    std::vector<MissingAmbient> missing_;
 };
 
 /// While it lives the values that a worker computes on the way are kept.
-class Finding {
+class RecordCollector {
   public:
-    explicit Finding(TraceContext& context) : context_(context) { context.finds = &finds_; }
-    ~Finding() { context_.finds = nullptr; }
-    Finding(const Finding&) = delete;
-    Finding& operator=(const Finding&) = delete;
-    [[nodiscard]] std::vector<AmbientFind> take() { return std::move(finds_.finds); }
+    explicit RecordCollector(TraceContext& context) : context_(context) { context.new_records = &new_records_; }
+    ~RecordCollector() { context_.new_records = nullptr; }
+    RecordCollector(const RecordCollector&) = delete;
+    RecordCollector& operator=(const RecordCollector&) = delete;
+    [[nodiscard]] std::vector<NewAmbientRecord> take() { return std::move(new_records_.new_records); }
 
   private:
     TraceContext& context_;
-    AmbientFinds finds_;
+    NewAmbientRecords new_records_;
 };
 
 }  // namespace
@@ -191,7 +191,7 @@ std::vector<char> AmbientRounds::served(const AmbientPoint* points, std::size_t 
     return result;
 }
 
-void AmbientRounds::serve(std::vector<AmbientPoint> points) {
+void AmbientRounds::compute(std::vector<AmbientPoint> points) {
     if (points.empty()) return;
     const auto level = static_cast<std::size_t>(points.front().query.level);
     Waiting waiting(*this, std::move(points));
@@ -215,11 +215,11 @@ void AmbientRounds::serve(std::vector<AmbientPoint> points) {
 /// Before values are computed: those of the next level that they will need.
 void AmbientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
     if (chosen.front().query.level + 1 >= tracer_.options().ambient_bounces) return;
-    serve(collect([&] {
-        const auto scout = [&](std::size_t task, int worker) {
-            if (exchange_.does(task)) calculation_.scout(chosen[task], contexts_[worker]);
+    compute(collect([&] {
+        const auto prefetch = [&](std::size_t task, int worker) {
+            if (exchange_.does(task)) calculation_.prefetch(chosen[task], contexts_[worker]);
         };
-        executor_.for_each(chosen.size(), scout, stop_);
+        executor_.for_each(chosen.size(), prefetch, stop_);
     }));
 }
 
@@ -228,10 +228,10 @@ std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& 
     std::vector<RoundValue> made(chosen.size());
     const auto make = [&](std::size_t task, int worker) {
         if (!exchange_.does(task)) return;
-        Finding finding(contexts_[worker]);
+        RecordCollector collector(contexts_[worker]);
         if (const auto record = calculation_.record_at(chosen[task], contexts_[worker]))
             made[task].record.push_back(*record);
-        made[task].finds = finding.take();
+        made[task].new_records = collector.take();
     };
     executor_.for_each(chosen.size(), make, stop_);
     const bool alone = exchange_.count() == 1;
@@ -255,8 +255,8 @@ void AmbientRounds::store(const std::vector<AmbientPoint>& chosen,
     counts.values += chosen.size();
     cache_.freeze(false);
     for (std::size_t i = 0; i < values.size(); ++i) {
-        for (const AmbientFind& find : values[i].finds) {
-            ++counts_.at(static_cast<std::size_t>(find.point.query.level)).finds;
+        for (const NewAmbientRecord& find : values[i].new_records) {
+            ++counts_.at(static_cast<std::size_t>(find.point.query.level)).new_records;
             if (!calculation_.is_served(find.point)) store(find.record);
         }
         if (values[i].record.empty()) continue;

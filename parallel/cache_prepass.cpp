@@ -112,7 +112,7 @@ class DeterministicPrepass {
         std::vector<AmbientPoint> points = rounds_.collect([&] { look_at(coarse); });
         points_ = points.size();
         if (!rounds_.stopped()) tell(points.empty() ? 1 : kLooked);
-        rounds_.serve(std::move(points));
+        rounds_.compute(std::move(points));
         if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points were served by others
         sum_.add(step_, players_.contexts.rays(), players_.contexts.ambient());
         return !rounds_.stopped();

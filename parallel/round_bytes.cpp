@@ -36,7 +36,7 @@ void fields(Archive& archive, AmbientRecord& r) {
             r.corral, r.level);
 }
 template <class Archive>
-void fields(Archive& archive, AmbientFind& find) {
+void fields(Archive& archive, NewAmbientRecord& find) {
     archive(find.point, find.record);
 }
 template <class Archive, class T>
@@ -45,7 +45,7 @@ void fields(Archive& archive, std::vector<T>& list) {
 }
 template <class Archive>
 void fields(Archive& archive, RoundValue& value) {
-    archive(value.finds, value.record);
+    archive(value.new_records, value.record);
 }
 
 /// Hands fields down to the numbers that they are made of, which Derived takes.

@@ -10,7 +10,7 @@ namespace lightwalk {
 
 /// A value of a round, and those that were computed on the way to it.
 struct RoundValue {
-    std::vector<AmbientFind> finds;
+    std::vector<NewAmbientRecord> new_records;
     std::vector<AmbientRecord> record;  ///< one, or none where it cannot be stored
 };
 

@@ -211,7 +211,7 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     const double divisions =
         std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
     sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
-    if (request.context.misses == nullptr) {
+    if (request.context.missing == nullptr) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
     }
@@ -226,11 +226,11 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     RandomStream stream = cached ? stream_of(request.query, options.seed) : ray.random.child();
     if (cached) ray.random = stream.child();
     ++request.context.ambient_level;
-    if (request.context.misses == nullptr) ++request.context.ambient.computed;
+    if (request.context.missing == nullptr) ++request.context.ambient.computed;
     Hemisphere hemisphere = sample_hemisphere(request.query.normal, sampling, stream, rays);
     --request.context.ambient_level;
     if (cached) ray.random = before;
-    if (!hemisphere.complete() && request.context.misses == nullptr)
+    if (!hemisphere.complete() && request.context.missing == nullptr)
         ++request.context.ambient.incomplete;
     return hemisphere;
 }
@@ -266,11 +266,11 @@ Rgb AmbientCalculation::with_cache(const Request& request) const {
         return request.coef * value;
     };
     if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
-    if (AmbientMisses* misses = request.context.misses) {
+    if (MissingAmbient* missing = request.context.missing) {
         if (can_stand_alone(request.ray))
-            misses->points.push_back(point_of(request));
+            missing->points.push_back(point_of(request));
         else if (request.query.level == 0)
-            misses->left_out = true;
+            missing->left_out = true;
         return {};
     }
     const Claimed claimed(*cache_, request.query);
@@ -294,9 +294,9 @@ Rgb AmbientCalculation::new_value(const Request& request) const {
 
 void AmbientCalculation::store(const Request& request, const AmbientRecord& record) const {
     TraceContext& context = request.context;
-    if (context.finds != nullptr) {
+    if (context.new_records != nullptr) {
         if (can_stand_alone(request.ray))
-            context.finds->finds.push_back({point_of(request), record});
+            context.new_records->new_records.push_back({point_of(request), record});
         return;
     }
     if (known(request).weight > kEpsilon) ++context.ambient.duplicates;
@@ -366,7 +366,7 @@ std::optional<AmbientRecord> AmbientCalculation::record_at(const AmbientPoint& p
     return made ? made->record : std::nullopt;
 }
 
-void AmbientCalculation::scout(const AmbientPoint& point, TraceContext& context) const {
+void AmbientCalculation::prefetch(const AmbientPoint& point, TraceContext& context) const {
     Ray ray = ray_to(point);
     const AtLevel at_level(context, point.query.level);
     (void)sample({ray, Rgb::grey(kReflectance), point.query, point.far_side, context},

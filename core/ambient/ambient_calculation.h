@@ -30,8 +30,8 @@ class AmbientCalculation {
     [[nodiscard]] std::optional<AmbientRecord> record_at(const AmbientPoint& point,
                                                          TraceContext& context) const;
     /// Traces the rays that record_at would trace, as far as they do not depend on what the others
-    /// see, for what they miss: context.misses must be set.
-    void scout(const AmbientPoint& point, TraceContext& context) const;
+    /// see, for what they miss: context.missing must be set.
+    void prefetch(const AmbientPoint& point, TraceContext& context) const;
 
   private:
     struct Request;

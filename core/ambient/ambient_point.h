@@ -26,21 +26,21 @@ struct AmbientPoint {
 /// What is wanted and not there. Where a context has one, rays only find points: no value is
 /// computed and no light source looked at, so that what they bring back means nothing. Points
 /// inside clipped matter or a mist that scatters are left out: they do not stand alone.
-struct AmbientMisses {
+struct MissingAmbient {
     std::vector<AmbientPoint> points;
     bool left_out = false;  ///< one was, that a primary ray or what it became wanted
 };
 
 /// A value that was computed on the way to others, with the point that wanted it.
-struct AmbientFind {
+struct NewAmbientRecord {
     AmbientPoint point;
     AmbientRecord record;
 };
 
 /// Takes values that are computed on the way, in their order. Where a context has one, they are not
 /// stored; those whose points do not stand alone are lost.
-struct AmbientFinds {
-    std::vector<AmbientFind> finds;
+struct NewAmbientRecords {
+    std::vector<NewAmbientRecord> new_records;
 };
 
 }  // namespace lightwalk

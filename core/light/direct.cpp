@@ -144,7 +144,7 @@ void DirectCalculation::add_untested(ShadingPoint& point) {
 
 void LightSources::add_direct(std::span<const DirectRequest> requests,
                               TraceContext& context) const {
-    if (sampled_.empty() || context.misses != nullptr) return;
+    if (sampled_.empty() || context.missing != nullptr) return;
     const std::size_t together = std::max<std::size_t>(1, kMostPairs / sampled_.size());
     for (std::size_t first = 0; first < requests.size(); first += together) {
         DirectCalculation direct(*this, context);

@@ -25,7 +25,7 @@ double phase(double g, double cosine) {
 }  // namespace
 
 void LightSources::add_in_scatter(Ray& ray, TraceContext& context) const {
-    if (context.misses != nullptr) return;
+    if (context.missing != nullptr) return;
     const Medium medium = ray.medium;
     const auto g = static_cast<double>(medium.eccentricity);
     if (!medium.scatter || ray.hit.t >= 0.99 * kHuge || g >= 1 - kEpsilon) return;

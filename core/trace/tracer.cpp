@@ -125,7 +125,7 @@ void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
     // To wait and go on costs a ray as much as some candidates gain by going side by side.
     const bool few = context.light->candidates < kWorthWaiting * context.light->points;
     const bool alone = few || !context.make_fibers || rays.size() == 1 ||
-                       context.open_batches == kMostBatches || context.observer || context.misses ||
+                       context.open_batches == kMostBatches || context.observer || context.missing ||
                        lights_->sampled().empty();
     if (alone) {
         for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
@@ -203,7 +203,7 @@ void Tracer::use_ambient_cache(AmbientCache* cache) {
 
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                         const Vec3* front) const {
-    if (context.misses != nullptr || lights_->sampled().empty()) return;
+    if (context.missing != nullptr || lights_->sampled().empty()) return;
     const DirectRequest request{&ray, coefficient, front};
     if (context.batch && context.batch->level() == context.ambient_level)
         context.batch->wait(request, context);

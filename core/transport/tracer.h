@@ -19,8 +19,8 @@ namespace lightwalk {
 
 class AmbientCache;
 class AmbientCalculation;
-struct AmbientFinds;
-struct AmbientMisses;
+struct NewAmbientRecords;
+struct MissingAmbient;
 class LightSources;
 class Fibers;
 class ShadingBatch;
@@ -102,8 +102,8 @@ struct TraceContext {
     RayObserver* observer = nullptr;  ///< told of every ray; null: nobody watches
     /// Takes the ambient values that are missing, and there is no direct light; null: they are
     /// computed.
-    AmbientMisses* misses = nullptr;
-    AmbientFinds* finds = nullptr;  ///< takes those that are computed; null: the cache
+    MissingAmbient* missing = nullptr;
+    NewAmbientRecords* new_records = nullptr;  ///< takes those that are computed; null: the cache
     // Sets made on the way (antimatter, mist); forgotten when a path starts.
     std::deque<ClipSet> clip_sets;
     std::deque<ScatterList> scatter_lists;

@@ -193,7 +193,7 @@ TEST_CASE("rounds end when every point is served, and few of their values were n
     CHECK(points.size() > 100);
     CHECK(process.contexts.ambient().computed == 0);  // points are found, not computed
     CHECK(process.contexts.rays().shadow == 0);
-    rounds.serve(points);
+    rounds.compute(points);
     CHECK(rounds.collect([&] { process.look(); }).empty());
     REQUIRE(rounds.counts().size() == 2);
     for (const AmbientRounds::Counts& counts : rounds.counts()) {
@@ -204,7 +204,7 @@ TEST_CASE("rounds end when every point is served, and few of their values were n
     REQUIRE_FALSE(left.empty());
     CHECK(left.back() == 0);
     CHECK(std::is_sorted(left.rbegin(), left.rend()));
-    CHECK(rounds.counts()[0].finds == 0);
+    CHECK(rounds.counts()[0].new_records == 0);
     CHECK_FALSE(rounds.stopped());
 }
 

@@ -34,8 +34,8 @@ TEST_CASE("points and values of a round come back from their bytes as they were"
     const std::vector<RoundValue> back = decode_values(bytes);
     REQUIRE(back.size() == 2);
     CHECK(back[0].record.empty());
-    REQUIRE(back[1].finds.size() == 1);
-    CHECK(hash_of(back[1].finds[0].point) == hash_of(some_point()));
+    REQUIRE(back[1].new_records.size() == 1);
+    CHECK(hash_of(back[1].new_records[0].point) == hash_of(some_point()));
     CHECK(back[1].record.at(0).value == record.value);
     CHECK(encode_values(back) == bytes);
 
