@@ -66,7 +66,7 @@ Sampling
 
 Light (the most used; see rpict(1) for the rest)
   -av R G B          constant ambient radiance
-  -dt -dc -dj -ds -dr -dp -dv    direct light: threshold, certainty, jitter, subdivision, relays, pretest, visibility
+  -dt -dc -dj -ds -dr -dp -dv    direct light: threshold, certainty, jitter, subdivision, redirections, pretest, visibility
   -ab N              bounces of indirect light; -aa -ar -ad -as: accuracy, resolution, divisions, super-samples
   --ambient-lights N  where the rays of indirect light arrive, N light samples (default 2), chosen by what they may
                      bring, stand for all: the same mean, little more noise; 0: all are tested
@@ -233,7 +233,7 @@ Say what a scene holds: primitives by type, bounds, light sources with the virtu
 instances, memory, and what Lightwalk does not support, with the first place of each. Exit status 1 when the scene
 cannot be rendered; what could be found out is printed all the same.
 
-  -dr N              relays of virtual sources, default 1
+  -dr N              redirections of virtual sources, default 1
   --allow-commands   run commands in scene files that Lightwalk does not replace by its own generators
 )";
 

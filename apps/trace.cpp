@@ -38,7 +38,7 @@ class TraceRun {
         options_ = {shades() || command_.sensor, command_.sensor, command_.limit_by_length,
                     command_.settings.light.seed};
         if (!options_.shade) {  // nothing is lit: do not prepare light sources
-            command_.settings.light.relays = 0;
+            command_.settings.light.redirections = 0;
             command_.settings.light.shadow_threshold = 0;
         }
     }

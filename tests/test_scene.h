@@ -74,7 +74,7 @@ struct TestScene {
         options.shadow_threshold = 0;
         options.source_subdivision = 0;
         options.specular_samples = 0;
-        options.relay_pretest = 0;
+        options.virtual_source_pretest = 0;
         return options;
     }
 

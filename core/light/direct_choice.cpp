@@ -18,7 +18,7 @@ double random_of(const ShadingPoint& point, int choice) {
 
 }  // namespace
 
-/// A few real sources, and all virtual ones: most of their samples pass the relay by.
+/// A few real sources, and all virtual ones: most of their samples pass the redirecting surface by.
 std::span<const std::uint32_t> DirectCalculation::choose_sources(const ShadingPoint& point) {
     const std::span<const std::int32_t> sampled = lights_.sampled();
     scratch_.sizes.resize(sampled.size());

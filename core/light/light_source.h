@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/light/relay_beam.h"
+#include "core/light/virtual_source_beam.h"
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
 #include "core/model/ids.h"
@@ -28,7 +28,7 @@ inline constexpr double kCylinderBox = 0.8559;  ///< across the axis
 /// One entry of the source list.
 struct LightSource {
     SurfaceId object =
-        kNoSurface;  ///< the emitting surface, or the relay surface of a virtual source
+        kNoSurface;  ///< the emitting surface, or the redirecting surface surface of a virtual source
     ModifierId material = kVoid;  ///< light, illum, glow or spotlight of the real source
     PrimitiveType material_type = PrimitiveType::light;
     PrimitiveType shape = PrimitiveType::sphere;  ///< of the real source
@@ -49,9 +49,9 @@ struct LightSource {
     bool distant = false, flat = false, round = false, cylinder = false;
     bool is_virtual = false, follow = false;
     bool unusable = false;          ///< visible, but never sampled
-    std::int32_t parent = -1;       ///< virtual: what it relays
-    int branch = 0;                 ///< virtual: projection of the relay (prism2)
-    std::optional<RelayBeam> beam;  ///< virtual: where its samples meet the relay
+    std::int32_t parent = -1;       ///< virtual: what it redirections
+    int branch = 0;                 ///< virtual: projection of the redirecting surface (prism2)
+    std::optional<VirtualSourceBeam> beam;  ///< virtual: where its samples meet the redirecting surface
     float worth = 0;                ///< brightness of its radiance, about, times visible_share()
     float hit_rate = 0.5f;          ///< frozen share of shadow tests that get through
 };

@@ -25,7 +25,7 @@ class LightSources {
     [[nodiscard]] const LightSource& operator[](std::int32_t i) const {
         return sources_[static_cast<std::size_t>(i)];
     }
-    /// Of the surface of a source, which for a virtual one is its relay.
+    /// Of the surface of a source, which for a virtual one is its redirecting surface.
     [[nodiscard]] const Shape& shape(std::int32_t source) const {
         return shapes_[static_cast<std::size_t>(source)];
     }
@@ -57,7 +57,7 @@ class LightSources {
     [[nodiscard]] bool intersect_target(Ray& ray, const Tracer& tracer) const;
 
     /// Whether the source sends light to `origin` from `direction` as far as its spotlight cone or
-    /// relayed beam goes.
+    /// redirected beam goes.
     [[nodiscard]] bool inside_spot(const LightSource& source, const Vec3& origin,
                                    const Vec3& direction) const;
 
@@ -68,7 +68,7 @@ class LightSources {
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;
 
-    /// Index for a source identifier of a mist ("name" or "relay>source"): the last match; nothing
+    /// Index for a source identifier of a mist ("name" or "redirecting surface>source"): the last match; nothing
     /// when unknown.
     [[nodiscard]] std::optional<std::int32_t> find(std::string_view identifier) const;
     /// The sources that a mist scatters, as its arguments name them; null when it names none that

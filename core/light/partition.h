@@ -35,7 +35,7 @@ struct SourceSample {
 };
 
 /// Whether the point is beyond a local glow's radius of influence, or beside the beam of a virtual
-/// source's relay.
+/// source's redirecting surface.
 [[nodiscard]] bool out_of_reach(const LightSource& source, const Vec3& point);
 
 /// Samples of round sources leave the box, by less than this times its size.

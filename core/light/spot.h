@@ -1,5 +1,5 @@
 #pragma once
-// Cones of spotlights, beams of relayed sunlight, and where two of them overlap.
+// Cones of spotlights, beams of redirected sunlight, and where two of them overlap.
 #include <optional>
 
 #include "core/light/light_source.h"

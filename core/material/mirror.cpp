@@ -21,7 +21,7 @@ class Mirror final : public Modifier {
 
   private:
     [[nodiscard]] bool takes_alternate(const Ray& ray) const;
-    void reflect(Ray& ray, const LightSource* relayed, TraceContext& context) const;
+    void reflect(Ray& ray, const LightSource* redirected, TraceContext& context) const;
 
     ModifierId next_;
     Rgb color_;
@@ -47,31 +47,31 @@ bool Mirror::takes_alternate(const Ray& ray) const {
 
 bool Mirror::shade(Ray& ray, TraceContext& context) const {
     const Tracer& tracer = context.tracer;
-    const LightSource* relayed = nullptr;  // the virtual source of this very mirror
+    const LightSource* redirected = nullptr;  // the virtual source of this very mirror
     if (ray.target != kNoTarget) {
         const LightSource& target = tracer.lights()[ray.target];
-        if (target.is_virtual && target.object == ray.hit.surface) relayed = &target;
+        if (target.is_virtual && target.object == ray.hit.surface) redirected = &target;
     }
-    if (has_alternate_ && !relayed && takes_alternate(ray)) {
+    if (has_alternate_ && !redirected && takes_alternate(ray)) {
         if (alternate_ != kVoid) return tracer.shade_chain(ray, alternate_, context);
         tracer.pass_through(ray, context);
         return true;
     }
-    if (ray.target != kNoTarget && !relayed) return true;  // blocks light of others
+    if (ray.target != kNoTarget && !redirected) return true;  // blocks light of others
     if (ray.hit.cos_out < 0) {
         if (!tracer.options().back_faces_visible) tracer.pass_through(ray, context);
         return true;
     }
     tracer.apply_textures(ray, next_, context);
-    reflect(ray, relayed, context);
+    reflect(ray, redirected, context);
     return true;
 }
 
-void Mirror::reflect(Ray& ray, const LightSource* relayed, TraceContext& context) const {
+void Mirror::reflect(Ray& ray, const LightSource* redirected, TraceContext& context) const {
     const Rgb coef = color_ * ray.pattern;
     Ray child;
     if (!context.tracer.spawn(child, kReflected, ray, &coef)) return;
-    bool textured = !relayed && ray.perturbed() && !ray.in(kAmbient);
+    bool textured = !redirected && ray.perturbed() && !ray.in(kAmbient);
     if (textured) {
         const PerturbedNormal facing = perturb_normal(ray);
         child.direction = mirror_direction(ray.direction, facing.normal, facing.cosine);
@@ -79,7 +79,7 @@ void Mirror::reflect(Ray& ray, const LightSource* relayed, TraceContext& context
     }
     if (!textured)
         child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.cos_out);
-    if (relayed) child.target = relayed->parent;
+    if (redirected) child.target = redirected->parent;
     context.tracer.trace(child, context);
     const Rgb contribution = Tracer::accumulate(ray, child);
     note_mirrored(ray, child, contribution, !textured && is_flat_hit(ray, context));

@@ -5,7 +5,7 @@
 #include "core/light/light_sources.h"
 #include "core/material/argument_checks.h"
 #include "core/material/surface_side.h"
-#include "core/relay/relay_modifier.h"
+#include "core/virtual_source/redirecting_modifier.h"
 #include "core/scene/modifier.h"
 #include "core/texture/function_binding.h"
 
@@ -14,17 +14,17 @@ namespace {
 
 constexpr std::size_t kExpressions = 4;  ///< of one branch: coefficient and direction
 
-class Prism final : public Modifier, public RelayModifier {
+class Prism final : public Modifier, public RedirectingModifier {
   public:
     explicit Prism(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
     [[nodiscard]] MaterialTraits traits() const override { return {.blocks_shadow_rays = true}; }
     [[nodiscard]] int branches() const override { return branches_; }
-    [[nodiscard]] std::optional<RelayDirection> relay(int branch, const Ray& hit_ray,
+    [[nodiscard]] std::optional<Redirection> redirect(int branch, const Ray& hit_ray,
                                                       TraceContext& context) const override;
 
   private:
-    [[nodiscard]] std::optional<RelayDirection> evaluate(int branch, const Ray& ray,
+    [[nodiscard]] std::optional<Redirection> evaluate(int branch, const Ray& ray,
                                                          const Vec3& aim,
                                                          TraceContext& context) const;
     void send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
@@ -70,12 +70,12 @@ bool Prism::shade(Ray& ray, TraceContext& context) const {
     return true;
 }
 
-std::optional<RelayDirection> Prism::relay(int branch, const Ray& hit_ray,
+std::optional<Redirection> Prism::redirect(int branch, const Ray& hit_ray,
                                            TraceContext& context) const {
     return evaluate(branch, hit_ray, {}, context);
 }
 
-std::optional<RelayDirection> Prism::evaluate(int branch, const Ray& ray, const Vec3& aim,
+std::optional<Redirection> Prism::evaluate(int branch, const Ray& ray, const Vec3& aim,
                                               TraceContext& context) const {
     MaterialVariables variables;
     variables.aim = aim;
@@ -88,13 +88,13 @@ std::optional<RelayDirection> Prism::evaluate(int branch, const Ray& ray, const 
             return std::nullopt;
         }
     }
-    return RelayDirection{value[0],
+    return Redirection{value[0],
                           binding_.to_world({value[1], value[2], value[3]}, ray, context)};
 }
 
 void Prism::send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
                  TraceContext& context) const {
-    const std::optional<RelayDirection> bent = evaluate(branch, ray, aim, context);
+    const std::optional<Redirection> bent = evaluate(branch, ray, aim, context);
     if (!bent) return;
     const Rgb coef = Rgb::grey(static_cast<float>(bent->coefficient));
     Ray child;

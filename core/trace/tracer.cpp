@@ -5,7 +5,7 @@
 #include "core/ambient/ambient_calculation.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
-#include "core/relay/virtual_sources.h"
+#include "core/virtual_source/virtual_sources.h"
 #include "core/transport/tracer.h"
 #include "core/batch/shading_batch.h"
 

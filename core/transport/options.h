@@ -22,8 +22,8 @@ struct RenderOptions {
     double shadow_certainty = 0.5;     ///< -dc
     double source_jitter = 0;          ///< -dj
     double source_subdivision = 0.25;  ///< -ds
-    int relays = 1;                    ///< -dr
-    double relay_pretest = 512;        ///< -dp [samples/sr]
+    int redirections = 1;                    ///< -dr
+    double virtual_source_pretest = 512;        ///< -dp [samples/sr]
     bool sources_visible = true;       ///< -dv
     bool back_faces_visible = true;    ///< -bv
     // specular

@@ -32,8 +32,8 @@ const std::array kEntries{
     Entry{"-dc", &O::shadow_certainty, "direct certainty"},
     Entry{"-dj", &O::source_jitter, "direct jitter"},
     Entry{"-ds", &O::source_subdivision, "direct sampling (source size / distance)"},
-    Entry{"-dr", &O::relays, "relays of virtual light sources"},
-    Entry{"-dp", &O::relay_pretest, "pretest density of virtual sources [1/sr]", false, true},
+    Entry{"-dr", &O::redirections, "relays of virtual light sources"},
+    Entry{"-dp", &O::virtual_source_pretest, "pretest density of virtual sources [1/sr]", false, true},
     Entry{"-dv", &O::sources_visible, "light sources visible"},
     Entry{"-ss", &O::specular_samples, "specular samples"},
     Entry{"-st", &O::specular_threshold, "specular threshold"},
@@ -172,7 +172,7 @@ RenderSettings default_render_settings(OptionDefaults program) {
     settings.light.shadow_threshold = 0.03;
     settings.light.shadow_certainty = 0.75;
     settings.light.source_subdivision = 0.2;
-    settings.light.relays = 2;
+    settings.light.redirections = 2;
     settings.light.ambient_accuracy = 0.1;
     settings.light.ambient_resolution = 256;
     settings.light.ambient_divisions = 1024;

@@ -28,7 +28,7 @@ void trace_some(std::shared_ptr<const Model> model, Resources& resources) {
     Silence silence;
     const Scene scene(std::move(model), modifier_factory, resources, silence);
     RenderOptions options;
-    options.relay_pretest = 0;
+    options.virtual_source_pretest = 0;
     options.shadow_threshold = 0;
     options.reflection_limit = 3;
     const Tracer tracer(scene, options, silence);

@@ -38,7 +38,7 @@ lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
 RenderOptions noisy() {
     RenderOptions options;
     options.source_jitter = 0.9;
-    options.relay_pretest = 0;
+    options.virtual_source_pretest = 0;
     return options;
 }
 

@@ -106,7 +106,7 @@ TEST_CASE("where ambient rays arrive mirrored lights count as well") {
                                    "void mirror silver 0 0 3 .9 .9 .9\nsilver polygon glass 0 0 12 "
                                    "4 -4 0  4 -4 3  4 4 3  4 4 0\n";
     RenderOptions mirrored = options(0);
-    mirrored.relays = 1;
+    mirrored.redirections = 1;
     TestScene all(scene_text, mirrored, stripes());
     REQUIRE(all.tracer.lights().virtual_count() > 5);
     TestScene without(many_lights(), options(0), stripes());

@@ -73,7 +73,7 @@ TEST_CASE("tracer: -lr bounds the reflections between two mirrors to that many")
         RenderOptions options = TestScene::exact();
         options.reflection_limit = limit;
         options.weight_limit = 1e-9;
-        options.relays = 0;
+        options.redirections = 0;
         TestScene scene(kMirror +
                             "silver ring low 0 0 8 0 0 0 0 0 1 0 9\n"
                             "silver ring high 0 0 8 0 0 4 0 0 -1 0 9\n",
@@ -91,7 +91,7 @@ TEST_CASE("tracer: -lw ends a path when what it can still bring is smaller") {
                     with([](RenderOptions& options) {
                         options.reflection_limit = 100;
                         options.weight_limit = 0.1;
-                        options.relays = 0;
+                        options.redirections = 0;
                     }));
     (void)scene.trace({0, 0, 1}, {0, 0, -1});
     CHECK(scene.context.counters.specular == 3);  // 1/2, 1/4, 1/8 are above a tenth
@@ -107,7 +107,7 @@ TEST_CASE("tracer: Russian roulette brings the same mean as tracing every path")
         RenderOptions all = TestScene::exact();
         all.reflection_limit = limit;
         all.weight_limit = 0.3;
-        all.relays = 0;
+        all.redirections = 0;
         return all;
     };
     RenderOptions exact = options(20);
@@ -200,7 +200,7 @@ TEST_CASE("tracer: counters tell rays by purpose") {
                         "pane ring high 0 0 8 0 0 4 0 0 1 0 9\n"
                         "lit source sky 0 0 4 0 0 1 180\n",
                     with([](RenderOptions& options) {
-                        options.relays = 0;
+                        options.redirections = 0;
                         options.reflection_limit = 1;
                     }));
     (void)scene.trace({0, 0, 2}, {0, 0, -1});

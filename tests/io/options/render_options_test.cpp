@@ -37,8 +37,8 @@ TEST_CASE("defaults are those of rpict(1) and rtrace(1)") {
     CHECK(rtrace.shadow_certainty == 0.75);
     CHECK(rpict.source_subdivision == 0.25);
     CHECK(rtrace.source_subdivision == 0.2);
-    CHECK(rpict.relays == 1);
-    CHECK(rtrace.relays == 2);
+    CHECK(rpict.redirections == 1);
+    CHECK(rtrace.redirections == 2);
     CHECK(rpict.reflection_limit == 7);
     CHECK(rtrace.reflection_limit == -10);
     CHECK(std::pair(rpict.ambient_accuracy, rtrace.ambient_accuracy) == std::pair(0.2, 0.1));
@@ -48,7 +48,7 @@ TEST_CASE("defaults are those of rpict(1) and rtrace(1)") {
           std::pair(128, 512));
     CHECK(trace.uncorrelated);
     for (const RenderOptions* o : {&rpict, &rtrace}) {
-        CHECK(o->relay_pretest == 512);
+        CHECK(o->virtual_source_pretest == 512);
         CHECK(o->source_jitter == 0);
         CHECK(o->specular_samples == 1);
         CHECK(o->specular_threshold == 0.15);
@@ -75,8 +75,8 @@ TEST_CASE("every rendering option sets its value") {
     CHECK(o.shadow_certainty == 0.2);
     CHECK(o.source_jitter == 0.3);
     CHECK(o.source_subdivision == 0.4);
-    CHECK(o.relays == 5);
-    CHECK(o.relay_pretest == 6);
+    CHECK(o.redirections == 5);
+    CHECK(o.virtual_source_pretest == 6);
     CHECK(o.specular_samples == 7.5);
     CHECK(o.specular_threshold == 0.8);
     CHECK(o.ambient_value == Rgb(1, 2, 3));

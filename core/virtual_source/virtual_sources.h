@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "core/light/light_sources.h"
-#include "core/relay/projection.h"
-#include "core/relay/relay_modifier.h"
+#include "core/virtual_source/projection.h"
+#include "core/virtual_source/redirecting_modifier.h"
 
 namespace lightwalk {
 
 inline constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
-inline constexpr int kMaxRelays = 64;  ///< larger values of -dr count as this
+inline constexpr int kMaxRedirections = 64;  ///< larger values of -dr count as this
 
-/// Appends to the list, for every source and every flat relay, what the relay makes of it; relays
-/// of relays too.
+/// Appends to the list, for every source and every flat redirecting surface, what the redirecting surface makes of it; redirections
+/// of redirections too.
 class VirtualSourceBuilder {
   public:
     VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);
@@ -24,30 +24,30 @@ class VirtualSourceBuilder {
 
   private:
     /// A mirror, or a prism with its material.
-    struct Relay {
+    struct RedirectingSurface {
         SurfaceId surface = kNoSurface;
         Plane plane;
-        RelayDisk disk;
-        const RelayModifier* prism = nullptr;  ///< null: mirror
+        RedirectingDisk disk;
+        const RedirectingModifier* prism = nullptr;  ///< null: mirror
         int branches = 1;
     };
-    void collect_relays(WarningSink& warnings);
-    void relay(std::int32_t parent, int depth);
-    void try_relay(std::int32_t parent, const Relay& relay, int branch, int depth);
+    void collect_redirecting_surfaces(WarningSink& warnings);
+    void add_virtual_sources(std::int32_t parent, int depth);
+    void try_virtual_source(std::int32_t parent, const RedirectingSurface& surface, int branch, int depth);
     [[nodiscard]] std::optional<Projection> projection(const LightSource& source,
-                                                       const Relay& relay, int branch);
-    [[nodiscard]] bool lights_disk(const LightSource& source, const Relay& relay) const;
+                                                       const RedirectingSurface& surface, int branch);
+    [[nodiscard]] bool lights_disk(const LightSource& source, const RedirectingSurface& surface) const;
 
     enum class Pretest { discard, follow, direct };
-    [[nodiscard]] Pretest pretest(std::int32_t parent, const Relay& relay, const RelayDisk& disk);
-    [[nodiscard]] int pretest_samples(const LightSource& parent, const RelayDisk& disk) const;
+    [[nodiscard]] Pretest pretest(std::int32_t parent, const RedirectingSurface& surface, const RedirectingDisk& disk);
+    [[nodiscard]] int pretest_samples(const LightSource& parent, const RedirectingDisk& disk) const;
     [[nodiscard]] float light_at(const Vec3& point, const Vec3& direction, std::int32_t source,
                                  bool alone);
 
     LightSources& lights_;
     const Tracer& tracer_;
     TraceContext context_;
-    std::vector<Relay> relays_;
+    std::vector<RedirectingSurface> redirecting_surfaces_;
 };
 
 }  // namespace lightwalk

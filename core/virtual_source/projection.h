@@ -31,34 +31,34 @@ class Projection {
     Vec3 shear_;  ///< k
 };
 
-/// Disk around a flat relay, in its plane.
-struct RelayDisk {
+/// Disk around a flat redirecting surface, in its plane.
+struct RedirectingDisk {
     Vec3 center;
     double radius = 0;  ///< [m]
 };
 
 /// The disk of a polygon (around its vertices' average) or ring; nothing for other shapes.
-[[nodiscard]] std::optional<RelayDisk> relay_disk(const Shape& shape);
+[[nodiscard]] std::optional<RedirectingDisk> redirecting_disk(const Shape& shape);
 
 /// Whether any part of the source's sampling box is in front of a mirror's plane.
 [[nodiscard]] bool is_before_mirror(const LightSource& source, const Plane& plane);
 
-/// The source as it appears through the relay: box, normal and direction projected; the rest
+/// The source as it appears through the redirecting surface: box, normal and direction projected; the rest
 /// copied.
 [[nodiscard]] LightSource project(const LightSource& source, const Projection& projection);
 
-/// What a relay's outline leaves of a source that was projected through it.
-struct RelayedSpot {
+/// What a redirecting surface's outline leaves of a source that was projected through it.
+struct VirtualSpot {
     bool possible = true;           ///< false: no light gets through
     std::optional<SpotShape> spot;  ///< cone or beam; nothing: no bound
-    RelayDisk disk;                 ///< the relay's disk, smaller when the spot shrank
+    RedirectingDisk disk;                 ///< the redirecting surface's disk, smaller when the spot shrank
 };
 
-/// @param parent     the source that is relayed
-/// @param projected  the same seen through the relay
+/// @param parent     the source that is redirected
+/// @param projected  the same seen through the redirecting surface
 /// @param projection how it was projected
-/// @param disk       of the relay
-[[nodiscard]] RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected,
-                                     const Projection& projection, const RelayDisk& disk);
+/// @param disk       of the redirecting surface
+[[nodiscard]] VirtualSpot virtual_spot(const LightSource& parent, const LightSource& projected,
+                                     const Projection& projection, const RedirectingDisk& disk);
 
 }  // namespace lightwalk

@@ -1,28 +1,28 @@
-#include "core/relay/virtual_sources.h"
+#include "core/virtual_source/virtual_sources.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/relay/beam.h"
+#include "core/virtual_source/beam.h"
 
 namespace lightwalk {
 namespace {
 
-bool relays_light(PrimitiveType type) {
+bool redirects_light(PrimitiveType type) {
     return type == PrimitiveType::mirror || type == PrimitiveType::prism1 ||
            type == PrimitiveType::prism2;
 }
 
 /// The mirror or prism that a surface of this modifier is made of, directly or as the alternate of
 /// an illum.
-std::optional<ModifierId> relay_material(const Scene& scene, ModifierId modifier) {
+std::optional<ModifierId> redirecting_material(const Scene& scene, ModifierId modifier) {
     auto id = scene.material_of(modifier);
     if (id && scene.modifier(*id).type == PrimitiveType::illum) {
         const std::vector<ModifierId>& alternate = scene.modifier(*id).references;
         if (alternate.empty() || alternate[0] == kVoid) return std::nullopt;
         id = scene.material_of(alternate[0]);
     }
-    if (!id || !relays_light(scene.modifier(*id).type)) return std::nullopt;
+    if (!id || !redirects_light(scene.modifier(*id).type)) return std::nullopt;
     return id;
 }
 
@@ -31,22 +31,22 @@ std::optional<ModifierId> relay_material(const Scene& scene, ModifierId modifier
 VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& tracer,
                                            WarningSink& warnings)
     : lights_(lights), tracer_(tracer), context_(tracer, warnings) {
-    if (tracer.options().relays > 0 && !lights.all().empty()) collect_relays(warnings);
+    if (tracer.options().redirections > 0 && !lights.all().empty()) collect_redirecting_surfaces(warnings);
 }
 
-void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
+void VirtualSourceBuilder::collect_redirecting_surfaces(WarningSink& warnings) {
     const Scene& scene = tracer_.scene();
-    ModifierId without = kVoid;  // relays nothing: millions of surfaces may have it in turn
+    ModifierId without = kVoid;  // redirections nothing: millions of surfaces may have it in turn
     for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
         const SurfaceId id{static_cast<std::int32_t>(i)};
         const Surface surface = scene.surface(id);
         if (surface.modifier() == without) continue;
-        const auto material = relay_material(scene, surface.modifier());
+        const auto material = redirecting_material(scene, surface.modifier());
         if (!material) without = surface.modifier();
         if (!material || !surface.has_shape()) continue;
         const Shape shape = surface.shape();
         const auto plane = plane_of(shape);
-        const auto disk = relay_disk(shape);
+        const auto disk = redirecting_disk(shape);
         if (!plane || !disk) {
             warnings.warn(to_prefix(surface.where()) + std::string(to_string(surface.type())) +
                           " \"" + std::string(surface.name()) +
@@ -54,50 +54,50 @@ void VirtualSourceBuilder::collect_relays(WarningSink& warnings) {
             continue;
         }
         if (disk->radius * disk->radius <= kEpsilon) continue;
-        Relay relay{id, *plane, *disk, nullptr, 1};
+        RedirectingSurface found{id, *plane, *disk, nullptr, 1};
         const ModifierRecord& record = scene.modifier(*material);
         if (record.type != PrimitiveType::mirror) {
-            relay.prism = dynamic_cast<const RelayModifier*>(record.node.get());
-            if (!relay.prism) continue;
-            relay.branches = relay.prism->branches();
+            found.prism = dynamic_cast<const RedirectingModifier*>(record.node.get());
+            if (!found.prism) continue;
+            found.branches = found.prism->branches();
         }
-        relays_.push_back(relay);
+        redirecting_surfaces_.push_back(found);
     }
 }
 
 void VirtualSourceBuilder::build() {
-    if (relays_.empty()) return;
-    const int depth = std::min(tracer_.options().relays, kMaxRelays);
+    if (redirecting_surfaces_.empty()) return;
+    const int depth = std::min(tracer_.options().redirections, kMaxRedirections);
     for (auto i = static_cast<std::int32_t>(lights_.all().size()); i-- > 0;) {
-        if (!lights_[i].unusable) relay(i, depth);
+        if (!lights_[i].unusable) add_virtual_sources(i, depth);
     }
 }
 
-void VirtualSourceBuilder::relay(std::int32_t parent, int depth) {
-    for (const Relay& next : relays_) {
+void VirtualSourceBuilder::add_virtual_sources(std::int32_t parent, int depth) {
+    for (const RedirectingSurface& next : redirecting_surfaces_) {
         if (next.surface == lights_[parent].object) continue;
         for (int branch = 0; branch < next.branches; ++branch)
-            try_relay(parent, next, branch, depth);
+            try_virtual_source(parent, next, branch, depth);
     }
 }
 
-void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& next, int branch,
+void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index, const RedirectingSurface& next, int branch,
                                      int depth) {
     const LightSource parent = lights_[parent_index];
     if (!lights_disk(parent, next)) return;
     const auto projected_by = projection(parent, next, branch);
     if (!projected_by) return;
     LightSource made = project(parent, *projected_by);
-    const RelayedSpot relayed = relay_spot(parent, made, *projected_by, next.disk);
-    if (!relayed.possible) return;
-    made.spot = relayed.spot;
+    const VirtualSpot redirected = virtual_spot(parent, made, *projected_by, next.disk);
+    if (!redirected.possible) return;
+    made.spot = redirected.spot;
     made.object = next.surface;
     made.is_virtual = made.follow = true;
     made.parent = parent_index;
     made.branch = branch;
-    made.beam = relay_beam(made, tracer_.scene().surface(next.surface).shape());
-    if (tracer_.options().relay_pretest > 0) {
-        const Pretest outcome = pretest(parent_index, next, relayed.disk);
+    made.beam = virtual_source_beam(made, tracer_.scene().surface(next.surface).shape());
+    if (tracer_.options().virtual_source_pretest > 0) {
+        const Pretest outcome = pretest(parent_index, next, redirected.disk);
         if (outcome == Pretest::discard) return;
         made.follow = outcome == Pretest::follow;
     }
@@ -107,12 +107,12 @@ void VirtualSourceBuilder::try_relay(std::int32_t parent_index, const Relay& nex
                          " virtual light sources; lower the number of relays (-dr)");
     }
     lights_.add(made);
-    if (depth > 1) relay(static_cast<std::int32_t>(count), depth - 1);
+    if (depth > 1) add_virtual_sources(static_cast<std::int32_t>(count), depth - 1);
 }
 
-/// Light of a virtual source exists only beyond its own relay: whether this relay's disk reaches
+/// Light of a virtual source exists only beyond its own redirecting surface: whether this redirecting surface's disk reaches
 /// there.
-bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Relay& next) const {
+bool VirtualSourceBuilder::lights_disk(const LightSource& source, const RedirectingSurface& next) const {
     if (!source.is_virtual) return true;
     const auto plane = plane_of(tracer_.scene().surface(source.object).shape());
     if (!plane) return true;
@@ -126,7 +126,7 @@ bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Relay& n
 }
 
 std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& source,
-                                                           const Relay& next, int branch) {
+                                                           const RedirectingSurface& next, int branch) {
     if (!next.prism) {
         if (!is_before_mirror(source, next.plane)) return std::nullopt;
         return Projection::mirror(next.plane);
@@ -137,7 +137,7 @@ std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& so
     test.hit = tracer_.scene().geometry().intersect_surface(next.surface,
                                                             {test.origin, test.direction, kHuge});
     if (!test.hit.exists()) return std::nullopt;
-    const auto bent = next.prism->relay(branch, test, context_);
+    const auto bent = next.prism->redirect(branch, test, context_);
     if (!bent || bent->coefficient <= kEpsilon) return std::nullopt;
     return Projection::bend(next.plane, test.direction, bent->direction);
 }

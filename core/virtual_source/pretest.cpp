@@ -1,19 +1,19 @@
-// Which virtual sources can be reached at all, and which never need their relayed path to be
+// Which virtual sources can be reached at all, and which never need their redirected path to be
 // followed.
 #include <cmath>
 
 #include "core/light/partition.h"
-#include "core/relay/virtual_sources.h"
+#include "core/virtual_source/virtual_sources.h"
 
 namespace lightwalk {
 namespace {
 
 constexpr int kLeastSamples = 16;
 constexpr int kMaxSamples = 1 << 16;
-constexpr int kDrawsPerSample = 32;  ///< before giving up to find points on the relay
+constexpr int kDrawsPerSample = 32;  ///< before giving up to find points on the redirecting surface
 
 /// Uniform in the disk, in the plane with this normal.
-Vec3 point_in_disk(const RelayDisk& disk, const Vec3& normal, RandomStream& random) {
+Vec3 point_in_disk(const RedirectingDisk& disk, const Vec3& normal, RandomStream& random) {
     const Vec3 u = perpendicular(normal), v = cross(normal, u);
     const double radius = disk.radius * std::sqrt(random.next()), angle = 2 * kPi * random.next();
     return disk.center + u * (radius * std::cos(angle)) + v * (radius * std::sin(angle));
@@ -21,10 +21,10 @@ Vec3 point_in_disk(const RelayDisk& disk, const Vec3& normal, RandomStream& rand
 
 }  // namespace
 
-/// Samples per solid angle that the relay fills as the parent sees it (-dp); for the sun, of the
+/// Samples per solid angle that the redirecting surface fills as the parent sees it (-dp); for the sun, of the
 /// whole scene.
-int VirtualSourceBuilder::pretest_samples(const LightSource& parent, const RelayDisk& disk) const {
-    const double density = tracer_.options().relay_pretest,
+int VirtualSourceBuilder::pretest_samples(const LightSource& parent, const RedirectingDisk& disk) const {
+    const double density = tracer_.options().virtual_source_pretest,
                  radius_squared = disk.radius * disk.radius;
     double samples = 0;
     if (parent.distant) {
@@ -56,8 +56,8 @@ float VirtualSourceBuilder::light_at(const Vec3& point, const Vec3& direction, s
 }
 
 VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_index,
-                                                            const Relay& next,
-                                                            const RelayDisk& disk) {
+                                                            const RedirectingSurface& next,
+                                                            const RedirectingDisk& disk) {
     const LightSource parent = lights_[parent_index];
     const RenderOptions& options = tracer_.options();
     const int wanted = pretest_samples(parent, disk);
@@ -66,7 +66,7 @@ VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_
     int found = 0, lit = 0, agreed = 0;
     for (int draw = 0; found < wanted; ++draw) {
         if (draw >= kDrawsPerSample * wanted) return Pretest::follow;  // too small to be judged
-        // Any ray onto the relay will do to find out whether the point is within its outline.
+        // Any ray onto the redirecting surface will do to find out whether the point is within its outline.
         const Vec3 above = point_in_disk(disk, next.plane.normal, random) + next.plane.normal;
         const Vec3 point = above - next.plane.normal * next.plane.height(above);
         if (!tracer_.scene()

@@ -1,5 +1,5 @@
-// The beam of a relay: never leaves out a point that the relay lights, and most that it does not.
-#include "core/relay/beam.h"
+// The beam of a redirecting surface: never leaves out a point that the redirecting surface lights, and most that it does not.
+#include "core/virtual_source/beam.h"
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,7 @@ Vec3 random_place(RandomStream& random, double reach) {
 }
 
 /// A triangle, a kite or a ring in a random plane.
-Shape random_relay(RandomStream& random, int kind) {
+Shape random_surface(RandomStream& random, int kind) {
     const Vec3 center = random_place(random, 1), normal = normalize(random_place(random, 1));
     if (kind == 2) return RingShape{center, normal, 0, 0.2 + random.next()};
     const Vec3 u = perpendicular(normal), v = cross(normal, u);
@@ -47,15 +47,15 @@ TEST_CASE("a relay's beam holds every point from which a sample is seen through 
     RandomStream random(11);
     int lit = 0, dark = 0, left_out = 0;
     for (int i = 0; i < 1200; ++i) {
-        const Shape relay = random_relay(random, i % 3);
+        const Shape surface = random_surface(random, i % 3);
         const LightSource source = random_source(random, i % 2 == 0);
-        const auto beam = relay_beam(source, relay);
+        const auto beam = virtual_source_beam(source, surface);
         if (!beam) continue;
         for (int j = 0; j < 300; ++j) {
             const Vec3 point = random_place(random, 4), a = random_place(random, 1.13);
             const Vec3 target = source.center + source.u * a.x + source.v * a.y + source.w * a.z;
             const Vec3 direction = normalize(source.distant ? target : target - point);
-            if (intersect(relay, point, direction, kHuge)) {
+            if (intersect(surface, point, direction, kHuge)) {
                 REQUIRE(beam->may_reach(point));
                 ++lit;
             } else {
@@ -72,10 +72,10 @@ TEST_CASE("no beam: a source that straddles the mirror's plane, a relay that is 
     LightSource source;
     source.u = {0, 0, 1};
     const Shape mirror = RingShape{{0, 0, 0.5}, {0, 0, 1}, 0, 1};
-    CHECK_FALSE(relay_beam(source, mirror));
+    CHECK_FALSE(virtual_source_beam(source, mirror));
     source.u = {0.1, 0, 0};
-    CHECK(relay_beam(source, mirror));
-    CHECK_FALSE(relay_beam(source, SphereShape{}));
+    CHECK(virtual_source_beam(source, mirror));
+    CHECK_FALSE(virtual_source_beam(source, SphereShape{}));
 }
 
 }  // namespace lightwalk

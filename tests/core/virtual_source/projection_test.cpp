@@ -1,4 +1,4 @@
-#include "core/relay/projection.h"
+#include "core/virtual_source/projection.h"
 
 #include <doctest/doctest.h>
 
@@ -91,69 +91,69 @@ TEST_CASE("relay disks: a polygon's vertices, a ring's outline, nothing else") {
     square.vertices = PointList(std::span<const double>(corners));
     square.normal = {0, 0, 1};
     square.offset = 2;
-    const auto disk = relay_disk(Shape{square});
+    const auto disk = redirecting_disk(Shape{square});
     REQUIRE(disk);
     check_near(disk->center, {1, 1, 2});
     CHECK(disk->radius == rounded(std::sqrt(2.0)));
-    const auto ring = relay_disk(Shape{RingShape{{1, 2, 3}, {0, 0, 1}, 0.5, 2}});
+    const auto ring = redirecting_disk(Shape{RingShape{{1, 2, 3}, {0, 0, 1}, 0.5, 2}});
     REQUIRE(ring);
     CHECK(ring->radius == 2);
-    CHECK_FALSE(relay_disk(Shape{SphereShape{{}, 1}}));
+    CHECK_FALSE(redirecting_disk(Shape{SphereShape{{}, 1}}));
     CHECK_FALSE(plane_of(Shape{SphereShape{{}, 1}}));
 }
 
 TEST_CASE("a relayed lamp shines through the relay only: a cone around its disk") {
     const Projection mirror = Projection::mirror(kWall);
     const LightSource parent = lamp({0, 0, 0}, 0.1), made = project(parent, mirror);
-    const RelayedSpot relayed = relay_spot(parent, made, mirror, {{4, 0, 0}, 1});
-    REQUIRE(relayed.possible);
-    REQUIRE(relayed.spot);
-    check_near(relayed.spot->aim, {-1, 0, 0});
+    const VirtualSpot redirected = virtual_spot(parent, made, mirror, {{4, 0, 0}, 1});
+    REQUIRE(redirected.possible);
+    REQUIRE(redirected.spot);
+    check_near(redirected.spot->aim, {-1, 0, 0});
     const double sine = 1.1 / 4;
-    CHECK(relayed.spot->size == rounded(2 * kPi * (1 - std::sqrt(1 - sine * sine))));
+    CHECK(redirected.spot->size == rounded(2 * kPi * (1 - std::sqrt(1 - sine * sine))));
     // So near that there is no bound.
     const LightSource close = lamp({3.5, 0, 0}, 0.1);
-    const RelayedSpot unbounded = relay_spot(close, project(close, mirror), mirror, {{4, 0, 0}, 1});
+    const VirtualSpot unbounded = virtual_spot(close, project(close, mirror), mirror, {{4, 0, 0}, 1});
     CHECK(unbounded.possible);
     CHECK_FALSE(unbounded.spot);
     // A glow does not reach beyond its radius.
     LightSource glow = parent;
     glow.material_type = PrimitiveType::glow;
     glow.proximity = 3.9f;
-    CHECK_FALSE(relay_spot(glow, project(glow, mirror), mirror, {{4, 0, 0}, 1}).possible);
+    CHECK_FALSE(virtual_spot(glow, project(glow, mirror), mirror, {{4, 0, 0}, 1}).possible);
 }
 
 TEST_CASE("a relayed spotlight: its cone is reflected and meets the relay's") {
     const Projection mirror = Projection::mirror(kWall);
     LightSource parent = lamp({0, 0, 0}, 0.01);
     parent.spot = SpotShape{{1, 0, 0}, 0.01f, 0.5f, false};
-    const RelayedSpot relayed = relay_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1});
-    REQUIRE(relayed.possible);
-    REQUIRE(relayed.spot);
-    check_near(relayed.spot->aim, {-1, 0, 0});
-    CHECK(relayed.spot->size == rounded(0.01f));
-    CHECK(relayed.spot->focal_length == 0.5f);
-    CHECK(relayed.disk.radius < 0.5);
+    const VirtualSpot redirected = virtual_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1});
+    REQUIRE(redirected.possible);
+    REQUIRE(redirected.spot);
+    check_near(redirected.spot->aim, {-1, 0, 0});
+    CHECK(redirected.spot->size == rounded(0.01f));
+    CHECK(redirected.spot->focal_length == 0.5f);
+    CHECK(redirected.disk.radius < 0.5);
     parent.spot->aim = {0, 1, 0};  // shines past the mirror
-    CHECK_FALSE(relay_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1}).possible);
+    CHECK_FALSE(virtual_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1}).possible);
 }
 
 TEST_CASE("relayed sunlight is a beam, a second relay cuts it") {
     const Projection mirror = Projection::mirror(kWall);
     const LightSource parent = sun({-1, 0, 0}, 0.5), made = project(parent, mirror);
-    const RelayedSpot first = relay_spot(parent, made, mirror, {{4, 0, 0}, 1});
+    const VirtualSpot first = virtual_spot(parent, made, mirror, {{4, 0, 0}, 1});
     REQUIRE(first.spot);
     CHECK(first.spot->beam);
     CHECK(first.spot->size == rounded(kPi));
-    LightSource relayed = made;
-    relayed.is_virtual = true;
-    relayed.spot = first.spot;
+    LightSource redirected = made;
+    redirected.is_virtual = true;
+    redirected.spot = first.spot;
     const Plane opposite{{1, 0, 0}, -4};
     const Projection second = Projection::mirror(opposite);
-    const RelayedSpot cut =
-        relay_spot(relayed, project(relayed, second), second, {{-4, 1.2, 0}, 1});
+    const VirtualSpot cut =
+        virtual_spot(redirected, project(redirected, second), second, {{-4, 1.2, 0}, 1});
     REQUIRE(cut.spot);
     CHECK(cut.spot->size < first.spot->size);
     CHECK(cut.spot->aim.y > 0);
-    CHECK_FALSE(relay_spot(relayed, project(relayed, second), second, {{-4, 9, 0}, 1}).possible);
+    CHECK_FALSE(virtual_spot(redirected, project(redirected, second), second, {{-4, 9, 0}, 1}).possible);
 }

@@ -1,16 +1,16 @@
-#include "core/relay/beam.h"
+#include "core/virtual_source/beam.h"
 
 #include <algorithm>
 
-#include "core/relay/projection.h"
+#include "core/virtual_source/projection.h"
 
 namespace lightwalk {
 namespace {
 
 constexpr double kRound = 1.5;  ///< squeezed samples leave the sampling box by less
 
-/// Corners of a rectangle around the relay, in order.
-std::array<Vec3, 4> outline(const Shape& shape, const Plane& plane, const RelayDisk& disk) {
+/// Corners of a rectangle around the redirecting surface, in order.
+std::array<Vec3, 4> outline(const Shape& shape, const Plane& plane, const RedirectingDisk& disk) {
     Vec3 along = perpendicular(plane.normal);
     double low_a = -disk.radius, high_a = disk.radius, low_b = low_a, high_b = high_a;
     if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
@@ -63,9 +63,9 @@ std::optional<Plane> side_of_beam(const Vec3& a, const Vec3& b, const Vec3& insi
 
 }  // namespace
 
-std::optional<RelayBeam> relay_beam(const LightSource& source, const Shape& relay) {
-    const auto plane = plane_of(relay);
-    const auto disk = relay_disk(relay);
+std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source, const Shape& surface) {
+    const auto plane = plane_of(surface);
+    const auto disk = redirecting_disk(surface);
     if (!plane || !disk) return std::nullopt;
     const std::array<Vec3, 8> corners = box_of(source);
     int above = 0, below = 0;
@@ -75,9 +75,9 @@ std::optional<RelayBeam> relay_beam(const LightSource& source, const Shape& rela
         below += height < -kEpsilon ? 1 : 0;
     }
     if (above != 8 && below != 8) return std::nullopt;
-    RelayBeam beam;
-    beam.relay = above == 8 ? *plane : Plane{-plane->normal, -plane->offset};
-    const std::array<Vec3, 4> edge = outline(relay, *plane, *disk);
+    VirtualSourceBeam beam;
+    beam.surface = above == 8 ? *plane : Plane{-plane->normal, -plane->offset};
+    const std::array<Vec3, 4> edge = outline(surface, *plane, *disk);
     const Vec3 inside = (edge[0] + edge[2]) * 0.5;
     for (std::size_t i = 0; i < 4; ++i) {
         const auto side = side_of_beam(edge[i], edge[(i + 1) % 4], inside, corners, source.distant);

@@ -10,26 +10,26 @@ namespace lightwalk {
 struct Ray;
 struct TraceContext;
 
-/// One projection of a relay, evaluated where a ray met it.
-struct RelayDirection {
+/// One projection of a redirecting surface, evaluated where a ray met it.
+struct Redirection {
     double coefficient = 0;  ///< share of the radiance that goes this way
     Vec3 direction;          ///< world space, as the expressions give it: not normalised
 };
 
-/// A modifier node that also relays light: the source list makes virtual sources of what it
+/// A modifier node that also redirections light: the source list makes virtual sources of what it
 /// answers. Implemented by the prisms beside Modifier (found by dynamic_cast); mirrors need no
 /// evaluation.
-class RelayModifier {
+class RedirectingModifier {
   public:
-    virtual ~RelayModifier() = default;
+    virtual ~RedirectingModifier() = default;
 
     /// How many projections there are (prism1: 1, prism2: 2).
     [[nodiscard]] virtual int branches() const = 0;
 
-    /// Evaluate one projection for a ray that hit the relay surface, without a source to aim at
-    /// (DxA, DyA and DzA are 0). The transform of the material applies; relay surfaces are never
+    /// Evaluate one projection for a ray that hit the redirecting surface surface, without a source to aim at
+    /// (DxA, DyA and DzA are 0). The transform of the material applies; redirecting surface surfaces are never
     /// inside an instance. Nothing when an expression failed.
-    [[nodiscard]] virtual std::optional<RelayDirection> relay(int branch, const Ray& hit_ray,
+    [[nodiscard]] virtual std::optional<Redirection> redirect(int branch, const Ray& hit_ray,
                                                               TraceContext& context) const = 0;
 };
 

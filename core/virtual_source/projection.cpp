@@ -1,4 +1,4 @@
-#include "core/relay/projection.h"
+#include "core/virtual_source/projection.h"
 
 #include <cmath>
 
@@ -16,13 +16,13 @@ double overhang(const LightSource& source) {
     return source.flat || source.distant ? kSquareToDisk : 1 / kSphereBox;
 }
 
-RelayedSpot impossible() {
+VirtualSpot impossible() {
     return {false, std::nullopt, {}};
 }
 
 /// Sunlight: a beam through the disk, and through the parent's beam.
-RelayedSpot spot_of_beam(const LightSource& parent, const LightSource& projected,
-                         const Projection& projection, const RelayDisk& disk) {
+VirtualSpot spot_of_beam(const LightSource& parent, const LightSource& projected,
+                         const Projection& projection, const RedirectingDisk& disk) {
     SpotShape beam;
     beam.beam = true;
     beam.aim = disk.center;
@@ -39,7 +39,7 @@ RelayedSpot spot_of_beam(const LightSource& parent, const LightSource& projected
 }
 
 /// The cone around a disk from a local source; nothing when the source is too near for a bound.
-std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk& disk,
+std::optional<SpotShape> cone_around(const LightSource& source, const RedirectingDisk& disk,
                                      double distance) {
     const double sine = (disk.radius + static_cast<double>(source.radius)) / distance;
     if (sine >= 1 - kEpsilon) return std::nullopt;
@@ -49,35 +49,35 @@ std::optional<SpotShape> cone_around(const LightSource& source, const RelayDisk&
     return cone;
 }
 
-RelayedSpot spot_of_cone(const LightSource& parent, const LightSource& projected,
-                         const Projection& projection, const RelayDisk& disk) {
+VirtualSpot spot_of_cone(const LightSource& parent, const LightSource& projected,
+                         const Projection& projection, const RedirectingDisk& disk) {
     const double distance = length(disk.center - projected.center);
     if (distance <= 0) return impossible();
     if (projected.material_type == PrimitiveType::glow &&
         distance > static_cast<double>(projected.proximity)) {
         return impossible();
     }
-    RelayedSpot relayed{true, cone_around(projected, disk, distance), disk};
+    VirtualSpot redirected{true, cone_around(projected, disk, distance), disk};
     if (parent.spot) {
         SpotShape before = *parent.spot;
         before.aim = normalize(projection.vector(before.aim));
-        if (relayed.spot) {
-            const auto common = intersect_cones(*relayed.spot, before);
+        if (redirected.spot) {
+            const auto common = intersect_cones(*redirected.spot, before);
             if (!common) return impossible();
-            if (common->size < relayed.spot->size) {
+            if (common->size < redirected.spot->size) {
                 const double cosine = 1 - static_cast<double>(common->size) / (2 * kPi);
                 const double tangent = std::sqrt(std::max(0.0, 1 / (cosine * cosine) - 1));
-                relayed.disk.radius = std::min(disk.radius, distance * tangent);
-                relayed.disk.center = projected.center + common->aim * distance;
+                redirected.disk.radius = std::min(disk.radius, distance * tangent);
+                redirected.disk.center = projected.center + common->aim * distance;
             }
-            relayed.spot = common;
+            redirected.spot = common;
         } else {
-            relayed.spot = before;
+            redirected.spot = before;
         }
     }
-    if (projected.flat && relayed.spot && !spot_faces(*relayed.spot, projected.normal))
+    if (projected.flat && redirected.spot && !spot_faces(*redirected.spot, projected.normal))
         return impossible();
-    return relayed;
+    return redirected;
 }
 
 }  // namespace
@@ -110,11 +110,11 @@ std::optional<Projection> Projection::bend(const Plane& plane, const Vec3& from,
     return projection;
 }
 
-std::optional<RelayDisk> relay_disk(const Shape& shape) {
-    if (const auto* ring = std::get_if<RingShape>(&shape)) return RelayDisk{ring->center, ring->r1};
+std::optional<RedirectingDisk> redirecting_disk(const Shape& shape) {
+    if (const auto* ring = std::get_if<RingShape>(&shape)) return RedirectingDisk{ring->center, ring->r1};
     const auto* polygon = std::get_if<PolygonShape>(&shape);
     if (!polygon) return std::nullopt;
-    RelayDisk disk;
+    RedirectingDisk disk;
     for (const Vec3 p : polygon->vertices) disk.center += p;
     disk.center = disk.center / static_cast<double>(polygon->vertices.size());
     disk.center += polygon->normal * (polygon->offset - dot(polygon->normal, disk.center));
@@ -150,8 +150,8 @@ LightSource project(const LightSource& source, const Projection& projection) {
     return projected;
 }
 
-RelayedSpot relay_spot(const LightSource& parent, const LightSource& projected,
-                       const Projection& projection, const RelayDisk& disk) {
+VirtualSpot virtual_spot(const LightSource& parent, const LightSource& projected,
+                       const Projection& projection, const RedirectingDisk& disk) {
     return projected.distant ? spot_of_beam(parent, projected, projection, disk)
                              : spot_of_cone(parent, projected, projection, disk);
 }

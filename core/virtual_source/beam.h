@@ -1,0 +1,14 @@
+#pragma once
+// The pyramid that a redirected source's light fills behind its mirror or prism.
+#include <optional>
+
+#include "core/geometry/shapes.h"
+#include "core/light/light_source.h"
+
+namespace lightwalk {
+
+/// The beam of a virtual source through the outline of its redirecting surface. Nothing when the source's box
+/// straddles the redirecting surface's plane, or the redirecting surface is not flat.
+[[nodiscard]] std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source, const Shape& surface);
+
+}  // namespace lightwalk
