@@ -63,7 +63,7 @@ void print_geometry(const Scene& scene) {
     const std::size_t all =
         scene.surfaces().size() - 1;  // without the one that stands for a sensor
     std::printf("surfaces       %zu, and %zu inside instances\n", own, all - own);
-    std::printf("instances      %zu placed\n", scene.geometry().frame_count());
+    std::printf("instances      %zu placed\n", scene.geometry().instance_count());
 }
 
 void print_lights(const Scene& scene, const LightSources& lights) {

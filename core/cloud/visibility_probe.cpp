@@ -142,7 +142,7 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
         return false;
     }
     const SurfaceAppearance appearance = appearance_at(hit);
-    walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
+    walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
     const bool mirror = appearance.appearance == Appearance::mirror && reflects_flat(hit, appearance);
     const bool pane = appearance.appearance == Appearance::pane && !appearance.textured;
     if (!mirror && !pane && appearance.appearance != Appearance::absent) {
@@ -163,7 +163,7 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
     const SurfaceAppearance appearance = appearance_at(hit);
     if (appearance.appearance == Appearance::absent && walk.surfaces < kMostSurfaces) {
         ++walk.surfaces;
-        walk.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
+        walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
         walk.pass(hit, false);
         return true;
     }
@@ -176,7 +176,7 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
         image->slope = static_cast<float>(slopes_of(hit, appearance).reflected);
         Walk mirrored = walk;
         mirrored.seen_thing = image;
-        mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.frame));
+        mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
         if (reflects_flat(hit, appearance)) {
             mirrored.pass(hit, true);
             images.push_back(mirrored);

@@ -10,7 +10,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr unsigned kFewRays = 4;  ///< of a packet that reach a copy: up to so many go on singly
+constexpr unsigned kFewRays = 4;  ///< of a packet that reach a instance: up to so many go on singly
 
 /// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's
 /// inverse.
@@ -24,8 +24,8 @@ float round_up(double x) {
 }
 
 /// The ray of a lane, in the model's space. The direction keeps its scale: distances stay.
-RTCRay local_ray(const Copy& copy, RTCRayN* rays, unsigned count, unsigned lane) {
-    const std::array<float, 12>& m = copy.inverse;
+RTCRay local_ray(const Instance& instance, RTCRayN* rays, unsigned count, unsigned lane) {
+    const std::array<float, 12>& m = instance.inverse;
     const float x = RTCRayN_org_x(rays, count, lane), y = RTCRayN_org_y(rays, count, lane),
                 z = RTCRayN_org_z(rays, count, lane);
     const float u = RTCRayN_dir_x(rays, count, lane), v = RTCRayN_dir_y(rays, count, lane),
@@ -63,48 +63,48 @@ void set_lane(RTCRay16& rays, unsigned lane, const RTCRay& ray) {
 
 }  // namespace
 
-/// Says which placed model the callbacks are in while a copy is searched.
-class InFrame {
+/// Says which placed model the callbacks are in while a instance is searched.
+class InstanceScope {
   public:
-    InFrame(RTCIntersectContext& context, const Copy& copy)
+    InstanceScope(RTCIntersectContext& context, const Instance& instance)
         : query_(static_cast<Query&>(context)),
-          copy_(copy),
+          instance_(instance),
           outside_(query_.within),
-          frame_{(outside_ ? index(outside_->frame_) : index(kWorld)) + copy.first} {
+          id_{(outside_ ? index(outside_->id_) : index(kWorld)) + instance.first} {
         query_.within = this;
     }
-    ~InFrame() { query_.within = outside_; }
-    InFrame(const InFrame&) = delete;
-    InFrame& operator=(const InFrame&) = delete;
+    ~InstanceScope() { query_.within = outside_; }
+    InstanceScope(const InstanceScope&) = delete;
+    InstanceScope& operator=(const InstanceScope&) = delete;
 
-    [[nodiscard]] FrameId frame() const { return frame_; }
-    /// Found out at the first call: most copies that are searched have nothing on the ray.
+    [[nodiscard]] InstanceId id() const { return id_; }
+    /// Found out at the first call: most instances that are searched have nothing on the ray.
     [[nodiscard]] const InnerSpace& space() {
-        if (!space_) space_ = space_in(outside_ ? &outside_->space() : nullptr, *copy_.placement);
+        if (!space_) space_ = space_in(outside_ ? &outside_->space() : nullptr, *instance_.placement);
         return *space_;
     }
 
   private:
     Query& query_;
-    const Copy& copy_;
-    InFrame* outside_;
-    FrameId frame_;
+    const Instance& instance_;
+    InstanceScope* outside_;
+    InstanceId id_;
     std::optional<InnerSpace> space_;
 };
 
 namespace {
 
-FrameId frame_of(const Query& query) {
-    return query.within ? query.within->frame() : kWorld;
+InstanceId instance_of(const Query& query) {
+    return query.within ? query.within->id() : kWorld;
 }
 
 /// Before a primitive of the placed model that the search is in is proposed.
-void enter(const Query& query, TracedRay& ray, FrameId frame) {
-    if (query.within && ray.local_frame != frame)
-        PlacedScene::enter(ray, frame, query.within->space());
+void enter(const Query& query, TracedRay& ray, InstanceId id) {
+    if (query.within && ray.local_instance != id)
+        PlacedScene::enter(ray, id, query.within->space());
 }
 
-ClusterRay cluster_ray(RTCRayN* rays, unsigned count, unsigned lane) {
+LeafRay leaf_ray(RTCRayN* rays, unsigned count, unsigned lane) {
     return {{RTCRayN_org_x(rays, count, lane), RTCRayN_org_y(rays, count, lane),
              RTCRayN_org_z(rays, count, lane)},
             {RTCRayN_dir_x(rays, count, lane), RTCRayN_dir_y(rays, count, lane),
@@ -148,7 +148,7 @@ Bounds bounds_of_tree(RTCSceneTy* scene) {
 
 void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    *args->bounds_o = rounded(model.space.box(model.pieces.box(args->primID, *model.primitives)));
+    *args->bounds_o = rounded(model.space.box(model.bvh_primitives.box(args->primID, *model.primitives)));
 }
 
 // Calls inside the callbacks cost as much as the tests themselves: flattened, rays are 3 % faster.
@@ -156,16 +156,16 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const FrameId frame = frame_of(query);
-    const std::uint32_t first = model.pieces.primitive(args->primID),
-                        end = first + model.pieces.count(args->primID);
+    const InstanceId id = instance_of(query);
+    const std::uint32_t first = model.bvh_primitives.primitive(args->primID),
+                        end = first + model.bvh_primitives.count(args->primID);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
         NearestRay& ray = query.rays[i];
-        enter(query, ray, frame);
+        enter(query, ray, id);
         for (std::uint32_t primitive = first; primitive < end; ++primitive) {
-            if (query.placed->propose(ray, {frame, primitive}))
+            if (query.placed->propose(ray, {id, primitive}))
                 RTCRayN_tfar(rays, args->N, lane) = embree_end(ray.limit, query.start[i]);
         }
     }
@@ -174,15 +174,15 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
 [[gnu::flatten]] void occlude_primitive(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const FrameId frame = frame_of(query);
-    const std::uint32_t first = model.pieces.primitive(args->primID),
-                        end = first + model.pieces.count(args->primID);
+    const InstanceId id = instance_of(query);
+    const std::uint32_t first = model.bvh_primitives.primitive(args->primID),
+                        end = first + model.bvh_primitives.count(args->primID);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         ShadowRay& ray = query.rays[RTCRayN_id(args->ray, args->N, lane)];
-        enter(query, ray, frame);
+        enter(query, ray, id);
         for (std::uint32_t primitive = first; primitive < end; ++primitive) {
-            if (query.placed->propose(ray, {frame, primitive})) {
+            if (query.placed->propose(ray, {id, primitive})) {
                 RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
                 break;
             }
@@ -190,51 +190,51 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     }
 }
 
-void cluster_bounds(const RTCBoundsFunctionArguments* args) {
+void leaf_bounds(const RTCBoundsFunctionArguments* args) {
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    *args->bounds_o = rounded(model.clusters[args->primID].box());
+    *args->bounds_o = rounded(model.leaves[args->primID].box());
 }
 
-[[gnu::flatten]] void intersect_cluster(const RTCIntersectFunctionNArguments* args) {
+[[gnu::flatten]] void intersect_leaf(const RTCIntersectFunctionNArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const Cluster& cluster = model.clusters[args->primID];
-    const FrameId frame = frame_of(query);
+    const QuantizedLeaf& leaf = model.leaves[args->primID];
+    const InstanceId id = instance_of(query);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         float& end = RTCRayN_tfar(rays, args->N, lane);
-        const ClusterHits hits = boxes_met(cluster, cluster_ray(rays, args->N, lane), end);
+        const LeafHits hits = boxes_met(leaf, leaf_ray(rays, args->N, lane), end);
         if (hits.met == 0) continue;
         const unsigned i = RTCRayN_id(rays, args->N, lane);
         NearestRay& ray = query.rays[i];
-        enter(query, ray, frame);
+        enter(query, ray, id);
         for (std::uint32_t met = hits.met; met != 0; met &= met - 1) {
             const auto at = static_cast<std::size_t>(std::countr_zero(met));
-            const PieceRef piece = cluster.pieces[at];
-            if (piece.is_none()) break;
+            const PrimitiveRange bvh_primitive = leaf.bvh_primitives[at];
+            if (bvh_primitive.is_none()) break;
             if (hits.first[at] > end * kEndRoundUp) continue;
-            for (std::uint32_t primitive = piece.first(); primitive < piece.end(); ++primitive) {
-                if (query.placed->propose(ray, {frame, primitive}))
+            for (std::uint32_t primitive = bvh_primitive.first(); primitive < bvh_primitive.end(); ++primitive) {
+                if (query.placed->propose(ray, {id, primitive}))
                     end = embree_end(ray.limit, query.start[i]);
             }
         }
     }
 }
 
-[[gnu::flatten]] void occlude_cluster(const RTCOccludedFunctionNArguments* args) {
+[[gnu::flatten]] void occlude_leaf(const RTCOccludedFunctionNArguments* args) {
     auto& query = *static_cast<ShadowQueries*>(args->context);
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    const Cluster& cluster = model.clusters[args->primID];
-    const FrameId frame = frame_of(query);
+    const QuantizedLeaf& leaf = model.leaves[args->primID];
+    const InstanceId id = instance_of(query);
     const auto is_blocked = [&](ShadowRay& ray, std::uint32_t boxes) {
-        enter(query, ray, frame);
+        enter(query, ray, id);
         for (; boxes != 0; boxes &= boxes - 1) {
-            const PieceRef piece =
-                cluster.pieces[static_cast<std::size_t>(std::countr_zero(boxes))];
-            if (piece.is_none()) return false;
-            for (std::uint32_t primitive = piece.first(); primitive < piece.end(); ++primitive)
-                if (query.placed->propose(ray, {frame, primitive})) return true;
+            const PrimitiveRange bvh_primitive =
+                leaf.bvh_primitives[static_cast<std::size_t>(std::countr_zero(boxes))];
+            if (bvh_primitive.is_none()) return false;
+            for (std::uint32_t primitive = bvh_primitive.first(); primitive < bvh_primitive.end(); ++primitive)
+                if (query.placed->propose(ray, {id, primitive})) return true;
         }
         return false;
     };
@@ -242,29 +242,29 @@ void cluster_bounds(const RTCBoundsFunctionArguments* args) {
         if (args->valid[lane] == 0) continue;
         float& end = RTCRayN_tfar(args->ray, args->N, lane);
         const std::uint32_t met =
-            boxes_met(cluster, cluster_ray(args->ray, args->N, lane), end).met;
+            boxes_met(leaf, leaf_ray(args->ray, args->N, lane), end).met;
         if (met != 0 && is_blocked(query.rays[RTCRayN_id(args->ray, args->N, lane)], met))
             end = -std::numeric_limits<float>::infinity();
     }
 }
 
-void copy_bounds(const RTCBoundsFunctionArguments* args) {
+void instance_bounds(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o =
-        rounded(static_cast<const Copies*>(args->geometryUserPtr)->boxes[args->primID]);
+        rounded(static_cast<const Instances*>(args->geometryUserPtr)->boxes[args->primID]);
 }
 
-void intersect_copy(const RTCIntersectFunctionNArguments* args) {
-    const Copy& copy = static_cast<const Copies*>(args->geometryUserPtr)->all[args->primID];
-    const InFrame in_frame(*args->context, copy);
+void intersect_instance(const RTCIntersectFunctionNArguments* args) {
+    const Instance& instance = static_cast<const Instances*>(args->geometryUserPtr)->all[args->primID];
+    const InstanceScope scope(*args->context, instance);
     const unsigned count = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, count);
     if (active_lanes(args->valid, count) <= kFewRays) {
         for (unsigned lane = 0; lane < count; ++lane) {
             if (args->valid[lane] == 0) continue;
             RTCRayHit hit;
-            hit.ray = local_ray(copy, rays, count, lane);
+            hit.ray = local_ray(instance, rays, count, lane);
             hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(copy.scene, args->context, &hit);
+            rtcIntersect1(instance.scene, args->context, &hit);
             RTCRayN_tfar(rays, count, lane) = hit.ray.tfar;
         }
         return;
@@ -275,21 +275,21 @@ void intersect_copy(const RTCIntersectFunctionNArguments* args) {
     for (unsigned lane = 0; lane < count; ++lane) {
         if (args->valid[lane] == 0) continue;
         valid[lane] = -1;
-        set_lane(hits.ray, lane, local_ray(copy, rays, count, lane));
+        set_lane(hits.ray, lane, local_ray(instance, rays, count, lane));
     }
-    rtcIntersect16(valid.data(), copy.scene, args->context, &hits);
+    rtcIntersect16(valid.data(), instance.scene, args->context, &hits);
     for (unsigned lane = 0; lane < count; ++lane) {
         if (valid[lane] != 0) RTCRayN_tfar(rays, count, lane) = hits.ray.tfar[lane];
     }
 }
 
-void occlude_copy(const RTCOccludedFunctionNArguments* args) {
-    const Copy& copy = static_cast<const Copies*>(args->geometryUserPtr)->all[args->primID];
-    const InFrame in_frame(*args->context, copy);
+void occlude_instance(const RTCOccludedFunctionNArguments* args) {
+    const Instance& instance = static_cast<const Instances*>(args->geometryUserPtr)->all[args->primID];
+    const InstanceScope scope(*args->context, instance);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
-        RTCRay ray = local_ray(copy, args->ray, args->N, lane);
-        rtcOccluded1(copy.scene, args->context, &ray);
+        RTCRay ray = local_ray(instance, args->ray, args->N, lane);
+        rtcOccluded1(instance.scene, args->context, &ray);
         RTCRayN_tfar(args->ray, args->N, lane) = ray.tfar;
     }
 }

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/clusters.h"
-#include "core/geometry/pieces.h"
+#include "core/geometry/quantized_leaves.h"
+#include "core/geometry/bvh_primitives.h"
 #include "core/geometry/placed_scene.h"
 #include "core/geometry/search_space.h"
 
@@ -19,19 +19,19 @@ struct ReleaseScene {
 using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
 inline constexpr unsigned kPacket = 16;
-inline constexpr unsigned kOwnSurfaces = 0, kCopies = 1;  ///< geometry ids in Embree's scenes
+inline constexpr unsigned kOwnSurfaces = 0, kInstances = 1;  ///< geometry ids in Embree's scenes
 
 /// A model placed in another one, in whose search tree it is. An Embree instance would need half a
 /// kilobyte, and would know no more than one level.
-struct Copy {
+struct Instance {
     std::array<float, 12> inverse{};  ///< images of the axes and of the origin, into the model
     RTCSceneTy* scene = nullptr;
     const Placement* placement = nullptr;
     std::int32_t first = 0;  ///< see PlacedChild
 };
 
-struct Copies {
-    std::vector<Copy> all;
+struct Instances {
+    std::vector<Instance> all;
     std::vector<Bounds> boxes;  ///< in the search coordinates, while the tree is built
 };
 
@@ -39,22 +39,22 @@ struct Copies {
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
-    // What Embree calls primitives: pieces, their boxes only while the tree is built; or clusters
+    // What Embree calls primitives: bvh primitives, their boxes only while the tree is built; or leaves
     // of them, which take their place.
-    Pieces pieces;
-    std::vector<Cluster> clusters;
-    Copies copies;
+    BvhPrimitives bvh_primitives;
+    std::vector<QuantizedLeaf> leaves;
+    Instances instances;
     ScenePtr scene;
     std::vector<Bounds> outline;  ///< of all in the tree, in the search coordinates; while trees
                                   ///< are built
 };
 
-class InFrame;
+class InstanceScope;
 
 /// One traversal: what Embree hands to the callbacks.
 struct Query : RTCIntersectContext {
     const PlacedScene* placed = nullptr;
-    InFrame* within = nullptr;  ///< the placed model that the search is in; null: the scene itself
+    InstanceScope* within = nullptr;  ///< the placed model that the search is in; null: the scene itself
 };
 /// Ray i of a packet has the id i.
 struct NearestQuery : Query {
@@ -77,17 +77,17 @@ void close_lanes(RTCRayHit16& packet);
 /// Of a committed scene, in its search coordinates.
 [[nodiscard]] Bounds bounds_of_tree(RTCSceneTy* scene);
 
-// Callbacks of a model's own surfaces (user data: Hierarchy) and of the copies of models (user
-// data: Copies).
+// Callbacks of a model's own surfaces (user data: Hierarchy) and of the instances of models (user
+// data: Instances).
 void primitive_bounds(const RTCBoundsFunctionArguments* args);
 void intersect_primitive(const RTCIntersectFunctionNArguments* args);
 void occlude_primitive(const RTCOccludedFunctionNArguments* args);
-// The same of clusters.
-void cluster_bounds(const RTCBoundsFunctionArguments* args);
-void intersect_cluster(const RTCIntersectFunctionNArguments* args);
-void occlude_cluster(const RTCOccludedFunctionNArguments* args);
-void copy_bounds(const RTCBoundsFunctionArguments* args);
-void intersect_copy(const RTCIntersectFunctionNArguments* args);
-void occlude_copy(const RTCOccludedFunctionNArguments* args);
+// The same of leaves.
+void leaf_bounds(const RTCBoundsFunctionArguments* args);
+void intersect_leaf(const RTCIntersectFunctionNArguments* args);
+void occlude_leaf(const RTCOccludedFunctionNArguments* args);
+void instance_bounds(const RTCBoundsFunctionArguments* args);
+void intersect_instance(const RTCIntersectFunctionNArguments* args);
+void occlude_instance(const RTCOccludedFunctionNArguments* args);
 
 }  // namespace lightwalk

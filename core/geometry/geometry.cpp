@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/geometry/bounds.h"
-#include "core/geometry/embree_clusters.h"
+#include "core/geometry/embree_leaves.h"
 #include "core/geometry/embree_search.h"
 
 // Embree proposes, doubles decide. Every surface is a user geometry whose box is a little too
@@ -33,9 +33,9 @@ struct ReleaseGeometry {
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
-/// Above so many a tree ends in clusters of pieces, which weigh less. A mesh's triangles are as
+/// Above so many a tree ends in leaves of bvh primitives, which weigh less. A mesh's triangles are as
 /// soon found in them where there are few; other surfaces later, by some 3 %.
-constexpr std::size_t kMostSinglePieces = std::size_t{1} << 17,
+constexpr std::size_t kMostSinglePrimitives = std::size_t{1} << 17,
                       kMostSingleOfMesh = std::size_t{1} << 13;
 constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
 
@@ -67,11 +67,11 @@ void extend_transformed(Bounds& bounds, const Bounds& box, const Matrix& matrix)
 }
 
 std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
-    std::vector<Bounds> boxes = model.copies.boxes;
-    boxes.reserve(boxes.size() + model.pieces.size() + model.clusters.size());
-    for (const Cluster& cluster : model.clusters) boxes.push_back(cluster.box());
-    for (std::size_t i = 0; i < model.pieces.size(); ++i)
-        boxes.push_back(model.space.box(model.pieces.box(i, *model.primitives)));
+    std::vector<Bounds> boxes = model.instances.boxes;
+    boxes.reserve(boxes.size() + model.bvh_primitives.size() + model.leaves.size());
+    for (const QuantizedLeaf& leaf : model.leaves) boxes.push_back(leaf.box());
+    for (std::size_t i = 0; i < model.bvh_primitives.size(); ++i)
+        boxes.push_back(model.space.box(model.bvh_primitives.box(i, *model.primitives)));
     return outline_of(boxes);
 }
 
@@ -106,8 +106,8 @@ struct Geometry::Impl {
     void open_device(const std::string& options);
     void check(const char* doing) const;
     void add_surfaces(Hierarchy& model, const Team& team);
-    void add_copies(std::uint32_t model);
-    [[nodiscard]] std::optional<Copy> copy_of(const PlacedChild& child,
+    void add_instances(std::uint32_t model);
+    [[nodiscard]] std::optional<Instance> instance_of(const PlacedChild& child,
                                               const Hierarchy& around) const;
     [[nodiscard]] Bounds box_of(const Placement& placement, const Hierarchy& around) const;
 };
@@ -127,13 +127,13 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, con
         built.scene.reset(rtcNewScene(device.get()));
         check("creating a scene");
         add_surfaces(built, team);
-        add_copies(*model);
+        add_instances(*model);
         rtcSetSceneBuildQuality(built.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         rtcCommitScene(built.scene.get());
         check("building a search tree");
         if (*model != 0) built.outline = outline_of_tree(built);  // nothing is around the scene
-        built.pieces.boxes = std::vector<Bounds>();               // {} would keep the memory
-        built.copies.boxes = std::vector<Bounds>();
+        built.bvh_primitives.boxes = std::vector<Bounds>();               // {} would keep the memory
+        built.instances.boxes = std::vector<Bounds>();
     }
     box = bounds_of_tree(models[0].scene.get());
     for (Hierarchy& model : models) model.outline = std::vector<Bounds>();
@@ -168,36 +168,36 @@ void Geometry::Impl::check(const char* doing) const {
 }
 
 void Geometry::Impl::add_surfaces(Hierarchy& model, const Team& team) {
-    model.pieces = divide_primitives(*model.primitives, team);
-    if (model.pieces.size() == 0) return;
+    model.bvh_primitives = divide_primitives(*model.primitives, team);
+    if (model.bvh_primitives.size() == 0) return;
     const auto last = static_cast<std::uint32_t>(model.primitives->size() - 1);
     const bool is_mesh = model.primitives->is_triangle(last);  // they are models of their own
-    if (model.pieces.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePieces)) {
-        model.clusters =
-            make_clusters(model.pieces, *model.primitives, model.space, device.get(), team);
+    if (model.bvh_primitives.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePrimitives)) {
+        model.leaves =
+            make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space, device.get(), team);
         check("clustering the surfaces");
-        if (model.clusters.empty()) throw std::runtime_error("Embree has lost surfaces");
-        model.pieces = Pieces();
+        if (model.leaves.empty()) throw std::runtime_error("Embree has lost surfaces");
+        model.bvh_primitives = BvhPrimitives();
     }
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
-    const bool clustered = !model.clusters.empty();
+    const bool in_leaves = !model.leaves.empty();
     rtcSetGeometryUserPrimitiveCount(
         geometry.get(),
-        static_cast<unsigned>(clustered ? model.clusters.size() : model.pieces.size()));
+        static_cast<unsigned>(in_leaves ? model.leaves.size() : model.bvh_primitives.size()));
     rtcSetGeometryUserData(geometry.get(), &model);
-    rtcSetGeometryBoundsFunction(geometry.get(), clustered ? cluster_bounds : primitive_bounds,
+    rtcSetGeometryBoundsFunction(geometry.get(), in_leaves ? leaf_bounds : primitive_bounds,
                                  nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(),
-                                    clustered ? intersect_cluster : intersect_primitive);
-    rtcSetGeometryOccludedFunction(geometry.get(), clustered ? occlude_cluster : occlude_primitive);
+                                    in_leaves ? intersect_leaf : intersect_primitive);
+    rtcSetGeometryOccludedFunction(geometry.get(), in_leaves ? occlude_leaf : occlude_primitive);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometryByID(model.scene.get(), geometry.get(), kOwnSurfaces);
     check("adding the surfaces");
 }
 
 /// From the search coordinates around it to its own; nothing when it is empty or too far away.
-std::optional<Copy> Geometry::Impl::copy_of(const PlacedChild& child,
+std::optional<Instance> Geometry::Impl::instance_of(const PlacedChild& child,
                                             const Hierarchy& around) const {
     const Placement& placement = *child.placement;
     const Hierarchy& model = models[placement.model];
@@ -206,15 +206,15 @@ std::optional<Copy> Geometry::Impl::copy_of(const PlacedChild& child,
     const Matrix& inverse = placement.transform.inverse;
     const std::array<Vec3, 4> rows{inverse.row[0], inverse.row[1], inverse.row[2],
                                    -inverse.vector(center)};
-    Copy copy;
+    Instance instance;
     for (std::size_t row = 0; row < 4; ++row) {
         for (std::size_t k = 0; k < 3; ++k)
-            copy.inverse[3 * row + k] = static_cast<float>(rows[row][k]);
+            instance.inverse[3 * row + k] = static_cast<float>(rows[row][k]);
     }
-    copy.scene = model.scene.get();
-    copy.placement = child.placement;
-    copy.first = child.first;
-    return copy;
+    instance.scene = model.scene.get();
+    instance.placement = child.placement;
+    instance.first = child.first;
+    return instance;
 }
 
 /// In the search coordinates around it: what the model's own search tree can find.
@@ -227,25 +227,25 @@ Bounds Geometry::Impl::box_of(const Placement& placement, const Hierarchy& aroun
     return grown(bounds, around.space.relative * magnitude(bounds));
 }
 
-void Geometry::Impl::add_copies(std::uint32_t model) {
+void Geometry::Impl::add_instances(std::uint32_t model) {
     Hierarchy& around = models[model];
-    Copies& copies = around.copies;
+    Instances& instances = around.instances;
     for (const PlacedChild& child : placed.paths().children(model)) {
-        const std::optional<Copy> copy = copy_of(child, around);
-        if (!copy) continue;
-        copies.all.push_back(*copy);
-        copies.boxes.push_back(box_of(*child.placement, around));
+        const std::optional<Instance> instance = instance_of(child, around);
+        if (!instance) continue;
+        instances.all.push_back(*instance);
+        instances.boxes.push_back(box_of(*child.placement, around));
     }
-    if (copies.all.empty()) return;
+    if (instances.all.empty()) return;
     const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the instances");
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(copies.all.size()));
-    rtcSetGeometryUserData(geometry.get(), &copies);
-    rtcSetGeometryBoundsFunction(geometry.get(), copy_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry.get(), intersect_copy);
-    rtcSetGeometryOccludedFunction(geometry.get(), occlude_copy);
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(instances.all.size()));
+    rtcSetGeometryUserData(geometry.get(), &instances);
+    rtcSetGeometryBoundsFunction(geometry.get(), instance_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), intersect_instance);
+    rtcSetGeometryOccludedFunction(geometry.get(), occlude_instance);
     rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(around.scene.get(), geometry.get(), kCopies);
+    rtcAttachGeometryByID(around.scene.get(), geometry.get(), kInstances);
     check("adding the instances");
 }
 
@@ -310,13 +310,13 @@ Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
-Transform Geometry::frame(FrameId id) const {
+Transform Geometry::instance_transform(InstanceId id) const {
     return impl_->placed.transform(id);
 }
 Bounds Geometry::bounds() const {
     return impl_->placed.bounds();
 }
-std::size_t Geometry::frame_count() const {
+std::size_t Geometry::instance_count() const {
     return impl_->placed.paths().count();
 }
 SearchMemory Geometry::memory() const {
@@ -324,9 +324,9 @@ SearchMemory Geometry::memory() const {
     SearchMemory memory{static_cast<std::size_t>(std::max<std::ptrdiff_t>(embree, 0)),
                         impl_->placed.memory_bytes()};
     for (const Hierarchy& model : impl_->models)
-        memory.tables += model.pieces.primitive_of.capacity() * sizeof(std::uint32_t) +
-                         model.clusters.capacity() * sizeof(Cluster) +
-                         model.copies.all.capacity() * sizeof(Copy);
+        memory.tables += model.bvh_primitives.primitive_of.capacity() * sizeof(std::uint32_t) +
+                         model.leaves.capacity() * sizeof(QuantizedLeaf) +
+                         model.instances.all.capacity() * sizeof(Instance);
     return memory;
 }
 
@@ -400,7 +400,7 @@ void Geometry::Impl::trace(std::span<ShadowRay> rays) const {
 
 bool Geometry::Impl::is_blocked_again(ShadowRay& ray, const Blocker* last) const {
     return last && last->primitive != Blocker::kNone &&
-           placed.propose(ray, {last->frame, last->primitive});
+           placed.propose(ray, {last->instance, last->primitive});
 }
 
 Hit Geometry::Impl::finish(const RaySegment& segment, const NearestRay& ray) const {
@@ -440,7 +440,7 @@ void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) c
     if (impl_->is_blocked_again(search, last)) return Visibility::blocked;
     impl_->trace(search);
     if (last && search.result == Visibility::blocked)
-        *last = {search.blocker.frame, search.blocker.primitive};
+        *last = {search.blocker.instance, search.blocker.primitive};
     return search.result;
 }
 
@@ -456,7 +456,7 @@ void Geometry::visibility(std::span<const ShadowQuery> queries,
             const ShadowRay& ray = rays[k];
             answers[numbers[k]] = ray.result;
             if (ray.result == Visibility::blocked && queries[numbers[k]].last)
-                *queries[numbers[k]].last = {ray.blocker.frame, ray.blocker.primitive};
+                *queries[numbers[k]].last = {ray.blocker.instance, ray.blocker.primitive};
         }
         count = 0;
     };

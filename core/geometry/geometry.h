@@ -24,7 +24,7 @@ struct Hit {
     SurfaceId surface =
         kNoSurface;               ///< the inner surface, or the instance whose modifier overrides
     ModifierId modifier = kVoid;  ///< the direct modifier that shades
-    FrameId frame = kWorld;       ///< placement of the local space that `modifier` lives in
+    InstanceId instance = kWorld;       ///< placement of the local space that `modifier` lives in
     [[nodiscard]] bool exists() const { return surface != kNoSurface; }
 };
 
@@ -78,7 +78,7 @@ struct RaySegment {
 
 /// An opaque surface that blocked a ray, to be tried first for the next one.
 struct Blocker {
-    FrameId frame = kWorld;
+    InstanceId instance = kWorld;
     std::uint32_t primitive = kNone;
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 };
@@ -131,9 +131,9 @@ class Geometry {
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
     void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;
 
-    [[nodiscard]] Transform frame(FrameId id) const;  ///< local -> world of an instance path
+    [[nodiscard]] Transform instance_transform(InstanceId id) const;  ///< local -> world of an instance path
     [[nodiscard]] Bounds bounds() const;              ///< of everything finite, world
-    [[nodiscard]] std::size_t frame_count() const;    ///< instances, one a path
+    [[nodiscard]] std::size_t instance_count() const;    ///< instances, one a path
     [[nodiscard]] SearchMemory memory() const;        ///< without the surfaces and meshes
 
   private:

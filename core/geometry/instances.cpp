@@ -79,7 +79,7 @@ InstancePaths::InstancePaths(const GeometryInput& input)
 /// Models are left in order_ after all that stand in them.
 void InstancePaths::visit(const GeometryInput& input, std::uint32_t model, int depth) {
     int height = 0;
-    std::size_t frames = 0;
+    std::size_t instances = 0;
     for (const Placement& placement : input.models[model].placements) {
         if (depth >= kMaxNesting)
             throw InputError(location(input, placement.surface), "nested too deeply");
@@ -92,11 +92,11 @@ void InstancePaths::visit(const GeometryInput& input, std::uint32_t model, int d
         if (counts_[inside] == 0 && contents.meshes.empty() &&
             !holds_anything(input.surfaces->part(contents.part)))
             continue;
-        children_[model].push_back({&placement, static_cast<std::int32_t>(frames) + 1});
-        frames = std::min(frames + 1 + counts_[inside], kMaxInstances + 1);
+        children_[model].push_back({&placement, static_cast<std::int32_t>(instances) + 1});
+        instances = std::min(instances + 1 + counts_[inside], kMaxInstances + 1);
     }
     heights_[model] = height;
-    counts_[model] = frames;
+    counts_[model] = instances;
     order_.push_back(model);
 }
 
@@ -129,7 +129,7 @@ void InstancePaths::find_uses(const GeometryInput& input) {
     std::erase_if(order_, [&](std::uint32_t model) { return !uses_[model].used; });
 }
 
-/// Of the placements in `model` that whose frames hold the `left`-th one inside it. Where all hold
+/// Of the placements in `model` that whose instances hold the `left`-th one inside it. Where all hold
 /// as many the first guess is right.
 const PlacedChild& InstancePaths::child_with(std::uint32_t model, std::int32_t left) const {
     const std::vector<PlacedChild>& all = children_[model];
@@ -141,26 +141,26 @@ const PlacedChild& InstancePaths::child_with(std::uint32_t model, std::int32_t l
         [](std::int32_t value, const PlacedChild& child) { return value < child.first; }));
 }
 
-/// visit(placement, frame around it) for each placement on the way to `frame`.
+/// visit(placement, instance around it) for each placement on the way to `instance`.
 template <class Visit>
-void InstancePaths::follow(FrameId frame, const Visit& visit) const {
+void InstancePaths::follow(InstanceId instance, const Visit& visit) const {
     std::uint32_t model = 0;
-    std::int32_t left = index(frame) - index(kWorld);
-    for (FrameId around = kWorld; left > 0;) {
+    std::int32_t left = index(instance) - index(kWorld);
+    for (InstanceId around = kWorld; left > 0;) {
         const PlacedChild& child = child_with(model, left);
         visit(*child.placement, around);
         model = child.placement->model;
         left -= child.first;
-        around = FrameId{index(around) + child.first};
+        around = InstanceId{index(around) + child.first};
     }
 }
 
-PlacedModel InstancePaths::at(FrameId frame) const {
+PlacedModel InstancePaths::at(InstanceId instance) const {
     PlacedModel placed;
-    follow(frame, [&placed](const Placement& placement, FrameId around) {
+    follow(instance, [&placed](const Placement& placement, InstanceId around) {
         if (placement.overrides && placed.override_surface == kNoSurface) {
             placed.override_surface = placement.surface;
-            placed.override_frame = around;
+            placed.override_instance = around;
         }
         placed.to_world =
             around == kWorld ? placement.transform : placement.transform * placed.to_world;
@@ -169,9 +169,9 @@ PlacedModel InstancePaths::at(FrameId frame) const {
     return placed;
 }
 
-InnerSpace InstancePaths::space_at(FrameId frame) const {
+InnerSpace InstancePaths::space_at(InstanceId instance) const {
     InnerSpace space;
-    follow(frame, [&space](const Placement& placement, FrameId around) {
+    follow(instance, [&space](const Placement& placement, InstanceId around) {
         space = space_in(around == kWorld ? nullptr : &space, placement);
     });
     return space;

@@ -1,6 +1,6 @@
 #pragma once
-// Nested placements: one frame for every path of placements that leads from the scene to a model.
-// Frames are numbered, not stored: a model of a million leaves may stand a thousand times.
+// Nested placements: one instance for every path of placements that leads from the scene to a model.
+// Instances are numbered, not stored: a model of a million leaves may stand a thousand times.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,10 +14,10 @@ namespace lightwalk {
 struct PlacedModel {
     Transform to_world;
     std::uint32_t model = 0;
-    /// The outermost placement of the path whose modifier shades everything inside, and the frame
+    /// The outermost placement of the path whose modifier shades everything inside, and the instance
     /// that this modifier lives in; nothing when the contents keep their own modifiers.
     SurfaceId override_surface = kNoSurface;
-    FrameId override_frame = kWorld;
+    InstanceId override_instance = kWorld;
 };
 
 /// What a search needs of a placed model.
@@ -34,7 +34,7 @@ struct InnerSpace {
 /// A placement in a model, of a model that holds something.
 struct PlacedChild {
     const Placement* placement = nullptr;
-    /// Its frame, less that of the placement of the model that it stands in.
+    /// Its instance, less that of the placement of the model that it stands in.
     std::int32_t first = 0;
 };
 
@@ -53,7 +53,7 @@ inline constexpr int kMaxNesting = 32;
 /// Total scale of a path of placements.
 inline constexpr double kSmallestScale = 1e-7, kLargestScale = 1e7;
 
-/// The paths that lead to geometry. A path's frame is followed by those of the paths that go on
+/// The paths that lead to geometry. A path's instance is followed by those of the paths that go on
 /// from it. Immutable.
 class InstancePaths {
   public:
@@ -62,26 +62,26 @@ class InstancePaths {
     /// limits above.
     explicit InstancePaths(const GeometryInput& input);
 
-    /// Frames in all.
+    /// Instances in all.
     [[nodiscard]] std::size_t count() const { return counts_.empty() ? 0 : counts_[0]; }
-    /// Frames inside a placement of a model, its own not counted.
+    /// Instances inside a placement of a model, its own not counted.
     [[nodiscard]] std::size_t count_inside(std::uint32_t model) const { return counts_[model]; }
-    /// A model's placements, in the order of their frames.
+    /// A model's placements, in the order of their instances.
     [[nodiscard]] std::span<const PlacedChild> children(std::uint32_t model) const {
         return children_[model];
     }
     [[nodiscard]] const ModelUse& use(std::uint32_t model) const { return uses_[model]; }
     /// Of all models that are used: each before those that stand in it.
     [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
-    /// @param frame  less than count(), or kWorld
-    [[nodiscard]] PlacedModel at(FrameId frame) const;
-    /// Of at(frame), for less; the frame is not kWorld.
-    [[nodiscard]] InnerSpace space_at(FrameId frame) const;
+    /// @param instance  less than count(), or kWorld
+    [[nodiscard]] PlacedModel at(InstanceId instance) const;
+    /// Of at(instance), for less; the instance is not kWorld.
+    [[nodiscard]] InnerSpace space_at(InstanceId instance) const;
 
   private:
     [[nodiscard]] const PlacedChild& child_with(std::uint32_t model, std::int32_t left) const;
     template <class Visit>
-    void follow(FrameId frame, const Visit& visit) const;
+    void follow(InstanceId instance, const Visit& visit) const;
     void visit(const GeometryInput& input, std::uint32_t model, int depth);
     void find_uses(const GeometryInput& input);
 

@@ -13,7 +13,7 @@ void begin_tracing(TracedRay& ray, const RaySegment& segment) {
     ray.origin = segment.origin;
     ray.direction = segment.direction;
     ray.limit = std::min(segment.t_max, kHuge);
-    ray.local_frame = kWorld;
+    ray.local_instance = kWorld;
 }
 
 GeometryInput with_a_model(GeometryInput input) {
@@ -58,20 +58,20 @@ std::size_t PlacedScene::memory_bytes() const {
     return bytes;
 }
 
-void PlacedScene::enter(TracedRay& ray, FrameId frame, const InnerSpace& space) {
+void PlacedScene::enter(TracedRay& ray, InstanceId instance, const InnerSpace& space) {
     ray.local = local_ray(ray.origin, ray.direction, space.to_local, space.size);
     ray.local_model = space.model;
     ray.local_override = space.override_surface;
-    ray.local_frame = frame;
+    ray.local_instance = instance;
 }
 
 std::optional<Candidate> PlacedScene::cross(TracedRay& ray, PrimitiveRef what) const {
-    if (what.frame == kWorld) {
+    if (what.instance == kWorld) {
         const auto hit = models_[0].intersect(what.primitive, ray.origin, ray.direction, ray.limit);
         if (!hit) return std::nullopt;
         return Candidate{hit->t, what, *hit};
     }
-    enter(ray, what.frame);
+    enter(ray, what.instance);
     constexpr double kRoundUp = 1 + 1e-12;  // the limit holds in the world, exactly: see below
     const double local_limit = ray.limit / ray.local.size * kRoundUp;
     const auto hit = models_[ray.local_model].intersect(what.primitive, ray.local.origin,
@@ -96,7 +96,7 @@ bool PlacedScene::propose(NearestRay& ray, PrimitiveRef what) const {
     if (ray.all) {
         try {
             ray.all->push_back(*candidate);
-        } catch (const std::bad_alloc&) {  // must not unwind through the search's C frames
+        } catch (const std::bad_alloc&) {  // must not unwind through the search's C instances
             ray.out_of_memory = true;
         }
         return false;
@@ -117,7 +117,7 @@ bool PlacedScene::is_ambiguous(const NearestRay& ray) const {
     if (!ray.nearest) return false;
     const PrimitiveRef what = ray.nearest->what;
     if (ray.second > ray.nearest->t + coincidence_) return false;
-    const PlacedModel placed = paths_.at(what.frame);
+    const PlacedModel placed = paths_.at(what.instance);
     if (models_[placed.model].is_triangle(what.primitive))
         return false;  // in meshes the nearest wins
     return ray.second <= ray.nearest->t + kEpsilon * placed.to_world.size();
@@ -133,7 +133,7 @@ void PlacedScene::begin_gathering(NearestRay& ray, const RaySegment& segment,
 }
 
 Precedence PlacedScene::precedence(const Candidate& candidate) const {
-    const ModelPrimitives& model = model_of(candidate.what.frame);
+    const ModelPrimitives& model = model_of(candidate.what.instance);
     const std::uint32_t primitive = candidate.what.primitive;
     return precedence_of(model.traits(primitive), candidate.local.front, model.modifier(primitive),
                          model.surface(primitive));
@@ -141,17 +141,17 @@ Precedence PlacedScene::precedence(const Candidate& candidate) const {
 
 Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
     std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        return std::tie(a.what.frame, a.t, a.what) < std::tie(b.what.frame, b.t, b.what);
+        return std::tie(a.what.instance, a.t, a.what) < std::tie(b.what.instance, b.t, b.what);
     });
     Candidate winner;
     for (auto group = all.cbegin(); group != all.cend();) {
-        const FrameId frame = group->what.frame;
-        const PlacedModel placed = paths_.at(frame);
+        const InstanceId instance = group->what.instance;
+        const PlacedModel placed = paths_.at(instance);
         const ModelPrimitives& model = models_[placed.model];
         const double tied = group->t + kEpsilon * placed.to_world.size();
         Candidate best = *group;
         const bool has_ties = !model.is_triangle(best.what.primitive);
-        for (; group != all.cend() && group->what.frame == frame; ++group) {
+        for (; group != all.cend() && group->what.instance == instance; ++group) {
             if (has_ties && group->t <= tied && !model.is_triangle(group->what.primitive) &&
                 precedence(*group) > precedence(best)) {
                 best = *group;
@@ -163,9 +163,9 @@ Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
 }
 
 Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) const {
-    const auto [frame, primitive] = winner.what;
+    const auto [instance, primitive] = winner.what;
     std::optional<PlacedModel> inside;
-    if (frame != kWorld) inside = paths_.at(frame);
+    if (instance != kWorld) inside = paths_.at(instance);
     const PlacedModel& placed = inside ? *inside : world_;
     const ModelPrimitives& model = models_[placed.model];
     const Transform& to_world = placed.to_world;
@@ -173,11 +173,11 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
     hit.t = winner.t;
     hit.position = fused_advance(segment.origin, segment.direction, winner.t);
     hit.normal = winner.local.normal;
-    if (frame != kWorld) hit.normal = to_world.forward.vector(hit.normal) / to_world.size();
+    if (instance != kWorld) hit.normal = to_world.forward.vector(hit.normal) / to_world.size();
     hit.cos_out = -fused_dot(segment.direction, hit.normal);
     hit.surface = model.surface(primitive);
     hit.modifier = model.modifier(primitive);
-    hit.frame = frame;
+    hit.instance = instance;
     if (model.is_triangle(primitive)) {
         const LocalRay local =
             local_ray(segment.origin, segment.direction, to_world.inverse, to_world.size());
@@ -190,7 +190,7 @@ Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) cons
     if (placed.override_surface != kNoSurface) {
         hit.surface = placed.override_surface;
         hit.modifier = surface(placed.override_surface).modifier();
-        hit.frame = placed.override_frame;
+        hit.instance = placed.override_instance;
     }
     return hit;
 }
@@ -221,13 +221,13 @@ void PlacedScene::begin(ShadowRay& ray, const RaySegment& segment, SurfaceId tar
 }
 
 ShadowClass PlacedScene::shadow_class(const ShadowRay& ray, PrimitiveRef what) const {
-    if (what.frame == kWorld) return models_[0].shadow(what.primitive);
+    if (what.instance == kWorld) return models_[0].shadow(what.primitive);
     return ray.local_override != kNoSurface ? surface(ray.local_override).traits().shadow
                                             : models_[ray.local_model].shadow(what.primitive);
 }
 
 bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) const {
-    if (ray.target == kNoSurface || candidate.what.frame != kWorld) return candidate.t < ray.t_max;
+    if (ray.target == kNoSurface || candidate.what.instance != kWorld) return candidate.t < ray.t_max;
     if (candidate.t < ray.t_max - kEpsilon) return true;
     if (!ray.target_precedence) {
         const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});
@@ -239,8 +239,8 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
 }
 
 bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
-    if (what.frame == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
-    if (what.frame != kWorld) enter(ray, what.frame);
+    if (what.instance == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
+    if (what.instance != kWorld) enter(ray, what.instance);
     // First whether it is met: most are not, and what a surface is stands elsewhere in memory.
     // Behind needs shading surfaces only what blocks matters: of leaves a ray passes many.
     const bool passed_shaded = ray.result == Visibility::needs_shading;

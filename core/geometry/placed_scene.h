@@ -22,11 +22,11 @@ struct LocalRay {
 
 /// A primitive of a placed model.
 struct PrimitiveRef {
-    FrameId frame = kWorld;
+    InstanceId instance = kWorld;
     std::uint32_t primitive = 0;
     friend bool operator==(const PrimitiveRef&, const PrimitiveRef&) = default;
     friend bool operator<(const PrimitiveRef& a, const PrimitiveRef& b) {
-        return std::tie(a.frame, a.primitive) < std::tie(b.frame, b.primitive);
+        return std::tie(a.instance, a.primitive) < std::tie(b.instance, b.primitive);
     }
 };
 
@@ -41,8 +41,8 @@ struct Candidate {
 struct TracedRay {
     Vec3 origin, direction;
     double limit = kHuge;  ///< candidates beyond cannot matter any more; only ever falls [m]
-    FrameId local_frame = kWorld;
-    // Of that placed model, where local_frame is not kWorld:
+    InstanceId local_instance = kWorld;
+    // Of that placed model, where local_instance is not kWorld:
     LocalRay local;
     std::uint32_t local_model = 0;
     SurfaceId local_override = kNoSurface;  ///< see PlacedModel
@@ -80,11 +80,11 @@ class PlacedScene {
     [[nodiscard]] Bounds bounds() const {
         return bounds_;
     }  ///< of everything, placed models by their cubes
-    [[nodiscard]] Transform transform(FrameId frame) const { return paths_.at(frame).to_world; }
+    [[nodiscard]] Transform transform(InstanceId instance) const { return paths_.at(instance).to_world; }
     [[nodiscard]] std::size_t memory_bytes() const;
 
     /// Make `ray.local` the ray in a placed model's space.
-    static void enter(TracedRay& ray, FrameId frame, const InnerSpace& space);
+    static void enter(TracedRay& ray, InstanceId instance, const InnerSpace& space);
 
     /// Start a search; whatever `ray` held before is forgotten.
     static void begin(NearestRay& ray, const RaySegment& segment);
@@ -105,12 +105,12 @@ class PlacedScene {
     bool propose(ShadowRay& ray, PrimitiveRef what) const;
 
   private:
-    [[nodiscard]] const ModelPrimitives& model_of(FrameId frame) const {
-        return models_[frame == kWorld ? 0 : paths_.space_at(frame).model];
+    [[nodiscard]] const ModelPrimitives& model_of(InstanceId instance) const {
+        return models_[instance == kWorld ? 0 : paths_.space_at(instance).model];
     }
     [[nodiscard]] Surface surface(SurfaceId id) const { return (*input_.surfaces)[id]; }
-    void enter(TracedRay& ray, FrameId frame) const {
-        if (ray.local_frame != frame) enter(ray, frame, paths_.space_at(frame));
+    void enter(TracedRay& ray, InstanceId instance) const {
+        if (ray.local_instance != instance) enter(ray, instance, paths_.space_at(instance));
     }
     [[nodiscard]] std::optional<Candidate> cross(TracedRay& ray, PrimitiveRef what) const;
     [[nodiscard]] Precedence precedence(const Candidate& candidate) const;

@@ -38,12 +38,12 @@ void set(ChannelValues& out, Channel channel, double v) {
 /// World -> function space: M, and sigma, function-space units per world unit.
 class ToFunction {
   public:
-    ToFunction(const Transform& own, bool transformed, FrameId frame, const Geometry& geometry) {
-        if (frame == kWorld) {
+    ToFunction(const Transform& own, bool transformed, InstanceId instance, const Geometry& geometry) {
+        if (instance == kWorld) {
             if (transformed) set(own.inverse, own.size());
             return;
         }
-        const Transform placed = geometry.frame(frame);
+        const Transform placed = geometry.instance_transform(instance);
         if (transformed)
             set(placed.inverse * own.inverse, placed.size() * own.size());
         else
@@ -124,7 +124,7 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
 /// The channels that the program reads.
 void FunctionBinding::fill(ChannelValues& out, const RayWay& way, const Hit& hit,
                            const Tracer& tracer, const MaterialVariables* material) const {
-    const ToFunction space(transform_, transformed_, hit.frame, tracer.scene().geometry());
+    const ToFunction space(transform_, transformed_, hit.instance, tracer.scene().geometry());
     if (channels_ & kDirection) set(out, Channel::Dx, space.direction(way.direction));
     if (channels_ & kNormal) set(out, Channel::Nx, space.direction(hit.normal));
     if (channels_ & kPoint) set(out, Channel::Px, space.point(hit.position));
@@ -154,8 +154,8 @@ void FunctionBinding::evaluate_all(std::span<const RayHit> hits,
 
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {
     Vec3 v = transformed_ ? transform_.forward.vector(d) * (1 / transform_.size()) : d;
-    if (ray.hit.frame != kWorld) {
-        const Transform placed = context.tracer.scene().geometry().frame(ray.hit.frame);
+    if (ray.hit.instance != kWorld) {
+        const Transform placed = context.tracer.scene().geometry().instance_transform(ray.hit.instance);
         v = placed.forward.vector(v) * (1 / placed.size());
     }
     return v;
@@ -163,7 +163,7 @@ Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext
 
 Vec3 FunctionBinding::to_function(const Vec3& d, const Ray& ray,
                                   const TraceContext& context) const {
-    return ToFunction(transform_, transformed_, ray.hit.frame, context.tracer.scene().geometry())
+    return ToFunction(transform_, transformed_, ray.hit.instance, context.tracer.scene().geometry())
         .direction(d);
 }
 

@@ -65,8 +65,8 @@ TextLayout make_text_layout(const ModifierBuild& build, std::size_t font, std::s
 }
 
 bool inside_text(const TextLayout& layout, const Ray& ray, const TraceContext& context) {
-    if (ray.hit.frame == kWorld) return layout.inside(ray.hit.position);
-    const Transform placed = context.tracer.scene().geometry().frame(ray.hit.frame);
+    if (ray.hit.instance == kWorld) return layout.inside(ray.hit.position);
+    const Transform placed = context.tracer.scene().geometry().instance_transform(ray.hit.instance);
     return layout.inside(placed.inverse.point(ray.hit.position));
 }
 

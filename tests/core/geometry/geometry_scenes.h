@@ -149,7 +149,7 @@ class BuiltGeometry : private std::unique_ptr<TestModels::Tables>, private Geome
     BuiltGeometry(std::unique_ptr<TestModels::Tables> tables, const std::string& embree_options)
         : std::unique_ptr<TestModels::Tables>(std::move(tables)),
           Geometry((**this).input, embree_options) {}
-    using Geometry::bounds, Geometry::frame, Geometry::frame_count, Geometry::intersect,
+    using Geometry::bounds, Geometry::instance_transform, Geometry::instance_count, Geometry::intersect,
         Geometry::intersect_surface, Geometry::memory, Geometry::visibility;
 };
 
@@ -275,12 +275,12 @@ class BruteForce {
         Vec3 normal;  ///< world
         SurfaceId surface = kNoSurface;
         ModifierId modifier = kVoid;
-        FrameId frame = kWorld;
+        InstanceId instance = kWorld;
         [[nodiscard]] bool exists() const { return surface != kNoSurface; }
     };
 
     [[nodiscard]] Best nearest(const RaySegment& ray) {
-        next_frame_ = 0;
+        next_instance_ = 0;
         best_ = {};
         visit(0, Transform{}, kWorld, nullptr, kWorld, ray);
         return best_;
@@ -323,8 +323,8 @@ class BruteForce {
         if (s.modifier() != r.modifier()) return index(s.modifier()) > index(r.modifier());
         return index(a.id) > index(b.id);
     }
-    void visit(std::size_t model, const Transform& place, FrameId frame,
-               const Placement* override_by, FrameId override_frame, const RaySegment& ray) {
+    void visit(std::size_t model, const Transform& place, InstanceId instance,
+               const Placement* override_by, InstanceId override_instance, const RaySegment& ray) {
         const std::vector<Crossing> all = crossings(model, place, ray);
         double least = kHuge;
         for (const Crossing& c : all) least = std::min(least, c.t);
@@ -336,13 +336,13 @@ class BruteForce {
         if (winner && winner->t < best_.t) {
             const SurfaceId seen = override_by ? override_by->surface : winner->id;
             best_ = {winner->t, place.forward.vector(winner->hit.normal) / place.size(), seen,
-                     at(seen).modifier(), override_by ? override_frame : frame};
+                     at(seen).modifier(), override_by ? override_instance : instance};
         }
         for (const Placement& p : tables_.input.models[model].placements) {
-            const FrameId inner{next_frame_++};
+            const InstanceId inner{next_instance_++};
             const bool overrides = !override_by && p.overrides;
             visit(p.model, p.transform * place, inner, overrides ? &p : override_by,
-                  overrides ? frame : override_frame, ray);
+                  overrides ? instance : override_instance, ray);
         }
     }
     void visit_shadow(std::size_t model, const Transform& place, const Placement* override_by,
@@ -364,7 +364,7 @@ class BruteForce {
 
     const TestModels& scene_;
     const TestModels::Tables tables_;
-    std::int32_t next_frame_ = 0;
+    std::int32_t next_instance_ = 0;
     Best best_;
 };
 

@@ -56,7 +56,7 @@ bool same_bits(const Hit& a, const Hit& b) {
            same_bits(a.normal, b.normal) && same_bits(a.cos_out, b.cos_out) &&
            same_bits(a.perturbation, b.perturbation) && same_bits(a.u, b.u) &&
            same_bits(a.v, b.v) && a.surface == b.surface && a.modifier == b.modifier &&
-           a.frame == b.frame;
+           a.instance == b.instance;
 }
 
 /// With the instructions that Embree would use on another processor; nothing where this one lacks
@@ -107,7 +107,7 @@ TEST_CASE("the nearest hit is the one that trying every surface gives") {
                 REQUIRE(same_bits(hit.t, expected.t));
                 REQUIRE(hit.surface == expected.surface);
                 REQUIRE(hit.modifier == expected.modifier);
-                REQUIRE(hit.frame == expected.frame);
+                REQUIRE(hit.instance == expected.instance);
                 CHECK(length(hit.normal - expected.normal) < kRounding);
                 CHECK(std::abs(length(hit.normal) - 1) < kRounding);
                 CHECK(length(hit.position - (ray.origin + ray.direction * hit.t)) <
@@ -143,7 +143,7 @@ TEST_CASE("Embree proposes, doubles decide: hits are the same bits whatever inst
 
 TEST_CASE("packets give the same bits as single rays, whatever travels beside them") {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
-        // Machines without AVX-512 cut packets up, those without AVX into pieces of four.
+        // Machines without AVX-512 cut packets up, those without AVX into bvh primitives of four.
         constexpr std::array<const char*, 3> kMachines{"", "isa=avx2", "isa=sse4.2"};
         const TestModels scene = random_models(seed, 40);
         const BuiltGeometry geometry = scene.build(kMachines[seed % kMachines.size()]);
@@ -274,7 +274,7 @@ TEST_CASE("a placed model wins only where it is strictly nearer, its own ties ar
         similarity(1, false, {0, 0, 1}, 0, {0, 0, 1e-9});
     const Hit hit = scene.build().intersect(kDown);
     CHECK(hit.surface == SurfaceId{2});  // of its own; 1 is the placement
-    CHECK(hit.frame == FrameId{0});
+    CHECK(hit.instance == InstanceId{0});
 }
 
 TEST_CASE("a mirrored placement shows the mirror image of the normal") {
@@ -291,7 +291,7 @@ TEST_CASE("a mirrored placement shows the mirror image of the normal") {
     CHECK(hit.t == rounded(3));
     CHECK(length(hit.normal - Vec3{-1, 0, 0}) < kFewRoundings);
     CHECK(hit.cos_out == rounded(1));
-    CHECK(geometry.frame(hit.frame).scale == -2);
+    CHECK(geometry.instance_transform(hit.instance).scale == -2);
 }
 
 TEST_CASE(
@@ -304,14 +304,14 @@ TEST_CASE(
     scene.place(2, 1, up(10), true, 12);  // surface 1
     scene.place(1, 0, up(100));           // surface 0
     const BuiltGeometry geometry = scene.build();
-    REQUIRE(geometry.frame_count() == 3);
+    REQUIRE(geometry.instance_count() == 3);
     const Hit hit = geometry.intersect({{0.3, 0.4, 200}, {0, 0, -1}});
     CHECK(hit.t == rounded(89));
     CHECK(hit.surface == SurfaceId{1});
     CHECK(hit.modifier == modifier_of(12, kOpaque));
-    CHECK(hit.frame == FrameId{0});  // model 1's, where the overriding placement stands
-    CHECK(geometry.frame(hit.frame).forward.row[3] == Vec3{0, 0, 100});
-    CHECK(geometry.frame(FrameId{2}).forward.row[3] == Vec3{0, 0, 111});
+    CHECK(hit.instance == InstanceId{0});  // model 1's, where the overriding placement stands
+    CHECK(geometry.instance_transform(hit.instance).forward.row[3] == Vec3{0, 0, 100});
+    CHECK(geometry.instance_transform(InstanceId{2}).forward.row[3] == Vec3{0, 0, 111});
     CHECK(geometry.visibility({{0.3, 0.4, 200}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
 }
 
@@ -411,7 +411,7 @@ TEST_CASE("placements that multiply beyond measure are refused, those of nothing
         scene.place(m + 1, m, Transform{});
         scene.place(m + 1, m, Transform{});
     }
-    CHECK(scene.build().frame_count() == 0);
+    CHECK(scene.build().instance_count() == 0);
     scene.add(surface(PrimitiveType::polygon, square(0), 0, kOpaque), 30);
     CHECK_THROWS_WITH_AS(static_cast<void>(scene.build()),
                          doctest::Contains("multiply to more than 4194304 copies"), InputError);

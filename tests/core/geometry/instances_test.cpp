@@ -1,4 +1,4 @@
-// Models inside models: which frame is which path, how deep, and what boxes hold them.
+// Models inside models: which instance is which path, how deep, and what boxes hold them.
 #include <doctest/doctest.h>
 #include <pthread.h>
 
@@ -14,8 +14,8 @@ using namespace lightwalk::test;
 
 namespace {
 
-/// Every path below a model, one after the other, as frames are numbered.
-void walk_paths(const GeometryInput& input, const PlacedModel& around, FrameId frame,
+/// Every path below a model, one after the other, as instances are numbered.
+void walk_paths(const GeometryInput& input, const PlacedModel& around, InstanceId instance,
                 std::vector<PlacedModel>& paths) {
     for (const Placement& placement : input.models[around.model].placements) {
         if (placement.model == 3) continue;  // holds nothing
@@ -24,10 +24,10 @@ void walk_paths(const GeometryInput& input, const PlacedModel& around, FrameId f
         placed.to_world = placement.transform * around.to_world;
         if (placement.overrides && placed.override_surface == kNoSurface) {
             placed.override_surface = placement.surface;
-            placed.override_frame = frame;
+            placed.override_instance = instance;
         }
         paths.push_back(placed);
-        walk_paths(input, placed, FrameId{static_cast<std::int32_t>(paths.size()) - 1}, paths);
+        walk_paths(input, placed, InstanceId{static_cast<std::int32_t>(paths.size()) - 1}, paths);
     }
 }
 
@@ -86,13 +86,13 @@ TEST_CASE("instances: a frame is the path that a walk through all placements com
         REQUIRE(instances.count() == paths.size());
         CHECK(instances.at(kWorld).to_world.is_identity());
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            const PlacedModel placed = instances.at(FrameId{static_cast<std::int32_t>(i)});
+            const PlacedModel placed = instances.at(InstanceId{static_cast<std::int32_t>(i)});
             CHECK(placed.model == paths[i].model);
             CHECK(placed.to_world.forward == paths[i].to_world.forward);
             CHECK(placed.to_world.inverse == paths[i].to_world.inverse);
             CHECK(placed.to_world.scale == paths[i].to_world.scale);
             CHECK(placed.override_surface == paths[i].override_surface);
-            CHECK(placed.override_frame == paths[i].override_frame);
+            CHECK(placed.override_instance == paths[i].override_instance);
             const ModelUse& use = instances.use(placed.model);
             CHECK(use.least_size <= placed.to_world.size());
             CHECK(use.most_size >= placed.to_world.size());
@@ -114,7 +114,7 @@ TEST_CASE("instances: models 32 deep are searched with little stack, deeper ones
     with_small_stack(search);
     for (const Hit& hit : hits) {
         CHECK(hit.t == 8);
-        CHECK(hit.frame == FrameId{31});
+        CHECK(hit.instance == InstanceId{31});
     }
     CHECK(seen == Visibility::blocked);
 

@@ -65,7 +65,7 @@ TEST_CASE(
     REQUIRE(low.exists());
     CHECK(low.surface == SurfaceId{1});
     CHECK(low.modifier == ModifierId{20});
-    CHECK(low.frame == FrameId{0});
+    CHECK(low.instance == InstanceId{0});
     CHECK(low.normal == Vec3{0, 0, 1});
     CHECK(low.u == rounded(0.75));
     CHECK(low.v == rounded(0.25));
@@ -83,7 +83,7 @@ TEST_CASE("normals and perturbations turn, mirror and keep their length with the
     const MeshModel mesh = two_triangles();
     const TestModels scene = placed(mesh, similarity(3, true, {0, 1, 0}, kPi / 2, {0, 0, 7}));
     const BuiltGeometry geometry = scene.build();
-    const Transform& to_world = geometry.frame(FrameId{0});
+    const Transform& to_world = geometry.instance_transform(InstanceId{0});
     const Vec3 target = to_world.forward.point({0.75, 0.25, 0});
     const Vec3 normal = to_world.forward.vector({0, 0, 1}) / 3;
     const Hit hit = geometry.intersect({target + normal * 5, -normal});
@@ -103,7 +103,7 @@ TEST_CASE("a placement with a modifier shades the whole mesh in the scene's spac
     const Hit hit = geometry.intersect({{0.25, 0.75, 1}, {0, 0, -1}});
     CHECK(hit.surface == SurfaceId{0});
     CHECK(hit.modifier == modifier_of(30, kOpaque));
-    CHECK(hit.frame == kWorld);
+    CHECK(hit.instance == kWorld);
     CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("a mesh of many triangles is hit where they are, and weighs little in 
 
 TEST_CASE("damaged meshes are refused") {
     const auto build = [](const MeshModel& mesh) {
-        return placed(mesh, Transform{}).build().frame_count();
+        return placed(mesh, Transform{}).build().instance_count();
     };
     MeshModel mesh = two_triangles();
     CHECK(build(mesh) == 1);

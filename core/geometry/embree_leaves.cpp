@@ -1,4 +1,4 @@
-#include "core/geometry/embree_clusters.h"
+#include "core/geometry/embree_leaves.h"
 
 #include <atomic>
 #include <functional>
@@ -16,7 +16,7 @@ struct ReleaseBvh {
 /// Boxes as Embree's builder takes them, and sorts them: those of a leaf side by side.
 class Boxes {
   public:
-    Boxes(const Pieces& pieces, const ModelPrimitives& model, const SearchSpace& space,
+    Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model, const SearchSpace& space,
           const Team& team);
     /// False where the builder has failed.
     bool divide(RTCDevice device);
@@ -38,12 +38,12 @@ class Boxes {
     std::atomic<std::size_t> marked_{0};  ///< in leaves: these are made on several threads
 };
 
-Boxes::Boxes(const Pieces& pieces, const ModelPrimitives& model, const SearchSpace& space,
+Boxes::Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model, const SearchSpace& space,
              const Team& team)
-    : all_(pieces.size()) {
+    : all_(bvh_primitives.size()) {
     for_each_part(team, all_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const RTCBounds b = rounded(space.box(pieces.box(i, model)));
+            const RTCBounds b = rounded(space.box(bvh_primitives.box(i, model)));
             all_[i] = {b.lower_x, b.lower_y, b.lower_z, kInside,
                        b.upper_x, b.upper_y, b.upper_z, static_cast<unsigned>(i)};
         }
@@ -62,7 +62,7 @@ bool Boxes::divide(RTCDevice device) {
     build.bvh = bvh.get();
     build.maxBranchingFactor = 2;
     build.maxDepth = 64;
-    build.sahBlockSize = build.maxLeafSize = kClusterSize;
+    build.sahBlockSize = build.maxLeafSize = kLeafSize;
     build.primitives = all_.data();
     build.primitiveCount = build.primitiveArrayCapacity = all_.size();
     build.userPtr = this;
@@ -93,21 +93,21 @@ Bounds bounds_of(const RTCBuildPrimitive& box) {
              static_cast<double>(box.upper_z)}};
 }
 
-Cluster cluster_of_leaf(std::span<const RTCBuildPrimitive> leaf, const Pieces& pieces) {
-    std::array<Bounds, kClusterSize> boxes;
-    std::array<PieceRef, kClusterSize> refs;
+QuantizedLeaf quantized_leaf_of(std::span<const RTCBuildPrimitive> leaf, const BvhPrimitives& bvh_primitives) {
+    std::array<Bounds, kLeafSize> boxes;
+    std::array<PrimitiveRange, kLeafSize> refs;
     for (std::size_t i = 0; i < leaf.size(); ++i) {
         boxes[i] = bounds_of(leaf[i]);
-        refs[i] = {pieces.primitive(leaf[i].primID), pieces.count(leaf[i].primID)};
+        refs[i] = {bvh_primitives.primitive(leaf[i].primID), bvh_primitives.count(leaf[i].primID)};
     }
-    return cluster_of({boxes.data(), leaf.size()}, {refs.data(), leaf.size()});
+    return quantized_leaf({boxes.data(), leaf.size()}, {refs.data(), leaf.size()});
 }
 
 }  // namespace
 
-std::vector<Cluster> make_clusters(const Pieces& pieces, const ModelPrimitives& model,
+std::vector<QuantizedLeaf> make_quantized_leaves(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
                                    const SearchSpace& space, RTCDevice device, const Team& team) {
-    Boxes boxes(pieces, model, space, team);
+    Boxes boxes(bvh_primitives, model, space, team);
     if (!boxes.divide(device)) return {};
     std::vector<std::size_t> before(part_count(boxes.size()) + 1, 0);
     for_each_part(team, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
@@ -116,13 +116,13 @@ std::vector<Cluster> make_clusters(const Pieces& pieces, const ModelPrimitives& 
         before[part + 1] = leaves;
     });
     std::partial_sum(before.begin(), before.end(), before.begin());
-    std::vector<Cluster> clusters(before.back());
+    std::vector<QuantizedLeaf> leaves(before.back());
     for_each_part(team, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
         std::size_t next = before[part];
         for (std::size_t i = first; i < last; ++i)
-            if (boxes.ends_leaf(i)) clusters[next++] = cluster_of_leaf(boxes.leaf(i), pieces);
+            if (boxes.ends_leaf(i)) leaves[next++] = quantized_leaf_of(boxes.leaf(i), bvh_primitives);
     });
-    return clusters;
+    return leaves;
 }
 
 }  // namespace lightwalk

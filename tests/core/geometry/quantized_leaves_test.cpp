@@ -1,6 +1,6 @@
-// Clusters of pieces: each piece is in one, no ray that meets a piece's box is told that it does
-// not, and a model of clusters is hit where its surfaces are.
-#include "core/geometry/clusters.h"
+// Clusters of bvh primitives: each bvh primitive is in one, no ray that meets a bvh primitive's box is told that it does
+// not, and a model of leaves is hit where its surfaces are.
+#include "core/geometry/quantized_leaves.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/geometry/bounds.h"
-#include "core/geometry/embree_clusters.h"
+#include "core/geometry/embree_leaves.h"
 #include "tests/core/geometry/geometry_scenes.h"
 
 namespace lightwalk {
@@ -21,21 +21,21 @@ struct ReleaseDevice {
     void operator()(RTCDeviceTy* device) const noexcept { rtcReleaseDevice(device); }
 };
 
-/// A model's pieces, and the clusters of them.
-struct Clustered {
-    explicit Clustered(const test::TestModels& scene)
+/// A model's bvh primitives, and the leaves of them.
+struct Leaves {
+    explicit Leaves(const test::TestModels& scene)
         : tables(scene), model(tables.surfaces, tables.input.models[0], TeamOfOne()) {
         space.center = {1, -2, 3};
         space.margin = 1e-5;
-        pieces = divide_primitives(model, TeamOfOne());
+        bvh_primitives = divide_primitives(model, TeamOfOne());
         const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(""));
-        clusters = make_clusters(pieces, model, space, device.get(), TeamOfOne());
+        leaves = make_quantized_leaves(bvh_primitives, model, space, device.get(), TeamOfOne());
     }
     test::TestModels::Tables tables;
     ModelPrimitives model;
     SearchSpace space;
-    Pieces pieces;
-    std::vector<Cluster> clusters;
+    BvhPrimitives bvh_primitives;
+    std::vector<QuantizedLeaf> leaves;
 };
 
 std::array<float, 3> floats(const Vec3& v) {
@@ -72,30 +72,30 @@ test::TestSurface speck(test::Random& random, int i) {
 }  // namespace
 
 TEST_CASE("each piece is in one cluster, and clusters are well filled") {
-    const Clustered scene(random_scene(3000));
+    const Leaves scene(random_scene(3000));
     std::vector<int> times(scene.model.size());
     std::size_t all = 0;
-    for (const Cluster& cluster : scene.clusters) {
+    for (const QuantizedLeaf& leaf : scene.leaves) {
         bool ended = false;
-        for (const PieceRef piece : cluster.pieces) {
-            REQUIRE_FALSE((ended && !piece.is_none()));  // those that there are come first
-            ended = piece.is_none();
+        for (const PrimitiveRange bvh_primitive : leaf.bvh_primitives) {
+            REQUIRE_FALSE((ended && !bvh_primitive.is_none()));  // those that there are come first
+            ended = bvh_primitive.is_none();
             if (ended) continue;
             ++all;
-            for (std::uint32_t i = piece.first(); i < piece.end(); ++i) ++times[i];
+            for (std::uint32_t i = bvh_primitive.first(); i < bvh_primitive.end(); ++i) ++times[i];
         }
     }
-    CHECK(all == scene.pieces.size());
+    CHECK(all == scene.bvh_primitives.size());
     std::vector<int> wanted(scene.model.size());
-    for (std::size_t i = 0; i < scene.pieces.size(); ++i)
-        for (std::uint32_t k = 0; k < scene.pieces.count(i); ++k)
-            ++wanted[scene.pieces.primitive(i) + k];
+    for (std::size_t i = 0; i < scene.bvh_primitives.size(); ++i)
+        for (std::uint32_t k = 0; k < scene.bvh_primitives.count(i); ++k)
+            ++wanted[scene.bvh_primitives.primitive(i) + k];
     CHECK(times == wanted);
-    CHECK(scene.clusters.size() < all / 4);
+    CHECK(scene.leaves.size() < all / 4);
 }
 
 TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes besides") {
-    const Clustered scene(random_scene(400));
+    const Leaves scene(random_scene(400));
     test::Random random(3);
     int hits = 0, met = 0, tested = 0;
     for (int turn = 0; turn < 3000; ++turn) {
@@ -105,29 +105,29 @@ TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes be
         if (turn % 5 == 0) direction = Vec3{turn % 2 == 0 ? -1.0 : 1.0, 0, 0};
         if (turn % 7 == 0) direction = normalize(Vec3{0, -direction.y, direction.z});
         const double far = turn % 3 == 0 ? 2 : 100;
-        const ClusterRay ray(floats(from - scene.space.center), floats(direction));
-        for (const Cluster& cluster : scene.clusters) {
-            const ClusterHits boxes = boxes_met(cluster, ray, static_cast<float>(far));
-            for (std::size_t i = 0; i < kClusterSize; ++i) {
-                const PieceRef piece = cluster.pieces[i];
-                if (piece.is_none()) break;
+        const LeafRay ray(floats(from - scene.space.center), floats(direction));
+        for (const QuantizedLeaf& leaf : scene.leaves) {
+            const LeafHits boxes = boxes_met(leaf, ray, static_cast<float>(far));
+            for (std::size_t i = 0; i < kLeafSize; ++i) {
+                const PrimitiveRange bvh_primitive = leaf.bvh_primitives[i];
+                if (bvh_primitive.is_none()) break;
                 const bool is_met = (boxes.met >> i & 1U) != 0;
                 ++tested;
                 met += is_met ? 1 : 0;
-                for (std::uint32_t k = piece.first(); k < piece.end(); ++k) {
+                for (std::uint32_t k = bvh_primitive.first(); k < bvh_primitive.end(); ++k) {
                     const auto hit = scene.model.intersect(k, from, direction, far);
                     if (!hit) continue;
                     ++hits;
-                    // Of a primitive with several pieces another one may hold the crossing.
+                    // Of a primitive with several bvh primitives another one may hold the crossing.
                     bool is_held =
                         is_met && static_cast<double>(boxes.first[i]) <= hit->t * (1 + 1e-6) + 1e-6;
-                    for (const Cluster& other : scene.clusters) {
+                    for (const QuantizedLeaf& other : scene.leaves) {
                         if (is_held) break;
-                        const ClusterHits there = boxes_met(other, ray, static_cast<float>(far));
-                        for (std::size_t j = 0; j < kClusterSize; ++j)
+                        const LeafHits there = boxes_met(other, ray, static_cast<float>(far));
+                        for (std::size_t j = 0; j < kLeafSize; ++j)
                             is_held = is_held ||
-                                      ((there.met >> j & 1U) != 0 && !other.pieces[j].is_none() &&
-                                       other.pieces[j].first() <= k && k < other.pieces[j].end());
+                                      ((there.met >> j & 1U) != 0 && !other.bvh_primitives[j].is_none() &&
+                                       other.bvh_primitives[j].first() <= k && k < other.bvh_primitives[j].end());
                     }
                     REQUIRE(is_held);
                 }
@@ -144,7 +144,7 @@ TEST_CASE("a cluster's boxes hold its pieces' own, and are two steps larger at m
     for (int turn = 0; turn < 2000; ++turn) {
         const double size = std::pow(10, random.uniform(-4, 6));
         std::vector<Bounds> boxes(1 + static_cast<std::size_t>(random.below(8)));
-        std::vector<PieceRef> pieces;
+        std::vector<PrimitiveRange> bvh_primitives;
         for (Bounds& box : boxes) {
             const Vec3 from = random.in_box(size), to = from + random.in_box(size / 10);
             for (const Vec3& corner : {from, to}) {
@@ -152,17 +152,17 @@ TEST_CASE("a cluster's boxes hold its pieces' own, and are two steps larger at m
                 box.extend({static_cast<double>(p[0]), static_cast<double>(p[1]),
                             static_cast<double>(p[2])});
             }
-            pieces.emplace_back(static_cast<std::uint32_t>(pieces.size()), 1);
+            bvh_primitives.emplace_back(static_cast<std::uint32_t>(bvh_primitives.size()), 1);
         }
-        const Cluster cluster = cluster_of(boxes, pieces);
+        const QuantizedLeaf leaf = quantized_leaf(boxes, bvh_primitives);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            REQUIRE(cluster.pieces[i].first() == i);
+            REQUIRE(leaf.bvh_primitives[i].first() == i);
             for (std::size_t k = 0; k < 3; ++k) {
                 const unsigned shift = 10 * static_cast<unsigned>(k);
-                const double lower = cluster.box().lower[k],
-                             step = static_cast<double>(cluster.step[k]), rounding = 1e-9 * step,
-                             begin = lower + step * (cluster.begin[i] >> shift & 1023U),
-                             end = lower + step * (cluster.end[i] >> shift & 1023U);
+                const double lower = leaf.box().lower[k],
+                             step = static_cast<double>(leaf.step[k]), rounding = 1e-9 * step,
+                             begin = lower + step * (leaf.begin[i] >> shift & 1023U),
+                             end = lower + step * (leaf.end[i] >> shift & 1023U);
                 REQUIRE(begin <= boxes[i].lower[k] + rounding);
                 REQUIRE(end >= boxes[i].upper[k] - rounding);
                 REQUIRE(begin >= boxes[i].lower[k] - 2 * step);

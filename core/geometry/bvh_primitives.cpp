@@ -1,4 +1,4 @@
-#include "core/geometry/pieces.h"
+#include "core/geometry/bvh_primitives.h"
 
 #include <algorithm>
 #include <array>
@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::size_t kDivisions = 20000;   ///< of all polygons of a model, of all its cones, too;
                                             ///< and half as many as it has primitives
-constexpr int kMostPieces = 64;             ///< of one polygon
+constexpr int kMostParts = 64;             ///< of one polygon
 constexpr std::size_t kMostVertices = 128;  ///< of a polygon that is divided
 constexpr double kLeastGain = 1e-5;         ///< of a division, relative to the model's box
-constexpr double kThickness = 1.0 / 16;     ///< of slanted pieces, relative to their polygon
+constexpr double kThickness = 1.0 / 16;     ///< of slanted bvh primitives, relative to their polygon
 constexpr double kMargin = 4 * kEpsilon;    ///< that boxes are grown by [m]
 constexpr double kRim = 3 * kEpsilon;       ///< of cells, that the boxes around reach into [m]
 constexpr std::size_t kManyPrimitives = std::size_t{1} << 17;  ///< pairs are made, cones whole
@@ -293,14 +293,14 @@ class Division {
         return taken;
     }
 
-    void run(Pieces& pieces) {
+    void run(BvhPrimitives& bvh_primitives) {
         while (!tasks_.empty()) {
             const Task task = tasks_.top();
             tasks_.pop();
             Divided& polygon = polygons_[task.polygon];
-            if (budget_ == 0 || polygon.pieces >= kMostPieces || task.gain <= least_) {
-                pieces.primitive_of.push_back(polygon.primitive);
-                pieces.boxes.push_back(common(polygon.projection.box(task.cell),
+            if (budget_ == 0 || polygon.bvh_primitives >= kMostParts || task.gain <= least_) {
+                bvh_primitives.primitive_of.push_back(polygon.primitive);
+                bvh_primitives.boxes.push_back(common(polygon.projection.box(task.cell),
                                               model_.hit_bounds(polygon.primitive)));
                 continue;
             }
@@ -312,17 +312,17 @@ class Division {
     struct Divided {
         Projection projection;
         std::uint32_t primitive = 0;
-        int pieces = 0;  ///< so far
+        int bvh_primitives = 0;  ///< so far
     };
 
     void divide(const Task& task, Divided& polygon) {
         --budget_;
-        --polygon.pieces;
+        --polygon.bvh_primitives;
         const Cut cut = best_cut(polygon.projection, task.cell, task.wasteful, scratch_);
         for (const Cell& part : halves(task.cell, cut)) {
             if (polygon.projection.is_empty(part)) continue;
             tasks_.push(task_for(polygon.projection, task.polygon, part, scratch_));
-            ++polygon.pieces;
+            ++polygon.bvh_primitives;
         }
     }
 
@@ -383,11 +383,11 @@ std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const Team& te
     return cones;
 }
 
-void append(const std::vector<SlicedCone>& cones, const ModelPrimitives& model, Pieces& pieces) {
+void append(const std::vector<SlicedCone>& cones, const ModelPrimitives& model, BvhPrimitives& bvh_primitives) {
     for (const auto& [primitive, slices] : cones) {
         for (int i = 0; i < slices.count; ++i) {
-            pieces.primitive_of.push_back(primitive);
-            pieces.boxes.push_back(hit_bounds(*model.cone(primitive), i, slices.count));
+            bvh_primitives.primitive_of.push_back(primitive);
+            bvh_primitives.boxes.push_back(hit_bounds(*model.cone(primitive), i, slices.count));
         }
     }
 }
@@ -442,14 +442,14 @@ bool are_consecutive(const std::vector<std::uint32_t>& numbers) {
 
 }  // namespace
 
-Bounds Pieces::box(std::size_t piece, const ModelPrimitives& model) const {
-    if (piece >= whole) return boxes[piece - whole];
-    Bounds box = model.hit_bounds(primitive(piece));
-    if (count(piece) == 2) extend(box, model.hit_bounds(primitive(piece) + 1));
+Bounds BvhPrimitives::box(std::size_t bvh_primitive, const ModelPrimitives& model) const {
+    if (bvh_primitive >= whole) return boxes[bvh_primitive - whole];
+    Bounds box = model.hit_bounds(primitive(bvh_primitive));
+    if (count(bvh_primitive) == 2) extend(box, model.hit_bounds(primitive(bvh_primitive) + 1));
     return box;
 }
 
-Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
+BvhPrimitives divide_primitives(const ModelPrimitives& model, const Team& team) {
     Division division(model);
     std::vector<std::uint32_t> divided =
         division.add(select_primitives(model.size(), team,
@@ -463,20 +463,20 @@ Pieces divide_primitives(const ModelPrimitives& model, const Team& team) {
         return model.is_finite(i) && !std::binary_search(divided.begin(), divided.end(), i);
     });
     whole = pair_neighbours(model, whole.alone, team);
-    Pieces pieces;
-    pieces.pairs = whole.pairs.size();
-    pieces.primitive_of = std::move(whole.pairs);
-    pieces.primitive_of.insert(pieces.primitive_of.end(), whole.alone.begin(), whole.alone.end());
-    pieces.whole = pieces.primitive_of.size();
-    if (divided.empty() && pieces.pairs == 0 && are_consecutive(pieces.primitive_of)) {
-        if (pieces.whole > 0) pieces.first = pieces.primitive_of.front();
-        pieces.primitive_of = std::vector<std::uint32_t>();  // {} would keep the memory
-        return pieces;
+    BvhPrimitives bvh_primitives;
+    bvh_primitives.pairs = whole.pairs.size();
+    bvh_primitives.primitive_of = std::move(whole.pairs);
+    bvh_primitives.primitive_of.insert(bvh_primitives.primitive_of.end(), whole.alone.begin(), whole.alone.end());
+    bvh_primitives.whole = bvh_primitives.primitive_of.size();
+    if (divided.empty() && bvh_primitives.pairs == 0 && are_consecutive(bvh_primitives.primitive_of)) {
+        if (bvh_primitives.whole > 0) bvh_primitives.first = bvh_primitives.primitive_of.front();
+        bvh_primitives.primitive_of = std::vector<std::uint32_t>();  // {} would keep the memory
+        return bvh_primitives;
     }
-    division.run(pieces);
-    append(cones, model, pieces);
-    pieces.primitive_of.shrink_to_fit();
-    return pieces;
+    division.run(bvh_primitives);
+    append(cones, model, bvh_primitives);
+    bvh_primitives.primitive_of.shrink_to_fit();
+    return bvh_primitives;
 }
 
 }  // namespace lightwalk

@@ -1,6 +1,6 @@
 // Boxes of parts of polygons and cones: they leave nothing out, and holes, corners and the air
 // around branches free.
-#include "core/geometry/pieces.h"
+#include "core/geometry/bvh_primitives.h"
 
 #include <doctest/doctest.h>
 
@@ -25,19 +25,19 @@ struct Divided {
         tables = std::make_unique<test::TestModels::Tables>(scene);
         model = std::make_unique<ModelPrimitives>(tables->surfaces, tables->input.models[0],
                                                   TeamOfOne());
-        pieces = divide_primitives(*model, TeamOfOne());
+        bvh_primitives = divide_primitives(*model, TeamOfOne());
     }
     [[nodiscard]] PolygonShape polygon() const {
         return std::get<PolygonShape>(tables->surfaces[SurfaceId{0}].shape());
     }
     [[nodiscard]] bool holds(const Vec3& p) const {
-        for (std::size_t i = 0; i < pieces.size(); ++i)
-            if (contains(pieces.box(i, *model), p)) return true;
+        for (std::size_t i = 0; i < bvh_primitives.size(); ++i)
+            if (contains(bvh_primitives.box(i, *model), p)) return true;
         return false;
     }
     std::unique_ptr<test::TestModels::Tables> tables;
     std::unique_ptr<ModelPrimitives> model;
-    Pieces pieces;
+    BvhPrimitives bvh_primitives;
 };
 
 Vec3 onto_plane(const PolygonShape& polygon, Vec3 p) {
@@ -51,8 +51,8 @@ Vec3 onto_plane(const PolygonShape& polygon, Vec3 p) {
 TEST_CASE("a window in a wall is in no box, the wall around it is") {
     const Divided wall({0, 0, 0, 10, 0, 0, 10, 0, 6, 0, 0, 6, 0, 0, 0,  // and the hole
                         2, 0, 2, 2,  0, 4, 8,  0, 4, 8, 0, 2, 2, 0, 2});
-    CHECK(wall.pieces.size() >= 4);
-    CHECK(wall.pieces.size() <= 16);
+    CHECK(wall.bvh_primitives.size() >= 4);
+    CHECK(wall.bvh_primitives.size() <= 16);
     for (const Vec3& p : {Vec3{5, 0, 3}, Vec3{2.01, 0, 2.01}, Vec3{7.99, 0, 3.99}})
         CHECK_FALSE(wall.holds(p));
     for (const Vec3& p :
@@ -61,7 +61,7 @@ TEST_CASE("a window in a wall is in no box, the wall around it is") {
 }
 
 TEST_CASE("a rectangle along the axes stays in one piece") {
-    CHECK(Divided({0, 0, 1, 4, 0, 1, 4, 2, 1, 0, 2, 1}).pieces.size() == 1);
+    CHECK(Divided({0, 0, 1, 4, 0, 1, 4, 2, 1, 0, 2, 1}).bvh_primitives.size() == 1);
 }
 
 TEST_CASE("the boxes of a slanted roof do not fill the attic") {
@@ -89,8 +89,8 @@ TEST_CASE("every point that a polygon takes for its own is in one of its boxes")
             for (std::size_t k = 0; k < 3; ++k) corners.push_back(p[k]);
         }
         const Divided star(corners);
-        if (star.pieces.size() == 0) continue;  // degenerate
-        most = std::max(most, star.pieces.size());
+        if (star.bvh_primitives.size() == 0) continue;  // degenerate
+        most = std::max(most, star.bvh_primitives.size());
         const PolygonShape polygon = star.polygon();
         for (int i = 0; i < 400; ++i) {
             Vec3 p = u * (7 * random.next() - 3.5) + v * (7 * random.next() - 3.5);
@@ -138,12 +138,12 @@ TEST_CASE(
     "the boxes of a slanted branch leave the air around it free, an upright trunk is one box") {
     const Divided branch(
         {surface(PrimitiveType::cone, {0, 0, 0, 4, 4, 4, 0.1, 0.05}, 0, test::kOpaque)});
-    CHECK(branch.pieces.size() == 16);
+    CHECK(branch.bvh_primitives.size() == 16);
     CHECK_FALSE(branch.holds({1, 2, 2}));
     CHECK_FALSE(branch.holds({3.5, 3.5, 3}));
     for (const double s : {0.0, 0.3, 2.0, 4.0}) CHECK(branch.holds({s, s, s}));
     for (const PrimitiveType type : {PrimitiveType::cylinder, PrimitiveType::tube})
-        CHECK(Divided({surface(type, {1, 1, 0, 1, 1, 9, 0.2}, 0, test::kOpaque)}).pieces.size() ==
+        CHECK(Divided({surface(type, {1, 1, 0, 1, 1, 9, 0.2}, 0, test::kOpaque)}).bvh_primitives.size() ==
               1);
 }
 
@@ -162,8 +162,8 @@ TEST_CASE("every hit of a cone, cup, cylinder or tube is in one of its boxes") {
         reals.push_back(random.next() * (round % 3 == 0 ? 1 : 0.1));
         if (round % 4 < 2) reals.push_back(random.next() < 0.2 ? 0 : random.next());
         const Divided cone({surface(type, reals, 0, test::kOpaque)});
-        if (cone.pieces.size() == 0) continue;  // degenerate
-        most = std::max(most, cone.pieces.size());
+        if (cone.bvh_primitives.size() == 0) continue;  // degenerate
+        most = std::max(most, cone.bvh_primitives.size());
         for (int i = 0; i < 200; ++i) {
             const Vec3 aim = from + (to - from) * random.next() + somewhere(0.2),
                        origin = aim + somewhere(20);
@@ -187,10 +187,10 @@ TEST_CASE("of many branches the long ones are divided, up to a bound for all tog
                                    {x, 0, 0, x + length, length, length, 0.001}, 0, test::kOpaque));
     }
     const Divided all(std::move(branches));
-    CHECK(all.pieces.size() > kCount + 20'000 + kCount / 2 - 16);
-    CHECK(all.pieces.size() <= kCount + 20'000 + kCount / 2);
-    for (std::size_t i = all.pieces.whole; i < all.pieces.size(); ++i)
-        CHECK(all.pieces.primitive(i) % 2 == 0);
+    CHECK(all.bvh_primitives.size() > kCount + 20'000 + kCount / 2 - 16);
+    CHECK(all.bvh_primitives.size() <= kCount + 20'000 + kCount / 2);
+    for (std::size_t i = all.bvh_primitives.whole; i < all.bvh_primitives.size(); ++i)
+        CHECK(all.bvh_primitives.primitive(i) % 2 == 0);
 }
 
 TEST_CASE("in a large model the two triangles of a cell are a pair, and rays meet each of them") {
@@ -214,16 +214,16 @@ TEST_CASE("in a large model the two triangles of a cell are a pair, and rays mee
     scene.add(surface(PrimitiveType::sphere, {1, 1, 1, .1}, 0, test::kOpaque));
     const test::TestModels::Tables tables(scene);
     const ModelPrimitives model(tables.surfaces, tables.input.models[0], TeamOfOne());
-    const Pieces pieces = divide_primitives(model, TeamOfOne());
-    CHECK(pieces.pairs > std::size_t{kSide} * kSide * 9 / 10);
+    const BvhPrimitives bvh_primitives = divide_primitives(model, TeamOfOne());
+    CHECK(bvh_primitives.pairs > std::size_t{kSide} * kSide * 9 / 10);
     std::vector<int> times(model.size());
-    for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
-        for (std::uint32_t k = 0; k < pieces.count(piece); ++k) {
-            const std::uint32_t primitive = pieces.primitive(piece) + k;
+    for (std::size_t bvh_primitive = 0; bvh_primitive < bvh_primitives.size(); ++bvh_primitive) {
+        for (std::uint32_t k = 0; k < bvh_primitives.count(bvh_primitive); ++k) {
+            const std::uint32_t primitive = bvh_primitives.primitive(bvh_primitive) + k;
             ++times[primitive];
             const Bounds own = model.hit_bounds(primitive);
-            REQUIRE(contains(pieces.box(piece, model), own.lower));
-            REQUIRE(contains(pieces.box(piece, model), own.upper));
+            REQUIRE(contains(bvh_primitives.box(bvh_primitive, model), own.lower));
+            REQUIRE(contains(bvh_primitives.box(bvh_primitive, model), own.upper));
         }
     }
     CHECK(std::ranges::all_of(times, [](int n) { return n == 1; }));

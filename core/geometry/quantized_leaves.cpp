@@ -1,4 +1,4 @@
-#include "core/geometry/clusters.h"
+#include "core/geometry/quantized_leaves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@ constexpr std::uint32_t kMostSteps = (1U << kSideBits) - 1;
 constexpr double kRoundUp = 1 + 0x1p-23;  ///< makes up for rounding to single precision
 
 // Eight numbers at once, whatever the processor: the compiler makes of them what it has.
-using Words = std::uint32_t __attribute__((vector_size(4 * kClusterSize)));
-using Integers = std::int32_t __attribute__((vector_size(4 * kClusterSize)));
-using Floats = float __attribute__((vector_size(4 * kClusterSize)));
+using Words = std::uint32_t __attribute__((vector_size(4 * kLeafSize)));
+using Integers = std::int32_t __attribute__((vector_size(4 * kLeafSize)));
+using Floats = float __attribute__((vector_size(4 * kLeafSize)));
 
 // Returned through a reference: how they would be returned otherwise depends on the processor.
 
@@ -26,37 +26,37 @@ using Floats = float __attribute__((vector_size(4 * kClusterSize)));
 
 }  // namespace
 
-Cluster cluster_of(std::span<const Bounds> boxes, std::span<const PieceRef> pieces) {
-    Cluster cluster;
+QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes, std::span<const PrimitiveRange> bvh_primitives) {
+    QuantizedLeaf leaf;
     Bounds all;
     for (const Bounds& box : boxes) extend(all, box);
     std::array<double, 3> steps{};
     for (std::size_t k = 0; k < 3; ++k) {
         // One step more than needed: what its rounding may lose is far less.
         const double size = all.upper[k] - all.lower[k];
-        cluster.step[k] =
+        leaf.step[k] =
             static_cast<float>(std::max(size / (kMostSteps - 1) * kRoundUp, 0x1p-100));
-        cluster.lower[k] = static_cast<float>(all.lower[k]);
-        steps[k] = static_cast<double>(cluster.step[k]);
+        leaf.lower[k] = static_cast<float>(all.lower[k]);
+        steps[k] = static_cast<double>(leaf.step[k]);
     }
-    // Where there is no piece, a box that ends before it begins.
-    cluster.begin.fill(~std::uint32_t{0});
+    // Where there is no bvh primitive, a box that ends before it begins.
+    leaf.begin.fill(~std::uint32_t{0});
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Bounds& box = boxes[i];
-        cluster.begin[i] = 0;
+        leaf.begin[i] = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const unsigned shift = kSideBits * static_cast<unsigned>(k);
             const double begin = (box.lower[k] - all.lower[k]) / steps[k],
                          end = (box.upper[k] - all.lower[k]) / steps[k] + 1;
-            cluster.begin[i] |= std::min(static_cast<std::uint32_t>(begin), kMostSteps) << shift;
-            cluster.end[i] |= std::min(static_cast<std::uint32_t>(end), kMostSteps) << shift;
+            leaf.begin[i] |= std::min(static_cast<std::uint32_t>(begin), kMostSteps) << shift;
+            leaf.end[i] |= std::min(static_cast<std::uint32_t>(end), kMostSteps) << shift;
         }
-        cluster.pieces[i] = pieces[i];
+        leaf.bvh_primitives[i] = bvh_primitives[i];
     }
-    return cluster;
+    return leaf;
 }
 
-Bounds Cluster::box() const {
+Bounds QuantizedLeaf::box() const {
     Bounds bounds;
     for (std::size_t k = 0; k < 3; ++k) {
         bounds.lower[k] = static_cast<double>(lower[k]);
@@ -65,22 +65,22 @@ Bounds Cluster::box() const {
     return bounds;
 }
 
-ClusterRay::ClusterRay(const std::array<float, 3>& from, const std::array<float, 3>& direction)
+LeafRay::LeafRay(const std::array<float, 3>& from, const std::array<float, 3>& direction)
     : origin(from) {
     constexpr float kLeast = 1e-18F;
     for (std::size_t k = 0; k < 3; ++k)
         inverse[k] = 1 / std::copysign(std::max(std::abs(direction[k]), kLeast), direction[k]);
 }
 
-ClusterHits boxes_met(const Cluster& cluster, const ClusterRay& ray, float end) {
+LeafHits boxes_met(const QuantizedLeaf& leaf, const LeafRay& ray, float end) {
     Words begins, ends;
-    std::memcpy(&begins, cluster.begin.data(), sizeof begins);
-    std::memcpy(&ends, cluster.end.data(), sizeof ends);
+    std::memcpy(&begins, leaf.begin.data(), sizeof begins);
+    std::memcpy(&ends, leaf.end.data(), sizeof ends);
     Floats first{}, last = first + end, in, out;
     for (std::size_t k = 0; k < 3; ++k) {
         const bool forward = ray.inverse[k] > 0;
-        const float start = (cluster.lower[k] - ray.origin[k]) * ray.inverse[k],
-                    step = cluster.step[k] * ray.inverse[k];
+        const float start = (leaf.lower[k] - ray.origin[k]) * ray.inverse[k],
+                    step = leaf.step[k] * ray.inverse[k];
         get_sides(forward ? begins : ends, k, in);
         get_sides(forward ? ends : begins, k, out);
         in = in * step + start;
@@ -90,9 +90,9 @@ ClusterHits boxes_met(const Cluster& cluster, const ClusterRay& ray, float end) 
     }
     constexpr Integers kBits{1, 2, 4, 8, 16, 32, 64, 128};
     const Integers met = (first <= last * kEndRoundUp) & kBits;
-    ClusterHits hits;
+    LeafHits hits;
     std::memcpy(hits.first.data(), &first, sizeof first);
-    for (std::size_t i = 0; i < kClusterSize; ++i) hits.met |= static_cast<std::uint32_t>(met[i]);
+    for (std::size_t i = 0; i < kLeafSize; ++i) hits.met |= static_cast<std::uint32_t>(met[i]);
     return hits;
 }
 
