@@ -16,7 +16,7 @@
 #include "io/scene/freezing_resources.h"
 #include "io/scene/scene_reader.h"
 #include "parallel/executor.h"
-#include "parallel/executor_team.h"
+#include "parallel/executor_task_runner.h"
 
 namespace lightwalk {
 namespace {
@@ -95,7 +95,7 @@ std::string SceneSession::share() {
     {
         const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
         NoWarnings later;  // they come when the scene is compiled to be rendered
-        const Scene compiled(model, modifier_factory, asked, later, ExecutorTeam(*executor),
+        const Scene compiled(model, modifier_factory, asked, later, ExecutorTaskRunner(*executor),
                              SceneExtent::without_search);
         try {
             shared = share_scene(compiled, asked);
@@ -121,22 +121,22 @@ void SceneSession::raise_problems(Resources& asked) {
 
 void SceneSession::compile(Resources& asked) {
     const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
-    compile(asked, ExecutorTeam(*executor));
+    compile(asked, ExecutorTaskRunner(*executor));
 }
 
-void SceneSession::compile(Resources& asked, const Team& team) {
+void SceneSession::compile(Resources& asked, const TaskRunner& task_runner) {
     raise_problems(asked);
     settle_heap();
-    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, team);
+    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, task_runner);
     settle_heap();
 }
 
 void SceneSession::build(const RenderSettings& settings, RankLink* link) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, workers);
-    const ExecutorTeam team(*executor);
-    compile(*resources, team);
-    auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings, team);
+    const ExecutorTaskRunner task_runner(*executor);
+    compile(*resources, task_runner);
+    auto fresh = std::make_unique<Tracer>(*built, settings.light, warnings, task_runner);
     const RenderOptions& options = settings.light;
     if (options.ambient_bounces > 0 && options.ambient_accuracy > kEpsilon) {
         make_cache(settings, link);

@@ -8,7 +8,7 @@
 
 #include "apps/common_options.h"
 #include "apps/walk_report.h"
-#include "core/math/team.h"
+#include "core/math/task_runner.h"
 #include "core/problem_list.h"
 #include "core/scene/scene.h"
 #include "core/transport/tracer.h"
@@ -89,7 +89,7 @@ struct SceneSession {
   private:
     void read(const CommonOptions& options);
     void map(const std::string& path);
-    void compile(Resources& asked, const Team& team);
+    void compile(Resources& asked, const TaskRunner& task_runner);
     void raise_problems(Resources& asked);
     void make_cache(const RenderSettings& settings, RankLink* link);
 };

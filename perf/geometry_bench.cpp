@@ -32,7 +32,7 @@ class Room {
     }
     /// While the room stays.
     [[nodiscard]] Geometry build() {
-        shapes_ = make_shapes(list_, TeamOfOne());
+        shapes_ = make_shapes(list_, SerialTaskRunner());
         table_ = SurfaceTable();
         table_.add(list_, shapes_, 0);
         table_.set_traits(ModifierTraits({}, {true, false, ShadowClass::blocks}));

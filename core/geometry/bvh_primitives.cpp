@@ -270,10 +270,10 @@ class Division {
     }
 
     /// Takes those of the candidates that are worth dividing; returns them, in their order.
-    std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& candidates, const Team& team) {
+    std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& candidates, const TaskRunner& task_runner) {
         constexpr std::size_t kTogether = 64;
         std::vector<std::optional<std::pair<Projection, Task>>> looks(candidates.size());
-        team.run((candidates.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
+        task_runner.run((candidates.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
             Clipping scratch;
             const std::size_t last = std::min((part + 1) * kTogether, candidates.size());
             for (std::size_t i = part * kTogether; i < last; ++i) {
@@ -336,10 +336,10 @@ class Division {
 
 /// The primitives that `is_wanted` wants, in their order.
 template <class IsWanted>
-std::vector<std::uint32_t> select_primitives(std::size_t count, const Team& team,
+std::vector<std::uint32_t> select_primitives(std::size_t count, const TaskRunner& task_runner,
                                              const IsWanted& is_wanted) {
     std::vector<std::vector<std::uint32_t>> parts(part_count(count));
-    for_each_part(team, count, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_each_part(task_runner, count, [&](std::size_t part, std::size_t first, std::size_t last) {
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i)
             if (is_wanted(i)) parts[part].push_back(i);
     });
@@ -357,7 +357,7 @@ struct SlicedCone {
 
 /// Those of a model from which most is won, in their order. None of a large one: to look at a
 /// million takes a second, and rays gained nothing (measured).
-std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const Team& team) {
+std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const TaskRunner& task_runner) {
     if (model.size() > kManyPrimitives) return {};
     const double least = least_gain(model);
     const auto slices = [&](std::uint32_t i) {
@@ -366,7 +366,7 @@ std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const Team& te
     };
     std::vector<SlicedCone> cones;
     for (const std::uint32_t i : select_primitives(
-             model.size(), team, [&](std::uint32_t k) { return slices(k).count > 1; }))
+             model.size(), task_runner, [&](std::uint32_t k) { return slices(k).count > 1; }))
         cones.push_back({i, slices(i)});
     std::stable_sort(cones.begin(), cones.end(), [](const SlicedCone& a, const SlicedCone& b) {
         return a.slices.gain > b.slices.gain;
@@ -424,9 +424,9 @@ Grouping pair_neighbours(const ModelPrimitives& model, std::span<const std::uint
 }
 
 Grouping pair_neighbours(const ModelPrimitives& model, std::span<const std::uint32_t> primitives,
-                         const Team& team) {
+                         const TaskRunner& task_runner) {
     std::vector<Grouping> parts(part_count(primitives.size()));
-    for_each_part(team, primitives.size(),
+    for_each_part(task_runner, primitives.size(),
                   [&](std::size_t part, std::size_t first, std::size_t last) {
                       parts[part] = pair_neighbours(model, primitives.subspan(first, last - first));
                   });
@@ -449,20 +449,20 @@ Bounds BvhPrimitives::box(std::size_t bvh_primitive, const ModelPrimitives& mode
     return box;
 }
 
-BvhPrimitives divide_primitives(const ModelPrimitives& model, const Team& team) {
+BvhPrimitives divide_primitives(const ModelPrimitives& model, const TaskRunner& task_runner) {
     Division division(model);
     std::vector<std::uint32_t> divided =
-        division.add(select_primitives(model.size(), team,
+        division.add(select_primitives(model.size(), task_runner,
                                        [&](std::uint32_t i) { return division.is_candidate(i); }),
-                     team);
-    const std::vector<SlicedCone> cones = slice_cones(model, team);
+                     task_runner);
+    const std::vector<SlicedCone> cones = slice_cones(model, task_runner);
     for (const SlicedCone& cone : cones) divided.push_back(cone.primitive);
     std::sort(divided.begin(), divided.end());
     Grouping whole;
-    whole.alone = select_primitives(model.size(), team, [&](std::uint32_t i) {
+    whole.alone = select_primitives(model.size(), task_runner, [&](std::uint32_t i) {
         return model.is_finite(i) && !std::binary_search(divided.begin(), divided.end(), i);
     });
-    whole = pair_neighbours(model, whole.alone, team);
+    whole = pair_neighbours(model, whole.alone, task_runner);
     BvhPrimitives bvh_primitives;
     bvh_primitives.pairs = whole.pairs.size();
     bvh_primitives.primitive_of = std::move(whole.pairs);

@@ -37,6 +37,6 @@ struct BvhPrimitives {
 /// have to be tested against the wall around it, nor one in the attic against the roof. Idea:
 /// Stich, Friedrich & Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009; here
 /// before the tree is built.
-[[nodiscard]] BvhPrimitives divide_primitives(const ModelPrimitives& model, const Team& team);
+[[nodiscard]] BvhPrimitives divide_primitives(const ModelPrimitives& model, const TaskRunner& task_runner);
 
 }  // namespace lightwalk

@@ -17,7 +17,7 @@ struct ReleaseBvh {
 class Boxes {
   public:
     Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model, const SearchSpace& space,
-          const Team& team);
+          const TaskRunner& task_runner);
     /// False where the builder has failed.
     bool divide(RTCDevice device);
 
@@ -39,9 +39,9 @@ class Boxes {
 };
 
 Boxes::Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model, const SearchSpace& space,
-             const Team& team)
+             const TaskRunner& task_runner)
     : all_(bvh_primitives.size()) {
-    for_each_part(team, all_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    for_each_part(task_runner, all_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const RTCBounds b = rounded(space.box(bvh_primitives.box(i, model)));
             all_[i] = {b.lower_x, b.lower_y, b.lower_z, kInside,
@@ -106,18 +106,18 @@ QuantizedLeaf quantized_leaf_of(std::span<const RTCBuildPrimitive> leaf, const B
 }  // namespace
 
 std::vector<QuantizedLeaf> make_quantized_leaves(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
-                                   const SearchSpace& space, RTCDevice device, const Team& team) {
-    Boxes boxes(bvh_primitives, model, space, team);
+                                   const SearchSpace& space, RTCDevice device, const TaskRunner& task_runner) {
+    Boxes boxes(bvh_primitives, model, space, task_runner);
     if (!boxes.divide(device)) return {};
     std::vector<std::size_t> before(part_count(boxes.size()) + 1, 0);
-    for_each_part(team, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_each_part(task_runner, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
         std::size_t leaves = 0;
         for (std::size_t i = first; i < last; ++i) leaves += boxes.ends_leaf(i) ? 1 : 0;
         before[part + 1] = leaves;
     });
     std::partial_sum(before.begin(), before.end(), before.begin());
     std::vector<QuantizedLeaf> leaves(before.back());
-    for_each_part(team, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_each_part(task_runner, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
         std::size_t next = before[part];
         for (std::size_t i = first; i < last; ++i)
             if (boxes.ends_leaf(i)) leaves[next++] = quantized_leaf_of(boxes.leaf(i), bvh_primitives);

@@ -10,6 +10,6 @@ namespace lightwalk {
 /// BvhPrimitives whose boxes are no numbers are left out: nothing can hit them.
 [[nodiscard]] std::vector<QuantizedLeaf> make_quantized_leaves(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
                                                  const SearchSpace& space, RTCDevice device,
-                                                 const Team& team);
+                                                 const TaskRunner& task_runner);
 
 }  // namespace lightwalk

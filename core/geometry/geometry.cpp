@@ -81,7 +81,7 @@ std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
 using PacketLanes = std::array<int, kPacket>;
 
 struct Geometry::Impl {
-    Impl(GeometryInput input, const std::string& embree_options, const Team& team);
+    Impl(GeometryInput input, const std::string& embree_options, const TaskRunner& task_runner);
 
     [[nodiscard]] std::optional<EmbreeRay> embree_ray(const TracedRay& ray) const;
     void trace(NearestRay& ray) const;
@@ -105,15 +105,15 @@ struct Geometry::Impl {
   private:
     void open_device(const std::string& options);
     void check(const char* doing) const;
-    void add_surfaces(Hierarchy& model, const Team& team);
+    void add_surfaces(Hierarchy& model, const TaskRunner& task_runner);
     void add_instances(std::uint32_t model);
     [[nodiscard]] std::optional<Instance> instance_of(const PlacedChild& child,
                                               const Hierarchy& around) const;
     [[nodiscard]] Bounds box_of(const Placement& placement, const Hierarchy& around) const;
 };
 
-Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, const Team& team)
-    : placed(std::move(input), team) {
+Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, const TaskRunner& task_runner)
+    : placed(std::move(input), task_runner) {
     open_device(embree_options);
     models.resize(placed.model_count());
     const std::vector<SearchSpace> spaces = search_spaces(placed);
@@ -126,7 +126,7 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, con
         Hierarchy& built = models[*model];
         built.scene.reset(rtcNewScene(device.get()));
         check("creating a scene");
-        add_surfaces(built, team);
+        add_surfaces(built, task_runner);
         add_instances(*model);
         rtcSetSceneBuildQuality(built.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         rtcCommitScene(built.scene.get());
@@ -167,14 +167,14 @@ void Geometry::Impl::check(const char* doing) const {
     throw std::runtime_error(std::string("Embree failed while ") + doing + ": " + embree_message);
 }
 
-void Geometry::Impl::add_surfaces(Hierarchy& model, const Team& team) {
-    model.bvh_primitives = divide_primitives(*model.primitives, team);
+void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runner) {
+    model.bvh_primitives = divide_primitives(*model.primitives, task_runner);
     if (model.bvh_primitives.size() == 0) return;
     const auto last = static_cast<std::uint32_t>(model.primitives->size() - 1);
     const bool is_mesh = model.primitives->is_triangle(last);  // they are models of their own
     if (model.bvh_primitives.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePrimitives)) {
         model.leaves =
-            make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space, device.get(), team);
+            make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space, device.get(), task_runner);
         check("clustering the surfaces");
         if (model.leaves.empty()) throw std::runtime_error("Embree has lost surfaces");
         model.bvh_primitives = BvhPrimitives();
@@ -304,8 +304,8 @@ std::optional<EmbreeRay> Geometry::Impl::embree_ray(const TracedRay& ray) const 
     return result;
 }
 
-Geometry::Geometry(GeometryInput input, const std::string& embree_options, const Team& team)
-    : impl_(std::make_unique<Impl>(std::move(input), embree_options, team)) {}
+Geometry::Geometry(GeometryInput input, const std::string& embree_options, const TaskRunner& task_runner)
+    : impl_(std::make_unique<Impl>(std::move(input), embree_options, task_runner)) {}
 Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;

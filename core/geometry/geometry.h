@@ -106,9 +106,9 @@ class Geometry {
     /// single rays and packets; they need no flush-to-zero mode of the caller. A placed model wins
     /// over what is not in it only where it is strictly nearer; inside it has its own ties.
     /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines
-    /// without AVX-512 do. `team` helps to prepare what is not Embree's.
+    /// without AVX-512 do. `task runner` helps to prepare what is not Embree's.
     explicit Geometry(GeometryInput input, const std::string& embree_options = {},
-                      const Team& team = TeamOfOne());
+                      const TaskRunner& task_runner = SerialTaskRunner());
     ~Geometry();
     Geometry(Geometry&&) noexcept;
     Geometry& operator=(Geometry&&) noexcept;

@@ -63,7 +63,7 @@ Precedence precedence_of(const SurfaceTraits& traits, bool front, ModifierId mod
 }
 
 ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model,
-                                 const Team& team)
+                                 const TaskRunner& task_runner)
     : part_(&surfaces.part(model.part)),
       traits_(&surfaces.traits()),
       rows_(part_->shapes->columns().rows.data()),
@@ -81,12 +81,12 @@ ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeomet
     }
     if (size_ > std::numeric_limits<std::int32_t>::max())
         throw InputError("too many surfaces in one model");
-    find_bounds(team);
+    find_bounds(task_runner);
 }
 
-void ModelPrimitives::find_bounds(const Team& team) {
+void ModelPrimitives::find_bounds(const TaskRunner& task_runner) {
     std::vector<Bounds> own(part_count(size_)), hits(own.size());
-    for_each_part(team, size_, [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_each_part(task_runner, size_, [&](std::size_t part, std::size_t first, std::size_t last) {
         Bounds all_hits, all_own;  // not in place: other threads' parts lie beside it
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
             extend(all_hits, hit_bounds(i));

@@ -34,7 +34,7 @@ struct Precedence {
 class ModelPrimitives {
   public:
     /// Throws InputError for mesh triangles whose vertices or materials do not exist.
-    ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model, const Team& team);
+    ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model, const TaskRunner& task_runner);
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool is_triangle(std::uint32_t primitive) const { return primitive >= own_; }
@@ -98,7 +98,7 @@ class ModelPrimitives {
         const MeshModel::Triangle* triangle;
         [[nodiscard]] Vec3 corner(int i) const;
     };
-    void find_bounds(const Team& team);
+    void find_bounds(const TaskRunner& task_runner);
     [[nodiscard]] TriangleRef triangle(std::uint32_t primitive) const;
     [[nodiscard]] std::optional<ShapeHit> intersect_triangle(std::uint32_t primitive,
                                                              const Vec3& origin,

@@ -27,11 +27,11 @@ LocalRay local_ray(const Vec3& origin, const Vec3& direction, const Matrix& to_l
 
 }  // namespace
 
-PlacedScene::PlacedScene(GeometryInput input, const Team& team)
+PlacedScene::PlacedScene(GeometryInput input, const TaskRunner& task_runner)
     : input_(with_a_model(std::move(input))), paths_(input_) {
     models_.reserve(input_.models.size());
     for (const ModelGeometry& model : input_.models)
-        models_.emplace_back(*input_.surfaces, model, team);
+        models_.emplace_back(*input_.surfaces, model, task_runner);
     for (const std::uint32_t model : paths_.order())
         coincidence_ = std::max(coincidence_, kEpsilon * paths_.use(model).most_size);
     std::vector<std::optional<Bounds>> cubes(input_.models.size());

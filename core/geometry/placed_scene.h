@@ -70,7 +70,7 @@ struct ShadowRay : TracedRay {
 class PlacedScene {
   public:
     /// Throws InputError as InstancePaths and ModelPrimitives do.
-    PlacedScene(GeometryInput input, const Team& team);
+    PlacedScene(GeometryInput input, const TaskRunner& task_runner);
 
     [[nodiscard]] const InstancePaths& paths() const { return paths_; }
     [[nodiscard]] const ModelPrimitives& primitives(std::uint32_t model) const {

@@ -106,8 +106,8 @@ void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
 }
 
 /// Counts the shapes before each part; returns those of all.
-Counts count_shapes(const SurfaceList& list, const Team& team, std::vector<Part>& parts) {
-    for_each_part(team, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+Counts count_shapes(const SurfaceList& list, const TaskRunner& task_runner, std::vector<Part>& parts) {
+    for_each_part(task_runner, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             ++count_of(parts[part].first, kind_of_type(list.type(i)));
     });
@@ -221,16 +221,16 @@ std::size_t SurfaceShapes::mapped_bytes() const {
            columns_.sources.mapped_bytes();
 }
 
-SurfaceShapes make_shapes(const SurfaceList& list, const Team& team) {
+SurfaceShapes make_shapes(const SurfaceList& list, const TaskRunner& task_runner) {
     std::vector<Part> parts(part_count(list.size()));
-    Counts counts = count_shapes(list, team, parts);
+    Counts counts = count_shapes(list, task_runner, parts);
     SurfaceShapes::Columns columns;
     const OpenColumns open{columns.rows.zeros(list.size()),
                            columns.spheres.zeros(count_of(counts, ShapeKind::sphere)),
                            columns.cones.zeros(count_of(counts, ShapeKind::cone)),
                            columns.rings.zeros(count_of(counts, ShapeKind::ring)),
                            columns.sources.zeros(count_of(counts, ShapeKind::source))};
-    for_each_part(team, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+    for_each_part(task_runner, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
         try {
             fill_part(list, first, last, open, parts[part]);
         } catch (...) {

@@ -8,7 +8,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/geometry/shapes.h"
-#include "core/math/team.h"
+#include "core/math/task_runner.h"
 #include "core/model/column.h"
 #include "core/model/surface_list.h"
 
@@ -71,6 +71,6 @@ class SurfaceShapes {
 };
 
 /// Validate all surfaces of a list. Throws InputError for the first bad one.
-[[nodiscard]] SurfaceShapes make_shapes(const SurfaceList& list, const Team& team);
+[[nodiscard]] SurfaceShapes make_shapes(const SurfaceList& list, const TaskRunner& task_runner);
 
 }  // namespace lightwalk

@@ -129,7 +129,7 @@ std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::
 }
 
 std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
-                                     WarningSink& warnings, const Team& team) {
+                                     WarningSink& warnings, const TaskRunner& task_runner) {
     const RenderOptions& options = tracer.options();
     if (most_candidates(lights, options) <= kFirstBlock) return {};
     const std::vector<Hit> places = walk_light(lights, tracer, kMostPoints);
@@ -138,10 +138,10 @@ std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& t
     std::vector<MeasuredPoint> points(places.size());
     std::size_t count = 0, rays = 0;
     const auto is_enough = [&] { return rays >= kShadowRays && count >= kLeastPoints; };
-    // Rounds: what is measured beyond enough does not count, so that the team's size does not.
+    // Rounds: what is measured beyond enough does not count, so that the task runner's size does not.
     for (std::size_t first = 0; first < places.size() && !is_enough(); first += kRound) {
         const std::size_t last = std::min(first + kRound, places.size());
-        team.run(kRoundParts, [&](std::size_t part) {
+        task_runner.run(kRoundParts, [&](std::size_t part) {
             for (std::size_t i = first + part; i < last; i += kRoundParts) {
                 const RandomStream random(mix_bits(options.seed ^ mix_bits(i)));
                 points[i] = measure(lights, places[i], random, *contexts[part]);

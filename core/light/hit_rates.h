@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/light/light_sources.h"
-#include "core/math/team.h"
+#include "core/math/task_runner.h"
 
 namespace lightwalk {
 
@@ -31,6 +31,6 @@ using MeasuredPoint = std::vector<MeasuredCandidate>;
 /// with seeded random numbers; every source is tested from each. A bounded number of rays, some ten
 /// thousand. Empty when -dt never leaves anything untested: then the rates do not matter.
 [[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
-                                                   WarningSink& warnings, const Team& team);
+                                                   WarningSink& warnings, const TaskRunner& task_runner);
 
 }  // namespace lightwalk

@@ -32,12 +32,12 @@ void LightSources::index_sources() {
         sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
-void LightSources::finalize(const Tracer& tracer, WarningSink& warnings, const Team& team) {
+void LightSources::finalize(const Tracer& tracer, WarningSink& warnings, const TaskRunner& task_runner) {
     index_sources();
     find_scattered(warnings);
     const bool chosen = options_.ambient_bounces > 0 && options_.ambient_lights > 0;
     if (options_.shadow_threshold > 0 || chosen) {
-        const std::vector<float> rates = measure_hit_rates(*this, tracer, warnings, team);
+        const std::vector<float> rates = measure_hit_rates(*this, tracer, warnings, task_runner);
         for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
     }
     if (!chosen) return;

@@ -48,7 +48,7 @@ class LightSources {
     }
     /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
     /// Called once by Tracer's constructor, with that tracer, before any rendering.
-    void finalize(const Tracer& tracer, WarningSink& warnings, const Team& team);
+    void finalize(const Tracer& tracer, WarningSink& warnings, const TaskRunner& task_runner);
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;

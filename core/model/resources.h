@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/math/rgb.h"
-#include "core/math/team.h"
+#include "core/math/task_runner.h"
 #include "core/model/column.h"
 #include "core/model/primitive.h"
 
@@ -68,9 +68,9 @@ class Resources {
     [[nodiscard]] virtual std::shared_ptr<const MeshModel> mesh(const std::string& name) = 0;
     /// Files that will be asked for soon may be decoded side by side. A hint: what is wrong with
     /// them is told when they are asked for.
-    virtual void prepare(std::span<const NamedFile> files, const Team& team) {
+    virtual void prepare(std::span<const NamedFile> files, const TaskRunner& task_runner) {
         (void)files;
-        (void)team;
+        (void)task_runner;
     }
 };
 

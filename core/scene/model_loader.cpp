@@ -11,8 +11,8 @@ constexpr std::size_t kMaxNesting = 64;  ///< instances inside instances
 
 }  // namespace
 
-ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const Team& team)
-    : resources_(resources), team_(team) {
+ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const TaskRunner& task_runner)
+    : resources_(resources), task_runner_(task_runner) {
     LoadedModel root;
     root.model = std::move(scene);
     models.push_back(std::move(root));
@@ -84,7 +84,7 @@ void ModelLoader::prepare_children(const SurfaceList& surfaces) {
                                                                : NamedFile::Kind::octree,
                          std::move(name)});
     }
-    resources_.prepare(files, team_);
+    resources_.prepare(files, task_runner_);
 }
 
 }  // namespace lightwalk

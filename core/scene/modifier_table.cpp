@@ -111,9 +111,9 @@ std::vector<NamedFile> ModifierTable::pictures() const {
 
 void ModifierTable::compile(const std::vector<LoadedModel>& models,
                             FindModifierFactory modifier_factory, Resources& resources,
-                            WarningSink& warnings, const Team& team) {
+                            WarningSink& warnings, const TaskRunner& task_runner) {
     unsupported(modifier_factory).raise();
-    resources.prepare(pictures(), team);
+    resources.prepare(pictures(), task_runner);
     for (const LoadedModel& loaded : models) {
         const auto count = static_cast<std::int32_t>(loaded.contents().modifiers.size());
         for (std::int32_t i = loaded.modifier_base; i < loaded.modifier_base + count; ++i) {

@@ -32,16 +32,16 @@ struct Scene::Impl {
     SurfaceId lambertian_surface = kNoSurface;
     std::unique_ptr<Geometry> geometry;
 
-    Impl(std::shared_ptr<const Model> model, Resources& resources, const Team& team)
-        : models(std::move(ModelLoader(std::move(model), resources, team).models)),
+    Impl(std::shared_ptr<const Model> model, Resources& resources, const TaskRunner& task_runner)
+        : models(std::move(ModelLoader(std::move(model), resources, task_runner).models)),
           modifiers(models) {}
 
-    void collect_surfaces(WarningSink& warnings, const Team& team);
+    void collect_surfaces(WarningSink& warnings, const TaskRunner& task_runner);
     void use_modifiers();
     void add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
                         WarningSink& warnings);
-    [[nodiscard]] ModelGeometry model_geometry(std::size_t model, const Team& team) const;
-    void build_geometry(const Team& team);
+    [[nodiscard]] ModelGeometry model_geometry(std::size_t model, const TaskRunner& task_runner) const;
+    void build_geometry(const TaskRunner& task_runner);
 };
 
 namespace {
@@ -67,7 +67,7 @@ Transform placement_transform(const SurfacePrimitive& primitive) {
 
 }  // namespace
 
-void Scene::Impl::collect_surfaces(WarningSink& warnings, const Team& team) {
+void Scene::Impl::collect_surfaces(WarningSink& warnings, const TaskRunner& task_runner) {
     for (const LoadedModel& loaded : models) {
         if (loaded.mesh) {
             surfaces.add(triangles.list, triangles.shapes, loaded.modifier_base);
@@ -76,7 +76,7 @@ void Scene::Impl::collect_surfaces(WarningSink& warnings, const Team& team) {
         const Model& model = *loaded.model;
         shapes.push_back(model.shapes ? model.shapes
                                       : std::make_shared<const SurfaceShapes>(
-                                            make_shapes(model.surfaces, team)));
+                                            make_shapes(model.surfaces, task_runner)));
         for (const std::string& warning : shapes.back()->columns().warnings) warnings.warn(warning);
         surfaces.add(model.surfaces, *shapes.back(), loaded.modifier_base);
     }
@@ -126,7 +126,7 @@ void Scene::Impl::add_lambertian(FindModifierFactory modifier_factory, Resources
     lambertian_surface = surfaces.part(part).id(0);  // not flat, and not in the geometry
 }
 
-ModelGeometry Scene::Impl::model_geometry(std::size_t model, const Team& team) const {
+ModelGeometry Scene::Impl::model_geometry(std::size_t model, const TaskRunner& task_runner) const {
     const LoadedModel& loaded = models[model];
     const SurfacePart& own = surfaces.part(model);
     ModelGeometry geometry_of;
@@ -162,7 +162,7 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const Team& team) c
             geometry_of.placements[i].transform = placement_transform(list[placed[i]]);
     };
     try {
-        team.run((placed.size() + kTogether - 1) / kTogether,
+        task_runner.run((placed.size() + kTogether - 1) / kTogether,
                  [&](std::size_t part) { place(part * kTogether, (part + 1) * kTogether); });
     } catch (const InputError&) {
         place(0, placed.size());  // which finds the first that is wrong
@@ -171,29 +171,29 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const Team& team) c
     return geometry_of;
 }
 
-void Scene::Impl::build_geometry(const Team& team) {
+void Scene::Impl::build_geometry(const TaskRunner& task_runner) {
     GeometryInput input;
     input.surfaces = &surfaces;
-    for (std::size_t i = 0; i < models.size(); ++i) input.models.push_back(model_geometry(i, team));
-    geometry = std::make_unique<Geometry>(std::move(input), std::string(), team);
+    for (std::size_t i = 0; i < models.size(); ++i) input.models.push_back(model_geometry(i, task_runner));
+    geometry = std::make_unique<Geometry>(std::move(input), std::string(), task_runner);
 }
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-             Resources& resources, WarningSink& warnings, const Team& team, SceneExtent extent)
-    : impl_(std::make_unique<Impl>(std::move(model), resources, team)) {
-    impl_->collect_surfaces(warnings, team);
+             Resources& resources, WarningSink& warnings, const TaskRunner& task_runner, SceneExtent extent)
+    : impl_(std::make_unique<Impl>(std::move(model), resources, task_runner)) {
+    impl_->collect_surfaces(warnings, task_runner);
     impl_->use_modifiers();
-    impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings, team);
+    impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings, task_runner);
     impl_->add_lambertian(modifier_factory, resources, warnings);
     impl_->surfaces.set_traits(impl_->modifiers.all_traits());
-    if (extent == SceneExtent::whole) impl_->build_geometry(team);
+    if (extent == SceneExtent::whole) impl_->build_geometry(task_runner);
 }
 
 ProblemList Scene::unsupported(std::shared_ptr<const Model> model,
                                FindModifierFactory modifier_factory, Resources& resources,
                                WarningSink& warnings) {
-    Impl scene(std::move(model), resources, TeamOfOne());
-    scene.collect_surfaces(warnings, TeamOfOne());
+    Impl scene(std::move(model), resources, SerialTaskRunner());
+    scene.collect_surfaces(warnings, SerialTaskRunner());
     scene.use_modifiers();
     return scene.modifiers.unsupported(modifier_factory);
 }

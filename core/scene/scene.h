@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/geometry.h"
-#include "core/math/team.h"
+#include "core/math/task_runner.h"
 #include "core/model/resources.h"
 #include "core/problem_list.h"
 #include "core/scene/modifier.h"
@@ -41,9 +41,9 @@ class Scene {
     /// others are never reported. `modifier_factory` must know plastic. Throws InputError for bad
     /// surfaces, bad used modifiers, missing octrees and meshes, circular instances. A file that a
     /// modifier misses is a warning, and an InputError when a ray needs it. `model` and what
-    /// `resources` hands out are kept alive by the scene. `team` helps to build it.
+    /// `resources` hands out are kept alive by the scene. `task runner` helps to build it.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-          Resources& resources, WarningSink& warnings, const Team& team = TeamOfOne(),
+          Resources& resources, WarningSink& warnings, const TaskRunner& task_runner = SerialTaskRunner(),
           SceneExtent extent = SceneExtent::whole);
     ~Scene();
     /// Of a scene that cannot be rendered anyway: every used modifier whose type is recognised but

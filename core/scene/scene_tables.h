@@ -27,7 +27,7 @@ struct LoadedModel {
 /// instances.
 class ModelLoader {
   public:
-    ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const Team& team);
+    ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const TaskRunner& task_runner);
     std::vector<LoadedModel> models;  ///< models[0] is the scene
 
   private:
@@ -36,7 +36,7 @@ class ModelLoader {
     /// Has the files decoded that a model places and that are not loaded yet.
     void prepare_children(const SurfaceList& surfaces);
     Resources& resources_;
-    const Team& team_;
+    const TaskRunner& task_runner_;
     std::map<std::string, std::uint32_t> loaded_;  ///< "instance NAME" / "mesh NAME"
     std::vector<std::string> open_;                ///< being loaded, outermost first
 };
@@ -52,7 +52,7 @@ class ModifierTable {
     /// Compile what `use` marked; throws InputError for a bad modifier, or for all unsupported
     /// ones.
     void compile(const std::vector<LoadedModel>& models, FindModifierFactory modifier_factory,
-                 Resources& resources, WarningSink& warnings, const Team& team);
+                 Resources& resources, WarningSink& warnings, const TaskRunner& task_runner);
 
     [[nodiscard]] const ModifierRecord& operator[](ModifierId id) const {
         return records_[static_cast<std::size_t>(index(id))];

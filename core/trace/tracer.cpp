@@ -79,7 +79,7 @@ void TraceContext::start_path() {
 }
 
 Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
-               const Team& team)
+               const TaskRunner& task_runner)
     : scene_(scene),
       options_(options),
       lights_(std::make_unique<LightSources>(scene, options_, warnings)) {
@@ -88,7 +88,7 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
     }
     ambient_ = std::make_unique<AmbientCalculation>(*this);
     VirtualSourceBuilder(*lights_, *this, warnings).build();
-    lights_->finalize(*this, warnings, team);
+    lights_->finalize(*this, warnings, task_runner);
 }
 Tracer::~Tracer() = default;
 

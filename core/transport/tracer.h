@@ -124,7 +124,7 @@ class Tracer {
     /// Prepares light sources (virtual ones included) and their frozen visibility statistics.
     /// Throws InputError for illegal light sources.
     Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
-           const Team& team = TeamOfOne());
+           const TaskRunner& task_runner = SerialTaskRunner());
     ~Tracer();
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;

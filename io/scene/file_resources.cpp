@@ -155,8 +155,8 @@ std::optional<FileResources::Reading> FileResources::read(const NamedFile& file)
     }
 }
 
-void FileResources::decode(std::span<Reading> readings, const Team& team) {
-    team.run(readings.size(), [&](std::size_t i) { readings[i].decode(); });
+void FileResources::decode(std::span<Reading> readings, const TaskRunner& task_runner) {
+    task_runner.run(readings.size(), [&](std::size_t i) { readings[i].decode(); });
     for (Reading& reading : readings) {
         const std::string& name = reading.file.name;
         if (reading.octree) octrees_.emplace(name, std::move(reading.octree));
@@ -165,7 +165,7 @@ void FileResources::decode(std::span<Reading> readings, const Team& team) {
     }
 }
 
-void FileResources::prepare(std::span<const NamedFile> files, const Team& team) {
+void FileResources::prepare(std::span<const NamedFile> files, const TaskRunner& task_runner) {
     if (files.size() < 2) return;  // nothing to do side by side
     std::vector<Reading> readings;
     std::size_t bytes = 0;
@@ -176,11 +176,11 @@ void FileResources::prepare(std::span<const NamedFile> files, const Team& team) 
             readings.push_back(*std::move(next));
         }
         if (bytes < kBytesTogether) continue;
-        decode(readings, team);
+        decode(readings, task_runner);
         readings.clear();
         bytes = 0;
     }
-    decode(readings, team);
+    decode(readings, task_runner);
 }
 
 }  // namespace lightwalk

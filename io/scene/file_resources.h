@@ -28,7 +28,7 @@ class FileResources final : public Resources {
     [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
     /// Reads one after the other, a bounded number of bytes at a time, and decodes side by side.
     /// Octrees that are not frozen are left for later.
-    void prepare(std::span<const NamedFile> files, const Team& team) override;
+    void prepare(std::span<const NamedFile> files, const TaskRunner& task_runner) override;
     [[nodiscard]] const LibraryPath& path() const { return path_; }
 
   private:
@@ -36,7 +36,7 @@ class FileResources final : public Resources {
     [[nodiscard]] bool is_known(const NamedFile& file) const;
     /// Nothing where there is none, or it cannot be read.
     [[nodiscard]] std::optional<Reading> read(const NamedFile& file);
-    void decode(std::span<Reading> readings, const Team& team);
+    void decode(std::span<Reading> readings, const TaskRunner& task_runner);
 
     LibraryPath path_;
     bool allow_commands_;

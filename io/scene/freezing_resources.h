@@ -35,8 +35,8 @@ class FreezingResources final : public Resources {
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
-    void prepare(std::span<const NamedFile> files, const Team& team) override {
-        source_.prepare(files, team);
+    void prepare(std::span<const NamedFile> files, const TaskRunner& task_runner) override {
+        source_.prepare(files, task_runner);
     }
 
     struct Answers {

@@ -24,8 +24,8 @@ struct Divided {
         for (test::TestSurface& surface : surfaces) scene.add(std::move(surface));
         tables = std::make_unique<test::TestModels::Tables>(scene);
         model = std::make_unique<ModelPrimitives>(tables->surfaces, tables->input.models[0],
-                                                  TeamOfOne());
-        bvh_primitives = divide_primitives(*model, TeamOfOne());
+                                                  SerialTaskRunner());
+        bvh_primitives = divide_primitives(*model, SerialTaskRunner());
     }
     [[nodiscard]] PolygonShape polygon() const {
         return std::get<PolygonShape>(tables->surfaces[SurfaceId{0}].shape());
@@ -213,8 +213,8 @@ TEST_CASE("in a large model the two triangles of a cell are a pair, and rays mee
     }
     scene.add(surface(PrimitiveType::sphere, {1, 1, 1, .1}, 0, test::kOpaque));
     const test::TestModels::Tables tables(scene);
-    const ModelPrimitives model(tables.surfaces, tables.input.models[0], TeamOfOne());
-    const BvhPrimitives bvh_primitives = divide_primitives(model, TeamOfOne());
+    const ModelPrimitives model(tables.surfaces, tables.input.models[0], SerialTaskRunner());
+    const BvhPrimitives bvh_primitives = divide_primitives(model, SerialTaskRunner());
     CHECK(bvh_primitives.pairs > std::size_t{kSide} * kSide * 9 / 10);
     std::vector<int> times(model.size());
     for (std::size_t bvh_primitive = 0; bvh_primitive < bvh_primitives.size(); ++bvh_primitive) {

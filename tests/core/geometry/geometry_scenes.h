@@ -122,7 +122,7 @@ struct TestModels {
             : lists(scene.models.size()), shapes(scene.models.size()) {
             for (std::size_t i = 0; i < scene.models.size(); ++i) {
                 for (const TestSurface& s : scene.models[i].surfaces) lists[i].add(s);
-                shapes[i] = make_shapes(lists[i], TeamOfOne());
+                shapes[i] = make_shapes(lists[i], SerialTaskRunner());
                 ModelGeometry model = scene.models[i].geometry;
                 model.placements = scene.placements(i);
                 model.part = surfaces.add(lists[i], shapes[i], 0);

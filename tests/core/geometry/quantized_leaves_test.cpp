@@ -24,12 +24,12 @@ struct ReleaseDevice {
 /// A model's bvh primitives, and the leaves of them.
 struct Leaves {
     explicit Leaves(const test::TestModels& scene)
-        : tables(scene), model(tables.surfaces, tables.input.models[0], TeamOfOne()) {
+        : tables(scene), model(tables.surfaces, tables.input.models[0], SerialTaskRunner()) {
         space.center = {1, -2, 3};
         space.margin = 1e-5;
-        bvh_primitives = divide_primitives(model, TeamOfOne());
+        bvh_primitives = divide_primitives(model, SerialTaskRunner());
         const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(""));
-        leaves = make_quantized_leaves(bvh_primitives, model, space, device.get(), TeamOfOne());
+        leaves = make_quantized_leaves(bvh_primitives, model, space, device.get(), SerialTaskRunner());
     }
     test::TestModels::Tables tables;
     ModelPrimitives model;
@@ -182,7 +182,7 @@ TEST_CASE("a large model, placed as well, is hit where its surfaces are") {
     scene.place(1, 0, turned);
     scene.place(1, 0, Transform{});
     const test::TestModels::Tables tables(scene);
-    const ModelPrimitives model(tables.surfaces, tables.input.models[1], TeamOfOne());
+    const ModelPrimitives model(tables.surfaces, tables.input.models[1], SerialTaskRunner());
     const Geometry geometry(tables.input);
     int hits = 0;
     for (int turn = 0; turn < 24; ++turn) {

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/backward_team.h"
+#include "tests/backward_task_runner.h"
 #include "tests/core/geometry/geometry_scenes.h"
 
 using namespace lightwalk;
@@ -63,8 +63,8 @@ struct StoredShapes {
 
 TEST_CASE("the table of shapes holds what make_shape makes of each surface") {
     const SurfaceList list = many_surfaces(2 * kGrain + 77);
-    const SurfaceShapes shapes = make_shapes(list, TeamOfOne()),
-                        backward = make_shapes(list, BackwardTeam());
+    const SurfaceShapes shapes = make_shapes(list, SerialTaskRunner()),
+                        backward = make_shapes(list, BackwardTaskRunner());
     REQUIRE(shapes.size() == list.size());
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -98,7 +98,7 @@ TEST_CASE("triangles that share corners have the shapes that they have alone") {
         alone.push_back(surface(PrimitiveType::polygon, reals, 0, kOpaque));
         list.add(alone.back());
     }
-    const SurfaceShapes shapes = make_shapes(list, TeamOfOne());
+    const SurfaceShapes shapes = make_shapes(list, SerialTaskRunner());
     const StoredShapes stored(shapes);
     const SurfaceShapes again = stored.shapes(list);
     std::size_t shared = 0;
@@ -131,13 +131,13 @@ TEST_CASE("of bad surfaces the first in the list's order is told") {
         list.add(bad);
         for (std::size_t i = 0; i < 2 * kGrain; ++i) list.add(many_surfaces(1)[0]);
     }
-    CHECK_THROWS_WITH_AS(static_cast<void>(make_shapes(list, BackwardTeam())),
+    CHECK_THROWS_WITH_AS(static_cast<void>(make_shapes(list, BackwardTaskRunner())),
                          doctest::Contains("room.rad:100001: polygon"), InputError);
 }
 
 TEST_CASE("stored shapes are taken where they fit their list, and refused elsewhere") {
     const SurfaceList list = many_surfaces(300);
-    const SurfaceShapes shapes = make_shapes(list, TeamOfOne());
+    const SurfaceShapes shapes = make_shapes(list, SerialTaskRunner());
     const StoredShapes good(shapes);
     const SurfaceShapes again = good.shapes(list);
     for (std::size_t i = 0; i < list.size(); ++i)

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "tests/backward_team.h"
+#include "tests/backward_task_runner.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
@@ -22,7 +22,7 @@ struct Row {
     }
     [[nodiscard]] std::unique_ptr<Scene> build() {
         return std::make_unique<Scene>(model, modifier_factory, resources, warnings,
-                                       BackwardTeam());
+                                       BackwardTaskRunner());
     }
     Silence warnings;
     MemoryResources resources;
@@ -84,7 +84,7 @@ class PreparedResources final : public Resources {
     std::shared_ptr<const MeshModel> mesh(const std::string& name) override {
         return source_.mesh(name);
     }
-    void prepare(std::span<const NamedFile> files, const Team&) override {
+    void prepare(std::span<const NamedFile> files, const TaskRunner&) override {
         for (const NamedFile& file : files) asked.push_back("soon " + file.name);
     }
     std::vector<std::string> asked;  ///< octrees, and all that is to be prepared

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/picture/picture.h"
-#include "tests/backward_team.h"
+#include "tests/backward_task_runner.h"
 #include "tests/io/scene/binary_writer.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
@@ -97,7 +97,7 @@ TEST_CASE("files that were prepared are there, what is wrong with others is told
                                        {Kind::picture, "damaged.hdr"}, {Kind::picture, "no.hdr"},
                                        {Kind::octree, "ball.oct"},     {Kind::octree, "frozen.oct"},
                                        {Kind::octree, "no.oct"},       {Kind::mesh, "no.rtm"}};
-    resources.prepare(files, test::BackwardTeam());
+    resources.prepare(files, test::BackwardTaskRunner());
     for (const char* name : {"lib/one.hdr", "lib/two.pic", "lib/frozen.oct"})
         std::filesystem::remove(folder.path(name));
     CHECK(static_cast<double>(resources.picture("one.hdr")->values[0].r) ==

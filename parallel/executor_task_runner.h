@@ -1,14 +1,14 @@
 #pragma once
-// An executor as the team that core builds scenes with.
-#include "core/math/team.h"
+// An executor as the task runner that core builds scenes with.
+#include "core/math/task_runner.h"
 #include "parallel/executor.h"
 
 namespace lightwalk {
 
-/// The executor must outlive the team, and do nothing else while it runs.
-class ExecutorTeam final : public Team {
+/// The executor must outlive the task runner, and do nothing else while it runs.
+class ExecutorTaskRunner final : public TaskRunner {
   public:
-    explicit ExecutorTeam(Executor& executor) : executor_(executor) {}
+    explicit ExecutorTaskRunner(Executor& executor) : executor_(executor) {}
     void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const override {
         executor_.for_each(count, [&](std::size_t task, int) { part(task); });
     }

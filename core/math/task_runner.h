@@ -8,16 +8,16 @@
 namespace lightwalk {
 
 /// Runs independent parts of a task, perhaps side by side.
-class Team {
+class TaskRunner {
   public:
-    virtual ~Team() = default;
+    virtual ~TaskRunner() = default;
     /// Calls part(0) ... part(count - 1), each once, and returns when all have ended. The first
     /// exception of a part is thrown again here; parts that have not begun may be left out then.
     virtual void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const = 0;
 };
 
 /// One after the other.
-class TeamOfOne final : public Team {
+class SerialTaskRunner final : public TaskRunner {
   public:
     void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const override {
         for (std::size_t i = 0; i < count; ++i) part(i);
@@ -33,8 +33,8 @@ inline constexpr std::size_t kGrain = 8192;
 
 /// Calls body(part, first, last) for ranges of at most kGrain things that make up [0, things).
 template <class Body>
-void for_each_part(const Team& team, std::size_t things, Body&& body) {
-    team.run(part_count(things), [&](std::size_t part) {
+void for_each_part(const TaskRunner& task_runner, std::size_t things, Body&& body) {
+    task_runner.run(part_count(things), [&](std::size_t part) {
         body(part, part * kGrain, std::min((part + 1) * kGrain, things));
     });
 }
