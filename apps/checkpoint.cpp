@@ -25,7 +25,7 @@ bool overlap(const PixelRectangle& a, const PixelRectangle& b) {
 
 }  // namespace
 
-class Checkpoint::Picture final : public BlockKeeper {
+class Checkpoint::Picture final : public CheckpointSink {
   public:
     Picture(Checkpoint& checkpoint, int frame, const PixelRectangle& whole)
         : checkpoint_(checkpoint), frame_(frame), whole_(whole) {}
@@ -79,7 +79,7 @@ void Checkpoint::take(std::string_view record) {
         {{head[1], head[2], head[3], head[4]}, std::string(record.substr(sizeof head))});
 }
 
-std::shared_ptr<BlockKeeper> Checkpoint::picture(int frame, const PixelRectangle& whole) {
+std::shared_ptr<CheckpointSink> Checkpoint::picture(int frame, const PixelRectangle& whole) {
     return std::make_shared<Picture>(*this, frame, whole);
 }
 

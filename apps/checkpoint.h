@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/files/record_log.h"
-#include "parallel/block_keeper.h"
+#include "parallel/checkpoint_sink.h"
 
 namespace lightwalk {
 
@@ -30,7 +30,7 @@ class Checkpoint {
 
     /// The blocks of one picture of the run, which must not outlive this.
     /// @param whole  all of its pixels; known blocks beyond are left out
-    [[nodiscard]] std::shared_ptr<BlockKeeper> picture(int frame, const PixelRectangle& whole);
+    [[nodiscard]] std::shared_ptr<CheckpointSink> picture(int frame, const PixelRectangle& whole);
     /// The picture is written: its blocks are no longer needed.
     void forget(int frame);
     /// The run is whole: removes the file.

@@ -98,7 +98,7 @@ std::vector<std::string> common_option_names() {
     return names;
 }
 
-void settle_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& input) {
+void resolve_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& input) {
     std::vector<std::string>& files = options.scene_files;
     if (!taken_by.empty()) {
         if (files.empty()) {

@@ -40,7 +40,7 @@ struct CommonOptions {
 /// Without a scene on the command line, standard input is the scene, as for Radiance's rpict: adds
 /// "-". `taken_by`: what standard input holds for the command already, "the rays"; "" for nothing.
 /// Throws UsageError when there is no scene: standard input is taken, a terminal or empty.
-void settle_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& files);
+void resolve_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& files);
 
 /// Append messages to the file that -e names, from here on. Throws InputError.
 void redirect_messages(const CommonOptions& options, const std::string& history);

@@ -41,7 +41,7 @@ int run_freeze(const std::vector<std::string>& line, Transport* /*ranks*/) {
     check_frozen_output(output, options);
     StderrWarnings warnings(kFreezeProgram);
     warnings.enable(!options.quiet);
-    settle_scene_files(options, "", *real_files());
+    resolve_scene_files(options, "", *real_files());
     const auto manifest = std::make_shared<ManifestRecorder>();
     SceneSession session(options, warnings, std::make_shared<FileRecorder>(manifest));
     if (session.frozen != nullptr)

@@ -161,7 +161,7 @@ int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
         print_ambient_file(options.scene_files[0]);
         return kSuccessStatus;
     }
-    settle_scene_files(options, "", *real_files());
+    resolve_scene_files(options, "", *real_files());
     SceneSession session(options, warnings);
     if (session.frozen != nullptr) print_origin(*session.frozen);
     print_counts(*session.model);

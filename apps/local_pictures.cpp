@@ -20,7 +20,7 @@ std::optional<Frame> LocalPictures::take() {
             session_.tracer(), request->camera, request->options, executor_, contexts_,
             interrupt_flag(),
             [&](const FrameProgress& progress) { meter.update(picture, progress); },
-            request->keeper.get());
+            request->checkpoint.get());
     }
     statistics_.rays += frame.rays;
     statistics_.ambient += frame.ambient;

@@ -23,7 +23,7 @@ struct PictureRequest {
     Camera camera;
     std::optional<Camera> previous;
     FrameOptions options;
-    std::shared_ptr<BlockKeeper> keeper;  ///< null: none
+    std::shared_ptr<CheckpointSink> checkpoint;  ///< null: none
 };
 
 class PictureMaker {

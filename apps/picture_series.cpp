@@ -76,7 +76,7 @@ PictureSize PictureSeries::order(const WantedPicture& wanted, PictureMaker& make
     const auto request = std::make_shared<PictureRequest>(
         wanted.view, wanted.before ? &*wanted.before : nullptr, frame_options(command_, size));
     if (checkpoint_ != nullptr)
-        request->keeper = checkpoint_->picture(wanted.frame, request->options.area());
+        request->checkpoint = checkpoint_->picture(wanted.frame, request->options.area());
     maker.order(request);
     return size;
 }
@@ -125,7 +125,7 @@ PictureHeader PictureSeries::header(const WantedPicture& wanted, double pixel_as
 void PictureSeries::write(const Frame& frame, const PictureHeader& header, int number) {
     const Picture picture{frame.width, frame.height, frame.radiance};
     if (keeps_exposure_ && tone_.automatic) {
-        const double ev = std::log2(settle_tone(picture, tone_).scale);
+        const double ev = std::log2(choose_tone(picture, tone_).scale);
         if (std::isfinite(ev)) tone_ = {false, ev, tone_.curve};
     }
     if (!command_.depth.empty()) {
@@ -142,7 +142,7 @@ void PictureSeries::write(const Frame& frame, const PictureHeader& header, int n
 void PictureSeries::add_to_film(const Picture& picture) {
     if (picture.pixels.empty()) return;
     if (!film_) film_.emplace(command_.output, picture.width, picture.height, command_.walk->rate);
-    film_->add(picture, settle_tone(picture, tone_));
+    film_->add(picture, choose_tone(picture, tone_));
 }
 
 }  // namespace lightwalk

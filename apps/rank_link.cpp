@@ -212,14 +212,14 @@ void RankLink::report(std::string text) {
     loop_.post(Role::program, {0, Role::program}, Report{std::move(text)});
 }
 
-void RankLink::submit(JobStart job, const std::shared_ptr<BlockKeeper>& keeper) {
+void RankLink::submit(JobStart job, const std::shared_ptr<CheckpointSink>& checkpoint) {
     std::vector<BlockPixels> known;
-    if (keeper) {
-        known = keeper->known();
+    if (checkpoint) {
+        known = checkpoint->known();
         job.log = true;
         for (const BlockPixels& pixels : known) job.known.push_back(pixels.block);
         const std::lock_guard lock(mutex_);
-        keepers_[job.job] = keeper;
+        checkpoints_[job.job] = checkpoint;
     }
     const JobId id = job.job;
     const SubImages parts(job.area, topology_.workers.size());
@@ -242,7 +242,7 @@ std::optional<FinishedPicture> RankLink::wait_for(JobId job, const StopFlag& sto
             FinishedPicture picture = std::move(found->second);
             pictures_.erase(found);
             shares_.erase(job);
-            keepers_.erase(job);
+            checkpoints_.erase(job);
             return picture;
         }
         if (const auto share = shares_.find(job); share != shares_.end() && share->second > told) {
@@ -328,8 +328,8 @@ void RankLink::take(Envelope envelope) {
     } else if (const auto* progress = std::get_if<Progress>(&message)) {
         shares_[progress->job] = progress->done;
     } else if (auto* pixels = std::get_if<Pixels>(&message)) {
-        if (const auto keeper = keepers_.find(pixels->work.job); keeper != keepers_.end())
-            keeper->second->keep({pixels->work.block, std::move(pixels->values), {}});
+        if (const auto checkpoint = checkpoints_.find(pixels->work.job); checkpoint != checkpoints_.end())
+            checkpoint->second->keep({pixels->work.block, std::move(pixels->values), {}});
     } else if (const auto* ask = std::get_if<AskChunks>(&message)) {
         ray_news_.chunks += ask->chunks;
         ray_news_.rays = ask->rays;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/math/function_ref.h"
-#include "parallel/block_keeper.h"
+#include "parallel/checkpoint_sink.h"
 #include "parallel/ranks/chunk_tracer.h"
 #include "parallel/ranks/cloud_tracer.h"
 #include "parallel/ranks/exchanging_cache.h"
@@ -87,8 +87,8 @@ class RankLink final : private LocalEnd {
     [[nodiscard]] RoundExchange& rounds() { return rounds_; }
 
     // On rank 0:
-    /// @param keeper  what it knows is not traced again; it gets what is. Null: none
-    void submit(JobStart job, const std::shared_ptr<BlockKeeper>& keeper = nullptr);
+    /// @param checkpoint  what it knows is not traced again; it gets what is. Null: none
+    void submit(JobStart job, const std::shared_ptr<CheckpointSink>& checkpoint = nullptr);
     /// The picture of a job, when it is whole; nothing: stopped. `progress` is called with the
     /// share of the job's pixels that are done.
     [[nodiscard]] std::optional<FinishedPicture> wait_for(JobId job, const StopFlag& stop,
@@ -169,7 +169,7 @@ class RankLink final : private LocalEnd {
     std::uint32_t scene_ = 0;  ///< see AmbientValues
     std::map<JobId, FinishedPicture> pictures_;
     std::map<JobId, double> shares_;
-    std::map<JobId, std::shared_ptr<BlockKeeper>> keepers_;
+    std::map<JobId, std::shared_ptr<CheckpointSink>> checkpoints_;
     std::map<int, std::string> reports_;
     RayNews ray_news_;
     std::optional<FinishedFrame> frame_;

@@ -100,7 +100,7 @@ void check_launch(const RankOptions& options, bool by_mpi) {
         "lightwalk ...");
 }
 
-Variant settle_variant(const RankOptions& options, int ranks, int threads, bool ambient) {
+Variant resolve_variant(const RankOptions& options, int ranks, int threads, bool ambient) {
     const int least = ambient ? 3 : 2;  // master, ambient master and a worker
     const bool spare = ranks >= least;
     if (!options.variant) return threads > 1 || ranks <= least ? Variant::hybrid : Variant::ranks;

@@ -43,7 +43,7 @@ void check_launch(const RankOptions& options, bool by_mpi);
 /// The variant that runs: the one asked for, or else `hybrid` where ranks have several threads or
 /// are too few to spare any, and `ranks` otherwise. Throws UsageError where it cannot be.
 /// @param threads  of each rank
-[[nodiscard]] Variant settle_variant(const RankOptions& options, int ranks, int threads,
+[[nodiscard]] Variant resolve_variant(const RankOptions& options, int ranks, int threads,
                                      bool ambient);
 
 }  // namespace lightwalk

@@ -89,7 +89,7 @@ void LeadPictures::order(std::shared_ptr<const PictureRequest> request) {
     const BlockRenderer renderer(tracer_, request->camera, options, contexts_, interrupt_flag());
     const JobId job = next_++;
     link_.submit({job, options.area(), renderer.alignment(), true, encode_order(order), {}, false},
-                 request->keeper);
+                 request->checkpoint);
     ordered_.push_back({job, std::move(request)});
 }
 

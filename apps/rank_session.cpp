@@ -20,7 +20,7 @@ std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& option
     check_launch(wanted, transport != nullptr);
     if (transport == nullptr) return nullptr;
     const bool ambient = work.ambient_values && wanted.ambient_batch > 0;
-    const Variant variant = settle_variant(wanted, transport->size(), options.workers, ambient);
+    const Variant variant = resolve_variant(wanted, transport->size(), options.workers, ambient);
     if (variant == Variant::threads) return nullptr;
     if (variant == Variant::ranks) options.workers = 1;
     RankSettings settings;

@@ -42,10 +42,10 @@ class RenderRun {
         const bool speaks = transport_ == nullptr || transport_->rank() == 0;
         warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
         check_render_settings(command_.settings);
-        settle_spacing();
+        choose_spacing();
         if (command_.first_frame == 0)
             (void)Camera(command_.view);  // a bad view is told before the scene is read
-        settle_scene_files(command_.common,
+        resolve_scene_files(command_.common,
                            command_.first_frame > 0 ? "the views of the sequence (-S)" : "", files);
         // mpirun shows its processes a terminal, whatever becomes of their output.
         if (transport_ == nullptr && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
@@ -228,7 +228,7 @@ class RenderRun {
 
     // Pictures.
 
-    void settle_spacing() {
+    void choose_spacing() {
         constexpr int kLargestSpacing = 16;
         int& spacing = command_.pixels.spacing;
         if (spacing > kLargestSpacing) {

@@ -222,7 +222,7 @@ RenderCommand parse_render_command(const std::string& name, const std::vector<st
         check_serve(command);
     } else if (command.walk && !command.show_defaults) {
         check_walk(command);
-        settle_walk(*command.walk, command.view, *files);
+        resolve_walk(*command.walk, command.view, *files);
     }
     command.history = command_history(name, words, command.common);
     return command;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/heap.h"
-#include "apps/piece_pipe.h"
+#include "apps/parse_queue.h"
 #include "apps/progress.h"
 #include "apps/rank_link.h"
 #include "core/light/light_sources.h"
@@ -31,7 +31,7 @@ std::int64_t now_ns() {
 /// are worth more where they are [bytes].
 constexpr std::uint64_t kLarge = std::uint64_t{64} << 20;
 
-void settle_heap() {
+void trim_heap() {
     if (peak_memory_bytes() > kLarge) give_back_heap();
 }
 
@@ -69,7 +69,7 @@ void SceneSession::read(const CommonOptions& options) {
     if (found == names.end()) {
         resources = std::make_unique<FileResources>(library, options.allow_commands, warnings);
         MakeTextPipe pipe;
-        if (workers > 1) pipe = [](TextSink& next) { return std::make_unique<PiecePipe>(next); };
+        if (workers > 1) pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
         model = read_scene(names, {library, options.allow_commands, {}, pipe}, warnings, &problems);
         return;
     }
@@ -126,9 +126,9 @@ void SceneSession::compile(Resources& asked) {
 
 void SceneSession::compile(Resources& asked, const TaskRunner& task_runner) {
     raise_problems(asked);
-    settle_heap();
+    trim_heap();
     built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, task_runner);
-    settle_heap();
+    trim_heap();
 }
 
 void SceneSession::build(const RenderSettings& settings, RankLink* link) {

@@ -41,7 +41,7 @@ struct SceneCost {
 
 struct SceneSession {
     /// Reads the description. Throws InputError for what cannot be read at all. `options`: after
-    /// settle_scene_files.
+    /// resolve_scene_files.
     /// @param shared_by  where another process of this machine shares the scene: what its share()
     ///                   returned; "": it is read
     SceneSession(const CommonOptions& options, WarningSink& warnings,

@@ -223,7 +223,7 @@ class TraceRun {
     [[nodiscard]] bool shades() const { return tree_ || records_->shades(); }
 
     void check(FileSource& files) {
-        settle_scene_files(command_.common, "the rays", files);
+        resolve_scene_files(command_.common, "the rays", files);
         const bool irradiance = command_.sensor || command_.settings.light.irradiance;
         if (irradiance && !shades())
             throw UsageError("-I+ and -i+ options require some value output");

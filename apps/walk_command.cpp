@@ -182,7 +182,7 @@ std::vector<std::string> walk_option_names() {
             "--projectors"};
 }
 
-void settle_walk(WalkCommand& walk, const View& view, FileSource& files) {
+void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {
     if (walk.way == WalkCommand::Way::none)
         throw UsageError("no walk: say --path FILE, --rotate DEGREES or --walk MOVE");
     if (walk.way != WalkCommand::Way::path && walk.frames == 0)

@@ -42,7 +42,7 @@ struct WalkCommand {
 /// What can only be told when all options are known; reads the path file.
 /// @param view  of the command line: what the path's first line starts from
 /// Throws UsageError, and InputError for a path file that cannot be read or is none.
-void settle_walk(WalkCommand& walk, const View& view, FileSource& files);
+void resolve_walk(WalkCommand& walk, const View& view, FileSource& files);
 
 /// Number of its frames.
 [[nodiscard]] std::size_t walk_length(const WalkCommand& walk);

@@ -70,10 +70,10 @@ void store(const BlockPixels& pixels, const PixelRectangle& area, Frame& frame) 
 }
 
 /// Puts what is known into the frame; returns what is left of the blocks.
-std::vector<Block> take_known(BlockKeeper& keeper, const std::vector<Block>& wanted, int alignment,
+std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Block>& wanted, int alignment,
                               const PixelRectangle& area, Frame& frame) {
     std::vector<PixelRectangle> known;
-    for (const BlockPixels& pixels : keeper.known()) {
+    for (const BlockPixels& pixels : checkpoint.known()) {
         store(pixels, area, frame);
         known.push_back(pixels.block);
     }
@@ -85,7 +85,7 @@ std::vector<Block> take_known(BlockKeeper& keeper, const std::vector<Block>& wan
 void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor& executor,
                    const StopFlag& stop, TakeBlock take) {
     StopFlag failed;
-    const auto serve = [&](std::size_t, int worker) {
+    const auto work = [&](std::size_t, int worker) {
         try {
             BlockPixels pixels;
             while (!stop.requested() && !failed.requested()) {
@@ -98,12 +98,12 @@ void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor&
             throw;
         }
     };
-    executor.for_each(static_cast<std::size_t>(executor.concurrency()), serve, stop);
+    executor.for_each(static_cast<std::size_t>(executor.concurrency()), work, stop);
 }
 
 Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
                    Executor& executor, WorkerContexts& contexts, const StopFlag& stop,
-                   TakeProgress progress, BlockKeeper* keeper) {
+                   TakeProgress progress, CheckpointSink* checkpoint) {
     assert(contexts.size() >= executor.concurrency());
     const PixelRectangle area = options.area();
     assert(area.x0 >= 0 && area.x1 <= options.whole().x1);
@@ -114,14 +114,14 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     const int side =
         block_side(area.width(), area.height(), executor.concurrency(), renderer.alignment());
     std::vector<Block> wanted = make_blocks(area, side);
-    if (keeper != nullptr) wanted = take_known(*keeper, wanted, renderer.alignment(), area, frame);
+    if (checkpoint != nullptr) wanted = take_known(*checkpoint, wanted, renderer.alignment(), area, frame);
     std::size_t pixels_wanted = 0;
     for (const Block& block : wanted) pixels_wanted += block.pixels();
     BlockQueue blocks(std::move(wanted));
     ProgressSum sum(contexts, pixels_wanted, progress);
     render_blocks(renderer, blocks, executor, stop, [&](const BlockPixels& pixels, int worker) {
         store(pixels, area, frame);
-        if (keeper != nullptr) keeper->keep(pixels);
+        if (checkpoint != nullptr) checkpoint->keep(pixels);
         sum.add(pixels.block.pixels(), worker, contexts[worker]);
     });
     frame.rays = contexts.rays();

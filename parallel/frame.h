@@ -6,7 +6,7 @@
 #include "core/math/function_ref.h"
 #include "core/transport/tracer.h"
 #include "core/view/view.h"
-#include "parallel/block_keeper.h"
+#include "parallel/checkpoint_sink.h"
 #include "parallel/block_renderer.h"
 #include "parallel/blocks.h"
 #include "parallel/executor.h"
@@ -44,12 +44,12 @@ void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor&
 /// @param contexts  one for each worker of the executor, made for `tracer`; their counters start
 ///                  from zero
 /// @param stop      ends the work within about the time of one pixel
-/// @param keeper    null: none. What it knows is not rendered again; it gets what is
+/// @param checkpoint    null: none. What it knows is not rendered again; it gets what is
 /// @param progress  called after blocks, by whichever worker finished one, but never twice at once
 /// Throws what the tracer throws (InputError for errors that only show while shading).
 [[nodiscard]] Frame render_frame(const Tracer& tracer, const Camera& camera,
                                  const FrameOptions& options, Executor& executor,
                                  WorkerContexts& contexts, const StopFlag& stop,
-                                 TakeProgress progress, BlockKeeper* keeper = nullptr);
+                                 TakeProgress progress, CheckpointSink* checkpoint = nullptr);
 
 }  // namespace lightwalk

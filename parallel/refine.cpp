@@ -272,15 +272,15 @@ class TileRefiner {
         }
         const std::span<const PixelValue> all{values.data(), count};
         const bool sparkles = sparkling_[at(x, y)];
-        if (!sparkles && !differ(all, options_)) return settle(x, y, around.mean);
+        if (!sparkles && !differ(all, options_)) return set_pixel(x, y, around.mean);
         const double range = contrast(all);
         if (glitters_ && ever_sparkling_[at(x, y)] && is_left_out(x, y) && around.close)
-            return settle(x, y, around.mean, State::kLeftOut);
+            return set_pixel(x, y, around.mean, State::kLeftOut);
         const Pair* pair = sparkles || range > kTooMuch ? nullptr : pair_alike(around, range);
-        if (pair != nullptr) return settle(x, y, pair->between());
+        if (pair != nullptr) return set_pixel(x, y, pair->between());
         want(x, y);
     }
-    void settle(int x, int y, const PixelValue& value, State state = State::kInterpolated) {
+    void set_pixel(int x, int y, const PixelValue& value, State state = State::kInterpolated) {
         settled_.push_back({at(x, y), value, state});
     }
 

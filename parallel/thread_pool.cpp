@@ -48,7 +48,7 @@ class ThreadPool final : public Executor {
         threads_.reserve(static_cast<std::size_t>(workers) - 1);
         try {
             for (int worker = 1; worker < workers; ++worker) {
-                threads_.emplace_back([this, worker] { serve(worker); });
+                threads_.emplace_back([this, worker] { run_worker(worker); });
             }
         } catch (...) {  // no more threads to be had: those that run must end first
             shut_down();
@@ -77,7 +77,7 @@ class ThreadPool final : public Executor {
     [[nodiscard]] int concurrency() const override { return static_cast<int>(threads_.size()) + 1; }
 
   private:
-    void serve(int worker) {
+    void run_worker(int worker) {
         std::uint64_t served = 0;
         std::unique_lock lock(mutex_);
         for (;;) {

@@ -71,7 +71,7 @@ class Measurement {
     explicit Measurement(RenderCommand command)
         : command_(std::move(command)),
           warnings_("cost_map"),
-          session_((settle_scene_files(command_.common, "", *real_files()), command_.common),
+          session_((resolve_scene_files(command_.common, "", *real_files()), command_.common),
                    warnings_) {
         session_.build(command_.settings);
     }

@@ -307,7 +307,7 @@ int run_walk(const std::vector<std::string>& words, Transport* ranks) {
         }
         check_render_settings(parsed.settings);
         (void)Camera(parsed.view);
-        settle_scene_files(parsed.common, "", *files);
+        resolve_scene_files(parsed.common, "", *files);
         command = std::move(parsed);
     });
     if (!command) return kSuccessStatus;

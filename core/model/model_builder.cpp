@@ -204,7 +204,7 @@ std::int32_t ModelBuilder::rename(const std::string& name, std::int32_t target,
     return add_alias(own, name, target, where);
 }
 
-std::shared_ptr<Model> ModelBuilder::take() {
+std::shared_ptr<Model> ModelBuilder::release() {
     std::shared_ptr<Model> result = std::exchange(model_, std::make_shared<Model>());
     names_.clear();
     result->modifiers.shrink_to_fit();

@@ -51,7 +51,7 @@ class ModelBuilder {
     [[nodiscard]] const Model& model() const { return *model_; }
 
     /// The model; the builder is empty afterwards.
-    [[nodiscard]] std::shared_ptr<Model> take();
+    [[nodiscard]] std::shared_ptr<Model> release();
 
   private:
     [[nodiscard]] std::int32_t reference(const std::string& name) const;

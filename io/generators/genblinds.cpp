@@ -100,7 +100,7 @@ std::string run_genblinds(std::span<const std::string> args, GeneratorContext& c
                         blinds.name + "." + std::to_string(i) + "." + std::to_string(k), corners);
         }
     }
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

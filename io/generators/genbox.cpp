@@ -208,7 +208,7 @@ std::string run_genbox(std::span<const std::string> args, GeneratorContext& cont
     } else {
         write_faces(box, kPlainFaces, out);
     }
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

@@ -232,7 +232,7 @@ std::string run_genprism(std::span<const std::string> args, GeneratorContext& co
         RoundedPrism(prism, words.program()).write(out);
     else
         write_plain(prism, out);
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

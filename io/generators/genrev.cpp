@@ -106,7 +106,7 @@ std::string run_genrev(std::span<const std::string> args, GeneratorContext& cont
         if (smooth) write_texture(material, a, b, normal(i - 1), normal(i + 1), out);
         write_piece(smooth ? "Phong" : material, name + "." + std::to_string(i), a, b, out);
     }
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

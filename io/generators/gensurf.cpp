@@ -254,7 +254,7 @@ std::string run_gensurf(std::span<const std::string> args, GeneratorContext& con
     if (options.obj) return write_obj(args, options.material, options.name, cells.mesh());
     SceneWriter out(args, reads_as_polygons(options) ? context.output : nullptr);
     cells.write_scene(out);
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

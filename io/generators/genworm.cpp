@@ -73,7 +73,7 @@ std::string run_genworm(std::span<const std::string> args, GeneratorContext& con
         last = bead;
     }
     expressions.report(words.program(), curve);
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

@@ -52,7 +52,7 @@ std::string write_obj(std::span<const std::string> args, const std::string& mate
         line += "\n";
         flush();
     }
-    return out.take();
+    return out.release();
 }
 
 }  // namespace lightwalk

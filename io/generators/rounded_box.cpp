@@ -26,7 +26,7 @@ class Builder {
     void add_faces();
     void add_edges(const std::vector<double>& sines);
     void add_corners(int levels);
-    [[nodiscard]] PolygonMesh take() { return std::move(mesh_); }
+    [[nodiscard]] PolygonMesh release() { return std::move(mesh_); }
 
   private:
     /// Centre of the rounding at the corner whose sides are given by `high`.
@@ -149,7 +149,7 @@ PolygonMesh rounded_box(const RoundedBox& box) {
     builder.add_faces();
     builder.add_edges(sines);
     builder.add_corners(levels);
-    return builder.take();
+    return builder.release();
 }
 
 bool write_smoothing(std::string_view modifier, std::span<const Vec3> corners,

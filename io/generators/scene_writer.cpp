@@ -87,7 +87,7 @@ void SceneWriter::check_size() {
     const std::size_t most = sink_ == nullptr ? kMaxGeneratedBytes : kMaxStreamedBytes;
     if (handed_over_ + out_.size() > most) throw InputError(program_ + ": too much output");
     if (sink_ == nullptr || out_.size() < kPieceBytes) return;
-    sink_->take(out_);
+    sink_->push(out_);
     handed_over_ += out_.size();
     out_.clear();
 }

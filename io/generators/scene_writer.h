@@ -21,7 +21,7 @@ class SceneWriter {
   public:
     /// Begins with the comment "# program words...". `args` must outlive the writer.
     /// @param sink  takes what is written as soon as it is long enough for a piece; null: all of it
-    ///              is kept for take()
+    ///              is kept for release()
     explicit SceneWriter(std::span<const std::string> args, TextSink* sink = nullptr);
 
     /// Append a primitive. Throws InputError for a number that is not finite, and when the output
@@ -42,7 +42,7 @@ class SceneWriter {
     /// Append text as it is: whole items of the language.
     void text(std::string_view text);
     /// What no sink has taken.
-    [[nodiscard]] std::string take() { return std::move(out_); }
+    [[nodiscard]] std::string release() { return std::move(out_); }
 
   private:
     void check_size();

@@ -17,13 +17,13 @@ class TextSink {
     virtual ~TextSink() = default;
     /// `piece` is the caller's again afterwards. What this throws goes through the caller
     /// unchanged.
-    virtual void take(std::string_view piece) = 0;
+    virtual void push(std::string_view piece) = 0;
 };
 
 /// Hands pieces on to another sink, perhaps later.
 class TextPipe : public TextSink {
   public:
-    /// Returns when all pieces are handed on. Throws what the other sink has thrown, as take()
+    /// Returns when all pieces are handed on. Throws what the other sink has thrown, as push()
     /// does for an earlier piece; it gets nothing more then.
     virtual void finish() = 0;
 };

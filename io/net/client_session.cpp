@@ -67,7 +67,7 @@ void ClientSession::on_read(beast::error_code error) {
     if (!socket_.got_text()) {
         return end(websocket::close_code::unknown_data, "text messages are expected");
     }
-    if (!rate_.take(RateLimit::Time::clock::now())) {
+    if (!rate_.try_acquire(RateLimit::Time::clock::now())) {
         return end(websocket::close_code::policy_error, "too many messages");
     }
     try {
@@ -82,7 +82,7 @@ void ClientSession::on_read(beast::error_code error) {
 
 /// A ping, pong or close came. Called from within a read, where nothing may be closed.
 void ClientSession::on_control() {
-    if (flooded_ || rate_.take(RateLimit::Time::clock::now())) return;
+    if (flooded_ || rate_.try_acquire(RateLimit::Time::clock::now())) return;
     flooded_ = true;
     boost::asio::post(socket_.get_executor(), [self = shared_from_this()] {
         self->end(websocket::close_code::policy_error, "too many messages");

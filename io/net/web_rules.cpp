@@ -114,7 +114,7 @@ bool is_loopback(std::string_view host) {
            is_loopback_number(name);
 }
 
-bool RateLimit::take(Time now) {
+bool RateLimit::try_acquire(Time now) {
     if (last_) {
         const std::chrono::duration<double> passed = now - *last_;
         stock_ = std::min(most_, stock_ + per_second_ * passed.count());

@@ -46,7 +46,7 @@ class RateLimit {
     RateLimit(double per_second, double stock)
         : per_second_(per_second), most_(stock), stock_(stock) {}
     /// Take one; false when there is none left. Times must not fall.
-    [[nodiscard]] bool take(Time now);
+    [[nodiscard]] bool try_acquire(Time now);
 
   private:
     double per_second_, most_, stock_;

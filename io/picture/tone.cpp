@@ -85,7 +85,7 @@ double HighlightCurve::operator()(double x) const {
     return std::min(kKnee + (1 - kKnee) * std::log1p(c_ * above_knee(x)) / c_, 1.0);
 }
 
-DisplayTone settle_tone(const Picture& picture, const ToneMapping& tone) {
+DisplayTone choose_tone(const Picture& picture, const ToneMapping& tone) {
     DisplayTone settled;
     settled.scale = tone.automatic ? automatic_scale(picture) : std::exp2(tone.ev);
     if (tone.curve == ToneCurve::linear)

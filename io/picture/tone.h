@@ -53,7 +53,7 @@ struct DisplayTone {
 /// digital images", SIGGRAPH 2002, eqs. 1 and 2); white is the largest channel that 999 of 1000
 /// such pixels stay below, and never less than 1, so that a picture without highlights is not
 /// changed by the curve. Fixed: white lies four stops above the display's.
-[[nodiscard]] DisplayTone settle_tone(const Picture& picture, const ToneMapping& tone);
+[[nodiscard]] DisplayTone choose_tone(const Picture& picture, const ToneMapping& tone);
 
 /// sRGB bytes r, g, b of one pixel. The curve acts on the largest channel and the others follow in
 /// proportion, which keeps hue and lets no channel clip; the more a colour is compressed, the more

@@ -32,9 +32,9 @@ std::string encode_for(const std::string& path, const Encode& encode) {
 std::string encode_by_extension(const std::string& extension, const Picture& picture,
                                 const PictureHeader& header, const ToneMapping& tone) {
     if (extension == ".exr") return encode_exr(picture, header);
-    if (extension == ".png") return encode_png(picture, settle_tone(picture, tone));
+    if (extension == ".png") return encode_png(picture, choose_tone(picture, tone));
     if (extension == ".jpg" || extension == ".jpeg")
-        return encode_jpeg(picture, settle_tone(picture, tone));
+        return encode_jpeg(picture, choose_tone(picture, tone));
     return encode_hdr(picture, header);
 }
 

@@ -66,10 +66,10 @@ class CommandRunner::Output final : public TextSink {
     Output(CommandRunner& runner, const SourceLocation& where, TextSink& sink)
         : runner_(runner), where_(where), sink_(sink) {}
 
-    void take(std::string_view piece) override {
+    void push(std::string_view piece) override {
         try {
             runner_.charge_piece(piece.size(), where_);
-            sink_.take(piece);
+            sink_.push(piece);
         } catch (...) {
             error_ = std::current_exception();
             throw Stop();
@@ -103,7 +103,7 @@ std::string CommandRunner::run(const std::string& command, const std::string& di
 
 void CommandRunner::run(const std::string& command, const std::string& directory,
                         const SourceLocation& where, TextSink& sink) {
-    sink.take(run_to(command, directory, where, &sink));
+    sink.push(run_to(command, directory, where, &sink));
 }
 
 std::string CommandRunner::run_to(const std::string& command, const std::string& directory,

@@ -116,7 +116,7 @@ std::optional<ModelCube> unpack_cube(PackedReader& reader) {
     return present ? std::optional(cube) : std::nullopt;
 }
 
-SurfaceList thaw_surfaces(const FrozenFile& file, std::uint32_t number, std::vector<FileName> files,
+SurfaceList map_surfaces(const FrozenFile& file, std::uint32_t number, std::vector<FileName> files,
                           std::size_t modifiers) {
     SurfaceList::Columns columns;
     columns.records = column_of<SurfaceRecord>(file, FrozenKind::records, number);
@@ -165,7 +165,7 @@ void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns)
     }
 }
 
-SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const SurfaceList& list,
+SurfaceShapes map_shapes(const FrozenFile& file, std::uint32_t number, const SurfaceList& list,
                           std::vector<std::string> warnings) {
     SurfaceShapes::Columns columns;
     columns.rows = column_of<ShapeRow>(file, FrozenKind::rows, number);
@@ -181,10 +181,10 @@ SurfaceShapes thaw_shapes(const FrozenFile& file, std::uint32_t number, const Su
 }
 
 /// Errors of the model's own checks, with the file's name.
-template <class Thaw>
-auto named(const FrozenFile& file, const Thaw& thaw) {
+template <class Map>
+auto named(const FrozenFile& file, const Map& map) {
     try {
-        return thaw();
+        return map();
     } catch (const InputError& error) {
         const std::string said = error.what();
         throw InputError(said.starts_with(file.name()) ? said : file.name() + ": " + said);
@@ -240,11 +240,11 @@ void freeze_model(const Model& model, const SurfaceShapes& shapes, std::uint32_t
     parts.add(FrozenKind::sources, number, shapes.columns().sources.values());
 }
 
-std::shared_ptr<const Model> thaw_model(const FrozenFile& file, std::uint32_t number) {
+std::shared_ptr<const Model> map_model(const FrozenFile& file, std::uint32_t number) {
     return named(file, [&] {
-        const auto thawed = std::make_shared<Thawed<Model>>();
-        thawed->bytes = file.owner();
-        Model& model = thawed->thing;
+        const auto mapped = std::make_shared<Mapped<Model>>();
+        mapped->bytes = file.owner();
+        Model& model = mapped->thing;
         PackedReader reader(part_of(file, FrozenKind::model, number), file.name(), "a model");
         model.modifiers = unpack_modifiers(reader);
         model.header = reader.texts();
@@ -252,10 +252,10 @@ std::shared_ptr<const Model> thaw_model(const FrozenFile& file, std::uint32_t nu
         std::vector<FileName> files = unpack_files(reader);
         std::vector<std::string> warnings = reader.texts();
         reader.end();
-        model.surfaces = thaw_surfaces(file, number, std::move(files), model.modifiers.size());
+        model.surfaces = map_surfaces(file, number, std::move(files), model.modifiers.size());
         model.shapes = std::make_shared<const SurfaceShapes>(
-            thaw_shapes(file, number, model.surfaces, std::move(warnings)));
-        return std::shared_ptr<const Model>(thawed, &model);
+            map_shapes(file, number, model.surfaces, std::move(warnings)));
+        return std::shared_ptr<const Model>(mapped, &model);
     });
 }
 
@@ -270,12 +270,12 @@ void freeze_mesh(const MeshModel& mesh, std::uint32_t number, FrozenParts& parts
     parts.add(FrozenKind::triangles, number, mesh.triangles.values());
 }
 
-std::shared_ptr<const MeshModel> thaw_mesh(const FrozenFile& file, std::uint32_t number) {
+std::shared_ptr<const MeshModel> map_mesh(const FrozenFile& file, std::uint32_t number) {
     using Vertex = MeshModel::Vertex;
     using Triangle = MeshModel::Triangle;
-    const auto thawed = std::make_shared<Thawed<MeshModel>>();
-    thawed->bytes = file.owner();
-    MeshModel& mesh = thawed->thing;
+    const auto mapped = std::make_shared<Mapped<MeshModel>>();
+    mapped->bytes = file.owner();
+    MeshModel& mesh = mapped->thing;
     PackedReader reader(part_of(file, FrozenKind::mesh, number), file.name(), "a mesh");
     mesh.materials.modifiers = unpack_modifiers(reader);
     reader.end();
@@ -287,7 +287,7 @@ std::shared_ptr<const MeshModel> thaw_mesh(const FrozenFile& file, std::uint32_t
     check_bools(file, mesh.triangles.values(), offsetof(Triangle, has_normals));
     check_bools(file, mesh.triangles.values(), offsetof(Triangle, has_uvs));
     if (!is_sound(mesh)) reader.fail();
-    return {thawed, &mesh};
+    return {mapped, &mesh};
 }
 
 }  // namespace lightwalk

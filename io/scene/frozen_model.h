@@ -16,8 +16,8 @@ void freeze_mesh(const MeshModel& mesh, std::uint32_t number, FrozenParts& parts
 
 /// The model, whose columns show the file's bytes, and keep them. Throws InputError for what no
 /// freeze_model can have written, in so far as a scene relies on it.
-[[nodiscard]] std::shared_ptr<const Model> thaw_model(const FrozenFile& file, std::uint32_t number);
-[[nodiscard]] std::shared_ptr<const MeshModel> thaw_mesh(const FrozenFile& file,
+[[nodiscard]] std::shared_ptr<const Model> map_model(const FrozenFile& file, std::uint32_t number);
+[[nodiscard]] std::shared_ptr<const MeshModel> map_mesh(const FrozenFile& file,
                                                          std::uint32_t number);
 
 }  // namespace lightwalk

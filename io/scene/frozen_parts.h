@@ -65,7 +65,7 @@ class FrozenParts {
 
 /// A thing, and what keeps the bytes that its columns show.
 template <class T>
-struct Thawed {
+struct Mapped {
     std::shared_ptr<const void> bytes;
     T thing;
 };

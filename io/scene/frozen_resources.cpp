@@ -56,7 +56,7 @@ void freeze_data(const DataArray& data, std::uint32_t number, FrozenParts& parts
     parts.add(FrozenKind::data, number, writer.bytes());
 }
 
-std::shared_ptr<const DataArray> thaw_data(const FrozenFile& file, std::uint32_t number) {
+std::shared_ptr<const DataArray> map_data(const FrozenFile& file, std::uint32_t number) {
     PackedReader reader(part_of(file, FrozenKind::data, number), file.name(), "a data file");
     auto data = std::make_shared<DataArray>();
     const auto axes = reader.number<std::uint64_t>();
@@ -76,11 +76,11 @@ void freeze_picture(const PictureData& picture, std::uint32_t number, FrozenPart
     parts.add(FrozenKind::pixels, number, picture.values.values());
 }
 
-std::shared_ptr<const PictureData> thaw_picture(const FrozenFile& file, std::uint32_t number) {
+std::shared_ptr<const PictureData> map_picture(const FrozenFile& file, std::uint32_t number) {
     PackedReader reader(part_of(file, FrozenKind::picture, number), file.name(), "a picture");
-    const auto thawed = std::make_shared<Thawed<PictureData>>();
-    thawed->bytes = file.owner();
-    PictureData& picture = thawed->thing;
+    const auto mapped = std::make_shared<Mapped<PictureData>>();
+    mapped->bytes = file.owner();
+    PictureData& picture = mapped->thing;
     for (DataArray::Axis& axis : picture.axes) {
         axis = unpack_axis(reader, 1);
         if (!axis.points.empty()) reader.fail();
@@ -90,7 +90,7 @@ std::shared_ptr<const PictureData> thaw_picture(const FrozenFile& file, std::uin
     check_size(reader, picture.axes, picture.values.size());
     const auto finite = [](const Rgb& c) { return std::isfinite(c.r + c.g + c.b); };
     if (!std::ranges::all_of(picture.values, finite)) reader.fail();
-    return {thawed, &picture};
+    return {mapped, &picture};
 }
 
 void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts) {
@@ -105,7 +105,7 @@ void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts) {
     parts.add(FrozenKind::font, number, writer.bytes());
 }
 
-std::shared_ptr<const Font> thaw_font(const FrozenFile& file, std::uint32_t number) {
+std::shared_ptr<const Font> map_font(const FrozenFile& file, std::uint32_t number) {
     PackedReader reader(part_of(file, FrozenKind::font, number), file.name(), "a font");
     const auto on_grid = [&](std::int32_t value) {
         if (value < 0 || value > kFontGrid) reader.fail();

@@ -13,10 +13,10 @@ void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts);
 
 // The inverse. They throw InputError for what no decoder can have made, in so far as a scene relies
 // on it.
-[[nodiscard]] std::shared_ptr<const DataArray> thaw_data(const FrozenFile& file,
+[[nodiscard]] std::shared_ptr<const DataArray> map_data(const FrozenFile& file,
                                                          std::uint32_t number);
-[[nodiscard]] std::shared_ptr<const PictureData> thaw_picture(const FrozenFile& file,
+[[nodiscard]] std::shared_ptr<const PictureData> map_picture(const FrozenFile& file,
                                                               std::uint32_t number);
-[[nodiscard]] std::shared_ptr<const Font> thaw_font(const FrozenFile& file, std::uint32_t number);
+[[nodiscard]] std::shared_ptr<const Font> map_font(const FrozenFile& file, std::uint32_t number);
 
 }  // namespace lightwalk

@@ -123,7 +123,7 @@ bool is_in_order(std::span<const ManifestFile> manifest) {
            std::ranges::adjacent_find(manifest, ordered) == manifest.end();
 }
 
-std::vector<ManifestFile> thaw_manifest(const FrozenFile& file) {
+std::vector<ManifestFile> map_manifest(const FrozenFile& file) {
     constexpr std::size_t kLeastEntry = 8 + 1 + 3 * 8;  // [bytes]
     PackedReader reader(part_of(file, FrozenKind::manifest), file.name(), "the list of its files");
     std::vector<ManifestFile> manifest(reader.count(kLeastEntry));
@@ -170,12 +170,12 @@ const T& frozen_answer(const FrozenFile& file, const ResourceAnswers<T>& answers
     return *known->second.found;
 }
 
-/// The thing of this number, thawed once.
-template <class T, class Thaw>
-std::shared_ptr<const T> thawed_once(std::map<std::uint32_t, std::shared_ptr<const T>>& known,
-                                     std::uint32_t number, const Thaw& thaw) {
+/// The thing of this number, mapped once.
+template <class T, class Map>
+std::shared_ptr<const T> mapped_once(std::map<std::uint32_t, std::shared_ptr<const T>>& known,
+                                     std::uint32_t number, const Map& map) {
     std::shared_ptr<const T>& thing = known[number];
-    if (!thing) thing = thaw();
+    if (!thing) thing = map();
     return thing;
 }
 
@@ -213,7 +213,7 @@ bool is_frozen_scene(const std::string& path, FileSource& files) {
 }
 
 FrozenScene::FrozenScene(FrozenFile file) : file_(std::move(file)) {
-    manifest_ = thaw_manifest(file_);
+    manifest_ = map_manifest(file_);
     PackedReader reader(part_of(file_, FrozenKind::answers), file_.name(), "its library");
     functions_ = AnswerReader{reader}.answers<std::string>();
     texts_ = AnswerReader{reader}.answers<std::vector<std::string>>();
@@ -226,7 +226,7 @@ FrozenScene::FrozenScene(FrozenFile file) : file_(std::move(file)) {
 }
 
 std::shared_ptr<const Model> FrozenScene::model() {
-    return thawed_once(thawed_models_, kRootModel, [&] { return thaw_model(file_, kRootModel); });
+    return mapped_once(mapped_models_, kRootModel, [&] { return map_model(file_, kRootModel); });
 }
 
 std::string FrozenScene::function_file(const std::string& name) {
@@ -235,17 +235,17 @@ std::string FrozenScene::function_file(const std::string& name) {
 
 std::shared_ptr<const DataArray> FrozenScene::data(const std::string& name) {
     const std::uint32_t number = frozen_answer(file_, tables_, name);
-    return thawed_once(thawed_tables_, number, [&] { return thaw_data(file_, number); });
+    return mapped_once(mapped_tables_, number, [&] { return map_data(file_, number); });
 }
 
 std::shared_ptr<const PictureData> FrozenScene::picture(const std::string& name) {
     const std::uint32_t number = frozen_answer(file_, pictures_, name);
-    return thawed_once(thawed_pictures_, number, [&] { return thaw_picture(file_, number); });
+    return mapped_once(mapped_pictures_, number, [&] { return map_picture(file_, number); });
 }
 
 std::shared_ptr<const Font> FrozenScene::font(const std::string& name) {
     const std::uint32_t number = frozen_answer(file_, fonts_, name);
-    return thawed_once(thawed_fonts_, number, [&] { return thaw_font(file_, number); });
+    return mapped_once(mapped_fonts_, number, [&] { return map_font(file_, number); });
 }
 
 std::vector<std::string> FrozenScene::text_lines(const std::string& name) {
@@ -254,12 +254,12 @@ std::vector<std::string> FrozenScene::text_lines(const std::string& name) {
 
 std::shared_ptr<const Model> FrozenScene::octree(const std::string& name) {
     const std::uint32_t number = frozen_answer(file_, octrees_, name);
-    return thawed_once(thawed_models_, number, [&] { return thaw_model(file_, number); });
+    return mapped_once(mapped_models_, number, [&] { return map_model(file_, number); });
 }
 
 std::shared_ptr<const MeshModel> FrozenScene::mesh(const std::string& name) {
     const std::uint32_t number = frozen_answer(file_, meshes_, name);
-    return thawed_once(thawed_meshes_, number, [&] { return thaw_mesh(file_, number); });
+    return mapped_once(mapped_meshes_, number, [&] { return map_mesh(file_, number); });
 }
 
 std::unique_ptr<FrozenScene> open_frozen_scene(const std::string& path, bool stale_allowed) {

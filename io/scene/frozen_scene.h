@@ -64,12 +64,12 @@ class FrozenScene final : public Resources {
     ResourceAnswers<std::vector<std::string>> texts_;
     ResourceAnswers<std::uint32_t> tables_, pictures_, fonts_, octrees_, meshes_;
     template <class T>
-    using Thawed = std::map<std::uint32_t, std::shared_ptr<const T>>;
-    Thawed<DataArray> thawed_tables_;
-    Thawed<PictureData> thawed_pictures_;
-    Thawed<Font> thawed_fonts_;
-    Thawed<Model> thawed_models_;
-    Thawed<MeshModel> thawed_meshes_;
+    using Mapped = std::map<std::uint32_t, std::shared_ptr<const T>>;
+    Mapped<DataArray> mapped_tables_;
+    Mapped<PictureData> mapped_pictures_;
+    Mapped<Font> mapped_fonts_;
+    Mapped<Model> mapped_models_;
+    Mapped<MeshModel> mapped_meshes_;
 };
 
 /// Maps a file. Throws InputError as FrozenScene, and where files that it was made from have

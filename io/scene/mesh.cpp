@@ -55,7 +55,7 @@ class MeshDecoder {
             read_patch(static_cast<std::uint32_t>(i));
             if (i == 0) expect_like_first(static_cast<std::size_t>(patches), bytes);
         }
-        for (Triangle& triangle : mesh_.triangles.own_values()) settle(triangle);
+        for (Triangle& triangle : mesh_.triangles.own_values()) resolve_corners(triangle);
         drop_unused_tables();
         trim();
         return std::move(mesh_);
@@ -68,7 +68,7 @@ class MeshDecoder {
         if (!builder.model().surfaces.empty())
             reader_.fail("non-modifier \"" + std::string(builder.model().surfaces[0].name) +
                          "\" in mesh");
-        mesh_.materials = std::move(*builder.take());
+        mesh_.materials = std::move(*builder.release());
     }
 
     void read_patch(std::uint32_t number) {
@@ -216,7 +216,7 @@ class MeshDecoder {
     }
 
     /// Once all patches are read: until then a triangle's corners are vertex ids.
-    void settle(Triangle& triangle) {
+    void resolve_corners(Triangle& triangle) {
         triangle.material = material_index(triangle.material);
         triangle.has_normals = triangle.has_uvs = true;
         for (std::uint32_t& corner : triangle.v) {

@@ -55,7 +55,7 @@ OctreeContents decode_octree(std::string_view bytes, const std::string& name) {
         reader.fail("holds " + std::to_string(objects) + " objects, expected " +
                     std::to_string(contents.objects));
     }
-    contents.model = builder.take();
+    contents.model = builder.release();
     contents.model->header = contents.header;
     contents.model->cube = contents.cube;
     return contents;

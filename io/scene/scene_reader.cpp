@@ -54,7 +54,7 @@ class SceneReader {
     }
 
     [[nodiscard]] std::size_t size() const { return builder_.model().size(); }
-    [[nodiscard]] std::shared_ptr<Model> take() { return builder_.take(); }
+    [[nodiscard]] std::shared_ptr<Model> release() { return builder_.release(); }
 
   private:
     /// Reads the output of the command that stands at `outer`.
@@ -62,7 +62,7 @@ class SceneReader {
       public:
         OutputReader(SceneReader& reader, FileName name, const SourceLocation& outer, int depth)
             : reader_(reader), name_(std::move(name)), outer_(outer), depth_(depth) {}
-        void take(std::string_view piece) override {
+        void push(std::string_view piece) override {
             SceneTokenizer tokens(piece, name_, line_);
             reader_.read_items(tokens, &outer_, depth_, nullptr);
             line_ = tokens.where().line;
@@ -256,7 +256,7 @@ std::shared_ptr<const Model> read_scene_files(OctreeContents& contents, const st
                                         std::to_string(reader.size()) + " primitives, expected " +
                                         std::to_string(contents.objects));
     }
-    std::shared_ptr<Model> model = reader.take();
+    std::shared_ptr<Model> model = reader.release();
     model->header = std::move(contents.header);
     model->cube = contents.cube;
     return model;
@@ -310,7 +310,7 @@ std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
             }
             return read_octree(text.bytes, text.name, options, warnings, &list);
         }
-        return reader.take();
+        return reader.release();
     });
 }
 
@@ -319,7 +319,7 @@ std::shared_ptr<const Model> parse_scene(std::string_view text, const std::strin
     return gather_problems(nullptr, [&](ProblemList& list) {
         SceneReader reader(options, warnings, list);
         reader.read(text, name);
-        return reader.take();
+        return reader.release();
     });
 }
 

@@ -178,7 +178,7 @@ TEST_CASE("equally near suggestions go by the alphabet") {
 TEST_CASE("taking the model empties the builder") {
     ModelBuilder builder;
     builder.add(plastic("a", 0.1));
-    CHECK(builder.take()->size() == 1);
+    CHECK(builder.release()->size() == 1);
     CHECK(builder.model().size() == 0);
     CHECK_THROWS_AS(static_cast<void>(builder.modifier("a", kHere)), InputError);
 }

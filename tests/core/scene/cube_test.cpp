@@ -15,7 +15,7 @@ std::shared_ptr<const Model> model_in_cube(const ModelCube& cube) {
     ModelBuilder builder;
     Primitive ball{PrimitiveType::sphere, builder.add(paint), "s", {}, {0, 0, 0, 1}, {}, {}};
     builder.add(ball);
-    const std::shared_ptr<Model> model = builder.take();
+    const std::shared_ptr<Model> model = builder.release();
     model->cube = cube;
     return model;
 }

@@ -99,15 +99,15 @@ TEST_CASE("web rules: a rate limit gives its stock at once, then so many a secon
     using std::chrono::milliseconds;
     RateLimit limit(10, 3);
     RateLimit::Time now{};
-    for (int i = 0; i < 3; ++i) CHECK(limit.take(now));
-    CHECK_FALSE(limit.take(now));
-    CHECK_FALSE(limit.take(now += milliseconds(99)));
-    CHECK(limit.take(now += milliseconds(2)));
-    CHECK_FALSE(limit.take(now));
+    for (int i = 0; i < 3; ++i) CHECK(limit.try_acquire(now));
+    CHECK_FALSE(limit.try_acquire(now));
+    CHECK_FALSE(limit.try_acquire(now += milliseconds(99)));
+    CHECK(limit.try_acquire(now += milliseconds(2)));
+    CHECK_FALSE(limit.try_acquire(now));
     int taken = 0;
-    for (int i = 0; i < 1000; ++i) taken += limit.take(now += milliseconds(10)) ? 1 : 0;
+    for (int i = 0; i < 1000; ++i) taken += limit.try_acquire(now += milliseconds(10)) ? 1 : 0;
     CHECK((taken >= 99 && taken <= 101));  // 10 s
     now += std::chrono::hours(1);
-    for (int i = 0; i < 3; ++i) CHECK(limit.take(now));
-    CHECK_FALSE(limit.take(now));
+    for (int i = 0; i < 3; ++i) CHECK(limit.try_acquire(now));
+    CHECK_FALSE(limit.try_acquire(now));
 }

@@ -44,7 +44,7 @@ TEST_CASE("a display with a fixed exposure shows what pictures for the screen sh
         settings.automatic = false;
         settings.ev = ev;
         const std::vector<std::uint8_t> bytes = shown(pixels, settings);
-        const DisplayTone tone = settle_tone({}, {false, ev, ToneCurve::highlights});
+        const DisplayTone tone = choose_tone({}, {false, ev, ToneCurve::highlights});
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const std::array<std::uint8_t, 3> expected = display_pixel(pixels[i], tone);
             for (std::size_t k = 0; k < 3; ++k)
@@ -58,7 +58,7 @@ TEST_CASE("automatic exposure is that of pictures for the screen") {
     Adaptation eye;
     eye.look_at(BrightnessHistogram(picture.pixels), 0);
     const Display display({}, eye, BrightnessHistogram(picture.pixels));
-    CHECK(display.exposure() == doctest::Approx(settle_tone(picture, {}).scale).epsilon(1e-6));
+    CHECK(display.exposure() == doctest::Approx(choose_tone(picture, {}).scale).epsilon(1e-6));
 }
 
 TEST_CASE("eyes get used to another light: half of the way at once would be a flash") {

@@ -36,7 +36,7 @@ Picture with_highlights(int bright, float radiance) {
 TEST_CASE("automatic exposure shows the log-average as middle grey, whatever the picture's unit") {
     for (const float unit : {1e-3f, 1.0f, 1e4f}) {
         Picture picture{2, 2, {Rgb::grey(unit / 10), Rgb::grey(10 * unit), {}, Rgb::grey(unit)}};
-        const DisplayTone tone = settle_tone(picture, {});
+        const DisplayTone tone = choose_tone(picture, {});
         CHECK(tone.scale * static_cast<double>(unit) == doctest::Approx(0.18).epsilon(1e-5));
         CHECK(display_pixel(picture.pixels[3], tone) == Bytes{118, 118, 118});  // sRGB of 18 %
     }
@@ -45,11 +45,11 @@ TEST_CASE("automatic exposure shows the log-average as middle grey, whatever the
 TEST_CASE("a picture without light, or with numbers that are none, has an exposure all the same") {
     const float inf = std::numeric_limits<float>::infinity();
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    CHECK(settle_tone({}, {}).scale == 1);
-    CHECK(settle_tone({1, 1, {Rgb{}}}, {}).scale == 1);
-    CHECK(settle_tone({1, 1, {Rgb{}}}, {}).curve->white() == 1);
-    CHECK(settle_tone({2, 1, {Rgb::grey(inf), Rgb::grey(1)}}, {}).scale == doctest::Approx(0.18));
-    CHECK(settle_tone({2, 1, {Rgb::grey(inf), Rgb::grey(1)}}, {}).curve->white() == 1);
+    CHECK(choose_tone({}, {}).scale == 1);
+    CHECK(choose_tone({1, 1, {Rgb{}}}, {}).scale == 1);
+    CHECK(choose_tone({1, 1, {Rgb{}}}, {}).curve->white() == 1);
+    CHECK(choose_tone({2, 1, {Rgb::grey(inf), Rgb::grey(1)}}, {}).scale == doctest::Approx(0.18));
+    CHECK(choose_tone({2, 1, {Rgb::grey(inf), Rgb::grey(1)}}, {}).curve->white() == 1);
     CHECK(display_pixel({inf, nan, -1}, kLinear) == Bytes{255, 0, 0});
     CHECK(display_pixel({inf, nan, -1}, {}) == Bytes{255, 255, 255});
     CHECK(display_pixel({nan, nan, -1}, {}) == Bytes{0, 0, 0});
@@ -58,16 +58,16 @@ TEST_CASE("a picture without light, or with numbers that are none, has an exposu
 TEST_CASE("a fixed exposure counts in stops, and fixes the curve for all pictures") {
     for (const float radiance : {1.0f, 1000.0f}) {
         const Picture picture{1, 1, {Rgb::grey(radiance)}};
-        CHECK(settle_tone(picture, {false, 3}).scale == 8);
-        CHECK(settle_tone(picture, {false, -1}).scale == 0.5);
-        CHECK(settle_tone(picture, {false, 3}).curve->white() == 16);
+        CHECK(choose_tone(picture, {false, 3}).scale == 8);
+        CHECK(choose_tone(picture, {false, -1}).scale == 0.5);
+        CHECK(choose_tone(picture, {false, 3}).curve->white() == 16);
     }
 }
 
 TEST_CASE("white is where one pixel in a thousand is brighter, and display white at least") {
-    CHECK(settle_tone(with_highlights(200, 9), {}).curve->white() > 6);    // a window
-    CHECK(settle_tone(with_highlights(1, 1e6f), {}).curve->white() == 1);  // a glint
-    CHECK(settle_tone(with_highlights(0, 0), {}).curve->white() == 1);
+    CHECK(choose_tone(with_highlights(200, 9), {}).curve->white() > 6);    // a window
+    CHECK(choose_tone(with_highlights(1, 1e6f), {}).curve->white() == 1);  // a glint
+    CHECK(choose_tone(with_highlights(0, 0), {}).curve->white() == 1);
 }
 
 TEST_CASE("the curve is the exposure alone up to a stop above middle grey, and goes on smoothly") {
@@ -118,7 +118,7 @@ TEST_CASE("windows are drawn: a stop more is seen at every brightness below whit
 }
 
 TEST_CASE("linear is sRGB, cut off at white") {
-    CHECK_FALSE(settle_tone(with_highlights(200, 9), {.curve = ToneCurve::linear}).curve);
+    CHECK_FALSE(choose_tone(with_highlights(200, 9), {.curve = ToneCurve::linear}).curve);
     const DisplayTone& tone = kLinear;
     CHECK(grey_byte(0, tone) == 0);
     CHECK(grey_byte(0.0031308, tone) == 10);

@@ -66,8 +66,8 @@ TEST_CASE("in memory and in a file: the same bytes") {
         return read_file(folder.path(name));
     };
     CHECK(encode_exr(picture(), header) == written("a.exr"));
-    CHECK(encode_png(picture(), settle_tone(picture(), {})) == written("a.png"));
-    CHECK(encode_jpeg(picture(), settle_tone(picture(), {})) == written("a.jpg"));
+    CHECK(encode_png(picture(), choose_tone(picture(), {})) == written("a.png"));
+    CHECK(encode_jpeg(picture(), choose_tone(picture(), {})) == written("a.jpg"));
     CHECK(encode_jpeg(picture(), {}, 30).size() < encode_jpeg(picture(), {}, 100).size());
     CHECK_THROWS_WITH_AS((void)encode_png({}, {}), doctest::Contains("cannot encode png: "),
                          InputError);

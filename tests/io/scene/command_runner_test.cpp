@@ -12,7 +12,7 @@ namespace lightwalk {
 namespace {
 
 struct Collector final : TextSink {
-    void take(std::string_view piece) override { pieces.emplace_back(piece); }
+    void push(std::string_view piece) override { pieces.emplace_back(piece); }
     [[nodiscard]] std::string whole() const {
         std::string all;
         for (const std::string& piece : pieces) all += piece;
@@ -23,7 +23,7 @@ struct Collector final : TextSink {
 
 /// Takes one piece, and no more.
 struct Thrower final : TextSink {
-    void take(std::string_view) override {
+    void push(std::string_view) override {
         if (taken++ > 0) throw InputError("bad piece");
     }
     int taken = 0;

@@ -142,7 +142,7 @@ std::vector<std::string> seen(const Scene& scene) {
     return all;
 }
 
-std::unique_ptr<FrozenScene> thawed(const std::string& bytes) {
+std::unique_ptr<FrozenScene> mapped(const std::string& bytes) {
     auto words = std::make_shared<std::vector<std::uint64_t>>(bytes.size() / 8 + 1);
     std::memcpy(words->data(), bytes.data(), bytes.size());
     const auto all = std::as_bytes(std::span(*words)).first(bytes.size());
@@ -164,7 +164,7 @@ TEST_CASE("rays see the same bytes in a frozen scene, without any of its files")
         bytes = room.bytes();
     }
     std::filesystem::remove_all(folder.path("lib"));
-    const auto frozen = thawed(bytes);
+    const auto frozen = mapped(bytes);
     Silence again;
     const Scene scene(frozen->model(), modifier_factory, *frozen, again);
     CHECK(seen(scene) == expected);
@@ -184,7 +184,7 @@ TEST_CASE("a frozen scene that is frozen again has the same bytes") {
     write_room(folder);
     const std::string bytes = Room(folder).bytes();
     CHECK(Room(folder).bytes() == bytes);
-    const auto frozen = thawed(bytes);
+    const auto frozen = mapped(bytes);
     Silence silence;
     FreezingResources library(*frozen);
     const Scene scene(frozen->model(), modifier_factory, library, silence);
@@ -232,7 +232,7 @@ TEST_CASE("columns of a frozen scene are the file's pages") {
 TEST_CASE("what a frozen scene was not asked for when it was frozen is no missing file") {
     const TemporaryFolder folder;
     write_room(folder);
-    const auto frozen = thawed(Room(folder).bytes());
+    const auto frozen = mapped(Room(folder).bytes());
     CHECK_THROWS_AS((void)frozen->function_file("lost.cal"), MissingFile);
     CHECK_THROWS_WITH_AS((void)frozen->function_file("new.cal"),
                          "a.lwz: holds no \"new.cal\", which was not needed when it was frozen",
@@ -279,7 +279,7 @@ TEST_CASE("a frozen scene names each of its files once") {
     const Room room(folder);
     const auto opens = [&](const std::vector<ManifestFile>& manifest) {
         try {
-            return thawed(frozen_scene_bytes(room.scene, room.resources, manifest)) != nullptr;
+            return mapped(frozen_scene_bytes(room.scene, room.resources, manifest)) != nullptr;
         } catch (const InputError& error) {
             CHECK(std::string(error.what()) == "a.lwz: damaged: the list of its files");
             return false;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/piece_pipe.h"
+#include "apps/parse_queue.h"
 #include "tests/all_primitives.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"
@@ -270,7 +270,7 @@ TEST_CASE("what gensurf writes by pieces is read as one text") {
     const std::string hill = "!gensurf red hill s t 's*t' 100 100\n";
     for (const bool beside : {false, true}) {  // or one after the other
         SceneReadOptions options = inside("/nonexistent");
-        if (beside) options.pipe = [](TextSink& next) { return std::make_unique<PiecePipe>(next); };
+        if (beside) options.pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
         const Parsed scene = parse(kPlastic + hill + kBall, options);
         REQUIRE(scene.size() == 20002);
         CHECK(scene.warnings.empty());

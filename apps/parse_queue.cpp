@@ -1,4 +1,4 @@
-#include "apps/piece_pipe.h"
+#include "apps/parse_queue.h"
 
 #include <utility>
 
@@ -10,7 +10,7 @@ constexpr std::size_t kShort = kPieceBytes / 2, kLong = 2 * kPieceBytes;
 
 }  // namespace
 
-PiecePipe::~PiecePipe() {
+ParseQueue::~ParseQueue() {
     {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
@@ -19,7 +19,7 @@ PiecePipe::~PiecePipe() {
 }
 
 /// Ends the thread, if there is one.
-void PiecePipe::close() {
+void ParseQueue::close() {
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;
@@ -28,18 +28,18 @@ void PiecePipe::close() {
     if (thread_.joinable()) thread_.join();
 }
 
-void PiecePipe::throw_error() {
+void ParseQueue::throw_error() {
     if (error_) std::rethrow_exception(error_);
 }
 
-void PiecePipe::finish() {
+void ParseQueue::finish() {
     close();
     throw_error();
 }
 
-void PiecePipe::take(std::string_view piece) {
+void ParseQueue::push(std::string_view piece) {
     const bool waits = thread_.joinable();
-    if (!waits && (piece.size() < kShort || piece.size() > kLong)) return next_.take(piece);
+    if (!waits && (piece.size() < kShort || piece.size() > kLong)) return next_.push(piece);
     if (!waits) {
         closed_ = false;
         thread_ = std::thread([this] { hand_on(); });
@@ -51,7 +51,7 @@ void PiecePipe::take(std::string_view piece) {
     changed_.notify_all();
 }
 
-void PiecePipe::hand_on() {
+void ParseQueue::hand_on() {
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [this] { return !waiting_.empty() || closed_; });
@@ -62,7 +62,7 @@ void PiecePipe::hand_on() {
         lock.unlock();
         std::exception_ptr error;
         try {
-            next_.take(piece);
+            next_.push(piece);
         } catch (...) {
             error = std::current_exception();
         }

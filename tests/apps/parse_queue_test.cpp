@@ -1,5 +1,5 @@
 // Writing and reading side by side: the same pieces in the same order, and the first error counts.
-#include "apps/piece_pipe.h"
+#include "apps/parse_queue.h"
 
 #include <doctest/doctest.h>
 
@@ -12,10 +12,10 @@ using namespace lightwalk;
 namespace {
 
 /// Keeps what it gets; throws at the piece that says so.
-class Keeper final : public TextSink {
+class Collector final : public TextSink {
   public:
-    explicit Keeper(bool slow = false) : slow_(slow) {}
-    void take(std::string_view piece) override {
+    explicit Collector(bool slow = false) : slow_(slow) {}
+    void push(std::string_view piece) override {
         if (slow_) std::this_thread::sleep_for(std::chrono::milliseconds(2));
         if (piece.starts_with("bad")) throw std::runtime_error(std::string(piece.substr(0, 4)));
         text += piece;
@@ -38,51 +38,51 @@ std::string long_piece(const std::string& beginning) {
 
 TEST_CASE("a pipe hands its pieces on in order, long ones on another thread") {
     for (const bool slow : {false, true}) {
-        Keeper keeper(slow);
+        Collector checkpoint(slow);
         std::string expected;
-        PiecePipe pipe(keeper);
+        ParseQueue pipe(checkpoint);
         for (int i = 0; i < 20; ++i) {
             const std::string piece = i == 19 ? "end" : long_piece(std::to_string(i));
-            pipe.take(piece);
+            pipe.push(piece);
             expected += piece;
         }
         pipe.finish();
-        CHECK(keeper.text == expected);
-        for (const std::thread::id id : keeper.threads) CHECK(id != std::this_thread::get_id());
+        CHECK(checkpoint.text == expected);
+        for (const std::thread::id id : checkpoint.threads) CHECK(id != std::this_thread::get_id());
     }
 }
 
 TEST_CASE("short texts, and those that are whole, go straight through") {
-    Keeper keeper;
+    Collector checkpoint;
     for (const std::string& text :
          {std::string("a few words"), std::string(3 * kPieceBytes, 'x')}) {
-        PiecePipe pipe(keeper);
-        pipe.take(text);
+        ParseQueue pipe(checkpoint);
+        pipe.push(text);
         pipe.finish();
     }
-    REQUIRE(keeper.threads.size() == 2);
-    for (const std::thread::id id : keeper.threads) CHECK(id == std::this_thread::get_id());
+    REQUIRE(checkpoint.threads.size() == 2);
+    for (const std::thread::id id : checkpoint.threads) CHECK(id == std::this_thread::get_id());
 }
 
 TEST_CASE("what the reader throws ends the writer, and is told once all is quiet") {
-    Keeper keeper(true);
-    PiecePipe pipe(keeper);
+    Collector checkpoint(true);
+    ParseQueue pipe(checkpoint);
     const auto write = [&] {
-        pipe.take(long_piece("good"));
-        pipe.take(long_piece("bad1"));
-        for (int i = 0; i < 1000; ++i) pipe.take(long_piece("bad2"));
+        pipe.push(long_piece("good"));
+        pipe.push(long_piece("bad1"));
+        for (int i = 0; i < 1000; ++i) pipe.push(long_piece("bad2"));
     };
     CHECK_THROWS_WITH_AS(write(), "bad1", std::runtime_error);
     CHECK_THROWS_WITH_AS(pipe.finish(), "bad1", std::runtime_error);
-    CHECK(keeper.text.substr(0, 4) == "good");
-    CHECK(keeper.threads.size() == 1);
+    CHECK(checkpoint.text.substr(0, 4) == "good");
+    CHECK(checkpoint.threads.size() == 1);
 }
 
 TEST_CASE("a pipe that nobody finishes ends by itself") {
-    Keeper keeper(true);
+    Collector checkpoint(true);
     {
-        PiecePipe pipe(keeper);
-        for (int i = 0; i < 3; ++i) pipe.take(long_piece("x"));
+        ParseQueue pipe(checkpoint);
+        for (int i = 0; i < 3; ++i) pipe.push(long_piece("x"));
     }
-    CHECK(keeper.threads.size() <= 3);
+    CHECK(checkpoint.threads.size() <= 3);
 }

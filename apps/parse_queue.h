@@ -14,16 +14,16 @@ namespace lightwalk {
 
 /// Hands pieces on to another sink, in order, on a thread of its own: begun with the first long
 /// piece, as few texts have any. At most four pieces wait.
-class PiecePipe final : public TextPipe {
+class ParseQueue final : public TextPipe {
   public:
-    explicit PiecePipe(TextSink& next) : next_(next) {}
+    explicit ParseQueue(TextSink& next) : next_(next) {}
     /// What was not handed on yet is lost, if finish() was not called.
-    ~PiecePipe() override;
-    PiecePipe(const PiecePipe&) = delete;
-    PiecePipe& operator=(const PiecePipe&) = delete;
+    ~ParseQueue() override;
+    ParseQueue(const ParseQueue&) = delete;
+    ParseQueue& operator=(const ParseQueue&) = delete;
 
     /// Throws what the next sink has thrown for an earlier piece.
-    void take(std::string_view piece) override;
+    void push(std::string_view piece) override;
     void finish() override;
 
   private:

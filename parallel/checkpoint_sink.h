@@ -6,9 +6,9 @@
 
 namespace lightwalk {
 
-class BlockKeeper {
+class CheckpointSink {
   public:
-    virtual ~BlockKeeper() = default;
+    virtual ~CheckpointSink() = default;
     /// Blocks of this picture that are known already; they do not overlap.
     [[nodiscard]] virtual std::vector<BlockPixels> known() = 0;
     /// A finished block; called by many threads at once.
