@@ -12,7 +12,7 @@
 #include "apps/walk/pages.h"
 #include "apps/walk/rank_frames.h"
 #include "apps/walk/walk_light.h"
-#include "apps/walk/walk_room.h"
+#include "apps/walk/render_loop.h"
 #include "apps/warnings.h"
 #include "io/files/watched_files.h"
 #include "io/net/web_rules.h"
@@ -62,7 +62,7 @@ WebServerOptions web_options(const ServeCommand& serve) {
     options.port = static_cast<std::uint16_t>(serve.port);
     if (!is_loopback(serve.address)) options.token = make_token();
     options.limits.clients = serve.clients;
-    options.limits.farewell = std::chrono::milliseconds(300);  // Ctrl-C is soon over
+    options.limits.close_timeout = std::chrono::milliseconds(300);  // Ctrl-C is soon over
     return options;
 }
 
@@ -156,11 +156,11 @@ class WalkProgram {
           link_(link),
           warnings_("lightwalk walk"),
           executor_(make_executor(command_.common.executor, command_.common.workers)),
-          desk_(welcome()),
-          server_(web_options(*command_.serve), viewer_pages(), desk_),
+          client_inbox_(welcome()),
+          server_(web_options(*command_.serve), viewer_pages(), client_inbox_),
           screen_(*executor_) {
         warnings_.enable(command_.settings.warnings && !command_.common.quiet);
-        desk_.attach(server_);
+        client_inbox_.attach(server_);
     }
 
     int run() {
@@ -173,9 +173,9 @@ class WalkProgram {
                 enter(serving);
             } catch (const InputError& error) {
                 std::fprintf(stderr, "%s\n", error.what());
-                desk_.announce(FailedReply{lines_of(error.what())});
+                client_inbox_.announce(FailedReply{lines_of(error.what())});
             } catch (const AgreedProblem& problem) {
-                desk_.announce(FailedReply{lines_of(problem.text)});
+                client_inbox_.announce(FailedReply{lines_of(problem.text)});
             }
             wait_for_change(serving);
             if (!interrupt_flag().requested()) std::this_thread::sleep_for(kWriting);
@@ -206,7 +206,7 @@ class WalkProgram {
 
     /// Throws InputError for what is wrong with the scene, or AgreedProblem.
     std::unique_ptr<SceneSession> read_scene() {
-        desk_.announce(LoadingReply{"reading " + welcome().scene, 0.1});
+        client_inbox_.announce(LoadingReply{"reading " + welcome().scene, 0.1});
         if (link_ != nullptr) {
             (void)link_->hear(kLoad);
             return build_on_ranks(*link_, command_.common, command_.settings, command_.history,
@@ -214,7 +214,7 @@ class WalkProgram {
         }
         auto session = std::make_unique<SceneSession>(command_.common, warnings_,
                                                       std::make_shared<FileRecorder>(watched_));
-        desk_.announce(LoadingReply{"building the scene", 0.5});
+        client_inbox_.announce(LoadingReply{"building the scene", 0.5});
         session->build(command_.settings);
         return session;
     }
@@ -250,17 +250,17 @@ class WalkProgram {
         const View home = !command_.serve->views.empty() ? command_.serve->views.front().view
                           : command_.view_given          ? command_.view
                                                          : view_of(session.scene());
-        desk_.set_home(home);
-        WalkRoom room(command_, session, home, frames, *executor_, warnings_, desk_, screen_);
-        if (link_ != nullptr) room.set_company(link_->ranks(), command_.common.workers);
+        client_inbox_.set_home(home);
+        RenderLoop loop(command_, session, home, frames, *executor_, warnings_, client_inbox_, screen_);
+        if (link_ != nullptr) loop.set_company(link_->ranks(), command_.common.workers);
         LoadedReply loaded;
         loaded.views = command_.serve->views;
         if (loaded.views.empty()) loaded.views.push_back({"start", home});
-        loaded.eye_height = room.eye_height();
-        desk_.announce(loaded);
+        loaded.eye_height = loop.eye_height();
+        client_inbox_.announce(loaded);
         auto looked = std::chrono::steady_clock::now();
         while (!interrupt_flag().requested() && !serving.ended()) {
-            room.step(interrupt_flag());
+            loop.step(interrupt_flag());
             const auto now = std::chrono::steady_clock::now();
             if (now - looked < kLookAtFiles) continue;
             looked = now;
@@ -271,14 +271,14 @@ class WalkProgram {
     /// After a scene that cannot be read. What comes meanwhile is of no use any more.
     void wait_for_change(const ServerThread& serving) {
         while (!watched_->have_changed() && !interrupt_flag().requested() && !serving.ended()) {
-            const WalkInbox inbox = desk_.take(kLookAtFiles);
+            const InboxContents inbox = client_inbox_.take(kLookAtFiles);
             for (const ClientId client : inbox.joined) screen_.join(client);
             for (const ClientId client : inbox.left) screen_.leave(client);
             for (const WebReply& reply : inbox.saves)
                 reply({503, "text/plain; charset=utf-8", "there is no scene\n", {}});
             for (const WalkQuestion& question : inbox.questions) {
                 const auto id = std::visit([](const auto& ask) { return ask.id; }, question.ask);
-                desk_.tell(question.client, walk_text(RefusedReply{"there is no scene", id}));
+                client_inbox_.tell(question.client, walk_text(RefusedReply{"there is no scene", id}));
             }
         }
     }
@@ -288,7 +288,7 @@ class WalkProgram {
     WalkFrameId next_order_ = 0;
     StderrWarnings warnings_;
     std::unique_ptr<Executor> executor_;
-    WalkDesk desk_;
+    ClientInbox client_inbox_;
     WebServer server_;
     WalkScreen screen_;
     std::shared_ptr<WatchedFiles> watched_;

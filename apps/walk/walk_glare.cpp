@@ -53,14 +53,14 @@ void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& vi
     picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels));
 }
 
-void WalkGlare::forget(WalkDesk& desk) {
+void WalkGlare::forget(ClientInbox& client_inbox) {
     for (const Asked& asked : asked_)
-        desk.tell(asked.client, walk_text(RefusedReply{"the view has moved", asked.id}));
+        client_inbox.tell(asked.client, walk_text(RefusedReply{"the view has moved", asked.id}));
     asked_.clear();
     picture_.reset();
 }
 
-void WalkGlare::step(double budget, const StopFlag& stop, WalkDesk& desk) {
+void WalkGlare::step(double budget, const StopFlag& stop, ClientInbox& client_inbox) {
     const Camera field(field_of(view_));
     const auto trace = [&](const ProgressiveWork& work) {
         return trace_pixels(tracer_, contexts_, field, picture_options(), work, budget, executor_,
@@ -71,17 +71,17 @@ void WalkGlare::step(double budget, const StopFlag& stop, WalkDesk& desk) {
         told_ = picture_->share();
         GlareReply reply;
         reply.done = std::min(told_, 1 - kToldEach / 2);  // 1 comes with the answer
-        tell(reply, desk);
+        tell(reply, client_inbox);
         return;
     }
-    tell(evaluate(), desk);
+    tell(evaluate(), client_inbox);
     asked_.clear();
 }
 
-void WalkGlare::tell(GlareReply reply, WalkDesk& desk) const {
+void WalkGlare::tell(GlareReply reply, ClientInbox& client_inbox) const {
     for (const Asked& asked : asked_) {
         reply.id = asked.id;
-        desk.tell(asked.client, walk_text(reply));
+        client_inbox.tell(asked.client, walk_text(reply));
     }
 }
 

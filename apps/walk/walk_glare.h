@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/walk/walk_desk.h"
+#include "apps/walk/client_inbox.h"
 #include "core/transport/tracer.h"
 #include "parallel/executor.h"
 #include "parallel/walk/progressive_light.h"
@@ -23,11 +23,11 @@ class WalkGlare {
     /// Somebody asks about a view. What others ask about the same one is answered with it.
     void ask(ClientId client, const GlareRequest& request, const View& view);
     /// The view is another one: nobody gets an answer any more.
-    void forget(WalkDesk& desk);
+    void forget(ClientInbox& client_inbox);
 
     [[nodiscard]] bool is_asked() const { return !asked_.empty(); }
     /// Draw for so long, and tell how far it is; at the end the answer [s].
-    void step(double budget, const StopFlag& stop, WalkDesk& desk);
+    void step(double budget, const StopFlag& stop, ClientInbox& client_inbox);
 
   private:
     struct Asked {
@@ -35,7 +35,7 @@ class WalkGlare {
         std::uint32_t id = 0;
     };
     [[nodiscard]] GlareReply evaluate() const;
-    void tell(GlareReply reply, WalkDesk& desk) const;
+    void tell(GlareReply reply, ClientInbox& client_inbox) const;
 
     const Tracer& tracer_;
     Executor& executor_;

@@ -128,7 +128,7 @@ std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::siz
     return std::make_shared<const std::string>(encode_walk_frame(header, sent));
 }
 
-void WalkScreen::send(WalkDesk& desk, Time now) {
+void WalkScreen::send(ClientInbox& client_inbox, Time now) {
     if (pieces_.empty()) return;
     const auto layout =
         static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
@@ -142,7 +142,7 @@ void WalkScreen::send(WalkDesk& desk, Time now) {
             compress(pieces);
             frame = frame_of(pieces);
         }
-        desk.send(id, frame);
+        client_inbox.send(id, frame);
         client.flow.sent(frame_, layout, contents_, frame->size(), now);
         client.shown = view_;
         client.has_shown = true;

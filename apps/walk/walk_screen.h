@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/walk/walk_desk.h"
+#include "apps/walk/client_inbox.h"
 #include "core/view/pixels.h"
 #include "io/net/frame_flow.h"
 #include "io/picture/display.h"
@@ -43,7 +43,7 @@ class WalkScreen {
     void show(const LivePicture& picture, const DisplaySettings& settings, const ShownView& view,
               Time now);
     /// Compress what clients lack, and send it to all that are ready for a frame.
-    void send(WalkDesk& desk, Time now);
+    void send(ClientInbox& client_inbox, Time now);
     /// When a client may be ready that is not now; Time::max(): only when it says so.
     [[nodiscard]] Time next_chance() const;
 

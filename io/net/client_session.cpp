@@ -25,7 +25,7 @@ ClientSession::ClientSession(beast::tcp_stream stream, ClientId id, const WebLim
                              ClientHost& host, List& list)
     : Connection(list),
       socket_(std::move(stream)),
-      farewell_(socket_.get_executor()),
+      close_timer_(socket_.get_executor()),
       rate_(limits.messages_per_second, limits.messages_at_once),
       id_(id),
       limits_(limits),
@@ -135,8 +135,8 @@ void ClientSession::end(websocket::close_code code, const std::string& reason) {
                                   [](const Outgoing& one) { return one.binary; }),
                    waiting_.end());
     waiting_.push_back({std::make_shared<const std::string>(walk_text(ByeReply{reason})), false});
-    farewell_.expires_after(limits_.farewell);
-    farewell_.async_wait([self = shared_from_this()](beast::error_code error) {
+    close_timer_.expires_after(limits_.close_timeout);
+    close_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
         if (!error) self->cut();
     });
     if (!writing_) write();
@@ -149,7 +149,7 @@ void ClientSession::stop(const std::string& reason) {
 
 void ClientSession::cut() {
     ended_ = true;
-    farewell_.cancel();
+    close_timer_.cancel();
     beast::get_lowest_layer(socket_).close();
     leave();
 }

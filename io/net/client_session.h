@@ -53,7 +53,7 @@ class ClientSession final : public Connection, public std::enable_shared_from_th
     void leave();
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
-    boost::asio::steady_timer farewell_;
+    boost::asio::steady_timer close_timer_;
     boost::beast::flat_buffer received_;
     std::deque<Outgoing> waiting_;  ///< the first is being written, while writing_
     boost::beast::websocket::close_reason reason_;

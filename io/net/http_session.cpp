@@ -138,7 +138,7 @@ void HttpSession::on_write(beast::error_code error) {
     if (error) return stream_.close();
     beast::error_code ignored;
     stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(limits_.farewell);
+    stream_.expires_after(limits_.close_timeout);
     drain();
 }
 

@@ -41,7 +41,7 @@ struct WebLimits {
     /// Of a WebSocket; after half of it it is pinged. One that broke the protocol and does not
     /// leave is cut off in half of it, too.
     Time silence{20'000};
-    Time farewell{2'000};  ///< from the decision to close a WebSocket until its socket is cut
+    Time close_timeout{2'000};  ///< from the decision to close a WebSocket until its socket is cut
 };
 
 struct WebServerOptions {

@@ -174,14 +174,14 @@ bool RankLoop::run(const StopFlag& stop) {
     if (cloud_master_ || cloud_worker_)
         patience.longest = std::min(patience.longest, kWalkPatience);
     microseconds wait = patience.shortest;
-    while (farewell_ != Farewell::over && !stop.requested()) {
+    while (shutdown_ != ShutdownPhase::over && !stop.requested()) {
         serve_broadcast();
         const bool posted = serve_posted();
-        const Farewell before = farewell_;
+        const ShutdownPhase before = shutdown_;
         const bool served = serve_arrived() || posted;
         exchange_values_in_time();
         say_goodbye();
-        if (served || farewell_ != before) {
+        if (served || shutdown_ != before) {
             wait = patience.shortest;
             continue;
         }
@@ -193,7 +193,7 @@ bool RankLoop::run(const StopFlag& stop) {
         over_ = true;
     }
     answered_.notify_all();
-    const bool whole = farewell_ == Farewell::over;
+    const bool whole = shutdown_ == ShutdownPhase::over;
     if (whole) transport_.flush();
     return whole;
 }
@@ -202,7 +202,7 @@ bool RankLoop::run(const StopFlag& stop) {
 /// told of others' all the same: rank 0 may keep a file of them.
 void RankLoop::exchange_values_in_time() {
     constexpr std::chrono::seconds kOften{1};
-    if (!ambient_client_ || farewell_ != Farewell::none) return;
+    if (!ambient_client_ || shutdown_ != ShutdownPhase::none) return;
     const auto now = std::chrono::steady_clock::now();
     if (now - exchanged_ < kOften) return;
     exchanged_ = now;
@@ -230,27 +230,27 @@ void RankLoop::say_goodbye() {
     const auto say = [&](std::uint32_t round) {
         dispatch({{transport_.rank(), Role::worker}, {0, Role::master}, Gather{round, {}}});
     };
-    switch (farewell_) {
-        case Farewell::none:
-            farewell_ = Farewell::telling;
+    switch (shutdown_) {
+        case ShutdownPhase::none:
+            shutdown_ = ShutdownPhase::telling;
             if (asks) exchange_values();
             return;
-        case Farewell::telling:
-            farewell_ = Farewell::told;
+        case ShutdownPhase::telling:
+            shutdown_ = ShutdownPhase::told;
             say(kLastValues);
             return;
-        case Farewell::heard:
-            farewell_ = Farewell::hearing;
+        case ShutdownPhase::heard:
+            shutdown_ = ShutdownPhase::hearing;
             if (asks && transport_.rank() == 0) exchange_values();
             return;
-        case Farewell::hearing:
-            farewell_ = Farewell::said;
+        case ShutdownPhase::hearing:
+            shutdown_ = ShutdownPhase::said;
             if (asks) ambient_client_->close();
             say(kGoodbye);
             return;
-        case Farewell::told:
-        case Farewell::said:
-        case Farewell::over:
+        case ShutdownPhase::told:
+        case ShutdownPhase::said:
+        case ShutdownPhase::over:
             return;
     }
 }
@@ -355,7 +355,7 @@ void RankLoop::deliver(Envelope envelope, Outbox& out) {
 void RankLoop::serve_gather(Envelope envelope, Outbox& out) {
     auto& message = std::get<Gather>(envelope.message);
     if (envelope.to.role != Role::master && message.round >= kLastValues) {
-        farewell_ = message.round == kGoodbye ? Farewell::over : Farewell::heard;
+        shutdown_ = message.round == kGoodbye ? ShutdownPhase::over : ShutdownPhase::heard;
         return;
     }
     if (envelope.to.role != Role::master) {  // all parts

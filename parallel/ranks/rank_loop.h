@@ -126,7 +126,7 @@ class RankLoop {
     std::optional<std::string> to_broadcast_, broadcast_;
     std::uint32_t round_ = 0;
 
-    enum class Farewell {
+    enum class ShutdownPhase {
         none,     ///< this rank has not ended
         telling,  ///< its last ambient values
         told,     ///< waits until all have
@@ -135,7 +135,7 @@ class RankLoop {
         said,     ///< goodbye: waits until all have
         over,
     };
-    Farewell farewell_ = Farewell::none;
+    ShutdownPhase shutdown_ = ShutdownPhase::none;
     struct Round {
         std::vector<std::string> parts;
         int missing = 0;

@@ -217,7 +217,7 @@ TEST_CASE("web abuse: a WebSocket that answers no ping is closed, one that only 
 
 TEST_CASE("web abuse: a client that will not take its farewell is cut off") {
     WebLimits limits;
-    limits.farewell = milliseconds(300);
+    limits.close_timeout = milliseconds(300);
     RunningServer server(limits);
     BareSocket client(server.port());
     REQUIRE(client.send(upgrade_text(server.port())));

@@ -222,7 +222,7 @@ TEST_CASE(
 
 TEST_CASE("web server: stop ends it though clients are there, and tells them") {
     WebLimits limits;
-    limits.farewell = milliseconds(300);
+    limits.close_timeout = milliseconds(300);
     RunningServer server(limits);
     WebClient client(server.port());
     BareSocket deaf(server.port()), silent(server.port());

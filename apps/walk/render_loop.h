@@ -9,7 +9,7 @@
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
 #include "apps/walk/walk_answers.h"
-#include "apps/walk/walk_desk.h"
+#include "apps/walk/client_inbox.h"
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_screen.h"
 #include "parallel/walk/live_walk.h"
@@ -17,12 +17,12 @@
 namespace lightwalk {
 
 /// Draws until it is told to stop. For one thread.
-class WalkRoom {
+class RenderLoop {
   public:
     /// All must outlive this.
     /// @param home  where the walk begins, which tells how high eyes are
-    WalkRoom(const RenderCommand& command, const SceneSession& session, const View& home,
-             LiveFrames& frames, Executor& executor, WarningSink& warnings, WalkDesk& desk,
+    RenderLoop(const RenderCommand& command, const SceneSession& session, const View& home,
+             LiveFrames& frames, Executor& executor, WarningSink& warnings, ClientInbox& client_inbox,
              WalkScreen& screen);
 
     /// Who draws it, for the page's numbers.
@@ -48,9 +48,9 @@ class WalkRoom {
         double reused = 0, pixels = 0;
     };
 
-    void answer(const WalkInbox& inbox);
+    void answer(const InboxContents& inbox);
     void ask(const WalkQuestion& question);
-    void save(const WalkInbox& inbox);
+    void save(const InboxContents& inbox);
     void measure_probes();
     void draw(const StopFlag& stop);
     void show(Clock::time_point now);
@@ -63,7 +63,7 @@ class WalkRoom {
 
     const RenderCommand& command_;
     const SceneSession& session_;
-    WalkDesk& desk_;
+    ClientInbox& client_inbox_;
     WalkScreen& screen_;
     int ranks_ = 1, threads_;
     bool has_indirect_;

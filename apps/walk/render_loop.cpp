@@ -1,4 +1,4 @@
-#include "apps/walk/walk_room.h"
+#include "apps/walk/render_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,12 +60,12 @@ WalkPhase phase_name(LivePhase phase) {
 
 }  // namespace
 
-WalkRoom::WalkRoom(const RenderCommand& command, const SceneSession& session, const View& home,
-                   LiveFrames& frames, Executor& executor, WarningSink& warnings, WalkDesk& desk,
+RenderLoop::RenderLoop(const RenderCommand& command, const SceneSession& session, const View& home,
+                   LiveFrames& frames, Executor& executor, WarningSink& warnings, ClientInbox& client_inbox,
                    WalkScreen& screen)
     : command_(command),
       session_(session),
-      desk_(desk),
+      client_inbox_(client_inbox),
       screen_(screen),
       threads_(executor.concurrency()),
       has_indirect_(frames.has_indirect()),
@@ -74,8 +74,8 @@ WalkRoom::WalkRoom(const RenderCommand& command, const SceneSession& session, co
       glare_(session.tracer(), executor, warnings),
       eye_height_(eye_height_of(session.scene(), home)) {}
 
-void WalkRoom::step(const StopFlag& stop) {
-    answer(desk_.take(patience()));
+void RenderLoop::step(const StopFlag& stop) {
+    answer(client_inbox_.take(patience()));
     if (!wish_.view || stop.requested()) return;
     const Clock::time_point begin = Clock::now();
     draw(stop);
@@ -83,14 +83,14 @@ void WalkRoom::step(const StopFlag& stop) {
     const bool hurries = live_.picture().phase == LivePhase::moving;
     const bool shows = drawn_ && (hurries || now - shown_at_ >= kProgressiveInterval);
     if (shows) show(now);
-    screen_.acked(desk_.take_acks());  // that came meanwhile: they tell who may be sent a frame
-    screen_.send(desk_, Clock::now());
+    screen_.acked(client_inbox_.pop_acks());  // that came meanwhile: they tell who may be sent a frame
+    screen_.send(client_inbox_, Clock::now());
     if (shows && hurries) note_pace(begin);
     report(now);
     if (!wish_.probes.empty() && !hurries && now - measured_at_ >= kProbeInterval) measure_probes();
 }
 
-std::chrono::milliseconds WalkRoom::patience() const {
+std::chrono::milliseconds RenderLoop::patience() const {
     if (!wish_.view) return kIdle;
     if (has_work()) return std::chrono::milliseconds(0);
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -98,11 +98,11 @@ std::chrono::milliseconds WalkRoom::patience() const {
     return std::max(left, std::chrono::milliseconds(1));
 }
 
-bool WalkRoom::has_work() const {
+bool RenderLoop::has_work() const {
     return !drawn_ || live_.picture().phase != LivePhase::done || glare_.is_asked();
 }
 
-void WalkRoom::answer(const WalkInbox& inbox) {
+void RenderLoop::answer(const InboxContents& inbox) {
     for (const ClientId client : inbox.joined) screen_.join(client);
     if (!inbox.joined.empty()) told_.reset();
     for (const ClientId client : inbox.left) screen_.leave(client);
@@ -118,7 +118,7 @@ void WalkRoom::answer(const WalkInbox& inbox) {
     if (inbox.wish.view && wish_.view && inbox.wish.view->id != wish_.view->id) shown_ = false;
     wish_ = inbox.wish;
     if (moved) {
-        glare_.forget(desk_);
+        glare_.forget(client_inbox_);
         view_ = on_the_ground(*wish_.view);
         moved_ = now;
     }
@@ -128,7 +128,7 @@ void WalkRoom::answer(const WalkInbox& inbox) {
     save(inbox);
 }
 
-View WalkRoom::on_the_ground(const ViewRequest& request) const {
+View RenderLoop::on_the_ground(const ViewRequest& request) const {
     View view = request.view;
     if (!request.walk) return view;
     const std::optional<double> height =
@@ -138,7 +138,7 @@ View WalkRoom::on_the_ground(const ViewRequest& request) const {
     return view;
 }
 
-AmbientUse WalkRoom::ambient_use() const {
+AmbientUse RenderLoop::ambient_use() const {
     if (!has_indirect_) return AmbientUse::off;
     switch (wish_.settings.ambient) {
         case WalkAmbient::rest:
@@ -151,9 +151,9 @@ AmbientUse WalkRoom::ambient_use() const {
     return AmbientUse::off;
 }
 
-void WalkRoom::draw(const StopFlag& stop) {
+void RenderLoop::draw(const StopFlag& stop) {
     const double budget = std::max(1 / command_.walk->rate - aside_seconds_, 0.001);
-    if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, desk_);
+    if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;
     if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop))
         return;
@@ -167,13 +167,13 @@ void WalkRoom::draw(const StopFlag& stop) {
 }
 
 /// Not where nothing is new: neither pixels nor their colours.
-void WalkRoom::show(Clock::time_point now) {
+void RenderLoop::show(Clock::time_point now) {
     if (shown_ && now - moved_ > kAdaptationTime) return;
     const ShownView view{wish_.view->id, view_->position,
                          live_.picture().phase != LivePhase::moving,
                          live_.picture().phase == LivePhase::done};
     screen_.show(live_.picture(), display_settings(wish_.display), view, now);
-    if (told_ != view_) desk_.tell_watchers(walk_text(ViewReply{*view_}));
+    if (told_ != view_) client_inbox_.tell_watchers(walk_text(ViewReply{*view_}));
     told_ = view_;
     shown_ = true;
     shown_at_ = now;
@@ -181,7 +181,7 @@ void WalkRoom::show(Clock::time_point now) {
 }
 
 /// What a frame takes beside the steps that a budget is for is not left for these.
-void WalkRoom::note_pace(Clock::time_point begin) {
+void RenderLoop::note_pace(Clock::time_point begin) {
     constexpr double kShare = 0.2;
     const CloudReport& report = live_.picture().report;
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count() -
@@ -190,7 +190,7 @@ void WalkRoom::note_pace(Clock::time_point begin) {
     aside_seconds_ += kShare * (seconds - aside_seconds_);
 }
 
-void WalkRoom::report(Clock::time_point now) {
+void RenderLoop::report(Clock::time_point now) {
     if (now - pace_.since < kStateInterval) return;
     const double seconds = std::chrono::duration<double>(now - pace_.since).count();
     StateReply state;
@@ -202,29 +202,29 @@ void WalkRoom::report(Clock::time_point now) {
     state.ranks = ranks_;
     state.threads = threads_;
     state.points = live_.picture().report.points;
-    desk_.tell_all(walk_text(state));
+    client_inbox_.tell_all(walk_text(state));
     pace_ = {now, 0, 0, 0, 0};
 }
 
-void WalkRoom::ask(const WalkQuestion& question) {
+void RenderLoop::ask(const WalkQuestion& question) {
     if (!view_ || live_.picture().radiance.empty()) {
         const std::uint32_t id =
             std::visit([](const auto& asked) { return asked.id; }, question.ask);
-        desk_.tell(question.client, walk_text(RefusedReply{"there is no picture yet", id}));
+        client_inbox_.tell(question.client, walk_text(RefusedReply{"there is no picture yet", id}));
         return;
     }
     if (const auto* pick = std::get_if<PickRequest>(&question.ask)) {
         const std::pair<double, double> pixel{1.0 / live_.picture().width,
                                               1.0 / live_.picture().height};
-        desk_.tell(question.client, walk_text(answers_.pick(*pick, Camera(*view_), pixel)));
+        client_inbox_.tell(question.client, walk_text(answers_.pick(*pick, Camera(*view_), pixel)));
     } else if (const auto* mean = std::get_if<MeanRequest>(&question.ask)) {
-        desk_.tell(question.client, walk_text(WalkAnswers::mean(*mean, live_.picture())));
+        client_inbox_.tell(question.client, walk_text(WalkAnswers::mean(*mean, live_.picture())));
     } else if (const auto* glare = std::get_if<GlareRequest>(&question.ask)) {
         glare_.ask(question.client, *glare, *view_);
     }
 }
 
-void WalkRoom::save(const WalkInbox& inbox) {
+void RenderLoop::save(const InboxContents& inbox) {
     for (const WebReply& reply : inbox.saves) {
         if (!view_ || live_.picture().radiance.empty()) {
             reply({503, "text/plain; charset=utf-8", "there is no picture yet\n", {}});
@@ -239,12 +239,12 @@ void WalkRoom::save(const WalkInbox& inbox) {
     }
 }
 
-void WalkRoom::measure_probes() {
+void RenderLoop::measure_probes() {
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
         reply.probes.push_back(answers_.measure(probe, view_->position));
     reply.settled = live_.picture().phase == LivePhase::done ? 1 : live_.picture().share;
-    desk_.tell_all(walk_text(reply));
+    client_inbox_.tell_all(walk_text(reply));
     measured_at_ = Clock::now();
 }
 

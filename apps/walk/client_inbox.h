@@ -10,7 +10,7 @@
 
 #include "io/net/walk_reply.h"
 #include "io/net/walk_request.h"
-#include "io/net/walk_seats.h"
+#include "io/net/driver_lock.h"
 #include "io/net/web_server.h"
 
 namespace lightwalk {
@@ -37,7 +37,7 @@ struct WalkAck {
 };
 
 /// All that has come since the last time.
-struct WalkInbox {
+struct InboxContents {
     WalkWish wish;  ///< the newest one
     bool new_probes = false;
     std::vector<WalkQuestion> questions;
@@ -47,19 +47,19 @@ struct WalkInbox {
 };
 
 /// Answers by itself who drives, and greets; everything else waits in the inbox.
-class WalkDesk final : public WebHandler {
+class ClientInbox final : public WebHandler {
   public:
     /// @param welcome  what newcomers are told, but for what is theirs
-    explicit WalkDesk(WelcomeReply welcome);
+    explicit ClientInbox(WelcomeReply welcome);
 
-    /// Before the server runs; it must outlive the desk's use.
+    /// Before the server runs; it must outlive the inbox's use.
     void attach(WebServer& server) { server_ = &server; }
 
     // For the drawing thread.
     /// Waits for something, so long at most.
-    [[nodiscard]] WalkInbox take(std::chrono::milliseconds longest);
+    [[nodiscard]] InboxContents pop(std::chrono::milliseconds longest);
     /// Only the acknowledgements.
-    [[nodiscard]] std::vector<WalkAck> take_acks();
+    [[nodiscard]] std::vector<WalkAck> pop_acks();
     /// What becomes of the scene: all are told, and those who come later.
     void announce(const LoadingReply& reply);
     void announce(const FailedReply& reply);
@@ -99,8 +99,8 @@ class WalkDesk final : public WebHandler {
     mutable std::mutex mutex_;
     std::condition_variable news_;
     bool has_news_ = false;
-    WalkInbox inbox_;
-    WalkSeats seats_;
+    InboxContents inbox_;
+    DriverLock driver_lock_;
     WelcomeReply welcome_;
     std::string stage_;  ///< what was announced last
 };

@@ -10,7 +10,7 @@
 
 namespace lightwalk {
 
-class WalkSeats {
+class DriverLock {
   public:
     /// Walks that are remembered for clients that return.
     static constexpr std::size_t kMostSessions = 64;
@@ -20,7 +20,7 @@ class WalkSeats {
     /// Nobody drives when the driver leaves, until somebody takes over.
     void leave(ClientId client);
     /// A watcher wants to drive. False: somebody does, or it has not said hello.
-    bool take(ClientId client);
+    bool acquire(ClientId client);
     /// The driver hands over. False: it does not drive, or the other is not there.
     bool hand(ClientId from, ClientId to);
 
@@ -35,7 +35,7 @@ class WalkSeats {
     [[nodiscard]] std::optional<View> place(ClientId client) const;
 
   private:
-    struct Seat {
+    struct Member {
         ClientId client;
         std::string session;
     };
@@ -43,10 +43,10 @@ class WalkSeats {
         std::string name;
         std::optional<View> view;
     };
-    [[nodiscard]] const Seat* seat(ClientId client) const;
+    [[nodiscard]] const Member* member(ClientId client) const;
     [[nodiscard]] const Session* session(ClientId client) const;
 
-    std::vector<Seat> seats_;
+    std::vector<Member> members_;
     std::deque<Session> sessions_;  ///< the newest last
     std::optional<ClientId> driver_;
 };
