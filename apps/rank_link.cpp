@@ -328,7 +328,8 @@ void RankLink::take(Envelope envelope) {
     } else if (const auto* progress = std::get_if<Progress>(&message)) {
         shares_[progress->job] = progress->done;
     } else if (auto* pixels = std::get_if<Pixels>(&message)) {
-        if (const auto checkpoint = checkpoints_.find(pixels->work.job); checkpoint != checkpoints_.end())
+        if (const auto checkpoint = checkpoints_.find(pixels->work.job);
+            checkpoint != checkpoints_.end())
             checkpoint->second->keep({pixels->work.block, std::move(pixels->values), {}});
     } else if (const auto* ask = std::get_if<AskChunks>(&message)) {
         ray_news_.chunks += ask->chunks;

@@ -44,6 +44,6 @@ void check_launch(const RankOptions& options, bool by_mpi);
 /// are too few to spare any, and `ranks` otherwise. Throws UsageError where it cannot be.
 /// @param threads  of each rank
 [[nodiscard]] Variant resolve_variant(const RankOptions& options, int ranks, int threads,
-                                     bool ambient);
+                                      bool ambient);
 
 }  // namespace lightwalk

@@ -10,10 +10,10 @@
 #include "apps/progress.h"
 #include "apps/rank_link.h"
 #include "apps/rank_work.h"
+#include "parallel/cache_prepass.h"
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"
 #include "parallel/freezable_cache.h"
-#include "parallel/cache_prepass.h"
 
 namespace lightwalk {
 
@@ -35,8 +35,8 @@ struct PictureOrder {
 class LeadPictures final : public PictureMaker {
   public:
     /// Everything must outlive this.
-    LeadPictures(RankLink& link, const Tracer& tracer, CachePrepass prepass, WorkerContexts& contexts,
-                 const ProgressOptions& progress)
+    LeadPictures(RankLink& link, const Tracer& tracer, CachePrepass prepass,
+                 WorkerContexts& contexts, const ProgressOptions& progress)
         : link_(link),
           tracer_(tracer),
           prepass_(prepass),

@@ -32,7 +32,8 @@ std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& option
     settings.encode = encode_piece;
     settings.rays = work.rays;
     settings.projectors = work.projectors;
-    // Chunks of rays are few, and so are the uncached pixels of a walk's frames: one master deals them out.
+    // Chunks of rays are few, and so are the uncached pixels of a walk's frames: one master deals
+    // them out.
     const int masters = work.rays || work.projectors > 0 ? 1 : wanted.masters;
     return std::make_unique<RankLink>(*transport,
                                       make_topology(variant, transport->size(), ambient, masters),

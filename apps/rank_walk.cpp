@@ -20,7 +20,7 @@ class SceneRays final : public WalkRays {
           caster_(tracer, visibility, camera_, options, contexts, stop) {}
     [[nodiscard]] const Camera& camera() const override { return camera_; }
     void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-              int worker) override {
+               int worker) override {
         caster_.probe(places, visibility, worker);
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
@@ -109,8 +109,8 @@ std::unique_ptr<WalkRays> RankWalk::make_rays(const CloudOrder& order, Executor&
     options.height = order.height;
     const PictureOrder picture = decode_order(order.payload);
     if (direct_ != nullptr && !picture.indirect)
-        return std::make_unique<SceneRays>(picture.view, direct_->tracer, direct_->visibility, options,
-                                           direct_->contexts, stop_);
+        return std::make_unique<SceneRays>(picture.view, direct_->tracer, direct_->visibility,
+                                           options, direct_->contexts, stop_);
     auto rays = std::make_unique<SceneRays>(picture.view, session_.tracer(), probe_, options,
                                             contexts_, stop_);
     if (order.rules.empty || prepass_ == CachePrepass::deterministic)

@@ -46,7 +46,8 @@ class RenderRun {
         if (command_.first_frame == 0)
             (void)Camera(command_.view);  // a bad view is told before the scene is read
         resolve_scene_files(command_.common,
-                           command_.first_frame > 0 ? "the views of the sequence (-S)" : "", files);
+                            command_.first_frame > 0 ? "the views of the sequence (-S)" : "",
+                            files);
         // mpirun shows its processes a terminal, whatever becomes of their output.
         if (transport_ == nullptr && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
@@ -77,8 +78,8 @@ class RenderRun {
     std::unique_ptr<PictureMaker> local_pictures() {
         if (reuses())
             return std::make_unique<CloudPictures>(
-                *session_, prepass(), command_.walk->cloud, walk_length(*command_.walk),
-                *executor_, *contexts_, progress_options(), warnings_, statistics_);
+                *session_, prepass(), command_.walk->cloud, walk_length(*command_.walk), *executor_,
+                *contexts_, progress_options(), warnings_, statistics_);
         return std::make_unique<LocalPictures>(*session_, prepass(), *executor_, *contexts_,
                                                progress_options(), warnings_, statistics_);
     }

@@ -30,7 +30,7 @@ struct RenderCommand {
     bool resume = false;                             ///< --resume
     double report_interval = 0;                      ///< -t [s]
     ToneMapping tone;                                ///< --exposure --tone
-    bool prepass = true;                            ///< --prepass auto|off
+    bool prepass = true;                             ///< --prepass auto|off
     bool deterministic = false;                      ///< --deterministic
     int first_frame = 0;  ///< -S: number of the first frame of a sequence; 0: one picture
     std::optional<WalkCommand> walk;    ///< of `lightwalk animate`; nothing for `render`

@@ -59,11 +59,15 @@ class Collecting {
 /// While it lives the values that a worker computes on the way are kept.
 class RecordCollector {
   public:
-    explicit RecordCollector(TraceContext& context) : context_(context) { context.new_records = &new_records_; }
+    explicit RecordCollector(TraceContext& context) : context_(context) {
+        context.new_records = &new_records_;
+    }
     ~RecordCollector() { context_.new_records = nullptr; }
     RecordCollector(const RecordCollector&) = delete;
     RecordCollector& operator=(const RecordCollector&) = delete;
-    [[nodiscard]] std::vector<NewAmbientRecord> take() { return std::move(new_records_.new_records); }
+    [[nodiscard]] std::vector<NewAmbientRecord> take() {
+        return std::move(new_records_.new_records);
+    }
 
   private:
     TraceContext& context_;
@@ -191,7 +195,7 @@ std::vector<char> AmbientRounds::served(const AmbientPoint* points, std::size_t 
     return result;
 }
 
-void AmbientRounds::compute(std::vector<AmbientPoint> points) {
+void AmbientRounds::compute_in_rounds(std::vector<AmbientPoint> points) {
     if (points.empty()) return;
     const auto level = static_cast<std::size_t>(points.front().query.level);
     Waiting waiting(*this, std::move(points));
@@ -215,7 +219,7 @@ void AmbientRounds::compute(std::vector<AmbientPoint> points) {
 /// Before values are computed: those of the next level that they will need.
 void AmbientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
     if (chosen.front().query.level + 1 >= tracer_.options().ambient_bounces) return;
-    compute(collect([&] {
+    compute_in_rounds(collect([&] {
         const auto prefetch = [&](std::size_t task, int worker) {
             if (exchange_.does(task)) calculation_.prefetch(chosen[task], contexts_[worker]);
         };

@@ -30,9 +30,9 @@ class AmbientRounds {
     /// What was done, for one level.
     struct Counts {
         std::size_t rounds = 0;
-        std::size_t values = 0;    ///< computed in them
-        std::size_t needless = 0;  ///< of these: another one of their round would have served
-        std::size_t new_records = 0;     ///< computed on the way to values of the level above
+        std::size_t values = 0;       ///< computed in them
+        std::size_t needless = 0;     ///< of these: another one of their round would have served
+        std::size_t new_records = 0;  ///< computed on the way to values of the level above
     };
 
     /// All must outlive this; `cache` is the one that `tracer` uses, and is left frozen: it takes
@@ -49,7 +49,7 @@ class AmbientRounds {
 
     /// Compute values until each of the points, which are of one level, has one that serves it, or
     /// cannot have. Their order does not matter.
-    void compute(std::vector<AmbientPoint> points);
+    void compute_in_rounds(std::vector<AmbientPoint> points);
 
     /// A stop was requested, of this process or of another: nothing is done any more.
     [[nodiscard]] bool stopped() const { return stopped_; }

@@ -112,7 +112,7 @@ class DeterministicPrepass {
         std::vector<AmbientPoint> points = rounds_.collect([&] { look_at(coarse); });
         points_ = points.size();
         if (!rounds_.stopped()) tell(points.empty() ? 1 : kLooked);
-        rounds_.compute(std::move(points));
+        rounds_.compute_in_rounds(std::move(points));
         if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points were served by others
         sum_.add(step_, players_.contexts.rays(), players_.contexts.ambient());
         return !rounds_.stopped();
@@ -188,10 +188,10 @@ std::size_t prepass_pixels(const FrameOptions& options, CachePrepass prepass) {
 }
 
 CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
-                                  const FrameOptions& options, CachePrepass prepass,
-                                  FreezableCache& cache, Executor& executor,
-                                  WorkerContexts& contexts, const StopFlag& stop,
-                                  TakeProgress progress, RoundExchange* exchange) {
+                                      const FrameOptions& options, CachePrepass prepass,
+                                      FreezableCache& cache, Executor& executor,
+                                      WorkerContexts& contexts, const StopFlag& stop,
+                                      TakeProgress progress, RoundExchange* exchange) {
     const std::vector<int> steps = steps_of(prepass);
     CachePrepassSum sum(steps, progress);
     NoExchange alone;

@@ -43,10 +43,10 @@ inline constexpr int kQuickStep = 6;
 ///                  `deterministic` prepass, and end with the same cache; null: there are none.
 ///                  Counters tell of this process alone
 [[nodiscard]] CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
-                                                const FrameOptions& options, CachePrepass prepass,
-                                                FreezableCache& cache, Executor& executor,
-                                                WorkerContexts& contexts, const StopFlag& stop,
-                                                TakeProgress progress,
-                                                RoundExchange* exchange = nullptr);
+                                                    const FrameOptions& options,
+                                                    CachePrepass prepass, FreezableCache& cache,
+                                                    Executor& executor, WorkerContexts& contexts,
+                                                    const StopFlag& stop, TakeProgress progress,
+                                                    RoundExchange* exchange = nullptr);
 
 }  // namespace lightwalk

@@ -70,8 +70,8 @@ void store(const BlockPixels& pixels, const PixelRectangle& area, Frame& frame) 
 }
 
 /// Puts what is known into the frame; returns what is left of the blocks.
-std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Block>& wanted, int alignment,
-                              const PixelRectangle& area, Frame& frame) {
+std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Block>& wanted,
+                              int alignment, const PixelRectangle& area, Frame& frame) {
     std::vector<PixelRectangle> known;
     for (const BlockPixels& pixels : checkpoint.known()) {
         store(pixels, area, frame);
@@ -114,7 +114,8 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     const int side =
         block_side(area.width(), area.height(), executor.concurrency(), renderer.alignment());
     std::vector<Block> wanted = make_blocks(area, side);
-    if (checkpoint != nullptr) wanted = take_known(*checkpoint, wanted, renderer.alignment(), area, frame);
+    if (checkpoint != nullptr)
+        wanted = take_known(*checkpoint, wanted, renderer.alignment(), area, frame);
     std::size_t pixels_wanted = 0;
     for (const Block& block : wanted) pixels_wanted += block.pixels();
     BlockQueue blocks(std::move(wanted));

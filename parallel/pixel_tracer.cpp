@@ -45,8 +45,9 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
         if (hits.empty()) continue;
         // Shading finds sources at infinity; what is nearer was known before.
         const Hit& first = hits_[k].exists() ? hits_[k] : ray.hit;
-        hits[targets_[k]] = {true,           first.surface,         first.modifier,
-                             first.position, ray.reflected_path_length, ray.mirrored};
+        hits[targets_[k]] = {
+            true,        first.surface, first.modifier, first.position, ray.reflected_path_length,
+            ray.mirrored};
     }
 }
 

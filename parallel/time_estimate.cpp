@@ -25,7 +25,8 @@ constexpr double kFitRange = 4;   ///< ratio of the shares between which an expo
 
 }  // namespace
 
-std::vector<WorkPhase> plan_picture(const FrameOptions& options, CachePrepass prepass, int workers) {
+std::vector<WorkPhase> plan_picture(const FrameOptions& options, CachePrepass prepass,
+                                    int workers) {
     std::vector<WorkPhase> phases;
     if (prepass != CachePrepass::none) {
         phases.push_back({WorkPhase::Kind::prepass,

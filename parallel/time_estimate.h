@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "parallel/frame_options.h"
 #include "parallel/cache_prepass.h"
+#include "parallel/frame_options.h"
 #include "parallel/progress.h"
 
 namespace lightwalk {

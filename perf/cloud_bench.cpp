@@ -76,8 +76,9 @@ void frames_of_a_turn(benchmark::State& state) {
     const auto draw = [&](int step) {
         const Camera camera(turned_view(living_room(), 0.6 * step));
         SceneCaster caster(scene.tracer(), scene.visibility(), camera, options, contexts, stop);
-        const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                              int worker) { caster.probe(places, visibility, worker); };
+        const auto probe = [&](std::span<const PixelPlace> places,
+                               std::span<PixelVisibility> visibility,
+                               int worker) { caster.probe(places, visibility, worker); };
         const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                                int, int worker) {
             std::vector<PixelVisibility> visibility(places.size());
@@ -85,7 +86,7 @@ void frames_of_a_turn(benchmark::State& state) {
             for (std::size_t i = 0; i < places.size(); ++i)
                 pixels[i] = {visibility[i], Rgb::grey(1), {}, visibility[i].ahead.distance};
         };
-        return frames.draw(camera, {look, trace}, *executor, stop);
+        return frames.draw(camera, {probe, trace}, *executor, stop);
     };
     (void)draw(0);
     double project = 0, check = 0, keep = 0, points = 0, reused = 0;

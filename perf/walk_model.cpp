@@ -20,9 +20,9 @@ using Json = nlohmann::ordered_json;
 WalkCosts read_costs(const nlohmann::json& json) {
     WalkCosts c;
     const std::map<std::string, double*> names{
-        {"project", &c.project}, {"check", &c.check},   {"trace", &c.trace},
-        {"keep", &c.keep},       {"encode", &c.encode}, {"decode", &c.decode},
-        {"points", &c.points},   {"holes", &c.uncached},   {"packed_bytes", &c.packed_bytes},
+        {"project", &c.project}, {"check", &c.check},    {"trace", &c.trace},
+        {"keep", &c.keep},       {"encode", &c.encode},  {"decode", &c.decode},
+        {"points", &c.points},   {"holes", &c.uncached}, {"packed_bytes", &c.packed_bytes},
         {"shift", &c.shift}};
     for (const auto& [name, value] : json.items()) {
         if (names.find(name) == names.end())

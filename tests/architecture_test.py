@@ -17,7 +17,7 @@ FORBIDDEN_HEADERS = {
 # Folders from the lowest to the highest: a file may include files of its own folder and of those before it.
 # "." are the files that lie in no subfolder; None: not held yet.
 ORDER = {
-    "core": [".", "math", "model", "view", "glare", "function", "geometry", "scene", "transport", "texture", "light", "relay", "material", "ambient", "wave", "trace", "cloud"],
+    "core": [".", "math", "model", "view", "glare", "function", "geometry", "scene", "transport", "texture", "light", "virtual_source", "material", "ambient", "batch", "trace", "cloud"],
     "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "generators", "scene", "net"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)

@@ -145,7 +145,7 @@ void ClientInbox::accept(ClientId client, const ProbesRequest& request) {
 }
 
 void ClientInbox::accept(ClientId client, const TakeRequest&) {
-    if (driver_lock_.take(client))
+    if (driver_lock_.acquire(client))
         announce_roles();
     else
         server_->send_text(client, walk_text(RefusedReply{"somebody else drives", {}}));

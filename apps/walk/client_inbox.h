@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "io/net/driver_lock.h"
 #include "io/net/walk_reply.h"
 #include "io/net/walk_request.h"
-#include "io/net/driver_lock.h"
 #include "io/net/web_server.h"
 
 namespace lightwalk {

@@ -76,8 +76,8 @@ const ProgressivePicture* RankFrames::progressive(const StopFlag& stop) {
     return lead_->progressive();
 }
 
-std::vector<PixelValue> RankFrames::trace(const View& view, const ProgressiveWork& work, double seconds,
-                                          const StopFlag& stop) {
+std::vector<PixelValue> RankFrames::trace(const View& view, const ProgressiveWork& work,
+                                          double seconds, const StopFlag& stop) {
     lead_->set_limits(seconds, cloud_.refine);
     const std::optional<FinishedFrame> finished =
         finish(lead_->trace(work, payload(view, true)), stop);

@@ -61,8 +61,8 @@ WalkPhase phase_name(LivePhase phase) {
 }  // namespace
 
 RenderLoop::RenderLoop(const RenderCommand& command, const SceneSession& session, const View& home,
-                   LiveFrames& frames, Executor& executor, WarningSink& warnings, ClientInbox& client_inbox,
-                   WalkScreen& screen)
+                       LiveFrames& frames, Executor& executor, WarningSink& warnings,
+                       ClientInbox& client_inbox, WalkScreen& screen)
     : command_(command),
       session_(session),
       client_inbox_(client_inbox),
@@ -75,7 +75,7 @@ RenderLoop::RenderLoop(const RenderCommand& command, const SceneSession& session
       eye_height_(eye_height_of(session.scene(), home)) {}
 
 void RenderLoop::step(const StopFlag& stop) {
-    answer(client_inbox_.take(patience()));
+    answer(client_inbox_.pop(patience()));
     if (!wish_.view || stop.requested()) return;
     const Clock::time_point begin = Clock::now();
     draw(stop);
@@ -83,7 +83,8 @@ void RenderLoop::step(const StopFlag& stop) {
     const bool hurries = live_.picture().phase == LivePhase::moving;
     const bool shows = drawn_ && (hurries || now - shown_at_ >= kProgressiveInterval);
     if (shows) show(now);
-    screen_.acked(client_inbox_.pop_acks());  // that came meanwhile: they tell who may be sent a frame
+    screen_.acked(
+        client_inbox_.pop_acks());  // that came meanwhile: they tell who may be sent a frame
     screen_.send(client_inbox_, Clock::now());
     if (shows && hurries) note_pace(begin);
     report(now);

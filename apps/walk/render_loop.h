@@ -8,8 +8,8 @@
 
 #include "apps/render_command.h"
 #include "apps/scene_session.h"
-#include "apps/walk/walk_answers.h"
 #include "apps/walk/client_inbox.h"
+#include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_screen.h"
 #include "parallel/walk/live_walk.h"
@@ -22,8 +22,8 @@ class RenderLoop {
     /// All must outlive this.
     /// @param home  where the walk begins, which tells how high eyes are
     RenderLoop(const RenderCommand& command, const SceneSession& session, const View& home,
-             LiveFrames& frames, Executor& executor, WarningSink& warnings, ClientInbox& client_inbox,
-             WalkScreen& screen);
+               LiveFrames& frames, Executor& executor, WarningSink& warnings,
+               ClientInbox& client_inbox, WalkScreen& screen);
 
     /// Who draws it, for the page's numbers.
     void set_company(int ranks, int threads) {

@@ -11,8 +11,8 @@
 #include "apps/render_command.h"
 #include "apps/walk/pages.h"
 #include "apps/walk/rank_frames.h"
-#include "apps/walk/walk_light.h"
 #include "apps/walk/render_loop.h"
+#include "apps/walk/walk_light.h"
 #include "apps/warnings.h"
 #include "io/files/watched_files.h"
 #include "io/net/web_rules.h"
@@ -251,7 +251,8 @@ class WalkProgram {
                           : command_.view_given          ? command_.view
                                                          : view_of(session.scene());
         client_inbox_.set_home(home);
-        RenderLoop loop(command_, session, home, frames, *executor_, warnings_, client_inbox_, screen_);
+        RenderLoop loop(command_, session, home, frames, *executor_, warnings_, client_inbox_,
+                        screen_);
         if (link_ != nullptr) loop.set_company(link_->ranks(), command_.common.workers);
         LoadedReply loaded;
         loaded.views = command_.serve->views;
@@ -271,14 +272,15 @@ class WalkProgram {
     /// After a scene that cannot be read. What comes meanwhile is of no use any more.
     void wait_for_change(const ServerThread& serving) {
         while (!watched_->have_changed() && !interrupt_flag().requested() && !serving.ended()) {
-            const InboxContents inbox = client_inbox_.take(kLookAtFiles);
+            const InboxContents inbox = client_inbox_.pop(kLookAtFiles);
             for (const ClientId client : inbox.joined) screen_.join(client);
             for (const ClientId client : inbox.left) screen_.leave(client);
             for (const WebReply& reply : inbox.saves)
                 reply({503, "text/plain; charset=utf-8", "there is no scene\n", {}});
             for (const WalkQuestion& question : inbox.questions) {
                 const auto id = std::visit([](const auto& ask) { return ask.id; }, question.ask);
-                client_inbox_.tell(question.client, walk_text(RefusedReply{"there is no scene", id}));
+                client_inbox_.tell(question.client,
+                                   walk_text(RefusedReply{"there is no scene", id}));
             }
         }
     }

@@ -23,15 +23,16 @@ class BatchScope {
 }  // namespace
 
 void ShadingBatch::run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
-                  TraceContext& context) {
+                       TraceContext& context) {
     level_ = context.ambient_level;
     around_ = context.batch;
     for (std::size_t first = 0; first < count; first += tasks_.size())
         run_part(first, std::min(tasks_.size(), count - first), body, calculate, context);
 }
 
-void ShadingBatch::run_part(std::size_t first, std::size_t count, FunctionRef<void(std::size_t)> body,
-                       Calculate calculate, TraceContext& context) {
+void ShadingBatch::run_part(std::size_t first, std::size_t count,
+                            FunctionRef<void(std::size_t)> body, Calculate calculate,
+                            TraceContext& context) {
     const int depth = context.depth;
     if (depth == 0) context.start_path();  // one for all
     const auto work = [&] {

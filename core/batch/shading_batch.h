@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/transport/tracer.h"
 #include "core/batch/fibers.h"
+#include "core/transport/tracer.h"
 
 namespace lightwalk {
 
@@ -24,8 +24,8 @@ class ShadingBatch {
     explicit ShadingBatch(std::unique_ptr<Fibers> fibers)
         : fibers_(std::move(fibers)), tasks_(fibers_->size()) {}
 
-    /// body(i) for i = 0 ... count - 1, in which context.batch is this; `calculate` runs outside. What a
-    /// body throws ends the run when all have ended: the first one's exception goes on.
+    /// body(i) for i = 0 ... count - 1, in which context.batch is this; `calculate` runs outside.
+    /// What a body throws ends the run when all have ended: the first one's exception goes on.
     void run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
              TraceContext& context);
 

@@ -30,10 +30,11 @@ struct CloudPoint {
     std::array<float, 3> position{};  ///< world; an image's behind its mirror; a background's 1e10
                                       ///< m away [m]
     Rgb radiance;                     ///< as traced, its share of the pixel [W/(m² sr)]
-    std::uint32_t surface = 0;    ///< what the light met on its way to the eye (see PrimaryVisibility::surface)
-    std::uint32_t direction = 0;  ///< of the ray that saw it (encode_direction)
-    float max_view_angle = kAnyViewAngle;  ///< how far that direction may turn before the colour is wrong; see
-                            ///< kAnyViewAngle [rad]
+    std::uint32_t surface =
+        0;  ///< what the light met on its way to the eye (see PrimaryVisibility::surface)
+    std::uint32_t direction = 0;           ///< of the ray that saw it (encode_direction)
+    float max_view_angle = kAnyViewAngle;  ///< how far that direction may turn before the colour is
+                                           ///< wrong; see kAnyViewAngle [rad]
     PointKind kind = PointKind::plain;
     std::uint8_t age = 0;  ///< frames since it was last used
     std::uint8_t old = 0;  ///< frames since it was traced, at most 255
@@ -52,7 +53,8 @@ static_assert(sizeof(CloudPoint) <= 40, "millions of points are kept");
 [[nodiscard]] inline bool holds_from(const CloudPoint& point, const Vec3& direction,
                                      double tightness) {
     if (point.max_view_angle == kAnyViewAngle) return true;
-    const double most = static_cast<double>(point.max_view_angle) * tightness;  // chords are hardly shorter
+    const double most =
+        static_cast<double>(point.max_view_angle) * tightness;  // chords are hardly shorter
     return length_squared(decode_direction(point.direction) - direction) <= most * most;
 }
 

@@ -6,11 +6,12 @@ namespace lightwalk {
 namespace {
 
 /// The point of one visible thing, unless nothing of it can be reused.
-void add_point(const PrimaryVisibility& seen_thing, const Rgb& radiance, const TracedPixel& pixel, double tolerance,
-               PixelPoints& result) {
+void add_point(const PrimaryVisibility& seen_thing, const Rgb& radiance, const TracedPixel& pixel,
+               double tolerance, PixelPoints& result) {
     if (!seen_thing.seen || seen_thing.slope == kNeverReuse) return;
     CloudPoint& point = result.points[result.count++];
-    point.position = {static_cast<float>(seen_thing.position.x), static_cast<float>(seen_thing.position.y),
+    point.position = {static_cast<float>(seen_thing.position.x),
+                      static_cast<float>(seen_thing.position.y),
                       static_cast<float>(seen_thing.position.z)};
     point.radiance = radiance;
     point.surface = seen_thing.surface;
@@ -37,8 +38,8 @@ PixelPoints points_of(const TracedPixel& pixel, double tolerance) {
         return result;
     const Rgb mirrored = visibility.mirrored.seen ? pixel.mirrored : Rgb{};
     add_point(visibility.ahead, pixel.radiance - mirrored, pixel, tolerance, result);
-    add_point(visibility.mirrored, visibility.ahead.seen ? mirrored : pixel.radiance, pixel, tolerance,
-              result);
+    add_point(visibility.mirrored, visibility.ahead.seen ? mirrored : pixel.radiance, pixel,
+              tolerance, result);
     for (CloudPoint& point : result.points) point.paired = result.count == 2;
     return result;
 }

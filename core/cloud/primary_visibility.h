@@ -48,8 +48,9 @@ struct TracedPixel {
 /// The caster of rays. Many workers call it at once, each with its own number.
 struct PixelCaster {
     /// Cheap: what the pixels' rays see. Of slopes only kNeverReuse counts.
-    FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility, int worker)>
-        look;
+    FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+                     int worker)>
+        probe;
     /// Dear: the pixels themselves, with the same visibility.
     /// @param sample  0: the rays that were looked along; 1, 2, ...: others through the same
     /// pixels,

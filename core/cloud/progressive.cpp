@@ -18,7 +18,8 @@ bool is_step(const Rgb& a, const Rgb& b) {
 
 }  // namespace
 
-void ProgressivePicture::begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins) {
+void ProgressivePicture::begin(std::span<const Rgb> radiance,
+                               std::span<const PixelOrigin> origins) {
     radiance_.assign(radiance.begin(), radiance.end());
     origins_.assign(origins.begin(), origins.end());
 }

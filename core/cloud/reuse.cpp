@@ -39,7 +39,8 @@ bool depths_jump(float a, float b) {
 constexpr int kWellKnown = 5, kSmooth = 4, kWitnesses = 3;
 
 /// Direction from where the pixel's ray begins to a point beside it.
-Vec3 toward(const CloudPoint& point, const PixelVisibility& visibility, const PrimaryVisibility& seen_thing) {
+Vec3 toward(const CloudPoint& point, const PixelVisibility& visibility,
+            const PrimaryVisibility& seen_thing) {
     const double scale = 1 / std::max(static_cast<double>(seen_thing.distance), kEpsilon);
     return normalize(visibility.direction + (point.place() - seen_thing.position) * scale);
 }
@@ -69,14 +70,16 @@ struct PointFinder::Search {
     bool turned = false;  ///< some were seen from elsewhere
 };
 
-inline float PointFinder::squared_distance(std::uint32_t index, const PixelVisibility& visibility) const {
+inline float PointFinder::squared_distance(std::uint32_t index,
+                                           const PixelVisibility& visibility) const {
     const float dx = places_[index].x - visibility.x, dy = places_[index].y - visibility.y;
     return dx * dx + dy * dy;
 }
 
 /// @param squared  the point's squared_distance()
-inline void PointFinder::consider(std::uint32_t index, float squared, const PixelVisibility& visibility,
-                                 const PrimaryVisibility& seen_thing, Search& found) const {
+inline void PointFinder::consider(std::uint32_t index, float squared,
+                                  const PixelVisibility& visibility,
+                                  const PrimaryVisibility& seen_thing, Search& found) const {
     found.any = true;
     const CloudPoint& point = points_[index];
     const float light = brightness(point.radiance);
@@ -106,11 +109,12 @@ inline void PointFinder::consider(std::uint32_t index, float squared, const Pixe
     found.best = index;
 }
 
-/// Search at the points around a pixel: at those that are not near only where no near one shows what
-/// the ray sees, for else they change nothing.
+/// Search at the points around a pixel: at those that are not near only where no near one shows
+/// what the ray sees, for else they change nothing.
 /// @param near  squared, at most kOwnPixel2 [pixels²]
 void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
-                              const PixelVisibility& visibility, const PrimaryVisibility& seen_thing, Search& found) const {
+                                const PixelVisibility& visibility,
+                                const PrimaryVisibility& seen_thing, Search& found) const {
     std::array<std::uint32_t, 8> far;
     std::array<float, 8> far_squared;
     std::size_t count = 0;
@@ -130,21 +134,24 @@ void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, 
         }
     }
     if (found.points > 0) return;
-    for (std::size_t i = 0; i < count; ++i) consider(far[i], far_squared[i], visibility, seen_thing, found);
+    for (std::size_t i = 0; i < count; ++i)
+        consider(far[i], far_squared[i], visibility, seen_thing, found);
 }
 
 /// Adds to the answer. What it shows already counts: points may differ by a share of the sum. What
 /// lies between points is their mean by the fourth power of the distance (Shepard, "A
 /// two-dimensional interpolation function for irregularly-spaced data", ACM 1968).
 TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
-                              const PixelVisibility& visibility, const PrimaryVisibility& seen_thing, std::uint32_t& best,
-                              PixelAnswer& answer) const {
+                               const PixelVisibility& visibility,
+                               const PrimaryVisibility& seen_thing, std::uint32_t& best,
+                               PixelAnswer& answer) const {
     Search found;
     const float base = brightness(answer.radiance);
     if (base > 0) found.faint = kFaint * base;
     const float near = rules_.near * rules_.near;
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
-    if (own != kNoPoint) consider(own, squared_distance(own, visibility), visibility, seen_thing, found);
+    if (own != kNoPoint)
+        consider(own, squared_distance(own, visibility), visibility, seen_thing, found);
     // What lies on the pixel itself is as good a sample of it as its ray's.
     const bool inside_pixel = found.points > 0;
     if (rules_.look_back && !inside_pixel)
@@ -174,12 +181,13 @@ inline void PointFinder::check(const PixelPlace& pixel, const PixelVisibility& v
         return;
     }
     if (visibility.ahead.seen) {
-        answer.cause = search(grids_.ahead, pixel, visibility, visibility.ahead, answer.ahead, answer);
+        answer.cause =
+            search(grids_.ahead, pixel, visibility, visibility.ahead, answer.ahead, answer);
         if (!answer.found()) return;
     }
     if (visibility.mirrored.seen)
-        answer.cause =
-            search(grids_.mirrored, pixel, visibility, visibility.mirrored, answer.mirrored, answer);
+        answer.cause = search(grids_.mirrored, pixel, visibility, visibility.mirrored,
+                              answer.mirrored, answer);
 }
 
 /// Fetch the pixels' points into the cache.
@@ -193,7 +201,8 @@ void PointFinder::expect(std::span<const PixelPlace> pixels) const {
     }
 }
 
-void PointFinder::checked(std::span<const PixelPlace> pixels, std::span<const PixelVisibility> visibility,
+void PointFinder::checked(std::span<const PixelPlace> pixels,
+                          std::span<const PixelVisibility> visibility,
                           std::span<PixelAnswer> answers) const {
     expect(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) check(pixels[i], visibility[i], answers[i]);
@@ -295,7 +304,7 @@ bool PointFinder::is_amidst(const PixelSquare& square, const PixelPlace& pixel) 
 }
 
 void PointFinder::temporal(const PixelSquare& square, std::span<const PixelPlace> pixels,
-                         std::span<PixelAnswer> answers) const {
+                           std::span<PixelAnswer> answers) const {
     expect(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const PixelPlace& pixel = pixels[i];
@@ -335,7 +344,7 @@ void PointFinder::find_around(const PixelPlace& pixel, PixelAnswer& answer) cons
 }
 
 void PointFinder::fill_unverified(const PixelSquare& square, const PixelPlace& pixel,
-                          PixelAnswer& answer) const {
+                                  PixelAnswer& answer) const {
     find_own(pixel, square.mirrors, answer);
     if (!answer.found()) {
         if (is_amidst(square, pixel)) find_around(pixel, answer);
@@ -348,7 +357,7 @@ void PointFinder::fill_unverified(const PixelSquare& square, const PixelPlace& p
 }
 
 void PointFinder::unverified(const PixelSquare& square, std::span<const PixelPlace> pixels,
-                           std::span<PixelAnswer> answers) const {
+                             std::span<PixelAnswer> answers) const {
     expect(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) fill_unverified(square, pixels[i], answers[i]);
 }

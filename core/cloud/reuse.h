@@ -6,21 +6,21 @@
 
 #include "core/cloud/depth_grid.h"
 #include "core/cloud/point.h"
-#include "core/cloud/projection.h"
 #include "core/cloud/primary_visibility.h"
+#include "core/cloud/projection.h"
 
 namespace lightwalk {
 
 /// Why a pixel has to be traced, the worst first.
 enum class TraceCause : std::uint8_t {
-    none,       ///< it has not
-    uncovered,  ///< no point lies there
-    hidden,     ///< what lies there belongs to another surface, or is not what the ray meets
-    never_reused,   ///< its colour holds for this ray only
-    turned,     ///< its colour was seen from too different a side
-    uneven,     ///< the points around disagree, and none of them is near enough
-    audited,    ///< it is not a uncached pixel, but traced all the same
-    refined,    ///< it is not a uncached pixel, but the view stands still, and there is time
+    none,          ///< it has not
+    uncovered,     ///< no point lies there
+    hidden,        ///< what lies there belongs to another surface, or is not what the ray meets
+    never_reused,  ///< its colour holds for this ray only
+    turned,        ///< its colour was seen from too different a side
+    uneven,        ///< the points around disagree, and none of them is near enough
+    audited,       ///< it is not an uncached pixel, but traced all the same
+    refined,       ///< it is not an uncached pixel, but the view stands still, and there is time
 };
 inline constexpr std::size_t kTraceCauses = 8;
 
@@ -78,7 +78,8 @@ class PointFinder {
         grids_.mirrored.prefetch(pixel.x, pixel.y);
     }
     /// For a pixel of which a ray has told what it sees.
-    [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel, const PixelVisibility& visibility) const;
+    [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel,
+                                      const PixelVisibility& visibility) const;
     /// For many of them, which is faster: what they need is fetched into the cache together.
     void checked(std::span<const PixelPlace> pixels, std::span<const PixelVisibility> visibility,
                  std::span<PixelAnswer> answers) const;
@@ -89,14 +90,14 @@ class PointFinder {
     /// For pixels of a square, which are shown for a moment only: the points that fell onto them,
     /// though they may have been seen from elsewhere, or, in the midst of a surface, those around.
     void unverified(const PixelSquare& square, std::span<const PixelPlace> pixels,
-                  std::span<PixelAnswer> answers) const;
+                    std::span<PixelAnswer> answers) const;
     /// For pixels of which no ray has told, in the midst of a surface: where no depth around steps,
     /// nothing is mirrored, and the last frame has shown what lies there, what is there still.
-    /// Elsewhere TraceCause::uncovered, and nothing is known. A point that a ray finds hidden is not
-    /// used, and vouches for nothing in the next frame.
+    /// Elsewhere TraceCause::uncovered, and nothing is known. A point that a ray finds hidden is
+    /// not used, and vouches for nothing in the next frame.
     /// @param pixels  of the square
     void temporal(const PixelSquare& square, std::span<const PixelPlace> pixels,
-                std::span<PixelAnswer> answers) const;
+                  std::span<PixelAnswer> answers) const;
     /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
     /// without a point, where depths jump.
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
@@ -109,22 +110,27 @@ class PointFinder {
 
   private:
     struct Search;
-    void check(const PixelPlace& pixel, const PixelVisibility& visibility, PixelAnswer& answer) const;
+    void check(const PixelPlace& pixel, const PixelVisibility& visibility,
+               PixelAnswer& answer) const;
     [[nodiscard]] TraceCause search(const DepthGrid& grid, const PixelPlace& pixel,
-                                   const PixelVisibility& visibility, const PrimaryVisibility& seen_thing,
-                                   std::uint32_t& best, PixelAnswer& answer) const;
+                                    const PixelVisibility& visibility,
+                                    const PrimaryVisibility& seen_thing, std::uint32_t& best,
+                                    PixelAnswer& answer) const;
     void search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
-                     const PixelVisibility& visibility, const PrimaryVisibility& seen_thing, Search& found) const;
-    void consider(std::uint32_t index, float squared, const PixelVisibility& visibility, const PrimaryVisibility& seen_thing,
-                 Search& found) const;
+                       const PixelVisibility& visibility, const PrimaryVisibility& seen_thing,
+                       Search& found) const;
+    void consider(std::uint32_t index, float squared, const PixelVisibility& visibility,
+                  const PrimaryVisibility& seen_thing, Search& found) const;
     void expect(std::span<const PixelPlace> pixels) const;
     void find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const;
     void find_around(const PixelPlace& pixel, PixelAnswer& answer) const;
-    void fill_unverified(const PixelSquare& square, const PixelPlace& pixel, PixelAnswer& answer) const;
+    void fill_unverified(const PixelSquare& square, const PixelPlace& pixel,
+                         PixelAnswer& answer) const;
     [[nodiscard]] bool is_amidst(const PixelSquare& square, const PixelPlace& pixel) const;
     [[nodiscard]] PixelAnswer inferred(const PixelPlace& pixel) const;
     [[nodiscard]] bool holds(const CloudPoint& point, const PixelPlace& pixel) const;
-    [[nodiscard]] float squared_distance(std::uint32_t index, const PixelVisibility& visibility) const;
+    [[nodiscard]] float squared_distance(std::uint32_t index,
+                                         const PixelVisibility& visibility) const;
     [[nodiscard]] float squared_reach(float contrast) const;
     [[nodiscard]] bool contradicts(const PixelPlace& pixel, const DepthGrid& grid) const;
     [[nodiscard]] std::array<float, 9> depths(const PixelPlace& pixel, const DepthGrid& grid) const;

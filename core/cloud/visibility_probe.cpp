@@ -71,7 +71,8 @@ SurfaceAppearance VisibilityProbe::appearance_of(ModifierId modifier) const {
         appearance.patterned = appearance.patterned || kind == PrimitiveKind::pattern;
     }
     // Lamps are measured: their patterns are functions of the direction.
-    if (is_light(record.type) && appearance.patterned && appearance.appearance == Appearance::constant)
+    if (is_light(record.type) && appearance.patterned &&
+        appearance.appearance == Appearance::constant)
         appearance.appearance = Appearance::unknown;
     return appearance;
 }
@@ -81,7 +82,8 @@ SurfaceAppearance VisibilityProbe::appearance_at(const Hit& hit) const {
     SurfaceAppearance appearance = appearances_[static_cast<std::size_t>(index(hit.modifier))];
     if (hit.cos_out >= 0 || appearance.appearance == Appearance::unknown) return appearance;
     if (!tracer_.options().back_faces_visible) return {Appearance::absent, 0, 0, 0, false, false};
-    if (appearance.appearance == Appearance::mirror) appearance.appearance = Appearance::constant;  // black
+    if (appearance.appearance == Appearance::mirror)
+        appearance.appearance = Appearance::constant;  // black
     return appearance;
 }
 
@@ -107,14 +109,17 @@ std::uint32_t VisibilityProbe::background(const Walk& walk) const {
     return met_surface(walk.met, index(seen.value_or(kNoSurface)), 0);
 }
 
-float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const {
-    const GlossyLobe lobe{static_cast<double>(appearance.gloss), static_cast<double>(appearance.diffuse),
+float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
+                                    const SurfaceAppearance& appearance) const {
+    const GlossyLobe lobe{static_cast<double>(appearance.gloss),
+                          static_cast<double>(appearance.diffuse),
                           static_cast<double>(appearance.roughness)};
     return static_cast<float>(highlights_.slope(hit, walk.segment.direction, lobe));
 }
 
 /// The walk ends at `hit`, or at infinity.
-void VisibilityProbe::end(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const {
+void VisibilityProbe::end(const Walk& walk, const Hit& hit,
+                          const SurfaceAppearance& appearance) const {
     PrimaryVisibility& seen_thing = *walk.seen_thing;
     seen_thing.seen = true;
     const double length = hit.exists() ? walk.length + hit.t : kHuge;
@@ -132,7 +137,8 @@ void VisibilityProbe::end(const Walk& walk, const Hit& hit, const SurfaceAppeara
         slope = kMirrorLike;
     }
     seen_thing.slope = never_reuse_ ? kNeverReuse : seen_thing.slope + slope;
-    if (seen_thing.kind == PointKind::plain && seen_thing.slope > 0) seen_thing.kind = PointKind::glossy;
+    if (seen_thing.kind == PointKind::plain && seen_thing.slope > 0)
+        seen_thing.kind = PointKind::glossy;
 }
 
 /// The next surface on the way. False: the light comes from there; true: from farther on.
@@ -143,7 +149,8 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
     }
     const SurfaceAppearance appearance = appearance_at(hit);
     walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
-    const bool mirror = appearance.appearance == Appearance::mirror && reflects_flat(hit, appearance);
+    const bool mirror =
+        appearance.appearance == Appearance::mirror && reflects_flat(hit, appearance);
     const bool pane = appearance.appearance == Appearance::pane && !appearance.textured;
     if (!mirror && !pane && appearance.appearance != Appearance::absent) {
         end(walk, hit, appearance);
@@ -171,7 +178,8 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
     walk.image = nullptr;
     walk.surfaces = 0;
     const bool mirror = appearance.appearance == Appearance::mirror;
-    if (mirror || appearance.appearance == Appearance::pane || appearance.appearance == Appearance::polished) {
+    if (mirror || appearance.appearance == Appearance::pane ||
+        appearance.appearance == Appearance::polished) {
         image->kind = PointKind::mirrored;
         image->slope = static_cast<float>(slopes_of(hit, appearance).reflected);
         Walk mirrored = walk;
@@ -206,8 +214,9 @@ void VisibilityProbe::follow(std::vector<Walk>& walks, Scratch& scratch) const {
     }
 }
 
-void VisibilityProbe::find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
-                       std::span<PixelVisibility> visibility, Scratch& scratch) const {
+void VisibilityProbe::find(std::span<const RaySegment> rays, std::span<const Hit> first,
+                           bool slopes, std::span<PixelVisibility> visibility,
+                           Scratch& scratch) const {
     scratch.ahead.clear();
     scratch.images.clear();
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -20,9 +20,9 @@ struct SurfaceAppearance {
 /// without material, along the reflection of flat mirrors. Whether the first surface mirrors
 /// something is told beside what lies ahead. Immutable; many threads may ask.
 ///
-/// Surfaces whose appearance nobody can tell are reused as long as the eye does not move: bent or curved
-/// mirrors, materials given by functions, refraction. In scenes with antimatter or a medium nothing
-/// is reused.
+/// Surfaces whose appearance nobody can tell are reused as long as the eye does not move: bent or
+/// curved mirrors, materials given by functions, refraction. In scenes with antimatter or a medium
+/// nothing is reused.
 class VisibilityProbe {
   public:
     /// The tracer must outlive this.
@@ -55,20 +55,20 @@ class VisibilityProbe {
     const Tracer& tracer_;
     Highlights highlights_;
     std::vector<SurfaceAppearance> appearances_;  ///< by modifier
-    bool never_reuse_ = false;           ///< all of the scene
+    bool never_reuse_ = false;                    ///< all of the scene
 };
 
 /// A ray on its way.
 struct VisibilityProbe::Walk {
-    const RaySegment* pixel = nullptr;  ///< the ray it began as
-    PrimaryVisibility* seen_thing = nullptr;             ///< that it ends in
-    PrimaryVisibility* image = nullptr;             ///< of what the first surface that counts mirrors; null
-                                        ///< from there on
-    RaySegment segment;                 ///< the way on
-    bool slopes = true;                 ///< are asked for
-    int surfaces = 0;                   ///< met, before that one or after
-    double length = 0;                  ///< of the way so far [m]
-    std::uint32_t met = 0;              ///< see PrimaryVisibility::surface
+    const RaySegment* pixel = nullptr;        ///< the ray it began as
+    PrimaryVisibility* seen_thing = nullptr;  ///< that it ends in
+    PrimaryVisibility* image = nullptr;  ///< of what the first surface that counts mirrors; null
+                                         ///< from there on
+    RaySegment segment;                  ///< the way on
+    bool slopes = true;                  ///< are asked for
+    int surfaces = 0;                    ///< met, before that one or after
+    double length = 0;                   ///< of the way so far [m]
+    std::uint32_t met = 0;               ///< see PrimaryVisibility::surface
 
     /// Goes on from a hit, straight or mirrored.
     void pass(const Hit& hit, bool reflect);

@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::size_t kDivisions = 20000;   ///< of all polygons of a model, of all its cones, too;
                                             ///< and half as many as it has primitives
-constexpr int kMostParts = 64;             ///< of one polygon
+constexpr int kMostParts = 64;              ///< of one polygon
 constexpr std::size_t kMostVertices = 128;  ///< of a polygon that is divided
 constexpr double kLeastGain = 1e-5;         ///< of a division, relative to the model's box
-constexpr double kThickness = 1.0 / 16;     ///< of slanted bvh primitives, relative to their polygon
-constexpr double kMargin = 4 * kEpsilon;    ///< that boxes are grown by [m]
-constexpr double kRim = 3 * kEpsilon;       ///< of cells, that the boxes around reach into [m]
+constexpr double kThickness = 1.0 / 16;   ///< of slanted bvh primitives, relative to their polygon
+constexpr double kMargin = 4 * kEpsilon;  ///< that boxes are grown by [m]
+constexpr double kRim = 3 * kEpsilon;     ///< of cells, that the boxes around reach into [m]
 constexpr std::size_t kManyPrimitives = std::size_t{1} << 17;  ///< pairs are made, cones whole
 constexpr double kPairArea = 0.75;  ///< of a pair's box at most, relative to both boxes together
 
@@ -270,7 +270,8 @@ class Division {
     }
 
     /// Takes those of the candidates that are worth dividing; returns them, in their order.
-    std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& candidates, const TaskRunner& task_runner) {
+    std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& candidates,
+                                   const TaskRunner& task_runner) {
         constexpr std::size_t kTogether = 64;
         std::vector<std::optional<std::pair<Projection, Task>>> looks(candidates.size());
         task_runner.run((candidates.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
@@ -301,7 +302,7 @@ class Division {
             if (budget_ == 0 || polygon.bvh_primitives >= kMostParts || task.gain <= least_) {
                 bvh_primitives.primitive_of.push_back(polygon.primitive);
                 bvh_primitives.boxes.push_back(common(polygon.projection.box(task.cell),
-                                              model_.hit_bounds(polygon.primitive)));
+                                                      model_.hit_bounds(polygon.primitive)));
                 continue;
             }
             divide(task, polygon);
@@ -383,7 +384,8 @@ std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const TaskRunn
     return cones;
 }
 
-void append(const std::vector<SlicedCone>& cones, const ModelPrimitives& model, BvhPrimitives& bvh_primitives) {
+void append(const std::vector<SlicedCone>& cones, const ModelPrimitives& model,
+            BvhPrimitives& bvh_primitives) {
     for (const auto& [primitive, slices] : cones) {
         for (int i = 0; i < slices.count; ++i) {
             bvh_primitives.primitive_of.push_back(primitive);
@@ -466,9 +468,11 @@ BvhPrimitives divide_primitives(const ModelPrimitives& model, const TaskRunner& 
     BvhPrimitives bvh_primitives;
     bvh_primitives.pairs = whole.pairs.size();
     bvh_primitives.primitive_of = std::move(whole.pairs);
-    bvh_primitives.primitive_of.insert(bvh_primitives.primitive_of.end(), whole.alone.begin(), whole.alone.end());
+    bvh_primitives.primitive_of.insert(bvh_primitives.primitive_of.end(), whole.alone.begin(),
+                                       whole.alone.end());
     bvh_primitives.whole = bvh_primitives.primitive_of.size();
-    if (divided.empty() && bvh_primitives.pairs == 0 && are_consecutive(bvh_primitives.primitive_of)) {
+    if (divided.empty() && bvh_primitives.pairs == 0 &&
+        are_consecutive(bvh_primitives.primitive_of)) {
         if (bvh_primitives.whole > 0) bvh_primitives.first = bvh_primitives.primitive_of.front();
         bvh_primitives.primitive_of = std::vector<std::uint32_t>();  // {} would keep the memory
         return bvh_primitives;

@@ -16,8 +16,8 @@ struct ReleaseBvh {
 /// Boxes as Embree's builder takes them, and sorts them: those of a leaf side by side.
 class Boxes {
   public:
-    Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model, const SearchSpace& space,
-          const TaskRunner& task_runner);
+    Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
+          const SearchSpace& space, const TaskRunner& task_runner);
     /// False where the builder has failed.
     bool divide(RTCDevice device);
 
@@ -38,8 +38,8 @@ class Boxes {
     std::atomic<std::size_t> marked_{0};  ///< in leaves: these are made on several threads
 };
 
-Boxes::Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model, const SearchSpace& space,
-             const TaskRunner& task_runner)
+Boxes::Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
+             const SearchSpace& space, const TaskRunner& task_runner)
     : all_(bvh_primitives.size()) {
     for_each_part(task_runner, all_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -93,7 +93,8 @@ Bounds bounds_of(const RTCBuildPrimitive& box) {
              static_cast<double>(box.upper_z)}};
 }
 
-QuantizedLeaf quantized_leaf_of(std::span<const RTCBuildPrimitive> leaf, const BvhPrimitives& bvh_primitives) {
+QuantizedLeaf quantized_leaf_of(std::span<const RTCBuildPrimitive> leaf,
+                                const BvhPrimitives& bvh_primitives) {
     std::array<Bounds, kLeafSize> boxes;
     std::array<PrimitiveRange, kLeafSize> refs;
     for (std::size_t i = 0; i < leaf.size(); ++i) {
@@ -105,23 +106,29 @@ QuantizedLeaf quantized_leaf_of(std::span<const RTCBuildPrimitive> leaf, const B
 
 }  // namespace
 
-std::vector<QuantizedLeaf> make_quantized_leaves(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
-                                   const SearchSpace& space, RTCDevice device, const TaskRunner& task_runner) {
+std::vector<QuantizedLeaf> make_quantized_leaves(const BvhPrimitives& bvh_primitives,
+                                                 const ModelPrimitives& model,
+                                                 const SearchSpace& space, RTCDevice device,
+                                                 const TaskRunner& task_runner) {
     Boxes boxes(bvh_primitives, model, space, task_runner);
     if (!boxes.divide(device)) return {};
     std::vector<std::size_t> before(part_count(boxes.size()) + 1, 0);
-    for_each_part(task_runner, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
-        std::size_t leaves = 0;
-        for (std::size_t i = first; i < last; ++i) leaves += boxes.ends_leaf(i) ? 1 : 0;
-        before[part + 1] = leaves;
-    });
+    for_each_part(task_runner, boxes.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      std::size_t leaves = 0;
+                      for (std::size_t i = first; i < last; ++i)
+                          leaves += boxes.ends_leaf(i) ? 1 : 0;
+                      before[part + 1] = leaves;
+                  });
     std::partial_sum(before.begin(), before.end(), before.begin());
     std::vector<QuantizedLeaf> leaves(before.back());
-    for_each_part(task_runner, boxes.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
-        std::size_t next = before[part];
-        for (std::size_t i = first; i < last; ++i)
-            if (boxes.ends_leaf(i)) leaves[next++] = quantized_leaf_of(boxes.leaf(i), bvh_primitives);
-    });
+    for_each_part(task_runner, boxes.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      std::size_t next = before[part];
+                      for (std::size_t i = first; i < last; ++i)
+                          if (boxes.ends_leaf(i))
+                              leaves[next++] = quantized_leaf_of(boxes.leaf(i), bvh_primitives);
+                  });
     return leaves;
 }
 

@@ -80,7 +80,8 @@ class InstanceScope {
     [[nodiscard]] InstanceId id() const { return id_; }
     /// Found out at the first call: most instances that are searched have nothing on the ray.
     [[nodiscard]] const InnerSpace& space() {
-        if (!space_) space_ = space_in(outside_ ? &outside_->space() : nullptr, *instance_.placement);
+        if (!space_)
+            space_ = space_in(outside_ ? &outside_->space() : nullptr, *instance_.placement);
         return *space_;
     }
 
@@ -148,7 +149,8 @@ Bounds bounds_of_tree(RTCSceneTy* scene) {
 
 void primitive_bounds(const RTCBoundsFunctionArguments* args) {
     const auto& model = *static_cast<const Hierarchy*>(args->geometryUserPtr);
-    *args->bounds_o = rounded(model.space.box(model.bvh_primitives.box(args->primID, *model.primitives)));
+    *args->bounds_o =
+        rounded(model.space.box(model.bvh_primitives.box(args->primID, *model.primitives)));
 }
 
 // Calls inside the callbacks cost as much as the tests themselves: flattened, rays are 3 % faster.
@@ -214,7 +216,8 @@ void leaf_bounds(const RTCBoundsFunctionArguments* args) {
             const PrimitiveRange bvh_primitive = leaf.bvh_primitives[at];
             if (bvh_primitive.is_none()) break;
             if (hits.first[at] > end * kEndRoundUp) continue;
-            for (std::uint32_t primitive = bvh_primitive.first(); primitive < bvh_primitive.end(); ++primitive) {
+            for (std::uint32_t primitive = bvh_primitive.first(); primitive < bvh_primitive.end();
+                 ++primitive) {
                 if (query.placed->propose(ray, {id, primitive}))
                     end = embree_end(ray.limit, query.start[i]);
             }
@@ -233,7 +236,8 @@ void leaf_bounds(const RTCBoundsFunctionArguments* args) {
             const PrimitiveRange bvh_primitive =
                 leaf.bvh_primitives[static_cast<std::size_t>(std::countr_zero(boxes))];
             if (bvh_primitive.is_none()) return false;
-            for (std::uint32_t primitive = bvh_primitive.first(); primitive < bvh_primitive.end(); ++primitive)
+            for (std::uint32_t primitive = bvh_primitive.first(); primitive < bvh_primitive.end();
+                 ++primitive)
                 if (query.placed->propose(ray, {id, primitive})) return true;
         }
         return false;
@@ -241,8 +245,7 @@ void leaf_bounds(const RTCBoundsFunctionArguments* args) {
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;
         float& end = RTCRayN_tfar(args->ray, args->N, lane);
-        const std::uint32_t met =
-            boxes_met(leaf, leaf_ray(args->ray, args->N, lane), end).met;
+        const std::uint32_t met = boxes_met(leaf, leaf_ray(args->ray, args->N, lane), end).met;
         if (met != 0 && is_blocked(query.rays[RTCRayN_id(args->ray, args->N, lane)], met))
             end = -std::numeric_limits<float>::infinity();
     }
@@ -254,7 +257,8 @@ void instance_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void intersect_instance(const RTCIntersectFunctionNArguments* args) {
-    const Instance& instance = static_cast<const Instances*>(args->geometryUserPtr)->all[args->primID];
+    const Instance& instance =
+        static_cast<const Instances*>(args->geometryUserPtr)->all[args->primID];
     const InstanceScope scope(*args->context, instance);
     const unsigned count = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, count);
@@ -284,7 +288,8 @@ void intersect_instance(const RTCIntersectFunctionNArguments* args) {
 }
 
 void occlude_instance(const RTCOccludedFunctionNArguments* args) {
-    const Instance& instance = static_cast<const Instances*>(args->geometryUserPtr)->all[args->primID];
+    const Instance& instance =
+        static_cast<const Instances*>(args->geometryUserPtr)->all[args->primID];
     const InstanceScope scope(*args->context, instance);
     for (unsigned lane = 0; lane < args->N; ++lane) {
         if (args->valid[lane] == 0) continue;

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/quantized_leaves.h"
 #include "core/geometry/bvh_primitives.h"
 #include "core/geometry/placed_scene.h"
+#include "core/geometry/quantized_leaves.h"
 #include "core/geometry/search_space.h"
 
 namespace lightwalk {
@@ -39,8 +39,8 @@ struct Instances {
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
-    // What Embree calls primitives: bvh primitives, their boxes only while the tree is built; or leaves
-    // of them, which take their place.
+    // What Embree calls primitives: bvh primitives, their boxes only while the tree is built; or
+    // leaves of them, which take their place.
     BvhPrimitives bvh_primitives;
     std::vector<QuantizedLeaf> leaves;
     Instances instances;
@@ -54,7 +54,8 @@ class InstanceScope;
 /// One traversal: what Embree hands to the callbacks.
 struct Query : RTCIntersectContext {
     const PlacedScene* placed = nullptr;
-    InstanceScope* within = nullptr;  ///< the placed model that the search is in; null: the scene itself
+    InstanceScope* within =
+        nullptr;  ///< the placed model that the search is in; null: the scene itself
 };
 /// Ray i of a packet has the id i.
 struct NearestQuery : Query {

@@ -33,8 +33,8 @@ struct ReleaseGeometry {
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
-/// Above so many a tree ends in leaves of bvh primitives, which weigh less. A mesh's triangles are as
-/// soon found in them where there are few; other surfaces later, by some 3 %.
+/// Above so many a tree ends in leaves of bvh primitives, which weigh less. A mesh's triangles are
+/// as soon found in them where there are few; other surfaces later, by some 3 %.
 constexpr std::size_t kMostSinglePrimitives = std::size_t{1} << 17,
                       kMostSingleOfMesh = std::size_t{1} << 13;
 constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
@@ -108,11 +108,12 @@ struct Geometry::Impl {
     void add_surfaces(Hierarchy& model, const TaskRunner& task_runner);
     void add_instances(std::uint32_t model);
     [[nodiscard]] std::optional<Instance> instance_of(const PlacedChild& child,
-                                              const Hierarchy& around) const;
+                                                      const Hierarchy& around) const;
     [[nodiscard]] Bounds box_of(const Placement& placement, const Hierarchy& around) const;
 };
 
-Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, const TaskRunner& task_runner)
+Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options,
+                     const TaskRunner& task_runner)
     : placed(std::move(input), task_runner) {
     open_device(embree_options);
     models.resize(placed.model_count());
@@ -132,7 +133,7 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options, con
         rtcCommitScene(built.scene.get());
         check("building a search tree");
         if (*model != 0) built.outline = outline_of_tree(built);  // nothing is around the scene
-        built.bvh_primitives.boxes = std::vector<Bounds>();               // {} would keep the memory
+        built.bvh_primitives.boxes = std::vector<Bounds>();       // {} would keep the memory
         built.instances.boxes = std::vector<Bounds>();
     }
     box = bounds_of_tree(models[0].scene.get());
@@ -173,8 +174,8 @@ void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runne
     const auto last = static_cast<std::uint32_t>(model.primitives->size() - 1);
     const bool is_mesh = model.primitives->is_triangle(last);  // they are models of their own
     if (model.bvh_primitives.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePrimitives)) {
-        model.leaves =
-            make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space, device.get(), task_runner);
+        model.leaves = make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space,
+                                             device.get(), task_runner);
         check("clustering the surfaces");
         if (model.leaves.empty()) throw std::runtime_error("Embree has lost surfaces");
         model.bvh_primitives = BvhPrimitives();
@@ -198,7 +199,7 @@ void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runne
 
 /// From the search coordinates around it to its own; nothing when it is empty or too far away.
 std::optional<Instance> Geometry::Impl::instance_of(const PlacedChild& child,
-                                            const Hierarchy& around) const {
+                                                    const Hierarchy& around) const {
     const Placement& placement = *child.placement;
     const Hierarchy& model = models[placement.model];
     const Vec3 center = placement.transform.forward.point(model.space.center) - around.space.center;
@@ -304,7 +305,8 @@ std::optional<EmbreeRay> Geometry::Impl::embree_ray(const TracedRay& ray) const 
     return result;
 }
 
-Geometry::Geometry(GeometryInput input, const std::string& embree_options, const TaskRunner& task_runner)
+Geometry::Geometry(GeometryInput input, const std::string& embree_options,
+                   const TaskRunner& task_runner)
     : impl_(std::make_unique<Impl>(std::move(input), embree_options, task_runner)) {}
 Geometry::~Geometry() = default;
 Geometry::Geometry(Geometry&&) noexcept = default;

@@ -22,16 +22,16 @@ struct Hit {
     Vec3 perturbation;      ///< smoothed mesh normal minus normal, else zero
     double u = 0, v = 0;    ///< mesh texture coordinates, else zero
     SurfaceId surface =
-        kNoSurface;               ///< the inner surface, or the instance whose modifier overrides
-    ModifierId modifier = kVoid;  ///< the direct modifier that shades
-    InstanceId instance = kWorld;       ///< placement of the local space that `modifier` lives in
+        kNoSurface;                ///< the inner surface, or the instance whose modifier overrides
+    ModifierId modifier = kVoid;   ///< the direct modifier that shades
+    InstanceId instance = kWorld;  ///< placement of the local space that `modifier` lives in
     [[nodiscard]] bool exists() const { return surface != kNoSurface; }
 };
 
 /// Answer of a shadow query.
 enum class Visibility : std::uint8_t {
-    clear,    ///< nothing but material-less surfaces in between
-    blocked,  ///< an opaque surface lies in between
+    clear,          ///< nothing but material-less surfaces in between
+    blocked,        ///< an opaque surface lies in between
     needs_shading,  ///< no opaque surface, but at least one ShadowClass::needs shading one
 };
 
@@ -131,10 +131,11 @@ class Geometry {
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().
     void intersect(std::span<const RaySegment> rays, std::span<Hit> out) const;
 
-    [[nodiscard]] Transform instance_transform(InstanceId id) const;  ///< local -> world of an instance path
-    [[nodiscard]] Bounds bounds() const;              ///< of everything finite, world
-    [[nodiscard]] std::size_t instance_count() const;    ///< instances, one a path
-    [[nodiscard]] SearchMemory memory() const;        ///< without the surfaces and meshes
+    [[nodiscard]] Transform instance_transform(
+        InstanceId id) const;                          ///< local -> world of an instance path
+    [[nodiscard]] Bounds bounds() const;               ///< of everything finite, world
+    [[nodiscard]] std::size_t instance_count() const;  ///< instances, one a path
+    [[nodiscard]] SearchMemory memory() const;         ///< without the surfaces and meshes
 
   private:
     struct Impl;

@@ -129,8 +129,8 @@ void InstancePaths::find_uses(const GeometryInput& input) {
     std::erase_if(order_, [&](std::uint32_t model) { return !uses_[model].used; });
 }
 
-/// Of the placements in `model` that whose instances hold the `left`-th one inside it. Where all hold
-/// as many the first guess is right.
+/// Of the placements in `model` that whose instances hold the `left`-th one inside it. Where all
+/// hold as many the first guess is right.
 const PlacedChild& InstancePaths::child_with(std::uint32_t model, std::int32_t left) const {
     const std::vector<PlacedChild>& all = children_[model];
     const auto guess = static_cast<std::size_t>(left - 1) * all.size() / counts_[model];

@@ -1,6 +1,7 @@
 #pragma once
-// Nested placements: one instance for every path of placements that leads from the scene to a model.
-// Instances are numbered, not stored: a model of a million leaves may stand a thousand times.
+// Nested placements: one instance for every path of placements that leads from the scene to a
+// model. Instances are numbered, not stored: a model of a million leaves may stand a thousand
+// times.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,8 +15,8 @@ namespace lightwalk {
 struct PlacedModel {
     Transform to_world;
     std::uint32_t model = 0;
-    /// The outermost placement of the path whose modifier shades everything inside, and the instance
-    /// that this modifier lives in; nothing when the contents keep their own modifiers.
+    /// The outermost placement of the path whose modifier shades everything inside, and the
+    /// instance that this modifier lives in; nothing when the contents keep their own modifiers.
     SurfaceId override_surface = kNoSurface;
     InstanceId override_instance = kWorld;
 };

@@ -34,7 +34,8 @@ struct Precedence {
 class ModelPrimitives {
   public:
     /// Throws InputError for mesh triangles whose vertices or materials do not exist.
-    ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model, const TaskRunner& task_runner);
+    ModelPrimitives(const SurfaceTable& surfaces, const ModelGeometry& model,
+                    const TaskRunner& task_runner);
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool is_triangle(std::uint32_t primitive) const { return primitive >= own_; }

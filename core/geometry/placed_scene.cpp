@@ -227,7 +227,8 @@ ShadowClass PlacedScene::shadow_class(const ShadowRay& ray, PrimitiveRef what) c
 }
 
 bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) const {
-    if (ray.target == kNoSurface || candidate.what.instance != kWorld) return candidate.t < ray.t_max;
+    if (ray.target == kNoSurface || candidate.what.instance != kWorld)
+        return candidate.t < ray.t_max;
     if (candidate.t < ray.t_max - kEpsilon) return true;
     if (!ray.target_precedence) {
         const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});

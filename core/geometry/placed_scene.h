@@ -80,7 +80,9 @@ class PlacedScene {
     [[nodiscard]] Bounds bounds() const {
         return bounds_;
     }  ///< of everything, placed models by their cubes
-    [[nodiscard]] Transform transform(InstanceId instance) const { return paths_.at(instance).to_world; }
+    [[nodiscard]] Transform transform(InstanceId instance) const {
+        return paths_.at(instance).to_world;
+    }
     [[nodiscard]] std::size_t memory_bytes() const;
 
     /// Make `ray.local` the ray in a placed model's space.

@@ -26,7 +26,8 @@ using Floats = float __attribute__((vector_size(4 * kLeafSize)));
 
 }  // namespace
 
-QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes, std::span<const PrimitiveRange> bvh_primitives) {
+QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes,
+                             std::span<const PrimitiveRange> bvh_primitives) {
     QuantizedLeaf leaf;
     Bounds all;
     for (const Bounds& box : boxes) extend(all, box);
@@ -34,8 +35,7 @@ QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes, std::span<const Prim
     for (std::size_t k = 0; k < 3; ++k) {
         // One step more than needed: what its rounding may lose is far less.
         const double size = all.upper[k] - all.lower[k];
-        leaf.step[k] =
-            static_cast<float>(std::max(size / (kMostSteps - 1) * kRoundUp, 0x1p-100));
+        leaf.step[k] = static_cast<float>(std::max(size / (kMostSteps - 1) * kRoundUp, 0x1p-100));
         leaf.lower[k] = static_cast<float>(all.lower[k]);
         steps[k] = static_cast<double>(leaf.step[k]);
     }

@@ -1,8 +1,8 @@
 #pragma once
-// What the search tree of a large model ends in: up to eight bvh primitives side by side, with a box each
-// in eight bytes. Against a tree that goes down to single bvh primitives this weighs a third, and a ray
-// that meets a leaf tests its eight boxes at once. Idea: Ylitie, Karras & Laine, "Efficient
-// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017.
+// What the search tree of a large model ends in: up to eight bvh primitives side by side, with a
+// box each in eight bytes. Against a tree that goes down to single bvh primitives this weighs a
+// third, and a ray that meets a leaf tests its eight boxes at once. Idea: Ylitie, Karras & Laine,
+// "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -29,8 +29,8 @@ class PrimitiveRange {
 
 struct alignas(64) QuantizedLeaf {
     std::array<float, 3> lower{}, step{};  ///< in the search coordinates [m]
-    /// Where the bvh primitives' boxes begin and end, in steps from `lower`: ten bits for each axis, that
-    /// of x the lowest.
+    /// Where the bvh primitives' boxes begin and end, in steps from `lower`: ten bits for each
+    /// axis, that of x the lowest.
     std::array<std::uint32_t, kLeafSize> begin{}, end{};
     std::array<PrimitiveRange, kLeafSize> bvh_primitives{};
 
@@ -49,7 +49,7 @@ inline constexpr float kEndRoundUp = 1 + 0x1p-20F;
 
 /// What a ray meets of a leaf.
 struct LeafHits {
-    std::uint32_t met = 0;                    ///< a bit for each box that it meets up to its end
+    std::uint32_t met = 0;                 ///< a bit for each box that it meets up to its end
     std::array<float, kLeafSize> first{};  ///< where it enters each of those
 };
 /// Boxes are never missed for rounding; places without a bvh primitive may count as met.
@@ -57,6 +57,7 @@ struct LeafHits {
 
 /// A leaf of up to kLeafSize bvh primitives; the sides of their boxes are numbers of single
 /// precision.
-[[nodiscard]] QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes, std::span<const PrimitiveRange> bvh_primitives);
+[[nodiscard]] QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes,
+                                           std::span<const PrimitiveRange> bvh_primitives);
 
 }  // namespace lightwalk

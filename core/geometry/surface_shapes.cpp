@@ -106,11 +106,13 @@ void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
 }
 
 /// Counts the shapes before each part; returns those of all.
-Counts count_shapes(const SurfaceList& list, const TaskRunner& task_runner, std::vector<Part>& parts) {
-    for_each_part(task_runner, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            ++count_of(parts[part].first, kind_of_type(list.type(i)));
-    });
+Counts count_shapes(const SurfaceList& list, const TaskRunner& task_runner,
+                    std::vector<Part>& parts) {
+    for_each_part(task_runner, list.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      for (std::size_t i = first; i < last; ++i)
+                          ++count_of(parts[part].first, kind_of_type(list.type(i)));
+                  });
     Counts all{};
     for (Part& part : parts) {
         for (std::size_t k = 0; k < kKinds; ++k)
@@ -230,13 +232,15 @@ SurfaceShapes make_shapes(const SurfaceList& list, const TaskRunner& task_runner
                            columns.cones.zeros(count_of(counts, ShapeKind::cone)),
                            columns.rings.zeros(count_of(counts, ShapeKind::ring)),
                            columns.sources.zeros(count_of(counts, ShapeKind::source))};
-    for_each_part(task_runner, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
-        try {
-            fill_part(list, first, last, open, parts[part]);
-        } catch (...) {
-            parts[part].error = std::current_exception();  // the first in the list's order counts
-        }
-    });
+    for_each_part(task_runner, list.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      try {
+                          fill_part(list, first, last, open, parts[part]);
+                      } catch (...) {
+                          parts[part].error =
+                              std::current_exception();  // the first in the list's order counts
+                      }
+                  });
     for (Part& part : parts) {
         for (std::string& warning : part.warnings) columns.warnings.push_back(std::move(warning));
         if (part.error) std::rethrow_exception(part.error);

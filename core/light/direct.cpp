@@ -111,10 +111,10 @@ bool DirectCalculation::select_tests() {
     bool any = false;
     const double threshold = tracer_.options().shadow_threshold;
     for (ShadingPoint& point : scratch_.points) {
-        point.block_end = point.adaptive
-                              ? next_block(remaining_sums(point), point.ahead, threshold / point.ray->weight,
-                                           point.tested, point.tally.brightness)
-                              : point.count;
+        point.block_end = point.adaptive ? next_block(remaining_sums(point), point.ahead,
+                                                      threshold / point.ray->weight, point.tested,
+                                                      point.tally.brightness)
+                                         : point.count;
         any = any || point.block_end > point.tested;
     }
     return any;

@@ -57,7 +57,7 @@ class DirectCalculation {
     void add_unknown(std::uint32_t point, std::int32_t source, const Vec3& direction,
                      const Rgb& coefficient, double distance);
     [[nodiscard]] bool meets_redirecting_surface(const LightSource& source, const Vec3& origin,
-                                   const Vec3& direction) const;
+                                                 const Vec3& direction) const;
     [[nodiscard]] static bool is_constant(const LightSource& source);
     [[nodiscard]] std::optional<double> front_distance(std::int32_t source, const Vec3& origin,
                                                        const Vec3& direction) const;

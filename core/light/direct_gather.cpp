@@ -59,7 +59,8 @@ void DirectCalculation::find_samples(ShadingPoint& point) {
     scratch_.samples.retain([&](std::size_t i) {
         const LightSource& source = lights_[scratch_.samples.source(i)];
         return !source.is_virtual ||
-               meets_redirecting_surface(source, point.position, scratch_.samples.lights().direction(i));
+               meets_redirecting_surface(source, point.position,
+                                         scratch_.samples.lights().direction(i));
     });
 }
 
@@ -148,7 +149,7 @@ void DirectCalculation::add_candidate(std::uint32_t point, std::int32_t source,
 
 /// Most samples of a virtual source pass its mirror by: the outline says so before a ray is traced.
 bool DirectCalculation::meets_redirecting_surface(const LightSource& source, const Vec3& origin,
-                                    const Vec3& direction) const {
+                                                  const Vec3& direction) const {
     return tracer_.scene()
         .geometry()
         .intersect_surface(source.object, {origin, direction, kHuge})

@@ -42,7 +42,8 @@ std::vector<Ledger> count_all(const std::vector<MeasuredPoint>& points, std::siz
 
 std::vector<float> remaining_sums_of(const MeasuredPoint& point) {
     std::vector<float> remaining_sums(point.size() + 1, 0.0f);
-    for (std::size_t i = point.size(); i-- > 0;) remaining_sums[i] = remaining_sums[i + 1] + point[i].brightness;
+    for (std::size_t i = point.size(); i-- > 0;)
+        remaining_sums[i] = remaining_sums[i + 1] + point[i].brightness;
     return remaining_sums;
 }
 
@@ -138,7 +139,8 @@ std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& t
     std::vector<MeasuredPoint> points(places.size());
     std::size_t count = 0, rays = 0;
     const auto is_enough = [&] { return rays >= kShadowRays && count >= kLeastPoints; };
-    // Rounds: what is measured beyond enough does not count, so that the task runner's size does not.
+    // Rounds: what is measured beyond enough does not count, so that the task runner's size does
+    // not.
     for (std::size_t first = 0; first < places.size() && !is_enough(); first += kRound) {
         const std::size_t last = std::min(first + kRound, places.size());
         task_runner.run(kRoundParts, [&](std::size_t part) {

@@ -31,6 +31,7 @@ using MeasuredPoint = std::vector<MeasuredCandidate>;
 /// with seeded random numbers; every source is tested from each. A bounded number of rays, some ten
 /// thousand. Empty when -dt never leaves anything untested: then the rates do not matter.
 [[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
-                                                   WarningSink& warnings, const TaskRunner& task_runner);
+                                                   WarningSink& warnings,
+                                                   const TaskRunner& task_runner);
 
 }  // namespace lightwalk

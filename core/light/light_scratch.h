@@ -86,7 +86,7 @@ struct DirectScratch {
     std::vector<std::uint32_t> chosen_sources;  ///< among the sampled ones
     std::vector<float> scales;                  ///< of these, by source
     std::vector<std::uint64_t> keys;            ///< of the candidates that are being ranked
-    std::vector<float> remaining_sums;                   ///< by rank, and one more a point: see next_block()
+    std::vector<float> remaining_sums;          ///< by rank, and one more a point: see next_block()
     std::vector<std::uint32_t> tests;           ///< candidates that are being tested
     std::vector<std::uint32_t> by_source;       ///< of these, those that plain visibility decides
     std::vector<std::uint32_t> source_ends;     ///< in by_source

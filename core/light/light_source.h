@@ -27,9 +27,9 @@ inline constexpr double kCylinderBox = 0.8559;  ///< across the axis
 
 /// One entry of the source list.
 struct LightSource {
-    SurfaceId object =
-        kNoSurface;  ///< the emitting surface, or the redirecting surface surface of a virtual source
-    ModifierId material = kVoid;  ///< light, illum, glow or spotlight of the real source
+    SurfaceId object = kNoSurface;  ///< the emitting surface, or the redirecting surface surface of
+                                    ///< a virtual source
+    ModifierId material = kVoid;    ///< light, illum, glow or spotlight of the real source
     PrimitiveType material_type = PrimitiveType::light;
     PrimitiveType shape = PrimitiveType::sphere;  ///< of the real source
     Vec3 center;                                  ///< or unit direction of a distant source
@@ -48,12 +48,13 @@ struct LightSource {
     bool transparent_illum = false;  ///< illum that shows nothing of its own
     bool distant = false, flat = false, round = false, cylinder = false;
     bool is_virtual = false, follow = false;
-    bool unusable = false;          ///< visible, but never sampled
-    std::int32_t parent = -1;       ///< virtual: what it redirections
-    int branch = 0;                 ///< virtual: projection of the redirecting surface (prism2)
-    std::optional<VirtualSourceBeam> beam;  ///< virtual: where its samples meet the redirecting surface
-    float worth = 0;                ///< brightness of its radiance, about, times visible_share()
-    float hit_rate = 0.5f;          ///< frozen share of shadow tests that get through
+    bool unusable = false;     ///< visible, but never sampled
+    std::int32_t parent = -1;  ///< virtual: what it redirections
+    int branch = 0;            ///< virtual: projection of the redirecting surface (prism2)
+    std::optional<VirtualSourceBeam>
+        beam;               ///< virtual: where its samples meet the redirecting surface
+    float worth = 0;        ///< brightness of its radiance, about, times visible_share()
+    float hit_rate = 0.5f;  ///< frozen share of shadow tests that get through
 };
 
 /// Share of the tests that see the source, where light samples are chosen by it: never 0.

@@ -32,7 +32,8 @@ void LightSources::index_sources() {
         sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
 }
 
-void LightSources::finalize(const Tracer& tracer, WarningSink& warnings, const TaskRunner& task_runner) {
+void LightSources::finalize(const Tracer& tracer, WarningSink& warnings,
+                            const TaskRunner& task_runner) {
     index_sources();
     find_scattered(warnings);
     const bool chosen = options_.ambient_bounces > 0 && options_.ambient_lights > 0;

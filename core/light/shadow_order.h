@@ -39,11 +39,13 @@ inline constexpr std::size_t kFewPatterned = kFirstBlock + kNextBlocks;
 /// @param ahead      of look_ahead()
 /// @param threshold  -dt over the ray's weight: ignore what is less than this share of the radiance
 /// @param so_far     brightness of that radiance
-[[nodiscard]] inline std::size_t next_block(std::span<const float> remaining_sums, std::size_t ahead,
-                                            double threshold, std::size_t first, float so_far) {
+[[nodiscard]] inline std::size_t next_block(std::span<const float> remaining_sums,
+                                            std::size_t ahead, double threshold, std::size_t first,
+                                            float so_far) {
     const std::size_t n = remaining_sums.size() - 1;
     if (first >= n) return first;
-    const float rest = first + ahead >= n ? remaining_sums[first] : remaining_sums[first] - remaining_sums[first + ahead];
+    const float rest = first + ahead >= n ? remaining_sums[first]
+                                          : remaining_sums[first] - remaining_sums[first + ahead];
     if (first > 0 && static_cast<double>(rest) < threshold * static_cast<double>(so_far))
         return first;
     return std::min(n, first + (first == 0 ? kFirstBlock : kNextBlocks));
@@ -54,11 +56,12 @@ inline constexpr std::size_t kFewPatterned = kFirstBlock + kNextBlocks;
 /// date
 /// @return      how many were tested
 template <class Test>
-std::size_t test_brightest(std::span<const float> remaining_sums, double certainty, double threshold,
-                           const ShadowTally& tally, Test&& test) {
+std::size_t test_brightest(std::span<const float> remaining_sums, double certainty,
+                           double threshold, const ShadowTally& tally, Test&& test) {
     const std::size_t ahead = look_ahead(remaining_sums.size() - 1, certainty);
     for (std::size_t first = 0;;) {
-        const std::size_t last = next_block(remaining_sums, ahead, threshold, first, tally.brightness);
+        const std::size_t last =
+            next_block(remaining_sums, ahead, threshold, first, tally.brightness);
         if (last == first) return first;
         test(first, last);
         first = last;

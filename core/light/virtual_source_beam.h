@@ -7,14 +7,15 @@
 
 namespace lightwalk {
 
-/// The lines from anywhere in a virtual source's sampling box through its redirecting surface's outline, beyond
-/// the redirecting surface: a pyramid whose sides lean on the outline and on the far corners of the box.
+/// The lines from anywhere in a virtual source's sampling box through its redirecting surface's
+/// outline, beyond the redirecting surface: a pyramid whose sides lean on the outline and on the
+/// far corners of the box.
 struct VirtualSourceBeam {
-    Plane surface;                 ///< the source is above
+    Plane surface;               ///< the source is above
     std::array<Plane, 4> sides;  ///< the beam is above
 
-    /// Whether a ray from the point to a sample of the source may meet the redirecting surface. May be true
-    /// though none does.
+    /// Whether a ray from the point to a sample of the source may meet the redirecting surface. May
+    /// be true though none does.
     [[nodiscard]] bool may_reach(const Vec3& point) const {
         if (surface.height(point) >= 0) return true;  // on the source's side: not for us to say
         for (const Plane& side : sides) {

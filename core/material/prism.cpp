@@ -5,9 +5,9 @@
 #include "core/light/light_sources.h"
 #include "core/material/argument_checks.h"
 #include "core/material/surface_side.h"
-#include "core/virtual_source/redirecting_modifier.h"
 #include "core/scene/modifier.h"
 #include "core/texture/function_binding.h"
+#include "core/virtual_source/redirecting_modifier.h"
 
 namespace lightwalk {
 namespace {
@@ -24,9 +24,8 @@ class Prism final : public Modifier, public RedirectingModifier {
                                                       TraceContext& context) const override;
 
   private:
-    [[nodiscard]] std::optional<Redirection> evaluate(int branch, const Ray& ray,
-                                                         const Vec3& aim,
-                                                         TraceContext& context) const;
+    [[nodiscard]] std::optional<Redirection> evaluate(int branch, const Ray& ray, const Vec3& aim,
+                                                      TraceContext& context) const;
     void send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
               TraceContext& context) const;
 
@@ -76,7 +75,7 @@ std::optional<Redirection> Prism::redirect(int branch, const Ray& hit_ray,
 }
 
 std::optional<Redirection> Prism::evaluate(int branch, const Ray& ray, const Vec3& aim,
-                                              TraceContext& context) const {
+                                           TraceContext& context) const {
     MaterialVariables variables;
     variables.aim = aim;
     EvalState& state = binding_.begin(ray, context, &variables);
@@ -88,8 +87,7 @@ std::optional<Redirection> Prism::evaluate(int branch, const Ray& ray, const Vec
             return std::nullopt;
         }
     }
-    return Redirection{value[0],
-                          binding_.to_world({value[1], value[2], value[3]}, ray, context)};
+    return Redirection{value[0], binding_.to_world({value[1], value[2], value[3]}, ray, context)};
 }
 
 void Prism::send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
@@ -104,7 +102,8 @@ void Prism::send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
     child.target = target;
     context.tracer.trace(child, context);
     Tracer::accumulate(ray, child);
-    if (is_flat_hit(ray, context)) ray.unreflected_path_length = ray.hit.t + child.effective_distance();
+    if (is_flat_hit(ray, context))
+        ray.unreflected_path_length = ray.hit.t + child.effective_distance();
 }
 
 }  // namespace

@@ -6,7 +6,8 @@ namespace lightwalk {
 
 enum class ModifierId : std::int32_t {};  ///< into Scene modifiers; kVoid is the modifier `void`
 enum class SurfaceId : std::int32_t {};   ///< into Scene surfaces
-enum class InstanceId : std::int32_t {};  ///< into Geometry frames: the placement of an instance path
+enum class InstanceId : std::int32_t {
+};  ///< into Geometry frames: the placement of an instance path
 
 inline constexpr ModifierId kVoid{-1};
 inline constexpr SurfaceId kNoSurface{-1};

@@ -11,7 +11,8 @@ constexpr std::size_t kMaxNesting = 64;  ///< instances inside instances
 
 }  // namespace
 
-ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const TaskRunner& task_runner)
+ModelLoader::ModelLoader(std::shared_ptr<const Model> scene, Resources& resources,
+                         const TaskRunner& task_runner)
     : resources_(resources), task_runner_(task_runner) {
     LoadedModel root;
     root.model = std::move(scene);

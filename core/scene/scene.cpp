@@ -40,7 +40,8 @@ struct Scene::Impl {
     void use_modifiers();
     void add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
                         WarningSink& warnings);
-    [[nodiscard]] ModelGeometry model_geometry(std::size_t model, const TaskRunner& task_runner) const;
+    [[nodiscard]] ModelGeometry model_geometry(std::size_t model,
+                                               const TaskRunner& task_runner) const;
     void build_geometry(const TaskRunner& task_runner);
 };
 
@@ -163,7 +164,7 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const TaskRunner& t
     };
     try {
         task_runner.run((placed.size() + kTogether - 1) / kTogether,
-                 [&](std::size_t part) { place(part * kTogether, (part + 1) * kTogether); });
+                        [&](std::size_t part) { place(part * kTogether, (part + 1) * kTogether); });
     } catch (const InputError&) {
         place(0, placed.size());  // which finds the first that is wrong
         throw;
@@ -174,12 +175,14 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const TaskRunner& t
 void Scene::Impl::build_geometry(const TaskRunner& task_runner) {
     GeometryInput input;
     input.surfaces = &surfaces;
-    for (std::size_t i = 0; i < models.size(); ++i) input.models.push_back(model_geometry(i, task_runner));
+    for (std::size_t i = 0; i < models.size(); ++i)
+        input.models.push_back(model_geometry(i, task_runner));
     geometry = std::make_unique<Geometry>(std::move(input), std::string(), task_runner);
 }
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-             Resources& resources, WarningSink& warnings, const TaskRunner& task_runner, SceneExtent extent)
+             Resources& resources, WarningSink& warnings, const TaskRunner& task_runner,
+             SceneExtent extent)
     : impl_(std::make_unique<Impl>(std::move(model), resources, task_runner)) {
     impl_->collect_surfaces(warnings, task_runner);
     impl_->use_modifiers();

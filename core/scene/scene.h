@@ -43,7 +43,8 @@ class Scene {
     /// modifier misses is a warning, and an InputError when a ray needs it. `model` and what
     /// `resources` hands out are kept alive by the scene. `task runner` helps to build it.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
-          Resources& resources, WarningSink& warnings, const TaskRunner& task_runner = SerialTaskRunner(),
+          Resources& resources, WarningSink& warnings,
+          const TaskRunner& task_runner = SerialTaskRunner(),
           SceneExtent extent = SceneExtent::whole);
     ~Scene();
     /// Of a scene that cannot be rendered anyway: every used modifier whose type is recognised but

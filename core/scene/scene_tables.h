@@ -27,7 +27,8 @@ struct LoadedModel {
 /// instances.
 class ModelLoader {
   public:
-    ModelLoader(std::shared_ptr<const Model> scene, Resources& resources, const TaskRunner& task_runner);
+    ModelLoader(std::shared_ptr<const Model> scene, Resources& resources,
+                const TaskRunner& task_runner);
     std::vector<LoadedModel> models;  ///< models[0] is the scene
 
   private:

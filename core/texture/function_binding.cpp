@@ -38,7 +38,8 @@ void set(ChannelValues& out, Channel channel, double v) {
 /// World -> function space: M, and sigma, function-space units per world unit.
 class ToFunction {
   public:
-    ToFunction(const Transform& own, bool transformed, InstanceId instance, const Geometry& geometry) {
+    ToFunction(const Transform& own, bool transformed, InstanceId instance,
+               const Geometry& geometry) {
         if (instance == kWorld) {
             if (transformed) set(own.inverse, own.size());
             return;
@@ -155,7 +156,8 @@ void FunctionBinding::evaluate_all(std::span<const RayHit> hits,
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {
     Vec3 v = transformed_ ? transform_.forward.vector(d) * (1 / transform_.size()) : d;
     if (ray.hit.instance != kWorld) {
-        const Transform placed = context.tracer.scene().geometry().instance_transform(ray.hit.instance);
+        const Transform placed =
+            context.tracer.scene().geometry().instance_transform(ray.hit.instance);
         v = placed.forward.vector(v) * (1 / placed.size());
     }
     return v;

@@ -3,11 +3,11 @@
 #include <string>
 
 #include "core/ambient/ambient_calculation.h"
+#include "core/batch/shading_batch.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
-#include "core/virtual_source/virtual_sources.h"
 #include "core/transport/tracer.h"
-#include "core/batch/shading_batch.h"
+#include "core/virtual_source/virtual_sources.h"
 
 namespace lightwalk {
 namespace {
@@ -125,8 +125,8 @@ void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
     // To wait and go on costs a ray as much as some candidates gain by going side by side.
     const bool few = context.light->candidates < kWorthWaiting * context.light->points;
     const bool alone = few || !context.make_fibers || rays.size() == 1 ||
-                       context.open_batches == kMostBatches || context.observer || context.missing ||
-                       lights_->sampled().empty();
+                       context.open_batches == kMostBatches || context.observer ||
+                       context.missing || lights_->sampled().empty();
     if (alone) {
         for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
         return;

@@ -18,14 +18,14 @@ struct AmbientSelection {
 
 struct RenderOptions {
     // direct
-    double shadow_threshold = 0.05;    ///< -dt
-    double shadow_certainty = 0.5;     ///< -dc
-    double source_jitter = 0;          ///< -dj
-    double source_subdivision = 0.25;  ///< -ds
-    int redirections = 1;                    ///< -dr
-    double virtual_source_pretest = 512;        ///< -dp [samples/sr]
-    bool sources_visible = true;       ///< -dv
-    bool back_faces_visible = true;    ///< -bv
+    double shadow_threshold = 0.05;       ///< -dt
+    double shadow_certainty = 0.5;        ///< -dc
+    double source_jitter = 0;             ///< -dj
+    double source_subdivision = 0.25;     ///< -ds
+    int redirections = 1;                 ///< -dr
+    double virtual_source_pretest = 512;  ///< -dp [samples/sr]
+    bool sources_visible = true;          ///< -dv
+    bool back_faces_visible = true;       ///< -bv
     // specular
     double specular_samples = 1;       ///< -ss
     double specular_threshold = 0.15;  ///< -st

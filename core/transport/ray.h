@@ -52,8 +52,8 @@ struct Ray {
     Hit hit;               ///< nearest hit; for nothing or a distant source t = kHuge
     Rgb pattern{1, 1, 1};  ///< product of the patterns met; textures add to hit.perturbation
 
-    Rgb value;                           ///< radiance that the ray brings back [W/(m² sr)]
-    Rgb mirrored;                        ///< the part of it that came by mirror-like reflection
+    Rgb value;                               ///< radiance that the ray brings back [W/(m² sr)]
+    Rgb mirrored;                            ///< the part of it that came by mirror-like reflection
     double reflected_path_length = kHuge;    ///< Radiance's rmt
     double unreflected_path_length = kHuge;  ///< Radiance's rxt
 

@@ -94,10 +94,10 @@ struct TraceContext {
     MakeFibers make_fibers = nullptr;  ///< for rays that wait for each other; null: none wait
     /// Of shade_hits(), one inside the other; made when first needed.
     std::vector<std::unique_ptr<ShadingBatch>> batches;
-    std::size_t open_batches = 0;  ///< of these: in use
-    ShadingBatch* batch = nullptr;     ///< the one whose fiber this code runs on; null: on none
-    int depth = 0;               ///< nesting of rays, bounded by Tracer::kMaxDepth
-    int ambient_level = 0;       ///< ambient evaluations that are open
+    std::size_t open_batches = 0;   ///< of these: in use
+    ShadingBatch* batch = nullptr;  ///< the one whose fiber this code runs on; null: on none
+    int depth = 0;                  ///< nesting of rays, bounded by Tracer::kMaxDepth
+    int ambient_level = 0;          ///< ambient evaluations that are open
     AmbientCounters ambient;
     RayObserver* observer = nullptr;  ///< told of every ray; null: nobody watches
     /// Takes the ambient values that are missing, and there is no direct light; null: they are

@@ -28,9 +28,9 @@ struct PixelHit {
     SurfaceId surface = kNoSurface;  ///< a source at infinity, too; kNoSurface: nothing
     ModifierId modifier = kVoid;     ///< the surface's own, which shades it
     Vec3 position;                   ///< world; where nothing finite was met, the ray's origin [m]
-    double reflected_path_length = 0;    ///< along the ray to what is seen in a mirror-like surface;
-                                     ///< kHuge: nothing is [m]
-    Rgb mirrored;                    ///< the part of the pixel's radiance that comes from there
+    double reflected_path_length = 0;  ///< along the ray to what is seen in a mirror-like surface;
+                                       ///< kHuge: nothing is [m]
+    Rgb mirrored;                      ///< the part of the pixel's radiance that comes from there
     friend bool operator==(const PixelHit&, const PixelHit&) = default;
 };
 

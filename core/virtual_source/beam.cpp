@@ -63,7 +63,8 @@ std::optional<Plane> side_of_beam(const Vec3& a, const Vec3& b, const Vec3& insi
 
 }  // namespace
 
-std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source, const Shape& surface) {
+std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source,
+                                                     const Shape& surface) {
     const auto plane = plane_of(surface);
     const auto disk = redirecting_disk(surface);
     if (!plane || !disk) return std::nullopt;

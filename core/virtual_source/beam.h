@@ -7,8 +7,9 @@
 
 namespace lightwalk {
 
-/// The beam of a virtual source through the outline of its redirecting surface. Nothing when the source's box
-/// straddles the redirecting surface's plane, or the redirecting surface is not flat.
-[[nodiscard]] std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source, const Shape& surface);
+/// The beam of a virtual source through the outline of its redirecting surface. Nothing when the
+/// source's box straddles the redirecting surface's plane, or the redirecting surface is not flat.
+[[nodiscard]] std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source,
+                                                                   const Shape& surface);
 
 }  // namespace lightwalk

@@ -21,9 +21,10 @@ Vec3 point_in_disk(const RedirectingDisk& disk, const Vec3& normal, RandomStream
 
 }  // namespace
 
-/// Samples per solid angle that the redirecting surface fills as the parent sees it (-dp); for the sun, of the
-/// whole scene.
-int VirtualSourceBuilder::pretest_samples(const LightSource& parent, const RedirectingDisk& disk) const {
+/// Samples per solid angle that the redirecting surface fills as the parent sees it (-dp); for the
+/// sun, of the whole scene.
+int VirtualSourceBuilder::pretest_samples(const LightSource& parent,
+                                          const RedirectingDisk& disk) const {
     const double density = tracer_.options().virtual_source_pretest,
                  radius_squared = disk.radius * disk.radius;
     double samples = 0;
@@ -66,7 +67,8 @@ VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_
     int found = 0, lit = 0, agreed = 0;
     for (int draw = 0; found < wanted; ++draw) {
         if (draw >= kDrawsPerSample * wanted) return Pretest::follow;  // too small to be judged
-        // Any ray onto the redirecting surface will do to find out whether the point is within its outline.
+        // Any ray onto the redirecting surface will do to find out whether the point is within its
+        // outline.
         const Vec3 above = point_in_disk(disk, next.plane.normal, random) + next.plane.normal;
         const Vec3 point = above - next.plane.normal * next.plane.height(above);
         if (!tracer_.scene()

@@ -111,7 +111,8 @@ std::optional<Projection> Projection::bend(const Plane& plane, const Vec3& from,
 }
 
 std::optional<RedirectingDisk> redirecting_disk(const Shape& shape) {
-    if (const auto* ring = std::get_if<RingShape>(&shape)) return RedirectingDisk{ring->center, ring->r1};
+    if (const auto* ring = std::get_if<RingShape>(&shape))
+        return RedirectingDisk{ring->center, ring->r1};
     const auto* polygon = std::get_if<PolygonShape>(&shape);
     if (!polygon) return std::nullopt;
     RedirectingDisk disk;
@@ -151,7 +152,7 @@ LightSource project(const LightSource& source, const Projection& projection) {
 }
 
 VirtualSpot virtual_spot(const LightSource& parent, const LightSource& projected,
-                       const Projection& projection, const RedirectingDisk& disk) {
+                         const Projection& projection, const RedirectingDisk& disk) {
     return projected.distant ? spot_of_beam(parent, projected, projection, disk)
                              : spot_of_cone(parent, projected, projection, disk);
 }

@@ -43,15 +43,15 @@ struct RedirectingDisk {
 /// Whether any part of the source's sampling box is in front of a mirror's plane.
 [[nodiscard]] bool is_before_mirror(const LightSource& source, const Plane& plane);
 
-/// The source as it appears through the redirecting surface: box, normal and direction projected; the rest
-/// copied.
+/// The source as it appears through the redirecting surface: box, normal and direction projected;
+/// the rest copied.
 [[nodiscard]] LightSource project(const LightSource& source, const Projection& projection);
 
 /// What a redirecting surface's outline leaves of a source that was projected through it.
 struct VirtualSpot {
     bool possible = true;           ///< false: no light gets through
     std::optional<SpotShape> spot;  ///< cone or beam; nothing: no bound
-    RedirectingDisk disk;                 ///< the redirecting surface's disk, smaller when the spot shrank
+    RedirectingDisk disk;  ///< the redirecting surface's disk, smaller when the spot shrank
 };
 
 /// @param parent     the source that is redirected
@@ -59,6 +59,6 @@ struct VirtualSpot {
 /// @param projection how it was projected
 /// @param disk       of the redirecting surface
 [[nodiscard]] VirtualSpot virtual_spot(const LightSource& parent, const LightSource& projected,
-                                     const Projection& projection, const RedirectingDisk& disk);
+                                       const Projection& projection, const RedirectingDisk& disk);
 
 }  // namespace lightwalk

@@ -26,9 +26,9 @@ class RedirectingModifier {
     /// How many projections there are (prism1: 1, prism2: 2).
     [[nodiscard]] virtual int branches() const = 0;
 
-    /// Evaluate one projection for a ray that hit the redirecting surface surface, without a source to aim at
-    /// (DxA, DyA and DzA are 0). The transform of the material applies; redirecting surface surfaces are never
-    /// inside an instance. Nothing when an expression failed.
+    /// Evaluate one projection for a ray that hit the redirecting surface surface, without a source
+    /// to aim at (DxA, DyA and DzA are 0). The transform of the material applies; redirecting
+    /// surface surfaces are never inside an instance. Nothing when an expression failed.
     [[nodiscard]] virtual std::optional<Redirection> redirect(int branch, const Ray& hit_ray,
                                                               TraceContext& context) const = 0;
 };

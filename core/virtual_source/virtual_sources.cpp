@@ -31,7 +31,8 @@ std::optional<ModifierId> redirecting_material(const Scene& scene, ModifierId mo
 VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& tracer,
                                            WarningSink& warnings)
     : lights_(lights), tracer_(tracer), context_(tracer, warnings) {
-    if (tracer.options().redirections > 0 && !lights.all().empty()) collect_redirecting_surfaces(warnings);
+    if (tracer.options().redirections > 0 && !lights.all().empty())
+        collect_redirecting_surfaces(warnings);
 }
 
 void VirtualSourceBuilder::collect_redirecting_surfaces(WarningSink& warnings) {
@@ -81,8 +82,9 @@ void VirtualSourceBuilder::add_virtual_sources(std::int32_t parent, int depth) {
     }
 }
 
-void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index, const RedirectingSurface& next, int branch,
-                                     int depth) {
+void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index,
+                                              const RedirectingSurface& next, int branch,
+                                              int depth) {
     const LightSource parent = lights_[parent_index];
     if (!lights_disk(parent, next)) return;
     const auto projected_by = projection(parent, next, branch);
@@ -110,9 +112,10 @@ void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index, const R
     if (depth > 1) add_virtual_sources(static_cast<std::int32_t>(count), depth - 1);
 }
 
-/// Light of a virtual source exists only beyond its own redirecting surface: whether this redirecting surface's disk reaches
-/// there.
-bool VirtualSourceBuilder::lights_disk(const LightSource& source, const RedirectingSurface& next) const {
+/// Light of a virtual source exists only beyond its own redirecting surface: whether this
+/// redirecting surface's disk reaches there.
+bool VirtualSourceBuilder::lights_disk(const LightSource& source,
+                                       const RedirectingSurface& next) const {
     if (!source.is_virtual) return true;
     const auto plane = plane_of(tracer_.scene().surface(source.object).shape());
     if (!plane) return true;
@@ -126,7 +129,8 @@ bool VirtualSourceBuilder::lights_disk(const LightSource& source, const Redirect
 }
 
 std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& source,
-                                                           const RedirectingSurface& next, int branch) {
+                                                           const RedirectingSurface& next,
+                                                           int branch) {
     if (!next.prism) {
         if (!is_before_mirror(source, next.plane)) return std::nullopt;
         return Projection::mirror(next.plane);

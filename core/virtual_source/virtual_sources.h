@@ -13,8 +13,8 @@ namespace lightwalk {
 inline constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
 inline constexpr int kMaxRedirections = 64;  ///< larger values of -dr count as this
 
-/// Appends to the list, for every source and every flat redirecting surface, what the redirecting surface makes of it; redirections
-/// of redirections too.
+/// Appends to the list, for every source and every flat redirecting surface, what the redirecting
+/// surface makes of it; redirections of redirections too.
 class VirtualSourceBuilder {
   public:
     VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);
@@ -33,13 +33,17 @@ class VirtualSourceBuilder {
     };
     void collect_redirecting_surfaces(WarningSink& warnings);
     void add_virtual_sources(std::int32_t parent, int depth);
-    void try_virtual_source(std::int32_t parent, const RedirectingSurface& surface, int branch, int depth);
+    void try_virtual_source(std::int32_t parent, const RedirectingSurface& surface, int branch,
+                            int depth);
     [[nodiscard]] std::optional<Projection> projection(const LightSource& source,
-                                                       const RedirectingSurface& surface, int branch);
-    [[nodiscard]] bool lights_disk(const LightSource& source, const RedirectingSurface& surface) const;
+                                                       const RedirectingSurface& surface,
+                                                       int branch);
+    [[nodiscard]] bool lights_disk(const LightSource& source,
+                                   const RedirectingSurface& surface) const;
 
     enum class Pretest { discard, follow, direct };
-    [[nodiscard]] Pretest pretest(std::int32_t parent, const RedirectingSurface& surface, const RedirectingDisk& disk);
+    [[nodiscard]] Pretest pretest(std::int32_t parent, const RedirectingSurface& surface,
+                                  const RedirectingDisk& disk);
     [[nodiscard]] int pretest_samples(const LightSource& parent, const RedirectingDisk& disk) const;
     [[nodiscard]] float light_at(const Vec3& point, const Vec3& direction, std::int32_t source,
                                  bool alone);

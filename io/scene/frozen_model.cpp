@@ -117,7 +117,7 @@ std::optional<ModelCube> unpack_cube(PackedReader& reader) {
 }
 
 SurfaceList map_surfaces(const FrozenFile& file, std::uint32_t number, std::vector<FileName> files,
-                          std::size_t modifiers) {
+                         std::size_t modifiers) {
     SurfaceList::Columns columns;
     columns.records = column_of<SurfaceRecord>(file, FrozenKind::records, number);
     columns.reals = column_of<double>(file, FrozenKind::reals, number);
@@ -166,7 +166,7 @@ void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns)
 }
 
 SurfaceShapes map_shapes(const FrozenFile& file, std::uint32_t number, const SurfaceList& list,
-                          std::vector<std::string> warnings) {
+                         std::vector<std::string> warnings) {
     SurfaceShapes::Columns columns;
     columns.rows = column_of<ShapeRow>(file, FrozenKind::rows, number);
     columns.spheres = column_of<SphereShape>(file, FrozenKind::spheres, number);

@@ -18,6 +18,6 @@ void freeze_mesh(const MeshModel& mesh, std::uint32_t number, FrozenParts& parts
 /// freeze_model can have written, in so far as a scene relies on it.
 [[nodiscard]] std::shared_ptr<const Model> map_model(const FrozenFile& file, std::uint32_t number);
 [[nodiscard]] std::shared_ptr<const MeshModel> map_mesh(const FrozenFile& file,
-                                                         std::uint32_t number);
+                                                        std::uint32_t number);
 
 }  // namespace lightwalk

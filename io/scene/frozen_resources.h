@@ -14,9 +14,9 @@ void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts);
 // The inverse. They throw InputError for what no decoder can have made, in so far as a scene relies
 // on it.
 [[nodiscard]] std::shared_ptr<const DataArray> map_data(const FrozenFile& file,
-                                                         std::uint32_t number);
+                                                        std::uint32_t number);
 [[nodiscard]] std::shared_ptr<const PictureData> map_picture(const FrozenFile& file,
-                                                              std::uint32_t number);
+                                                             std::uint32_t number);
 [[nodiscard]] std::shared_ptr<const Font> map_font(const FrozenFile& file, std::uint32_t number);
 
 }  // namespace lightwalk

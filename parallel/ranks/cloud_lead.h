@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/cloud/reuse_error_controller.h"
 #include "core/cloud/progressive.h"
+#include "core/cloud/reuse_error_controller.h"
 #include "core/view/view.h"
 #include "parallel/ranks/cloud_messages.h"
 #include "parallel/walk/cloud_frame.h"
@@ -75,7 +75,7 @@ class CloudLead {
 
     int width_, height_;
     CloudOptions options_;
-    ReuseErrorController guard_;
+    ReuseErrorController error_controller_;
     WalkFrameId frame_;
     bool empty_ = true;
     AgeLimit room_;

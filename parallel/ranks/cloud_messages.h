@@ -47,7 +47,7 @@ struct CloudUsed {
 /// Tracer to its own worker, and that one to the master: pixels of its part that are to be traced.
 struct UncachedPixels {
     WalkFrameId frame = 0;
-    std::uint32_t noise_pairs = 0;         ///< so many of the last places are to be traced by other rays
+    std::uint32_t noise_pairs = 0;   ///< so many of the last places are to be traced by other rays
     std::vector<PixelPlace> places;  ///< that messages name by their number
 };
 
@@ -61,7 +61,7 @@ struct GiveUncachedPixels {
     WalkFrameId frame = 0;
     std::uint32_t owner = 0;         ///< of the part, among the workers
     std::uint32_t first = 0;         ///< number of the first of them
-    bool noise_pairs = false;              ///< by other rays
+    bool noise_pairs = false;        ///< by other rays
     bool at_once = false;            ///< whatever the time is
     std::vector<PixelPlace> places;  ///< none: the frame has no more work
 };
@@ -69,8 +69,8 @@ struct GiveUncachedPixels {
 /// Tracer to the worker that owns the pixels.
 struct TracedPixelResults {
     WalkFrameId frame = 0;
-    std::uint32_t first = 0, count = 0;  ///< numbers of the pixels
-    std::vector<TracedPixelResult> traced;      ///< none: it was too late for them
+    std::uint32_t first = 0, count = 0;     ///< numbers of the pixels
+    std::vector<TracedPixelResult> traced;  ///< none: it was too late for them
 };
 
 /// Worker to its own tracer: of the others ...

@@ -76,18 +76,19 @@ GiveUncachedPixels CloudMasterRole::next_piece() {
         turn_ = (turn_ + 1) % stores_.size();
     Store& store = stores_[turn_];
     const std::vector<PixelPlace>& places = store.uncached.places;
-    const std::size_t own = places.size() - store.uncached.noise_pairs;  // those that are no noise pairs
+    const std::size_t own =
+        places.size() - store.uncached.noise_pairs;  // those that are no noise pairs
     const bool noise_pairs = store.next >= own;
     const std::size_t end = noise_pairs ? places.size() : own;
     const std::size_t count =
         std::min(std::clamp(left_ / (kShares * slots_), kFewest, kMost), end - store.next);
     const auto first = places.begin() + static_cast<std::ptrdiff_t>(store.next);
     GiveUncachedPixels piece{frame_,
-                    static_cast<std::uint32_t>(turn_),
-                    static_cast<std::uint32_t>(store.next),
-                    noise_pairs,
-                    !std::exchange(begun_, true),
-                    {first, first + static_cast<std::ptrdiff_t>(count)}};
+                             static_cast<std::uint32_t>(turn_),
+                             static_cast<std::uint32_t>(store.next),
+                             noise_pairs,
+                             !std::exchange(begun_, true),
+                             {first, first + static_cast<std::ptrdiff_t>(count)}};
     store.next += count;
     left_ -= count;
     turn_ = (turn_ + 1) % stores_.size();
@@ -110,7 +111,8 @@ void CloudMasterRole::serve(Outbox& out) {
 void CloudMasterRole::tell_end(Outbox& out) {
     if (!drawing_ || untold_ > 0 || left_ > 0 || std::exchange(ended_, true)) return;
     for (const int rank : workers_)
-        out.push_back({self_, {rank, Role::worker}, GiveUncachedPixels{frame_, 0, 0, false, false, {}}});
+        out.push_back(
+            {self_, {rank, Role::worker}, GiveUncachedPixels{frame_, 0, 0, false, false, {}}});
 }
 
 void CloudMasterRole::gather(int rank, CloudPart part, Outbox& out) {
@@ -156,8 +158,8 @@ void CloudWorkerRole::handle(Envelope envelope, Outbox& out) {
         expect(*uncached);
     }
     const bool starts = std::holds_alternative<CloudOrder>(message);
-    const bool own =
-        std::holds_alternative<UncachedPixels>(message) || std::holds_alternative<CloudPart>(message);
+    const bool own = std::holds_alternative<UncachedPixels>(message) ||
+                     std::holds_alternative<CloudPart>(message);
     out.push_back({options_.self, own ? options_.master : tracer(), std::move(message)});
     tell_stages(out);
     if (!starts) return;

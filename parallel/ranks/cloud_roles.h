@@ -23,8 +23,8 @@ class CloudMasterRole {
     CloudMasterRole(Address self, std::vector<int> workers, std::size_t owners, int slots);
 
     /// From the program: CloudOrder, the next one when the frame before is there. From owners:
-    /// UncachedPixels, CloudPart. From tracers: AskUncachedPixels. To the program: FinishedFrame. Throws
-    /// InputError for what nobody should have sent.
+    /// UncachedPixels, CloudPart. From tracers: AskUncachedPixels. To the program: FinishedFrame.
+    /// Throws InputError for what nobody should have sent.
     void handle(Envelope envelope, Outbox& out);
 
   private:
@@ -77,8 +77,8 @@ class CloudWorkerRole {
     /// Asks for the first pieces of work.
     void begin(Outbox& out);
     /// From the master: CloudOrder, GiveUncachedPixels. From other tracers: CloudPoints, CloudUsed,
-    /// TracedPixelResults. From its own: UncachedPixels, CloudPart. To it: these of others, CloudStage. Throws
-    /// InputError for what nobody should have sent.
+    /// TracedPixelResults. From its own: UncachedPixels, CloudPart. To it: these of others,
+    /// CloudStage. Throws InputError for what nobody should have sent.
     void handle(Envelope envelope, Outbox& out);
 
   private:

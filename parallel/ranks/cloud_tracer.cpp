@@ -61,7 +61,7 @@ bool CloudTracer::wait_for(CloudStage::Kind stage, const StopFlag& stop) {
 
 /// Those of the next frame may be there already: where this one was none of the rank's business.
 std::optional<GiveUncachedPixels> CloudTracer::next_uncached(WalkFrameId frame, int worker,
-                                                 const StopFlag& stop) {
+                                                             const StopFlag& stop) {
     const TimedActivity waiting(timeline_, worker, Activity::wait);
     std::unique_lock lock(mutex_);
     const auto here = [&] { return !uncached_.empty() && uncached_.front().frame == frame; };
@@ -79,15 +79,16 @@ void CloudTracer::run(Executor& executor, const StopFlag& stop) {
 
 void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFlag& stop) {
     const double budget = order.budget;
-    const UncachedPixelTracer::Clock::time_point deadline = budget > 0
-                                                       ? deadline_of(budget - last_keep_seconds_)
-                                                       : UncachedPixelTracer::Clock::time_point::max();
+    const UncachedPixelTracer::Clock::time_point deadline =
+        budget > 0 ? deadline_of(budget - last_keep_seconds_)
+                   : UncachedPixelTracer::Clock::time_point::max();
     const std::unique_ptr<WalkRays> rays = make_(order);
-    const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                          int worker) { rays->probe(places, visibility, worker); };
+    const auto probe = [&](std::span<const PixelPlace> places,
+                           std::span<PixelVisibility> visibility,
+                           int worker) { rays->probe(places, visibility, worker); };
     const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                            int sample, int worker) { rays->trace(places, pixels, sample, worker); };
-    const PixelCaster caster{look, trace};
+    const PixelCaster caster{probe, trace};
     const std::uint64_t rays_before = rays->traced();
     const Frame frame{order, caster, executor, stop};
     const bool owns = options_.index < options_.owners;
@@ -103,7 +104,7 @@ void CloudTracer::draw(const CloudOrder& order, Executor& executor, const StopFl
     const auto traces = UncachedPixelTracer::Clock::now();
     const double unknown = owns ? region_->unknown() : 0;
     serve(frame, UncachedPixelTracer(caster, options_.cloud.tolerance,
-                            tracing_deadline(deadline, budget, unknown)));
+                                     tracing_deadline(deadline, budget, unknown)));
     if (!owns) return;
     region_->frame().report.trace_seconds =
         std::chrono::duration<double>(UncachedPixelTracer::Clock::now() - traces).count();
@@ -173,7 +174,8 @@ void CloudTracer::send_used(WalkFrameId frame) {
 
 void CloudTracer::send_uncached(WalkFrameId frame) {
     UncachedPixels message{frame, static_cast<std::uint32_t>(region_->noise_pairs().size()), {}};
-    for (const UncachedPixel& uncached_pixel : region_->uncached()) message.places.push_back(uncached_pixel.place);
+    for (const UncachedPixel& uncached_pixel : region_->uncached())
+        message.places.push_back(uncached_pixel.place);
     for (const std::uint32_t uncached_pixel : region_->noise_pairs())
         message.places.push_back(region_->uncached()[uncached_pixel].place);
     post_(worker(options_.index), std::move(message));
@@ -195,7 +197,8 @@ void CloudTracer::serve(const Frame& frame, const UncachedPixelTracer& tracer) {
                             frame.stop);
 }
 
-void CloudTracer::trace(const GiveUncachedPixels& uncached, const UncachedPixelTracer& tracer, int sample, int worker) {
+void CloudTracer::trace(const GiveUncachedPixels& uncached, const UncachedPixelTracer& tracer,
+                        int sample, int worker) {
     if (uncached.owner >= options_.owners) throw InputError("pixels of a part that nobody owns");
     const auto count = static_cast<std::uint32_t>(uncached.places.size());
     TracedPixelResults result{uncached.frame, uncached.first, count, {}};

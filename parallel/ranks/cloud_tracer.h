@@ -28,7 +28,7 @@ class WalkRays {
     virtual ~WalkRays() = default;
     [[nodiscard]] virtual const Camera& camera() const = 0;
     virtual void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                      int worker) = 0;
+                       int worker) = 0;
     virtual void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                        int sample, int worker) = 0;
     /// That were traced so far, of this frame and those before.
@@ -76,7 +76,7 @@ class CloudTracer {
     [[nodiscard]] std::optional<CloudOrder> next_order(const StopFlag& stop);
     [[nodiscard]] bool wait_for(CloudStage::Kind stage, const StopFlag& stop);
     [[nodiscard]] std::optional<GiveUncachedPixels> next_uncached(WalkFrameId frame, int worker,
-                                                      const StopFlag& stop);
+                                                                  const StopFlag& stop);
     void draw(const CloudOrder& order, Executor& executor, const StopFlag& stop);
     [[nodiscard]] double begin(const CloudOrder& order, Executor& executor);
     [[nodiscard]] bool answer(const Frame& frame);
@@ -85,7 +85,8 @@ class CloudTracer {
     void send_used(WalkFrameId frame);
     void send_uncached(WalkFrameId frame);
     void serve(const Frame& frame, const UncachedPixelTracer& tracer);
-    void trace(const GiveUncachedPixels& uncached, const UncachedPixelTracer& tracer, int sample, int worker);
+    void trace(const GiveUncachedPixels& uncached, const UncachedPixelTracer& tracer, int sample,
+               int worker);
     [[nodiscard]] bool finish(const Frame& frame, std::uint64_t rays);
     void take_traced();
     [[nodiscard]] CloudPart part_of(const CloudOrder& order);

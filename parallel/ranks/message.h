@@ -169,8 +169,8 @@ struct ChunkAnswer {
 using Message =
     std::variant<JobStart, AskBlocks, GiveBlocks, Pixels, BlockDone, PicturePiece, FinishedPicture,
                  AmbientValues, Failure, Finish, Report, Gather, Progress, AskChunks, RayChunk,
-                 ChunkAnswer, CloudOrder, CloudPoints, CloudUsed, UncachedPixels, AskUncachedPixels, GiveUncachedPixels,
-                 TracedPixelResults, CloudStage, CloudPart, FinishedFrame>;
+                 ChunkAnswer, CloudOrder, CloudPoints, CloudUsed, UncachedPixels, AskUncachedPixels,
+                 GiveUncachedPixels, TracedPixelResults, CloudStage, CloudPart, FinishedFrame>;
 
 inline constexpr std::size_t kMessageKinds = std::variant_size_v<Message>;
 /// Of Message::index(), for statistics: "JobStart", ...
@@ -188,8 +188,8 @@ struct Envelope {
 /// bits. An ambient record is 68 bytes: position 3 x f32, normal u32, axis u32, radius,
 /// translation, rotation 2 x f32 each, value 3 x f32, weight f32, corral u32, level u8, three bytes
 /// of zero: reals travel as they are, so that the copy is the same value. A point of the cloud is
-/// 40 bytes, its fields in their order; a traced uncached pixel its value and the number of its points as one
-/// byte, then these.
+/// 40 bytes, its fields in their order; a traced uncached pixel its value and the number of its
+/// points as one byte, then these.
 [[nodiscard]] std::string encode_message(const Envelope& envelope);
 
 /// The inverse; ranks are those given. Throws InputError for bytes that no encode_message made:

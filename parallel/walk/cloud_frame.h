@@ -35,7 +35,7 @@ struct CloudOptions {
     double refine = 0;       ///< share of the pixels that are refined in a frame whose view is
                              ///< that of the frame before
     int samples = ProgressivePicture::kMostSamples;  ///< rays that edges get then
-    std::uint64_t seed = 0;                      ///< of the audit's choice
+    std::uint64_t seed = 0;                          ///< of the audit's choice
 
     /// Most points of a picture's cloud.
     [[nodiscard]] std::size_t most_points(int width, int height) const {
@@ -50,8 +50,8 @@ struct CloudReport {
     std::size_t reused = 0;  ///< answered by points, audited and refined ones included
     std::size_t filled = 0;  ///< from their neighbours: there was no time for them
     std::array<std::size_t, kTraceCauses> uncached{};  ///< traced pixels, by cause (TraceCause)
-    std::size_t points = 0;                        ///< in the cloud after the frame
-    std::uint64_t rays = 0;                        ///< of all ranks, where many draw the frame
+    std::size_t points = 0;                            ///< in the cloud after the frame
+    std::uint64_t rays = 0;                            ///< of all ranks, where many draw the frame
     double project_seconds = 0, check_seconds = 0, trace_seconds = 0, keep_seconds = 0;
     double tightness = 1;             ///< of reuse (ReuseErrorController)
     std::vector<float> audit_errors;  ///< of audited pixels: relative error of their luminance
@@ -60,8 +60,8 @@ struct CloudReport {
 
 /// A drawn frame, or a part of it, row by row from the bottom.
 struct CloudFrame {
-    std::vector<Rgb> radiance;      ///< [W/(m² sr)]
-    std::vector<float> distance;    ///< along the pixels' rays; 0 where there is no ray [m]
+    std::vector<Rgb> radiance;       ///< [W/(m² sr)]
+    std::vector<float> distance;     ///< along the pixels' rays; 0 where there is no ray [m]
     std::vector<TraceCause> causes;  ///< why each pixel was traced or filled; none: it was not
     CloudReport report;
     bool complete = false;  ///< false: stopped early

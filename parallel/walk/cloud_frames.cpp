@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/cloud/gaps.h"
-#include "parallel/walk/uncached_pixel_tracer.h"
 #include "parallel/walk/step_timer.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 
 namespace lightwalk {
 /// One frame on its way.
@@ -86,22 +86,24 @@ void CloudFrames::plan_refinement(Step& step) {
     region_.refine(step.work.places);
 }
 
-/// Trace uncached pixels until the frame's time is over; some at least, or a short budget would never end.
+/// Trace uncached pixels until the frame's time is over; some at least, or a short budget would
+/// never end.
 void CloudFrames::trace(Step& step) {
     const StepTimer timer(region_.frame().report.trace_seconds);
-    const UncachedPixelTracer tracer(step.caster, options_.tolerance,
-                            tracing_deadline(step.deadline, options_.budget, region_.unknown()));
+    const UncachedPixelTracer tracer(
+        step.caster, options_.tolerance,
+        tracing_deadline(step.deadline, options_.budget, region_.unknown()));
     const std::span<const UncachedPixel> uncached = region_.uncached();
     tracer.trace(
-        uncached.size(), [&](std::size_t uncached_pixel) { return uncached[uncached_pixel].place; }, step.work.sample,
-        step.executor, step.stop,
+        uncached.size(), [&](std::size_t uncached_pixel) { return uncached[uncached_pixel].place; },
+        step.work.sample, step.executor, step.stop,
         [&](std::size_t first, std::span<const TracedPixelResult> traced) {
             region_.record(first, traced);
         });
     const std::span<const std::uint32_t> noise_pairs = region_.noise_pairs();
     tracer.trace(
-        noise_pairs.size(), [&](std::size_t pair) { return uncached[noise_pairs[pair]].place; }, 1, step.executor,
-        step.stop,
+        noise_pairs.size(), [&](std::size_t pair) { return uncached[noise_pairs[pair]].place; }, 1,
+        step.executor, step.stop,
         [&](std::size_t first, std::span<const TracedPixelResult> traced) {
             region_.record_noise_pairs(first, traced);
         });

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/reuse_error_controller.h"
-#include "core/cloud/progressive.h"
 #include "core/cloud/primary_visibility.h"
+#include "core/cloud/progressive.h"
+#include "core/cloud/reuse_error_controller.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_frame.h"

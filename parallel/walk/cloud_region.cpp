@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/cloud/reuse_error_controller.h"
 #include "core/cloud/point_order.h"
+#include "core/cloud/reuse_error_controller.h"
 #include "core/math/prefetch.h"
 #include "parallel/blocks.h"
 #include "parallel/walk/step_timer.h"

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/progressive.h"
 #include "core/cloud/primary_visibility.h"
+#include "core/cloud/progressive.h"
 #include "core/math/random.h"
 #include "core/view/pixels.h"
 #include "parallel/executor.h"
@@ -41,9 +41,9 @@ struct UsedPixels {
 [[nodiscard]] PixelRectangle widened(const PixelRectangle& area, int by, int width, int height);
 
 /// The steps of a frame, in this order: begin, project, [leaving, add,] answer, [used_beside,
-/// mark_used,] take for each traced uncached pixel, show, age, keep. Those in brackets are for regions that
-/// have others beside them. What comes of it depends on no order: neither of points nor of calls of
-/// add, mark_used and take.
+/// mark_used,] record for each traced uncached pixel, show, age, keep. Those in brackets are for
+/// regions that have others beside them. What comes of it depends on no order: neither of points
+/// nor of calls of add, mark_used and record.
 class CloudRegion {
   public:
     /// @param area  of a picture of width x height pixels
@@ -69,16 +69,19 @@ class CloudRegion {
     void add(std::span<const CloudPoint> points);
 
     using Clock = std::chrono::steady_clock;
-    /// Find points for all pixels. What none answers is a uncached pixel. The caster's `look` is called.
+    /// Find points for all pixels. What none answers is an uncached pixel. The caster's `probe` is
+    /// called.
     /// @param check_until  with CloudCheck::rotating: after that no more rays check what points say
     void answer(const PixelCaster& caster, Executor& executor, const StopFlag& stop,
                 Clock::time_point check_until = Clock::time_point::max());
     [[nodiscard]] std::span<const UncachedPixel> uncached() const { return uncached_; }
-    /// Share of the pixels that no point answers, whether they are among the uncached pixels or not.
+    /// Share of the pixels that no point answers, whether they are among the uncached pixels or
+    /// not.
     [[nodiscard]] double unknown() const {
         return static_cast<double>(unanswered_) / static_cast<double>(area_.pixels());
     }
-    /// Of the uncached pixels those that are to be traced by a second ray, too, to tell how much two differ.
+    /// Of the uncached pixels those that are to be traced by a second ray, too, to tell how much
+    /// two differ.
     [[nodiscard]] std::span<const std::uint32_t> noise_pairs() const { return noise_pairs_; }
     /// Pixels beside the region whose points answered pixels of it.
     [[nodiscard]] UsedPixels used_beside() const;
@@ -86,10 +89,12 @@ class CloudRegion {
     void mark_used(const UsedPixels& used);
 
     /// Holes `first` ... are traced. For different uncached pixels from many threads at once.
-    void take(std::size_t first, std::span<const TracedPixelResult> traced);
+    void record(std::size_t first, std::span<const TracedPixelResult> traced);
     /// The noise pairs `first` ... are traced.
     void record_noise_pairs(std::size_t first, std::span<const TracedPixelResult> traced);
-    [[nodiscard]] bool is_traced(std::size_t uncached_pixel) const { return done_[uncached_pixel] != 0; }
+    [[nodiscard]] bool is_traced(std::size_t uncached_pixel) const {
+        return done_[uncached_pixel] != 0;
+    }
 
     /// Put what was traced into the frame.
     void show();
@@ -114,7 +119,9 @@ class CloudRegion {
     // A view that rests is not projected; instead of `answer` others say what is to be traced, and
     // instead of `age` points stay as they are.
     void refine(std::span<const PixelPlace> places);
-    [[nodiscard]] TracedPixelResult& traced(std::size_t uncached_pixel) { return traced_[uncached_pixel]; }
+    [[nodiscard]] TracedPixelResult& traced(std::size_t uncached_pixel) {
+        return traced_[uncached_pixel];
+    }
     /// @param leave  whether what was traced leaves points
     [[nodiscard]] AgeCounts rest(bool leave);
 
@@ -124,9 +131,10 @@ class CloudRegion {
     /// Of a block.
     struct BlockUncachedPixels {
         std::vector<UncachedPixel> uncached;
-        std::array<std::uint32_t, kTraceRanks> ranked{};  ///< how many, then where the next one goes
-        std::size_t left = 0;                            ///< pixels of which nothing is known
-        std::size_t unanswered = 0;                      ///< pixels, noted or not
+        std::array<std::uint32_t, kTraceRanks>
+            ranked{};                ///< how many, then where the next one goes
+        std::size_t left = 0;        ///< pixels of which nothing is known
+        std::size_t unanswered = 0;  ///< pixels, noted or not
     };
     void blacken(const PixelRectangle& area);
     void answer_block(std::size_t block, const PixelCaster& caster, int worker);
@@ -141,7 +149,8 @@ class CloudRegion {
                                           BlockUncachedPixels& block);
     [[nodiscard]] int finest_grid() const;
     [[nodiscard]] std::size_t answer_temporal(std::span<PixelPlace> tile, const PixelSquare& square,
-                                            const PointFinder& finder, BlockUncachedPixels& block);
+                                              const PointFinder& finder,
+                                              BlockUncachedPixels& block);
     void answer_late(std::span<const PixelPlace> tile, const PixelSquare& square,
                      const PointFinder& finder, BlockUncachedPixels& block);
     [[nodiscard]] bool is_checked(const PixelPlace& place) const;
@@ -149,7 +158,7 @@ class CloudRegion {
     void accept(const PixelPlace& place, const PointFinder& finder, const PixelAnswer& answer,
                 BlockUncachedPixels& block);
     void accept_or_audit(const PixelPlace& place, const PointFinder& finder,
-                        const PixelAnswer& answer, BlockUncachedPixels& block);
+                         const PixelAnswer& answer, BlockUncachedPixels& block);
     [[nodiscard]] std::size_t rank(const UncachedPixel& uncached_pixel) const;
     void order_uncached(Executor& executor);
     void choose_noise_pairs();
@@ -175,14 +184,16 @@ class CloudRegion {
     Clock::time_point check_until_;
     std::vector<PixelRectangle> blocks_;
     std::vector<BlockUncachedPixels> uncached_of_;  ///< each block
-    std::vector<std::uint8_t> known_;   ///< see known()
-    std::size_t unanswered_ = 0;        ///< pixels that no point answers
-    std::size_t left_ = 0;              ///< of these those of which nothing is known
-    std::size_t answered_ = 0;          ///< of the unanswered those that were traced
-    int finest_ = kGridLevels - 1;      ///< of uncached pixels of which nothing is known (see grid_level)
+    std::vector<std::uint8_t> known_;               ///< see known()
+    std::size_t unanswered_ = 0;                    ///< pixels that no point answers
+    std::size_t left_ = 0;                          ///< of these those of which nothing is known
+    std::size_t answered_ = 0;                      ///< of the unanswered those that were traced
+    int finest_ =
+        kGridLevels - 1;  ///< of uncached pixels of which nothing is known (see grid_level)
     std::vector<UncachedPixel> uncached_;
-    std::vector<TracedPixelResult> traced_;    ///< each uncached pixel
-    std::vector<std::uint8_t> done_;    ///< for each uncached pixel: not 0 where it was traced in time
+    std::vector<TracedPixelResult> traced_;  ///< each uncached pixel
+    std::vector<std::uint8_t>
+        done_;  ///< for each uncached pixel: not 0 where it was traced in time
     std::vector<std::uint32_t> noise_pairs_;  ///< uncached pixels
     std::vector<Rgb> pair_radiance_;
     std::vector<std::uint8_t> pair_done_;

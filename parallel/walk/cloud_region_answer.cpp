@@ -83,7 +83,8 @@ void CloudRegion::order_uncached(Executor& executor) {
     uncached_.resize(count);
     executor.for_each(blocks, [&](std::size_t k, int) {
         BlockUncachedPixels& block = uncached_of_[k];
-        for (const UncachedPixel& uncached_pixel : block.uncached) uncached_[block.ranked[rank(uncached_pixel)]++] = uncached_pixel;
+        for (const UncachedPixel& uncached_pixel : block.uncached)
+            uncached_[block.ranked[rank(uncached_pixel)]++] = uncached_pixel;
     });
 }
 
@@ -114,7 +115,7 @@ void CloudRegion::expect(const PixelPlace& place, const PointFinder& finder) con
     if (!origins_.empty()) prefetch(&origins_[at]);
 }
 
-/// Show what a pixel's answer brings, or note that it is a uncached pixel.
+/// Show what a pixel's answer brings, or note that it is an uncached pixel.
 void CloudRegion::accept(const PixelPlace& place, const PointFinder& finder,
                          const PixelAnswer& answer, BlockUncachedPixels& block) {
     const std::size_t at = pixel(place);
@@ -142,7 +143,7 @@ void CloudRegion::accept(const PixelPlace& place, const PointFinder& finder,
 
 /// The same for a pixel that this frame's audit may trace though it is reused.
 void CloudRegion::accept_or_audit(const PixelPlace& place, const PointFinder& finder,
-                                 const PixelAnswer& answer, BlockUncachedPixels& block) {
+                                  const PixelAnswer& answer, BlockUncachedPixels& block) {
     accept(place, finder, answer, block);
     if (answer.found() && options_.audit > 0 && audit_stream(place).next() < options_.audit)
         block.uncached.push_back({place, TraceCause::audited});
@@ -171,7 +172,7 @@ void CloudRegion::answer_packet(std::span<const PixelPlace> places, const PointF
 /// Answer those pixels of a tile that the last frame's surfaces seem to go through.
 /// @return  the number of those left, which are moved to the front
 std::size_t CloudRegion::answer_temporal(std::span<PixelPlace> tile, const PixelSquare& square,
-                                       const PointFinder& finder, BlockUncachedPixels& block) {
+                                         const PointFinder& finder, BlockUncachedPixels& block) {
     std::array<PixelAnswer, kPacket> answers;
     for (const PixelPlace& place : tile) expect(place, finder);
     finder.temporal(square, tile, answers);
@@ -213,8 +214,8 @@ void CloudRegion::forget(std::span<const PixelPlace> tile) {
     }
 }
 
-/// A pixel of which nothing is known stays a uncached pixel. Not all are noted where there is no time for
-/// them anyway, only coarse grids of them.
+/// A pixel of which nothing is known stays an uncached pixel. Not all are noted where there is no
+/// time for them anyway, only coarse grids of them.
 void CloudRegion::leave(const PixelPlace& place, BlockUncachedPixels& block) const {
     ++block.unanswered;
     ++block.left;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "parallel/pixel_tracer.h"
-#include "parallel/walk/uncached_pixel_tracer.h"
 #include "parallel/walk/scene_caster.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 
 namespace lightwalk {
 namespace {
@@ -15,8 +15,8 @@ constexpr std::size_t kPixelsATask = 16;
 
 std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
                                      const Camera& camera, const FrameOptions& options,
-                                     const ProgressiveWork& work, double seconds, Executor& executor,
-                                     const StopFlag& stop) {
+                                     const ProgressiveWork& work, double seconds,
+                                     Executor& executor, const StopFlag& stop) {
     const PixelRays rays = rays_of_sample(camera, options, work.sample);
     const UncachedPixelTracer::Clock::time_point deadline = deadline_of(seconds);
     std::vector<PixelValue> values(work.places.size(), {{}, -1});
@@ -58,8 +58,8 @@ void LocalFrames::begin(int width, int height, bool indirect) {
 WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
     frames_->set_budget(budget);
     frames_->set_refine(refine);
-    WalkFrame drawn = draw_walk_frame(*frames_, walking_->tracer, walking_->visibility, Camera(view),
-                                      options_, executor_, walking_->contexts, stop);
+    WalkFrame drawn = draw_walk_frame(*frames_, walking_->tracer, walking_->visibility,
+                                      Camera(view), options_, executor_, walking_->contexts, stop);
     rays_ = drawn.frame.rays.total();
     return drawn;
 }

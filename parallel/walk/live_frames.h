@@ -42,8 +42,9 @@ class LiveFrames {
     /// Pixels by all light there is.
     /// @param seconds  after which no more are begun, but some are at once
     /// @return  of each; the distance of those that there was no time for is negative
-    [[nodiscard]] virtual std::vector<PixelValue> trace(const View& view, const ProgressiveWork& work,
-                                                        double seconds, const StopFlag& stop) = 0;
+    [[nodiscard]] virtual std::vector<PixelValue> trace(const View& view,
+                                                        const ProgressiveWork& work, double seconds,
+                                                        const StopFlag& stop) = 0;
     /// See walk_frame.h; by all light there is.
     virtual void add_small_sources(const View& view, Frame& frame) = 0;
     /// That the last frame took, or the last pixels.

@@ -50,7 +50,7 @@ bool LiveWalk::next(const View& view, int width, int height, AmbientUse use, dou
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
         progressive_ = std::make_unique<ProgressiveLight>(width, height, samples_);
         progressive_->begin(turned(std::span<const Rgb>(picture_.radiance), width),
-                        turned(std::span<const float>(picture_.distance), width));
+                            turned(std::span<const float>(picture_.distance), width));
         return add_light(budget, stop);
     }
     if (picture != nullptr && !picture->next(1).places.empty())
@@ -74,8 +74,8 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     picture_.share = 0;
     if (!rests) return true;
     const auto pixels = static_cast<double>(picture_.radiance.size());
-    const auto traced =
-        static_cast<double>(picture_.report.uncached[static_cast<std::size_t>(TraceCause::refined)]);
+    const auto traced = static_cast<double>(
+        picture_.report.uncached[static_cast<std::size_t>(TraceCause::refined)]);
     refine_ = std::clamp(2 * traced / pixels, kLeastShare, 1.0);
     const ProgressivePicture* progressive = frames_.progressive(stop);
     const std::size_t open = progressive != nullptr ? progressive->open_pixels() : 0;

@@ -51,7 +51,7 @@ class ProgressiveLight {
     std::vector<Rgb> before_;
     std::vector<float> distance_;
     std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
-    ProgressiveWork chosen_;             ///< of them those that come next
+    ProgressiveWork chosen_;         ///< of them those that come next
 };
 
 }  // namespace lightwalk

@@ -14,9 +14,9 @@ PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options, int 
     return {camera, options.previous, options.width, options.height, pixels, seed, options.step};
 }
 
-SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
-                         const FrameOptions& options, WorkerContexts& contexts,
-                         const StopFlag& stop)
+SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility,
+                         const Camera& camera, const FrameOptions& options,
+                         WorkerContexts& contexts, const StopFlag& stop)
     : tracer_(tracer),
       probe_(visibility),
       camera_(camera),
@@ -26,8 +26,8 @@ SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility
       stop_(stop),
       scratch_(static_cast<std::size_t>(contexts.size())) {}
 
-void SceneCaster::look(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                       int worker) {
+void SceneCaster::probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+                        int worker) {
     probe_along(rays_, false, places, visibility, scratch_[static_cast<std::size_t>(worker)]);
 }
 
@@ -72,8 +72,9 @@ void SceneCaster::set_out_anyhow(const PixelRays& rays, std::span<const PixelPla
     }
 }
 
-void SceneCaster::probe_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
-                             std::span<PixelVisibility> visibility, Scratch& s) const {
+void SceneCaster::probe_along(const PixelRays& rays, bool slopes,
+                              std::span<const PixelPlace> places,
+                              std::span<PixelVisibility> visibility, Scratch& s) const {
     s.segments.resize(places.size());
     s.hits.resize(places.size());
     if (camera_.view().type == 'v' && rays.pinhole())

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/cloud/visibility_probe.h"
 #include "core/cloud/primary_visibility.h"
+#include "core/cloud/visibility_probe.h"
 #include "parallel/frame_options.h"
 #include "parallel/pixel_rays.h"
 #include "parallel/pixel_tracer.h"
@@ -27,7 +27,8 @@ class SceneCaster {
                 const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop);
 
     /// What the pixels' (first) rays see; see PixelCaster.
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility, int worker);
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+               int worker);
     /// The pixels traced, with the same visibility; see PixelCaster.
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker);
@@ -45,11 +46,13 @@ class SceneCaster {
 
     /// The rays of pixels: of perspective views that nothing blurs, which is faster, and of all.
     void set_out_plainly(const PixelRays& rays, std::span<const PixelPlace> places,
-                         std::span<RaySegment> segments, std::span<PixelVisibility> visibility) const;
+                         std::span<RaySegment> segments,
+                         std::span<PixelVisibility> visibility) const;
     void set_out_anyhow(const PixelRays& rays, std::span<const PixelPlace> places,
-                        std::span<RaySegment> segments, std::span<PixelVisibility> visibility) const;
+                        std::span<RaySegment> segments,
+                        std::span<PixelVisibility> visibility) const;
     void probe_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
-                    std::span<PixelVisibility> visibility, Scratch& scratch) const;
+                     std::span<PixelVisibility> visibility, Scratch& scratch) const;
 
     const Tracer& tracer_;
     const VisibilityProbe& probe_;

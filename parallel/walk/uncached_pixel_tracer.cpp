@@ -13,7 +13,8 @@ constexpr std::size_t kPixelsATask = 32;
 
 std::chrono::steady_clock::time_point deadline_of(double seconds) {
     const std::chrono::duration<double> span(seconds);
-    return UncachedPixelTracer::Clock::now() + std::chrono::duration_cast<UncachedPixelTracer::Clock::duration>(span);
+    return UncachedPixelTracer::Clock::now() +
+           std::chrono::duration_cast<UncachedPixelTracer::Clock::duration>(span);
 }
 
 std::chrono::steady_clock::time_point checking_deadline(double budget) {
@@ -29,20 +30,22 @@ std::chrono::steady_clock::time_point tracing_deadline(
 }
 
 void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
-                            Take take) const {
+                                     Take take) const {
     std::array<TracedPixel, kPixelsATask> traced;
     std::array<TracedPixelResult, kPixelsATask> uncached;
     for (std::size_t first = 0; first < places.size(); first += kPixelsATask) {
         const std::size_t count = std::min(kPixelsATask, places.size() - first);
         caster_.trace(places.subspan(first, count), {traced.data(), count}, sample, worker);
         for (std::size_t i = 0; i < count; ++i)
-            uncached[i] = {{traced[i].radiance, traced[i].distance}, points_of(traced[i], tolerance_)};
+            uncached[i] = {{traced[i].radiance, traced[i].distance},
+                           points_of(traced[i], tolerance_)};
         take(first, {uncached.data(), count});
     }
 }
 
-void UncachedPixelTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
-                       Executor& executor, const StopFlag& stop, Take take) const {
+void UncachedPixelTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at,
+                                int sample, Executor& executor, const StopFlag& stop,
+                                Take take) const {
     executor.for_each((count + kPixelsATask - 1) / kPixelsATask,
                       [&](std::size_t task, int worker) {
                           if (task > 0 && is_late()) return;
@@ -50,10 +53,11 @@ void UncachedPixelTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::s
                           std::array<PixelPlace, kPixelsATask> places;
                           const std::size_t some = std::min(kPixelsATask, count - begin);
                           for (std::size_t i = 0; i < some; ++i) places[i] = at(begin + i);
-                          trace_part({places.data(), some}, sample, worker,
-                                     [&](std::size_t first, std::span<const TracedPixelResult> traced) {
-                                         take(begin + first, traced);
-                                     });
+                          trace_part(
+                              {places.data(), some}, sample, worker,
+                              [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+                                  take(begin + first, traced);
+                              });
                       },
                       stop);
 }

@@ -37,7 +37,8 @@ class UncachedPixelTracer {
     UncachedPixelTracer(const PixelCaster& caster, double tolerance, Clock::time_point deadline)
         : caster_(caster), tolerance_(tolerance), deadline_(deadline) {}
 
-    /// Trace uncached pixels by all threads. After the deadline no more are begun, but some are at once.
+    /// Trace uncached pixels by all threads. After the deadline no more are begun, but some are at
+    /// once.
     /// @param at  the place of each one
     void trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
                Executor& executor, const StopFlag& stop, Take take) const;

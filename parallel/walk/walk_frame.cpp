@@ -69,17 +69,18 @@ void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameO
     });
 }
 
-WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer, const VisibilityProbe& visibility,
-                          const Camera& camera, const FrameOptions& options, Executor& executor,
-                          WorkerContexts& contexts, const StopFlag& stop) {
+WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer,
+                          const VisibilityProbe& visibility, const Camera& camera,
+                          const FrameOptions& options, Executor& executor, WorkerContexts& contexts,
+                          const StopFlag& stop) {
     contexts.reset_counters();
     SceneCaster caster(tracer, visibility, camera, options, contexts, stop);
     const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> seen,
-                          int worker) { caster.probe(places, seen, worker); };
+                           int worker) { caster.probe(places, seen, worker); };
     const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                            int sample,
                            int worker) { caster.trace(places, pixels, sample, worker); };
-    const CloudFrame& drawn = frames.draw(camera, {look, trace}, executor, stop);
+    const CloudFrame& drawn = frames.draw(camera, {probe, trace}, executor, stop);
     WalkFrame result;
     result.frame = copied_over(drawn, options.width, options.height, executor);
     result.report = drawn.report;

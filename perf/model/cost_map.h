@@ -21,7 +21,7 @@ struct CellCosts {
 
 struct CostMap {
     CellCosts picture;
-    CellCosts prepass;        ///< the coarse picture that comes before; width 0: there is none
+    CellCosts prepass;         ///< the coarse picture that comes before; width 0: there is none
     double setup_seconds = 0;  ///< before the first block of a picture, on every rank
     double block_seconds = 0;  ///< more for a block than for its cells
     double encode_seconds = 0, decode_seconds = 0;  ///< of a piece, a pixel

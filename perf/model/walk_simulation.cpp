@@ -272,7 +272,8 @@ void WalkSimulation::check(std::size_t rank) {
 void WalkSimulation::trace(std::size_t rank, GiveUncachedPixels uncached) {
     const auto count = static_cast<std::uint32_t>(uncached.places.size());
     use_thread(rank, costs_.trace * count,
-               [this, rank, count, owner = uncached.owner, frame = uncached.frame, first = uncached.first] {
+               [this, rank, count, owner = uncached.owner, frame = uncached.frame,
+                first = uncached.first] {
                    post(rank, worker_of(owner), TracedPixelResults{frame, first, count, {}});
                    post(rank, {0, Role::master}, AskUncachedPixels{1});
                });

@@ -21,7 +21,7 @@ struct WalkCosts {
     double encode = 0, decode = 0;  ///< a pixel of a part that goes to rank 0
     double packed_bytes = 8;        ///< of a part, a pixel
     double points = 1;              ///< a pixel
-    double uncached = 0.03;            ///< share of the pixels that no point answers
+    double uncached = 0.03;         ///< share of the pixels that no point answers
     double shift = 0.01;            ///< by which points move in a frame, as a share of the width
 };
 
@@ -38,12 +38,12 @@ struct SimulatedWalk {
 struct WalkPrediction {
     double seconds = 0;  ///< from order to order
     // Of these, one after the other, until the last rank has
-    double projected = 0;         ///< all points that its part shows,
-    double checked = 0;           ///< found the pixels that none answers,
-    double traced = 0;            ///< got these from those who traced them;
-    double gathered = 0;          ///< then until the frame is there
-    double master_busy = 0;       ///< share of the time that rank 0's messages took a core
-    double bytes_a_frame = 0;     ///< between ranks
+    double projected = 0;            ///< all points that its part shows,
+    double checked = 0;              ///< found the pixels that none answers,
+    double traced = 0;               ///< got these from those who traced them;
+    double gathered = 0;             ///< then until the frame is there
+    double master_busy = 0;          ///< share of the time that rank 0's messages took a core
+    double bytes_a_frame = 0;        ///< between ranks
     double uncached_of_fullest = 0;  ///< most uncached pixels of one part, beside the mean
 };
 

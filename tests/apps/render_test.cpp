@@ -282,7 +282,7 @@ TEST_CASE("render: --stats tells times, rays by kind, threads and memory") {
     CHECK(json["version"].is_string());
 }
 
-TEST_CASE("render: -t reports tell of the overture, too, and neither shares nor rays ever fall") {
+TEST_CASE("render: -t reports tell of the prepass, too, and neither shares nor rays ever fall") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", kRoom);
     const std::string stats = folder.path("s.json");

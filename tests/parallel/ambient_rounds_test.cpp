@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "parallel/concurrent_cache.h"
 #include "parallel/cache_prepass.h"
+#include "parallel/concurrent_cache.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
@@ -144,8 +144,8 @@ struct Process {
     }
     CachePrepassResult play(RoundExchange* exchange = nullptr) {
         return fill_ambient_cache(
-            scene.tracer, camera, options, CachePrepass::deterministic, cache, executor, contexts, stop,
-            [&](const FrameProgress&) { told(); }, exchange);
+            scene.tracer, camera, options, CachePrepass::deterministic, cache, executor, contexts,
+            stop, [&](const FrameProgress&) { told(); }, exchange);
     }
     std::vector<Rgb> picture() {
         return render_frame(scene.tracer, camera, options, executor, contexts, stop,
@@ -193,7 +193,7 @@ TEST_CASE("rounds end when every point is served, and few of their values were n
     CHECK(points.size() > 100);
     CHECK(process.contexts.ambient().computed == 0);  // points are found, not computed
     CHECK(process.contexts.rays().shadow == 0);
-    rounds.compute(points);
+    rounds.compute_in_rounds(points);
     CHECK(rounds.collect([&] { process.look(); }).empty());
     REQUIRE(rounds.counts().size() == 2);
     for (const AmbientRounds::Counts& counts : rounds.counts()) {

@@ -92,7 +92,7 @@ bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
 
 }  // namespace
 
-TEST_CASE("the overture computes most of the values that the picture needs, and leaves them") {
+TEST_CASE("the prepass computes most of the values that the picture needs, and leaves them") {
     FrameOptions large = Played::small();
     large.width = 198;
     large.height = 150;
@@ -111,7 +111,7 @@ TEST_CASE("the overture computes most of the values that the picture needs, and 
     CHECK(quick.shared.size() == quick.result.ambient.computed + after);
 }
 
-TEST_CASE("after a deterministic overture the cache is closed and pictures are the same bytes") {
+TEST_CASE("after a deterministic prepass the cache is closed and pictures are the same bytes") {
     for (const int bounces : {1, 2, 3}) {
         CAPTURE(bounces);
         Played expected(CachePrepass::deterministic, 1, Played::small(), bounces);
@@ -130,7 +130,7 @@ TEST_CASE("after a deterministic overture the cache is closed and pictures are t
     }
 }
 
-TEST_CASE("a deterministic overture leaves nothing for the picture to compute") {
+TEST_CASE("a deterministic prepass leaves nothing for the picture to compute") {
     FrameOptions sampled = Played::small();
     sampled.pixels.samples = 3;
     for (const FrameOptions& options : {Played::small(), sampled}) {
@@ -142,8 +142,7 @@ TEST_CASE("a deterministic overture leaves nothing for the picture to compute") 
     }
 }
 
-TEST_CASE(
-    "the values of a deterministic overture are as good, and about as many, as one worker's") {
+TEST_CASE("the values of a deterministic prepass are as good, and about as many, as one worker's") {
     // Accurate: so many values that each is of few points.
     FrameOptions large = Played::small();
     large.width = 132;
@@ -151,7 +150,8 @@ TEST_CASE(
     for (const int bounces : {1, 2}) {
         CAPTURE(bounces);
         Played rounds(CachePrepass::deterministic, 2, large, bounces),
-            quick(CachePrepass::quick, 1, large, bounces), none(CachePrepass::none, 1, large, bounces);
+            quick(CachePrepass::quick, 1, large, bounces),
+            none(CachePrepass::none, 1, large, bounces);
         none.scene.tracer.use_ambient_cache(nullptr);
         const Frame exact = none.picture(), serial = quick.picture(), picture = rounds.picture();
         const auto error = [&](const Frame& frame) {
@@ -170,7 +170,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a deterministic overture fills clipped matter, too, with the same bytes") {
+TEST_CASE("a deterministic prepass fills clipped matter, too, with the same bytes") {
     const std::string cut = "void antimatter hole 1 paint 0 0\nhole sphere cut 0 0 4 0 .2 1 .8\n";
     Played expected(CachePrepass::deterministic, 1, Played::small(), 1, cut);
     const std::size_t values = expected.shared.size();
@@ -182,7 +182,7 @@ TEST_CASE("a deterministic overture fills clipped matter, too, with the same byt
     CHECK(same_bytes(other.picture().radiance, picture.radiance));
 }
 
-TEST_CASE("windows of a picture after a deterministic overture are parts of the whole") {
+TEST_CASE("windows of a picture after a deterministic prepass are parts of the whole") {
     const Frame whole = Played(CachePrepass::deterministic, 2).picture();
     FrameOptions part = Played::small();
     part.window = PixelRectangle{13, 5, 40, 31};
@@ -203,7 +203,7 @@ TEST_CASE("windows of a picture after a deterministic overture are parts of the 
 }
 
 TEST_CASE(
-    "the overture tells how far it is: to all of its pixels, rays and values, over all steps") {
+    "the prepass tells how far it is: to all of its pixels, rays and values, over all steps") {
     for (const CachePrepass prepass : {CachePrepass::quick, CachePrepass::deterministic}) {
         Played scene(CachePrepass::none);
         FrameProgress last;
@@ -222,7 +222,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a requested stop ends the overture early, and the cache stays open") {
+TEST_CASE("a requested stop ends the prepass early, and the cache stays open") {
     for (const CachePrepass prepass : {CachePrepass::quick, CachePrepass::deterministic}) {
         Played scene(CachePrepass::none, 2);
         const CachePrepassResult result =

@@ -105,7 +105,7 @@ std::vector<Hit> hits_of(const TestScene& scene, const std::vector<Ray>& rays) {
 
 }  // namespace
 
-TEST_CASE("ray waves: all that wait are served together, as often as they ask") {
+TEST_CASE("shading batches: all that wait are calculated together, as often as they ask") {
     Asking asking;
     std::vector<Ray> rays(kSome);
     asking.run(kSome, [&](std::size_t i) {
@@ -117,7 +117,7 @@ TEST_CASE("ray waves: all that wait are served together, as often as they ask") 
     CHECK(asking.served[1] == 21);
 }
 
-TEST_CASE("ray waves: the first ray's exception goes on, when all have ended") {
+TEST_CASE("shading batches: the first ray's exception goes on, when all have ended") {
     Asking asking;
     std::vector<Ray> rays(8);
     int ended = 0;
@@ -137,7 +137,7 @@ TEST_CASE("ray waves: the first ray's exception goes on, when all have ended") {
     }
 }
 
-TEST_CASE("ray waves: what serving throws reaches those that wait for it") {
+TEST_CASE("shading batches: what the calculation throws reaches those that wait for it") {
     Asking asking;
     std::vector<Ray> rays(4);
     int told = 0;
@@ -153,7 +153,7 @@ TEST_CASE("ray waves: what serving throws reaches those that wait for it") {
     CHECK(told == 4);
 }
 
-TEST_CASE("ray waves: work on the outer stack may not wait, and may throw") {
+TEST_CASE("shading batches: work on the outer stack may not wait, and may throw") {
     Asking asking;
     int done = 0;
     asking.run(5, [&](std::size_t i) {
@@ -176,7 +176,7 @@ TEST_CASE("ray waves: work on the outer stack may not wait, and may throw") {
     CHECK(done == 24);
 }
 
-TEST_CASE("ray waves: rays that go side by side bring back the bits that they bring alone") {
+TEST_CASE("shading batches: rays that go side by side bring back the bits that they bring alone") {
     for (const bool every_shadow : {false, true}) {
         CAPTURE(every_shadow);
         RenderOptions options = usual();
@@ -202,7 +202,7 @@ TEST_CASE("ray waves: rays that go side by side bring back the bits that they br
     }
 }
 
-TEST_CASE("ray waves: the same with so many lights that a wave is calculated in pieces") {
+TEST_CASE("shading batches: the same with so many lights that a batch is calculated in parts") {
     std::string text = room();
     for (int i = 0; i < 1200; ++i) {
         const std::string n = std::to_string(i);
@@ -221,7 +221,7 @@ TEST_CASE("ray waves: the same with so many lights that a wave is calculated in 
         CHECK(same_bits(together[i].value, alone[i].value));
 }
 
-TEST_CASE("ray waves: ambient rays go side by side, too, within those that ask") {
+TEST_CASE("shading batches: ambient rays go side by side, too, within those that ask") {
     RenderOptions options = usual();
     options.ambient_bounces = 2;
     options.ambient_divisions = 64;
@@ -241,7 +241,7 @@ TEST_CASE("ray waves: ambient rays go side by side, too, within those that ask")
         CHECK(same_bits(together[i].value, alone[i].value));
 }
 
-TEST_CASE("ray waves: rays and mixtures may be nested as deep as elsewhere") {
+TEST_CASE("shading batches: rays and mixtures may be nested as deep as elsewhere") {
     // A stack of surfaces without material, each of which sends the ray on.
     std::string text = kLamp +
                        "void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey ring end 0 0 8 0 0 -9999 0 "

@@ -283,7 +283,7 @@ TEST_CASE("work at a constant rate is predicted exactly, and nothing before it b
     }
 }
 
-TEST_CASE("an overture whose later pixels cost less is not taken for a steady one") {
+TEST_CASE("an prepass whose later pixels cost less is not taken for an even one") {
     // Work grows with the root of the share; linear extrapolation would say ten times too much.
     TimeEstimator estimator({{WorkPhase::Kind::prepass, 1000, 1, 1}});
     for (const double done : {0.0001, 0.001, 0.003, 0.01}) {
@@ -296,7 +296,7 @@ TEST_CASE("an overture whose later pixels cost less is not taken for a steady on
     CHECK(*estimator.estimate().seconds_left > 90 / 3);
 }
 
-TEST_CASE("one thread's overture tells of a picture by many, which is sooner done") {
+TEST_CASE("one thread's prepass tells of a picture by many, which is sooner done") {
     double left[2];
     for (const int workers : {1, 10}) {
         TimeEstimator estimator({{WorkPhase::Kind::prepass, 100, 1, 1},
@@ -309,7 +309,7 @@ TEST_CASE("one thread's overture tells of a picture by many, which is sooner don
 }
 
 TEST_CASE(
-    "a plan has an overture where there is one, which leaves no values where it is deterministic") {
+    "a plan has an prepass where there is one, which leaves no values where it is deterministic") {
     FrameOptions options;
     options.width = 60;
     options.height = 60;

@@ -67,7 +67,7 @@ TEST_CASE("walk model: no more ranks than there are projectors share the points"
     CHECK(many.seconds == doctest::Approx(few.seconds));
 }
 
-TEST_CASE("walk model: holes are traced by all ranks, whichever part they lie in") {
+TEST_CASE("walk model: uncached pixels are traced by all ranks, whichever part they lie in") {
     WalkCosts costs = some_costs();
     costs.uncached = 0.05;
     const double without = predicted(some_costs(), free_messages(), 4, 2).seconds;
@@ -84,7 +84,8 @@ TEST_CASE("walk model: what messages cost is added") {
     const WalkPrediction fast = predicted(costs, machine, 4, 1);
     CHECK(fast.master_busy == 0);
     machine.latency = 1e-3;
-    // Order, points, used points and uncached pixels, their dealing out, the part: at least three in a row.
+    // Order, points, used points and uncached pixels, their dealing out, the part: at least three
+    // in a row.
     CHECK(predicted(costs, machine, 4, 1).seconds > fast.seconds + 3e-3);
     machine.latency = 0;
     machine.byte_work = 1e-8;

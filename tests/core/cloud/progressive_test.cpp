@@ -28,13 +28,14 @@ std::vector<int> places(const ProgressiveWork& work) {
 }  // namespace
 
 TEST_CASE(
-    "resting view: filled pixels come first, coarse grids before fine ones, then reused ones by "
+    "progressive view: filled pixels come first, coarse grids before fine ones, then reused ones "
+    "by "
     "age") {
     ProgressivePicture picture = row({1, 1, 1, 1, 1}, {{Kind::reused, 0, 9},
-                                                   {Kind::traced, 1, 0},
-                                                   {Kind::filled, 0, 0},
-                                                   {Kind::reused, 0, 3},
-                                                   {Kind::filled, 0, 0}});
+                                                       {Kind::traced, 1, 0},
+                                                       {Kind::filled, 0, 0},
+                                                       {Kind::reused, 0, 3},
+                                                       {Kind::filled, 0, 0}});
     ProgressiveWork work = picture.next(3);
     CHECK(work.sample == 0);
     CHECK(places(work) == std::vector<int>{4, 2, 3});
@@ -45,7 +46,7 @@ TEST_CASE(
     CHECK(picture.next(3).places.empty());  // nothing is steep
 }
 
-TEST_CASE("resting view: at steps pixels get further rays, and show their mean") {
+TEST_CASE("progressive view: at steps pixels get further rays, and show their mean") {
     ProgressivePicture picture =
         row({1, 1, 3, 3.1f}, std::vector<PixelOrigin>(4, {Kind::traced, 1, 0}));
     ProgressiveWork work = picture.next(9);

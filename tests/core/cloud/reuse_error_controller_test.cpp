@@ -23,14 +23,14 @@ void tell(ReuseErrorController& controller, double errors, double floors, int fr
 
 }  // namespace
 
-TEST_CASE("audit: quantiles are values that the share lies below") {
+TEST_CASE("reuse error: quantiles are values that the share lies below") {
     CHECK(quantile({}, 0.5) == 0);
     CHECK(quantile({3, 1, 2}, 0.5) == 2);
     CHECK(quantile({3, 1, 2}, 1) == 3);
     CHECK(quantile({3, 1, 2}, 0) == 1);
 }
 
-TEST_CASE("audit: errors beyond the limit tighten reuse until it holds, then it loosens") {
+TEST_CASE("reuse error: errors beyond the limit tighten reuse until it holds, then it loosens") {
     ReuseErrorController controller(0.05);
     tell(controller, 0.2, 0, 1);
     CHECK(controller.tightness() == 0.5);
@@ -46,7 +46,8 @@ TEST_CASE("audit: errors beyond the limit tighten reuse until it holds, then it 
     CHECK(controller.tightness() == 1.0 / 1024);
 }
 
-TEST_CASE("audit: what two rays of a pixel differ by is no error, nor is what may be chance") {
+TEST_CASE(
+    "reuse error: what two rays of a pixel differ by is no error, nor is what may be chance") {
     ReuseErrorController controller(0.05);
     tell(controller, 0.3, 0.3, 10);
     CHECK(controller.tightness() == 1);
@@ -56,7 +57,7 @@ TEST_CASE("audit: what two rays of a pixel differ by is no error, nor is what ma
     CHECK(controller.tightness() == 0.5);
 }
 
-TEST_CASE("audit: few pixels decide nothing, and no limit never tightens") {
+TEST_CASE("reuse error: few pixels decide nothing, and no limit never tightens") {
     ReuseErrorController controller(0.05);
     controller.record(values(1023, 1), values(256, 0));
     CHECK(controller.tightness() == 1);
@@ -67,7 +68,7 @@ TEST_CASE("audit: few pixels decide nothing, and no limit never tightens") {
     CHECK(without.tightness() == 1);
 }
 
-TEST_CASE("audit: tightened rules admit less of everything") {
+TEST_CASE("reuse error: tightened rules admit less of everything") {
     const ReuseRules rules;
     CHECK(tightened(rules, 1).near == doctest::Approx(rules.near));
     CHECK(tightened(rules, 1).reach == doctest::Approx(rules.reach));

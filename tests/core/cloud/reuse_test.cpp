@@ -30,7 +30,7 @@ struct Wall {
 
     /// What the ray through (x, y) [pixels] sees of a surface `distance` away.
     [[nodiscard]] PixelVisibility visibility(double x, double y, std::uint32_t surface,
-                                     double distance = 4) const {
+                                             double distance = 4) const {
         PixelVisibility s;
         const auto ray = camera.ray(x / kSide, y / kSide);
         s.ray = true;
@@ -273,7 +273,9 @@ TEST_CASE("cloud: without rays, points that show through a gap or stand alone ar
     CHECK(unverified({12, 12}).radiance.g == 3);  // the nearest one around
 }
 
-TEST_CASE("cloud: without a ray the midst of a surface is steady, what may hide something is not") {
+TEST_CASE(
+    "cloud: without a ray the midst of a surface is inferred from the last frame, what may hide "
+    "something is not") {
     Wall wall;
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) wall.add(x + 0.5, y + 0.5, 1, 1);

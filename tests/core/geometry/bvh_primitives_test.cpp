@@ -143,8 +143,8 @@ TEST_CASE(
     CHECK_FALSE(branch.holds({3.5, 3.5, 3}));
     for (const double s : {0.0, 0.3, 2.0, 4.0}) CHECK(branch.holds({s, s, s}));
     for (const PrimitiveType type : {PrimitiveType::cylinder, PrimitiveType::tube})
-        CHECK(Divided({surface(type, {1, 1, 0, 1, 1, 9, 0.2}, 0, test::kOpaque)}).bvh_primitives.size() ==
-              1);
+        CHECK(Divided({surface(type, {1, 1, 0, 1, 1, 9, 0.2}, 0, test::kOpaque)})
+                  .bvh_primitives.size() == 1);
 }
 
 TEST_CASE("every hit of a cone, cup, cylinder or tube is in one of its boxes") {

@@ -149,8 +149,8 @@ class BuiltGeometry : private std::unique_ptr<TestModels::Tables>, private Geome
     BuiltGeometry(std::unique_ptr<TestModels::Tables> tables, const std::string& embree_options)
         : std::unique_ptr<TestModels::Tables>(std::move(tables)),
           Geometry((**this).input, embree_options) {}
-    using Geometry::bounds, Geometry::instance_transform, Geometry::instance_count, Geometry::intersect,
-        Geometry::intersect_surface, Geometry::memory, Geometry::visibility;
+    using Geometry::bounds, Geometry::instance_transform, Geometry::instance_count,
+        Geometry::intersect, Geometry::intersect_surface, Geometry::memory, Geometry::visibility;
 };
 
 inline BuiltGeometry TestModels::build(const std::string& embree_options) const {

@@ -75,7 +75,8 @@ TEST_CASE(
     CHECK(high.cos_out == -1);
     CHECK(high.u == rounded(0.25));
     CHECK(geometry.visibility({{0.75, 0.25, 1}, {0, 0, -1}}, kNoSurface) == Visibility::blocked);
-    CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) == Visibility::needs_shading);
+    CHECK(geometry.visibility({{0.25, 0.75, 1}, {0, 0, -1}}, kNoSurface) ==
+          Visibility::needs_shading);
     CHECK_FALSE(geometry.intersect({{1.1, 0.5, 1}, {0, 0, -1}}).exists());
 }
 

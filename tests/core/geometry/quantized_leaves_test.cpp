@@ -1,5 +1,5 @@
-// Clusters of bvh primitives: each bvh primitive is in one, no ray that meets a bvh primitive's box is told that it does
-// not, and a model of leaves is hit where its surfaces are.
+// Clusters of bvh primitives: each bvh primitive is in one, no ray that meets a bvh primitive's box
+// is told that it does not, and a model of leaves is hit where its surfaces are.
 #include "core/geometry/quantized_leaves.h"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,8 @@ struct Leaves {
         space.margin = 1e-5;
         bvh_primitives = divide_primitives(model, SerialTaskRunner());
         const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(""));
-        leaves = make_quantized_leaves(bvh_primitives, model, space, device.get(), SerialTaskRunner());
+        leaves =
+            make_quantized_leaves(bvh_primitives, model, space, device.get(), SerialTaskRunner());
     }
     test::TestModels::Tables tables;
     ModelPrimitives model;
@@ -71,7 +72,7 @@ test::TestSurface speck(test::Random& random, int i) {
 
 }  // namespace
 
-TEST_CASE("each piece is in one cluster, and clusters are well filled") {
+TEST_CASE("each primitive is in one quantized leaf, and leaves are well filled") {
     const Leaves scene(random_scene(3000));
     std::vector<int> times(scene.model.size());
     std::size_t all = 0;
@@ -94,7 +95,7 @@ TEST_CASE("each piece is in one cluster, and clusters are well filled") {
     CHECK(scene.leaves.size() < all / 4);
 }
 
-TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes besides") {
+TEST_CASE("a ray that meets a primitive of a quantized leaf meets its box, and few boxes besides") {
     const Leaves scene(random_scene(400));
     test::Random random(3);
     int hits = 0, met = 0, tested = 0;
@@ -125,9 +126,10 @@ TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes be
                         if (is_held) break;
                         const LeafHits there = boxes_met(other, ray, static_cast<float>(far));
                         for (std::size_t j = 0; j < kLeafSize; ++j)
-                            is_held = is_held ||
-                                      ((there.met >> j & 1U) != 0 && !other.bvh_primitives[j].is_none() &&
-                                       other.bvh_primitives[j].first() <= k && k < other.bvh_primitives[j].end());
+                            is_held = is_held || ((there.met >> j & 1U) != 0 &&
+                                                  !other.bvh_primitives[j].is_none() &&
+                                                  other.bvh_primitives[j].first() <= k &&
+                                                  k < other.bvh_primitives[j].end());
                     }
                     REQUIRE(is_held);
                 }
@@ -139,7 +141,7 @@ TEST_CASE("a ray that meets a piece of a cluster meets its box, and few boxes be
     CHECK(met < 8 * hits);
 }
 
-TEST_CASE("a cluster's boxes hold its pieces' own, and are two steps larger at most") {
+TEST_CASE("a quantized leaf's boxes hold its primitives' own, and are two steps larger at most") {
     test::Random random(4);
     for (int turn = 0; turn < 2000; ++turn) {
         const double size = std::pow(10, random.uniform(-4, 6));
@@ -159,8 +161,8 @@ TEST_CASE("a cluster's boxes hold its pieces' own, and are two steps larger at m
             REQUIRE(leaf.bvh_primitives[i].first() == i);
             for (std::size_t k = 0; k < 3; ++k) {
                 const unsigned shift = 10 * static_cast<unsigned>(k);
-                const double lower = leaf.box().lower[k],
-                             step = static_cast<double>(leaf.step[k]), rounding = 1e-9 * step,
+                const double lower = leaf.box().lower[k], step = static_cast<double>(leaf.step[k]),
+                             rounding = 1e-9 * step,
                              begin = lower + step * (leaf.begin[i] >> shift & 1023U),
                              end = lower + step * (leaf.end[i] >> shift & 1023U);
                 REQUIRE(begin <= boxes[i].lower[k] + rounding);

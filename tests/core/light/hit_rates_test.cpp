@@ -13,7 +13,8 @@ namespace {
 
 std::vector<float> remaining_sums_of(const std::vector<float>& brightness) {
     std::vector<float> remaining_sums(brightness.size() + 1, 0.0f);
-    for (std::size_t i = brightness.size(); i-- > 0;) remaining_sums[i] = remaining_sums[i + 1] + brightness[i];
+    for (std::size_t i = brightness.size(); i-- > 0;)
+        remaining_sums[i] = remaining_sums[i + 1] + brightness[i];
     return remaining_sums;
 }
 
@@ -67,8 +68,8 @@ Outcome estimate(const std::vector<MeasuredPoint>& points, const std::vector<flo
         const auto rate = [&](std::size_t i) {
             return static_cast<double>(rates[static_cast<std::size_t>(point[i].source)]);
         };
-        const std::size_t done = test_brightest(remaining_sums_of(brightness), 0.5, threshold, tally,
-                                                [&](std::size_t first, std::size_t last) {
+        const std::size_t done = test_brightest(remaining_sums_of(brightness), 0.5, threshold,
+                                                tally, [&](std::size_t first, std::size_t last) {
                                                     for (std::size_t i = first; i < last; ++i) {
                                                         tally.hits += point[i].arriving > 0 ? 1 : 0;
                                                         tally.expected += rate(i);

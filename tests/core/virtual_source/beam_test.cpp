@@ -1,4 +1,5 @@
-// The beam of a redirecting surface: never leaves out a point that the redirecting surface lights, and most that it does not.
+// The beam of a redirecting surface: never leaves out a point that the redirecting surface lights,
+// and most that it does not.
 #include "core/virtual_source/beam.h"
 
 #include <doctest/doctest.h>
@@ -43,7 +44,9 @@ LightSource random_source(RandomStream& random, bool distant) {
 
 }  // namespace
 
-TEST_CASE("a relay's beam holds every point from which a sample is seen through the relay") {
+TEST_CASE(
+    "a virtual source's beam holds every point from which a sample is seen through the mirror or "
+    "prism") {
     RandomStream random(11);
     int lit = 0, dark = 0, left_out = 0;
     for (int i = 0; i < 1200; ++i) {
@@ -68,7 +71,7 @@ TEST_CASE("a relay's beam holds every point from which a sample is seen through 
     CHECK(left_out > dark / 3);  // a half lies on the source's side
 }
 
-TEST_CASE("no beam: a source that straddles the mirror's plane, a relay that is not flat") {
+TEST_CASE("no beam: a source that straddles the mirror's plane, a surface that is not flat") {
     LightSource source;
     source.u = {0, 0, 1};
     const Shape mirror = RingShape{{0, 0, 0.5}, {0, 0, 1}, 0, 1};

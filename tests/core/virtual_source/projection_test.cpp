@@ -85,7 +85,7 @@ TEST_CASE("prism: light bent at the plane seems to come from the projected sourc
     CHECK_FALSE(Projection::bend(sheet, {0, 0, -1}, {1, 0, 1e-9}));  // along the sheet
 }
 
-TEST_CASE("relay disks: a polygon's vertices, a ring's outline, nothing else") {
+TEST_CASE("redirecting disks: a polygon's vertices, a ring's outline, nothing else") {
     PolygonShape square;
     const std::array<double, 12> corners{0, 0, 2, 2, 0, 2, 2, 2, 2, 0, 2, 2};
     square.vertices = PointList(std::span<const double>(corners));
@@ -102,7 +102,7 @@ TEST_CASE("relay disks: a polygon's vertices, a ring's outline, nothing else") {
     CHECK_FALSE(plane_of(Shape{SphereShape{{}, 1}}));
 }
 
-TEST_CASE("a relayed lamp shines through the relay only: a cone around its disk") {
+TEST_CASE("a lamp seen through a mirror shines through it only: a cone around its disk") {
     const Projection mirror = Projection::mirror(kWall);
     const LightSource parent = lamp({0, 0, 0}, 0.1), made = project(parent, mirror);
     const VirtualSpot redirected = virtual_spot(parent, made, mirror, {{4, 0, 0}, 1});
@@ -113,7 +113,8 @@ TEST_CASE("a relayed lamp shines through the relay only: a cone around its disk"
     CHECK(redirected.spot->size == rounded(2 * kPi * (1 - std::sqrt(1 - sine * sine))));
     // So near that there is no bound.
     const LightSource close = lamp({3.5, 0, 0}, 0.1);
-    const VirtualSpot unbounded = virtual_spot(close, project(close, mirror), mirror, {{4, 0, 0}, 1});
+    const VirtualSpot unbounded =
+        virtual_spot(close, project(close, mirror), mirror, {{4, 0, 0}, 1});
     CHECK(unbounded.possible);
     CHECK_FALSE(unbounded.spot);
     // A glow does not reach beyond its radius.
@@ -123,11 +124,12 @@ TEST_CASE("a relayed lamp shines through the relay only: a cone around its disk"
     CHECK_FALSE(virtual_spot(glow, project(glow, mirror), mirror, {{4, 0, 0}, 1}).possible);
 }
 
-TEST_CASE("a relayed spotlight: its cone is reflected and meets the relay's") {
+TEST_CASE("a virtual spotlight: its cone is reflected and meets the mirror's") {
     const Projection mirror = Projection::mirror(kWall);
     LightSource parent = lamp({0, 0, 0}, 0.01);
     parent.spot = SpotShape{{1, 0, 0}, 0.01f, 0.5f, false};
-    const VirtualSpot redirected = virtual_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1});
+    const VirtualSpot redirected =
+        virtual_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1});
     REQUIRE(redirected.possible);
     REQUIRE(redirected.spot);
     check_near(redirected.spot->aim, {-1, 0, 0});
@@ -138,7 +140,7 @@ TEST_CASE("a relayed spotlight: its cone is reflected and meets the relay's") {
     CHECK_FALSE(virtual_spot(parent, project(parent, mirror), mirror, {{4, 0, 0}, 1}).possible);
 }
 
-TEST_CASE("relayed sunlight is a beam, a second relay cuts it") {
+TEST_CASE("redirected sunlight is a beam, a second surface cuts it") {
     const Projection mirror = Projection::mirror(kWall);
     const LightSource parent = sun({-1, 0, 0}, 0.5), made = project(parent, mirror);
     const VirtualSpot first = virtual_spot(parent, made, mirror, {{4, 0, 0}, 1});
@@ -155,5 +157,6 @@ TEST_CASE("relayed sunlight is a beam, a second relay cuts it") {
     REQUIRE(cut.spot);
     CHECK(cut.spot->size < first.spot->size);
     CHECK(cut.spot->aim.y > 0);
-    CHECK_FALSE(virtual_spot(redirected, project(redirected, second), second, {{-4, 9, 0}, 1}).possible);
+    CHECK_FALSE(
+        virtual_spot(redirected, project(redirected, second), second, {{-4, 9, 0}, 1}).possible);
 }

@@ -54,7 +54,7 @@ TEST_CASE(
     CHECK(floor_at(scene, 1, 5.9) == rounded(floor_at(without, 1, 5.9)));
 }
 
-TEST_CASE("shadows fall on both legs of a relayed path") {
+TEST_CASE("shadows fall on both legs of a redirected path") {
     const std::string scene = kFloor + kMirror + kLamp;
     TestScene clear(scene, with_redirections(1)), none(scene, with_redirections(0));
     // Between lamp and mirror, and between mirror and floor; neither is on the direct path.
@@ -115,7 +115,7 @@ TEST_CASE(
     CHECK(partly.tracer.lights()[1].follow);
 }
 
-TEST_CASE("lamps behind a mirror and curved mirrors relay nothing") {
+TEST_CASE("lamps behind a mirror and curved mirrors redirect nothing") {
     TestScene behind(
         kFloor + kMirror + "void light lamp\n0\n0\n3 1 1 1\nlamp sphere bulb\n0\n0\n4 6 0 3 .2\n",
         with_redirections(1));
@@ -129,7 +129,7 @@ TEST_CASE("lamps behind a mirror and curved mirrors relay nothing") {
           "test.rad:13: sphere \"ball\": only flat surfaces relay light to others");
 }
 
-TEST_CASE("a prism sheet relays by its expressions, an undeviated one makes no virtual source") {
+TEST_CASE("a prism sheet redirects by its expressions, an undeviated one makes no virtual source") {
     const std::string sheet = " polygon sheet\n0\n0\n12 -3 -3 3  3 -3 3  3 3 3  -3 3 3\n";
     const std::string lamp =
         "void light lamp\n0\n0\n3 100 100 100\nlamp sphere bulb\n0\n0\n4 0 0 6 .3\n";

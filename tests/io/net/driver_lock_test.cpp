@@ -18,25 +18,25 @@ View standing_at(double x) {
 
 }  // namespace
 
-TEST_CASE("seats: the first drives, others watch, until it leaves or hands over") {
+TEST_CASE("driver lock: the first drives, others watch, until it leaves or hands over") {
     DriverLock lock;
     CHECK(lock.join(kOne, "a"));
     CHECK(lock.join(kTwo, "b"));
     CHECK_FALSE(lock.join(kTwo, "b"));
     CHECK(lock.drives(kOne));
-    CHECK_FALSE(lock.take(kTwo));
+    CHECK_FALSE(lock.acquire(kTwo));
     CHECK_FALSE(lock.hand(kTwo, kTwo));
     CHECK_FALSE(lock.hand(kOne, kThree));
     CHECK(lock.hand(kOne, kTwo));
     CHECK(lock.drives(kTwo));
     lock.leave(kTwo);
     CHECK_FALSE(lock.driver());
-    CHECK_FALSE(lock.take(kThree));
-    CHECK(lock.take(kOne));
+    CHECK_FALSE(lock.acquire(kThree));
+    CHECK(lock.acquire(kOne));
     CHECK(lock.clients() == std::vector{kOne});
 }
 
-TEST_CASE("seats: who returns finds the place where it stood, and nobody else does") {
+TEST_CASE("driver lock: who returns finds the place where it stood, and nobody else does") {
     DriverLock lock;
     lock.join(kOne, "a");
     CHECK_FALSE(lock.place(kOne));
@@ -50,7 +50,7 @@ TEST_CASE("seats: who returns finds the place where it stood, and nobody else do
     CHECK_FALSE(lock.place(kOne));
 }
 
-TEST_CASE("seats: a driver whose old connection is not known to be lost drives on") {
+TEST_CASE("driver lock: a driver whose old connection is not known to be lost drives on") {
     DriverLock lock;
     lock.join(kOne, "a");
     lock.join(kTwo, "b");
@@ -60,7 +60,7 @@ TEST_CASE("seats: a driver whose old connection is not known to be lost drives o
     CHECK(lock.drives(kThree));
 }
 
-TEST_CASE("seats: sessions are remembered up to a limit, the oldest are forgotten") {
+TEST_CASE("driver lock: sessions are remembered up to a limit, the oldest are forgotten") {
     DriverLock lock;
     for (std::uint32_t i = 0; i <= DriverLock::kMostSessions; ++i) {
         lock.join(ClientId{i}, std::to_string(i));

@@ -270,7 +270,8 @@ TEST_CASE("what gensurf writes by pieces is read as one text") {
     const std::string hill = "!gensurf red hill s t 's*t' 100 100\n";
     for (const bool beside : {false, true}) {  // or one after the other
         SceneReadOptions options = inside("/nonexistent");
-        if (beside) options.pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
+        if (beside)
+            options.pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
         const Parsed scene = parse(kPlastic + hill + kBall, options);
         REQUIRE(scene.size() == 20002);
         CHECK(scene.warnings.empty());

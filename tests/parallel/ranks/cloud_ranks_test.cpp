@@ -116,11 +116,12 @@ class RoomRays final : public WalkRays {
     RoomRays(Room& room, const View& view, WorkerContexts& contexts)
         : camera_(view),
           contexts_(contexts),
-          caster_(room.scene.tracer, room.visibility, camera_, frame_options(), contexts, room.stop) {}
+          caster_(room.scene.tracer, room.visibility, camera_, frame_options(), contexts,
+                  room.stop) {}
     [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
     [[nodiscard]] const Camera& camera() const override { return camera_; }
     void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-              int worker) override {
+               int worker) override {
         caster_.probe(places, visibility, worker);
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
@@ -160,7 +161,7 @@ std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
         const auto trace = [&](auto places, auto pixels, int sample, int w) {
             rays.trace(places, pixels, sample, w);
         };
-        const CloudFrame frame = frames.draw(rays.camera(), {look, trace}, *executor, room.stop);
+        const CloudFrame frame = frames.draw(rays.camera(), {probe, trace}, *executor, room.stop);
         result.push_back(to_drawn(frame));
     }
     return result;

@@ -143,8 +143,8 @@ class Walk {
             post(rank, answered, {static_cast<int>(i), Role::worker}, CloudUsed{frame, {}});
         UncachedPixels uncached{frame, 0, {}};
         const int count = static_cast<int>(schedule_.uniform(options_.most_uncached));
-        uncached.noise_pairs =
-            static_cast<std::uint32_t>(schedule_.uniform(std::min(count, options_.most_noise_pairs)));
+        uncached.noise_pairs = static_cast<std::uint32_t>(
+            schedule_.uniform(std::min(count, options_.most_noise_pairs)));
         uncached.places.resize(static_cast<std::size_t>(count));
         expected += uncached.places.size();
         post(rank, answered, {rank, Role::worker}, std::move(uncached));
@@ -180,7 +180,9 @@ class Walk {
 
 }  // namespace
 
-TEST_CASE("a walk over ranks: each hole is traced once, and each frame ends, in 1000 schedules") {
+TEST_CASE(
+    "a walk over ranks: each uncached pixel is traced once, and each frame ends, in 1000 "
+    "schedules") {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         CAPTURE(seed);
         WalkOptions options;
@@ -219,7 +221,8 @@ TEST_CASE("a walk over ranks: what nobody asked for is refused") {
     role.handle(from(CloudPoints{0, {}}), out);
     CHECK_THROWS_AS(role.handle(from(CloudPoints{0, {}}), out), InputError);
     role = worker(out);
-    role.handle({{1, Role::tracer}, {1, Role::worker}, UncachedPixels{0, 0, {{1, 1}, {2, 1}}}}, out);
+    role.handle({{1, Role::tracer}, {1, Role::worker}, UncachedPixels{0, 0, {{1, 1}, {2, 1}}}},
+                out);
     CHECK_THROWS_AS(role.handle(from(TracedPixelResults{0, 1, 2, {}}), out), InputError);
     CHECK_THROWS_AS(role.handle(from(TracedPixelResults{0, 0, 1, {{}, {}}}), out), InputError);
     role.handle(from(TracedPixelResults{0, 1, 1, {}}), out);

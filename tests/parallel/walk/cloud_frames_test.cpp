@@ -281,7 +281,8 @@ TEST_CASE(
         const CloudReport& report = frame.report;
         std::size_t traced = 0;
         for (std::size_t cause = 0; cause < kTraceCauses; ++cause)
-            if (static_cast<TraceCause>(cause) != TraceCause::audited) traced += report.uncached[cause];
+            if (static_cast<TraceCause>(cause) != TraceCause::audited)
+                traced += report.uncached[cause];
         REQUIRE(report.reused + report.filled + traced == report.pixels);
         if (i == 1) {
             for (std::size_t at = 0; at < frame.causes.size(); ++at) {
@@ -316,7 +317,8 @@ TEST_CASE("cloud: what a budget leaves out is filled from around, and traced in 
     CloudFrames frames(kWidth, kHeight, options);
     const View view = view_at(0, 0, 0);
     const CloudFrame first = room.draw(frames, view, *executor);
-    const std::size_t traced = first.report.uncached[static_cast<std::size_t>(TraceCause::uncovered)];
+    const std::size_t traced =
+        first.report.uncached[static_cast<std::size_t>(TraceCause::uncovered)];
     CHECK(traced > 0);
     CHECK(traced < first.report.pixels / 10);
     CHECK(first.report.filled == first.report.pixels - traced);

@@ -77,15 +77,16 @@ struct FieldCaster {
     }
 
     CloudFrame draw(CloudFrames& frames, Executor& executor) const {
-        const auto probe = [&](std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                              int) {
-            for (std::size_t i = 0; i < places.size(); ++i) visibility[i] = cast(places[i]).visibility;
+        const auto probe = [&](std::span<const PixelPlace> places,
+                               std::span<PixelVisibility> visibility, int) {
+            for (std::size_t i = 0; i < places.size(); ++i)
+                visibility[i] = cast(places[i]).visibility;
         };
         const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                                int, int) {
             for (std::size_t i = 0; i < places.size(); ++i) pixels[i] = cast(places[i]);
         };
-        return frames.draw(camera, {look, trace}, executor, StopFlag{});
+        return frames.draw(camera, {probe, trace}, executor, StopFlag{});
     }
 };
 
