@@ -10,7 +10,7 @@ namespace {
 Machine free_messages() {
     Machine machine;
     machine.latency = machine.overhead = machine.byte_work = machine.gap = machine.byte_gap = 0;
-    machine.step = machine.oversleep = machine.wake = machine.probe = 0;
+    machine.step = machine.oversleep = machine.wake = machine.look = 0;
     machine.sleeps = false;
     return machine;
 }
