@@ -8,11 +8,11 @@ import { listen_for_shortcuts } from "./shortcuts.js";
 import { measurement_table } from "./table.js";
 import { parse_views, path_text, view_line } from "./view_text.js";
 
-/** Whether the system asks for less motion: then jumps are jumps. */
+/** Whether the system asks for reduced motion: the eye then goes to another view at once, without a transition. */
 const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 class Commands {
-    /** @param page  its parts; home() and scene() tell what is so at the moment */
+    /** @param page  the parts of the page, and functions home() and scene() for the present home view and scene name */
     constructor(page) {
         Object.assign(this, page);
         this.area_wanted = false;
@@ -44,7 +44,7 @@ class Commands {
         this.show_walk();
     }
 
-    /** The button tells how the eye moves, which keys change, too. */
+    /** Show on the button whether the eye walks or flies; keys change that as well. */
     show_walk() {
         const { walk } = this.navigator;
         if (walk === this.walk_shown_) return;
@@ -56,7 +56,7 @@ class Commands {
         notice(walk ? "Walking: the eye keeps its height" : "Flying: E and Q rise and sink");
     }
 
-    /** The view as it is now, with the sizes of this window. */
+    /** The present view, its horizontal and vertical sizes fitted to the window. */
     present_view() {
         return (
             (this.session.shown_id === this.session.view_id && this.session.shown) ||
@@ -146,7 +146,7 @@ class Commands {
         download_text(measurement_table(probes, areas, settings), this.name_("csv"));
     }
 
-    /** Close what is open, the nearest first. */
+    /** Cancel one thing: the choice of an area, else the reading, else the open panel, else the display of glare. */
     escape() {
         if (this.area_wanted) this.want_area(false);
         else if (!this.measuring.reading.close() && !close_panel()) this.glare.clear();
@@ -154,7 +154,7 @@ class Commands {
     }
 }
 
-/** Buttons by their names in the page. */
+/** What each button does, by its element id. */
 function listen_for_buttons(commands) {
     const { views, measuring, glare } = commands;
     const buttons = {

@@ -1,12 +1,12 @@
-// The line to the server: one WebSocket, made again when it breaks.
+// The connection to the server: one WebSocket, opened again when it breaks.
 
 const kFirstWait = 250,
     kLongestWait = 5000; // [ms]
 
-/** How long to wait before try number `attempt` (0, 1, ...) [ms]; twice as long each time. */
+/** How long to wait before attempt number `attempt` (0, 1, ...) to connect [ms]: exponential backoff. */
 export const wait_before = (attempt) => Math.min(kLongestWait, kFirstWait * 2 ** attempt);
 
-/** The WebSocket's address beside the page's: same host, same folder, same token. */
+/** The WebSocket's address, from that of the page: same host, same folder, same token. */
 export function socket_address(page) {
     const address = new URL("walk", page);
     address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
@@ -14,7 +14,7 @@ export function socket_address(page) {
     return address.href;
 }
 
-/** "?token=..." where the page was opened with one, else nothing. */
+/** "?token=..." if the page's address has a token, else "". */
 export function token_query(page) {
     const token = new URL(page).searchParams.get("token");
     return token ? `?token=${encodeURIComponent(token)}` : "";
@@ -23,7 +23,7 @@ export function token_query(page) {
 export class Connection {
     /**
      * @param address  of the WebSocket
-     * @param on  {open(), message(object), frame(buffer), lost(reason, wait)}: wait: until the next try [ms]
+     * @param on  {open(), message(object), frame(buffer), lost(reason, wait)}: wait: time until the next attempt [ms]
      */
     constructor(address, on) {
         this.address_ = address;
@@ -44,7 +44,7 @@ export class Connection {
         return true;
     }
 
-    /** Try now instead of waiting: the network is back, or the window is looked at again. */
+    /** Connect now instead of waiting: the network is back, or the page is visible again. */
     hurry() {
         if (this.timer_ === undefined) return;
         clearTimeout(this.timer_);
@@ -65,7 +65,8 @@ export class Connection {
     }
 
     receive_(data) {
-        // Whoever opens and at once closes again is no reason to try at full speed.
+        // A server that accepts and at once closes again must not be asked without pause: backoff starts anew only
+        // after a message has arrived.
         this.attempt_ = 0;
         if (typeof data !== "string") {
             this.bytes += data.byteLength;

@@ -1,18 +1,18 @@
-// What tests and curious people may look at: window.lightwalk.
+// window.lightwalk: counters and the newest answers, for tests and for the browser's console.
 
-/** Counters and newest answers; `session` and `navigator` are looked at when asked. */
+/** The object window.lightwalk; what it takes from `session` and `navigator` is read at each access. */
 export function make_counters(session, navigator) {
     return {
-        frames: 0, ///< drawn
-        skipped: 0, ///< superseded before they were drawn
-        exposure: 0, ///< factor of the newest frame
+        frames: 0, ///< frames that were drawn
+        skipped: 0, ///< frames that a newer one superseded before they were drawn
+        exposure: 0, ///< factor that the newest frame's radiance was multiplied by
         at_rest: false,
-        final: false, ///< the newest frame is as good as it gets
+        final: false, ///< whether the newest frame is the final one of its view: nothing will be refined any more
         last_pick: null,
         last_mean: null,
         last_glare: null,
         last_probes: null,
-        state: {}, ///< the server's newest
+        state: {}, ///< the server's newest `state` message
         errors: [],
         scene: "",
         ready: false, ///< the scene is loaded and its picture on the screen
@@ -30,7 +30,7 @@ export function make_counters(session, navigator) {
         },
         get latency() {
             return session.latency.samples;
-        }, ///< [ms]
+        }, ///< from input to picture [ms]
         get bytes() {
             return session.connection.bytes;
         },

@@ -1,4 +1,4 @@
-// The few words of the document's language that the page's modules share.
+// Helpers that make and find elements of the document.
 
 export const by_id = (id) => document.getElementById(id);
 
@@ -35,7 +35,7 @@ export function remove_button(what, act) {
     return button;
 }
 
-/** Which radio button of a group is on. */
+/** The radio button of a group that is checked. */
 export function choose(name, value) {
     for (const input of document.getElementsByName(name)) input.checked = input.value === value;
 }

@@ -8,7 +8,7 @@ const kHeader = 48;
 const kPieceHeader = 16;
 const kTypes = { 1: "image/jpeg", 2: "image/png" };
 
-/** The piece at `at`: its place in the picture, its media type and its bytes. */
+/** The piece at byte offset `at`: its place in the picture, its media type and its bytes. */
 function parse_piece(data, at) {
     if (at + kPieceHeader > data.byteLength) throw new Error("frame: a piece is cut off");
     const piece = {
@@ -28,8 +28,8 @@ function parse_piece(data, at) {
 /**
  * A frame's header and pieces; bytes are views into the buffer.
  * @returns {{frame, view_id, width, height, complete, at_rest, final, exposure, eye, pieces}}
- * complete: all pieces are here; at_rest: the eye stands still; final: as good as it gets.
- * Throws Error for what is no frame.
+ * complete: the message holds all pieces of the picture; at_rest: the eye stands still; final: nothing will be refined
+ * any more. Throws Error for bytes that are no frame.
  */
 export function parse_frame(buffer) {
     const data = new DataView(buffer);

@@ -1,17 +1,17 @@
-// Daylight glare probability of the present view, and the sources it comes from.
+// Daylight glare probability (DGP) of the present view, and the glare sources that cause it.
 import { by_id, element } from "./dom.js";
 import { glare_word, percent, quantity } from "./words.js";
 
 export class Glare {
-    /** @param on  {changed()} */
+    /** @param on  {changed()}: called when the value or the sources are new */
     constructor(on) {
         this.on_ = on;
-        this.id = 0; ///< of the request under way or answered
-        this.sources = []; ///< as the server sends them
+        this.id = 0; ///< number of the newest request, answered or not
+        this.sources = []; ///< as in the server's `glare` message
         this.waiting_ = false;
     }
 
-    /** A request was sent. */
+    /** Note that request `id` was sent. */
     asked(id) {
         this.id = id;
         this.waiting_ = true;
@@ -44,7 +44,7 @@ export class Glare {
         this.on_.changed();
     }
 
-    /** The eye moved, or nobody wants it any more: outlines belong to one view. */
+    /** Forget the answer: the outlines of sources hold for one view, and the eye has moved or the display was closed. */
     clear() {
         if (this.id === 0) return;
         this.id = 0;

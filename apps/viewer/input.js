@@ -1,10 +1,10 @@
-// Mouse, fingers, wheel and keys become motion.
+// Mouse, touch, wheel and keys become motion of the eye.
 import { kKeys } from "./motion.js";
 import { angle_across } from "./view.js";
 
-const kClick = 5; // a press that moves less is a click [CSS pixels]
-const kNotch = 100; // of a wheel [pixels]
-const kLine = 33; // of a wheel that counts lines [pixels]
+const kClick = 5; // a press that moves less than this is a click [CSS pixels]
+const kNotch = 100; // wheel distance of one notch [pixels]
+const kLine = 33; // wheel distance of one line, for browsers that report lines [pixels]
 
 /** Whether a key belongs to a control that has the focus. */
 function typing(target) {
@@ -19,7 +19,7 @@ function typing(target) {
 
 export class Input {
     /**
-     * @param surface    what is dragged and clicked
+     * @param surface    the element that is dragged and clicked
      * @param navigator
      * @param on  {click(x, y), area_begin(x, y), area_move(x, y), area_end(x, y), speed(speed),
      *     area_wanted(): bool, may_drive(): bool}: x, y in CSS pixels
@@ -68,7 +68,7 @@ export class Input {
             this.fingers_.set(event.pointerId, now);
     }
 
-    /** The picture is held: what is under the pointer stays there, nearly. */
+    /** Drag with one pointer: the eye turns so that what is under the pointer stays nearly there. */
     drag_(before, now, event) {
         const step = [now[0] - before[0], now[1] - before[1]];
         this.travelled_ = Math.max(this.travelled_, Math.hypot(...step));
@@ -80,7 +80,7 @@ export class Input {
         this.navigator_.look(-step[0] * angle, step[1] * angle, event.timeStamp);
     }
 
-    /** Two fingers push the picture: up is forward, their distance is the lens. */
+    /** Drag with two fingers: up moves the eye forward, sideways moves it sideways, their distance changes the lens. */
     two_fingers_(id, before, now, time) {
         this.travelled_ = kClick;
         if (!this.on_.may_drive()) return;
@@ -119,7 +119,7 @@ export class Input {
     key_down_(event) {
         this.modify_(event);
         if (typing(event.target) || event.metaKey || !kKeys[event.code]) return;
-        // Ctrl with letters is the browser's, arrows are those of a control that has the focus.
+        // Ctrl with a letter belongs to the browser, and arrow keys to the control that has the focus.
         if (event.ctrlKey && event.code.startsWith("Key")) return;
         if (event.target instanceof HTMLInputElement && !event.code.startsWith("Key")) return;
         event.preventDefault();

@@ -1,11 +1,11 @@
-// The scale of false colours: beside the picture, and in pictures that are saved.
+// The legend of false colours: beside the picture, and in pictures that are saved.
 import { by_id, shape } from "./dom.js";
 import { colour_text, palette_colour, scale_ticks, share_of } from "./scale.js";
 import { round_number } from "./words.js";
 
-const kSteps = 48; // of colour in the gradient
-const kWidth = 14; // of the bar [CSS pixels]
-const kPerTick = 34; // a number for so many pixels of height
+const kSteps = 48; // colour stops of the gradient
+const kWidth = 14; // width of the bar [CSS pixels]
+const kPerTick = 34; // height of the bar for each number beside it [CSS pixels]
 
 const ticks_for = (scale, height) => scale_ticks(scale, Math.max(2, Math.floor(height / kPerTick)));
 
@@ -21,7 +21,7 @@ function gradient() {
     return made;
 }
 
-/** Draw the scale beside the picture, or hide it. */
+/** Draw the legend beside the picture, or hide it. */
 export function show_legend(display) {
     by_id("legend").hidden = display.mode !== "false";
     if (display.mode !== "false") return;
@@ -48,7 +48,7 @@ export function show_legend(display) {
     );
 }
 
-/** Paint the scale into a picture of `height` pixels, as large as it is seen in the page. */
+/** Paint the legend into a picture of `height` pixels, in the size that it has in the page. */
 export function paint_legend(context, scale, height, zoom) {
     const bar = {
         left: 18 * zoom,

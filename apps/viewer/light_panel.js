@@ -1,9 +1,9 @@
-// How radiance becomes colours: the state of the controls is the display message.
+// The panel that decides how radiance becomes colours; the state of its controls is the `display` message.
 import { by_id, choose } from "./dom.js";
 import { scale_problem } from "./scale.js";
 import { stops } from "./words.js";
 
-const kStep = 0.5; // of the keys [stops]
+const kStep = 0.5; // change of exposure by one key press [stops]
 
 export const default_display = () => ({
     mode: "tone",
@@ -12,11 +12,11 @@ export const default_display = () => ({
     scale: { low: 1, high: 10000, log: true },
 });
 
-/** A number as people type it, with a comma or a point. */
+/** The value of a number as people type it, with a decimal comma or point. */
 const typed = (input) => (input.value.trim() === "" ? NaN : Number(input.value.replace(",", ".")));
 
 export class LightPanel {
-    /** @param on  {display(display), settings(settings)}: the user changed something */
+    /** @param on  {display(display), settings(settings)}: called when the user has changed something */
     constructor(on) {
         this.on_ = on;
         this.display = default_display();
@@ -26,14 +26,14 @@ export class LightPanel {
         this.show_();
     }
 
-    /** What the server has; without telling it. */
+    /** Set the controls to the display and settings that the server has; nothing is sent. */
     take(display, settings) {
         if (display) this.display = structuredClone({ ...default_display(), ...display });
         if (settings) this.settings = { ...settings };
         this.show_();
     }
 
-    /** The factor that the newest frame was multiplied by: where fixed exposure begins. */
+    /** Note the factor that the newest frame was multiplied by: a fixed exposure starts there. */
     note_exposure(factor) {
         if (!(factor > 0)) return;
         this.automatic_ev_ = Math.log2(factor);
@@ -51,7 +51,7 @@ export class LightPanel {
         });
     }
 
-    /** Brighter (1) or darker (-1) by half a stop; fixes the exposure. */
+    /** Make the picture brighter (1) or darker (-1) by half a stop; the exposure is fixed from then on. */
     step_exposure(direction) {
         this.change_({
             exposure: { auto: false, ev: this.limited_(this.present_ev_() + direction * kStep) },
@@ -92,7 +92,7 @@ export class LightPanel {
             });
     }
 
-    /** The scale as typed, if it makes sense; else says why not. */
+    /** The scale of false colours as typed; when it is not valid the panel says why, and nothing is returned. */
     read_scale_() {
         const log = document.querySelector("[name=steps]:checked").value === "log";
         const scale = { low: typed(by_id("low")), high: typed(by_id("high")), log };

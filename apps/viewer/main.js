@@ -1,4 +1,4 @@
-// The page: its parts, and who tells whom.
+// Puts the page together: makes its parts and passes events between them.
 import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
 import { Glare } from "./glare.js";
@@ -20,15 +20,15 @@ import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
 import { quantity } from "./words.js";
 
-const kFastest = 12; // between two views: fast screens ask no more often than servers allow [ms]
-const kResized = 120; // a window that is being resized settles first [ms]
+const kFastest = 12; // least time between two views, also on fast screens: the server limits the rate [ms]
+const kResized = 120; // wait after the last resize of the window before a view of the new size is sent [ms]
 
 const picture = by_id("picture");
 
 let scene = "";
-let home = null; // where a scene without views began
-let greeted = false; // ever, by a server
-let welcomed = false; // on this connection
+let home = null; // the first view of a scene that names no views
+let greeted = false; // whether a server has ever sent `welcome`
+let welcomed = false; // whether the server has sent `welcome` on this connection
 let awaiting_picture = true;
 let max_size = [4096, 4096];
 
@@ -127,7 +127,7 @@ function redraw() {
     reading.follow(session.shown);
 }
 
-// What the server says ---------------------------------------------------------------------------
+// Messages from the server -----------------------------------------------------------------------
 
 function welcome(message) {
     roles.welcome(message);
@@ -146,7 +146,7 @@ function welcome(message) {
     measuring.tell_probes();
 }
 
-/** What the browser keeps for this scene. */
+/** Load what the browser stored for this scene: views, keys of a path, pins. */
 function open_scene(name) {
     scene = name;
     counters.scene = name;
@@ -162,7 +162,7 @@ function take_display(display, settings) {
     show_legend(light.display);
 }
 
-/** A server that is back learns what the page knows. */
+/** After a new connection: send the server what the page knows. */
 function say_all() {
     if (!session.driving) return;
     session.send({ type: "display", ...light.display });
@@ -248,7 +248,7 @@ function failed(error, frame) {
     if (frame) session.skipped(frame);
 }
 
-// The page's clock -------------------------------------------------------------------------------
+// The page's clock: one tick a screen refresh ----------------------------------------------------
 
 let resized;
 function on_resize() {
@@ -262,7 +262,7 @@ function on_resize() {
 }
 
 let ticked = 0;
-/** Tell the server where the eye is now, if it does not know yet. */
+/** Send the present view, unless the server has it already. */
 function step_now() {
     const now = performance.now();
     if (!welcomed || !session.driving || now - ticked < kFastest) return;
@@ -281,7 +281,7 @@ document.addEventListener("visibilitychange", () => {
     if (!document.hidden) session.connection.hurry();
 });
 start_figures(session, navigator, picture, () => counters.state);
-// A key is answered at once, not with the screen's next refresh.
+// A view is sent as soon as a key is pressed, not with the screen's next refresh.
 navigator.on_input = () => queueMicrotask(step_now);
 requestAnimationFrame(function tick() {
     step_now();

@@ -1,4 +1,4 @@
-// The list of pins and means.
+// The list of measurements: pins on surfaces, and means over areas.
 import { by_id, element, remove_button } from "./dom.js";
 import { quantity } from "./words.js";
 
@@ -26,7 +26,7 @@ function row(item, lux, remove) {
     );
 }
 
-/** Show what is measured; values that still change are shown grey. */
+/** Show all measurements; values that are not final yet are grey. */
 export function show_measurements(measurements) {
     const remove = (id) => measurements.remove(id);
     by_id("measured").replaceChildren(

@@ -1,18 +1,18 @@
-// What was measured and stays: pins on surfaces and means over areas. No document in here.
+// The measurements that are kept: pins on surfaces and means over areas. Data only: does not use the document.
 import { same_picture } from "./view.js";
 
-const kMostProbes = 64; // that the server keeps up to date
-const kAskAgain = 1000; // for a mean while the light settles [ms]
+const kMostProbes = 64; // the server keeps no more pins up to date
+const kAskAgain = 1000; // time between two requests for a mean while the picture is being refined [ms]
 
 const next_name = (letter, list) =>
     letter + (1 + Math.max(0, ...list.map(({ name }) => Number(name.slice(1)) || 0)));
 
 export class Measurements {
-    /** @param changed  called after each change, with whether pins came or went */
+    /** @param changed  called after each change; its argument says whether pins were added or removed */
     constructor(changed) {
         this.changed_ = changed;
         this.probes = []; ///< {id, name, position, normal, material, surface, illuminance, luminance, settled, time}
-        this.last_id_ = 0; // never given twice: answers may still be under way
+        this.last_id_ = 0; // ids are never reused, as answers to a removed one may still arrive
         this.areas = []; ///< {id, name, rect, view, luminance, pixels, settled, time}
     }
 
@@ -20,7 +20,7 @@ export class Measurements {
         return this.probes.length + this.areas.length;
     }
 
-    /** What was kept from an earlier visit; anything that does not look right is left out. */
+    /** Restore what the browser stored on an earlier visit; entries that are not valid are left out. */
     restore({ probes = [], areas = [] }) {
         const triple = (v) => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
         this.probes = probes
@@ -32,7 +32,7 @@ export class Measurements {
         this.changed_(true);
     }
 
-    /** A pin where a pick hit; its new probe, or nothing when there are too many. */
+    /** Add a pin where a pick hit a surface. Returns the new probe, or nothing when there are too many. */
     pin(pick, time) {
         if (this.probes.length >= kMostProbes) return null;
         const { position, normal, material, surface, illuminance, luminance } = pick;
@@ -53,7 +53,7 @@ export class Measurements {
         return probe;
     }
 
-    /** An area of a view whose mean is asked for: its number is the request's. */
+    /** Add an area of a view; `id` is the number of the request for its mean. */
     add_area(rect, view) {
         const area = {
             id: ++this.last_id_,
@@ -83,7 +83,7 @@ export class Measurements {
         this.changed_(true);
     }
 
-    /** The server's newest values of all pins. */
+    /** Take over the server's newest values of all pins. */
     update_probes({ probes, settled }, time) {
         for (const { id, illuminance, luminance } of probes) {
             const probe = this.probes.find((p) => p.id === id);
@@ -92,7 +92,7 @@ export class Measurements {
         this.changed_(false);
     }
 
-    /** The server's answer for an area; false when it is not one of these. */
+    /** Take over the server's answer for an area; false when there is no such area. */
     update_area({ id, luminance, pixels }, settled, time) {
         const area = this.areas.find((a) => a.id === id);
         if (!area) return false;
@@ -101,7 +101,7 @@ export class Measurements {
         return true;
     }
 
-    /** The areas of the present picture whose means are to be asked for again. */
+    /** The areas drawn in the present view whose means are to be requested again. */
     areas_to_ask(view, share, now) {
         return this.areas.filter((area) => {
             if (area.settled >= 1 || !same_picture(area.view, view)) return false;

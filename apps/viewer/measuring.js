@@ -1,15 +1,15 @@
-// Questions about light and their answers: what is pointed at, what stays pinned, means over areas.
+// Questions to the server about light, and their answers: the point under the pointer, pins, means over areas.
 import { show_measurements } from "./measure_panel.js";
 import { Measurements } from "./measurements.js";
 import { notice } from "./notices.js";
 import { Reading } from "./reading.js";
 import { keep_scene_item, scene_item } from "./store.js";
 
-const kSmallest = 3; // side of an area [CSS pixels]
+const kSmallest = 3; // least side of an area [CSS pixels]
 
 const now_text = () => new Date().toISOString().replace(/\.\d+/, "");
 
-/** The rectangle of two corners, as shares of the picture from its lower left: [x0, y0, x1, y1]. */
+/** The rectangle between two corners, as shares of the picture from its lower left: [x0, y0, x1, y1]. */
 function shares_of([x0, y0, x1, y1]) {
     const rising = (a, b) => [a, b].map((x) => Math.max(0, Math.min(1, x))).sort((p, q) => p - q);
     const [left, right] = rising(x0 / innerWidth, x1 / innerWidth);
@@ -18,26 +18,26 @@ function shares_of([x0, y0, x1, y1]) {
 }
 
 export class Measuring {
-    /** @param changed  something is to be drawn anew */
+    /** @param changed  called when something is to be drawn again */
     constructor(session, counters, changed) {
         this.session_ = session;
         this.counters_ = counters;
         this.changed_ = changed;
         this.scene_ = null;
-        this.asked_ = new Map(); // where picks under way point to, by their numbers
-        this.drag = null; ///< an area that is being drawn: corners [CSS pixels]
+        this.asked_ = new Map(); // the places of picks without an answer yet, by request number
+        this.drag = null; ///< corners of the area that is being drawn [CSS pixels]
         this.measurements = new Measurements((pins) => this.keep_(pins));
         this.reading = new Reading({ pin: (pick) => this.pin(pick), closed: changed });
     }
 
-    /** What was measured in this scene before. */
+    /** Load what the browser stored for this scene. */
     open_scene(name) {
-        this.scene_ = null; // nothing is kept while it is only read
+        this.scene_ = null; // nothing is stored while measurements are being restored
         this.measurements.restore(scene_item(name, "measured", {}));
         this.scene_ = name;
     }
 
-    /** Ask what is at x, y of the picture (0..1 from the left and the bottom). */
+    /** Ask what the picture shows at x, y (0..1 from the left and the bottom). */
     pick_at(x, y) {
         if (!this.session_.connection.connected) return;
         this.asked_.set(this.session_.ask("pick", { x, y }), [x, y]);
@@ -66,7 +66,7 @@ export class Measuring {
         this.changed_();
     }
 
-    /** `meant`: the drag ended as it should. */
+    /** End the drawing of an area; `meant`: false when the drag was cancelled. */
     area_end(x, y, meant) {
         const [x0, y0] = this.drag;
         this.drag = null;
@@ -89,7 +89,7 @@ export class Measuring {
         this.measurements.update_probes(message, now_text());
     }
 
-    /** The light settles: means of the present picture are asked for again. */
+    /** The picture has been refined: request the means of its areas again. */
     follow_light() {
         const { shown, shown_id, view_id } = this.session_;
         if (!shown || shown_id !== view_id) return;
@@ -98,7 +98,7 @@ export class Measuring {
             this.session_.ask("rectangle", { id, rect });
     }
 
-    /** The server keeps the driver's pins up to date. */
+    /** Send all pins; the server keeps their values up to date. Only the driver may. */
     tell_probes() {
         if (!this.session_.driving) return;
         const pin = ({ id, position, normal }) => ({ id, position, normal });

@@ -1,4 +1,4 @@
-// How an eye moves: pure functions from a view to the next.
+// How the eye moves: pure functions from one view to the next.
 import { add, cross, dot, mix, normalize, subtract, times, turned } from "./vector.js";
 import { axes_of } from "./view.js";
 
@@ -19,18 +19,18 @@ export const kKeys = {
 };
 
 const kSettle = 0.05; // time constant of starting and stopping [s]
-const kTurnRate = 1.2; // by keys [rad/s]
-const kSteepest = (89 * Math.PI) / 180; // of looking up and down
-const kStill = 1e-3; // share of full speed that counts as standing
+const kTurnRate = 1.2; // how fast keys turn the eye [rad/s]
+const kSteepest = (89 * Math.PI) / 180; // how far the eye looks up and down [rad]
+const kStill = 1e-3; // share of full speed below which the eye counts as standing
 
-/** The sum of what the held keys ask for; opposite keys cancel, and none counts twice. */
+/** The sum of what the held keys ask for: opposite keys cancel, and two keys for one direction count once. */
 export function wish_of(keys) {
     const wish = [0, 0, 0, 0, 0];
     for (const code of keys) (kKeys[code] || []).forEach((x, k) => (wish[k] += x));
     return wish.map((x) => Math.max(-1, Math.min(1, x)));
 }
 
-/** The rates after dt seconds: they follow the wish smoothly, and reach a wish of rest. */
+/** The rates of motion after dt seconds: they approach the wish exponentially, and become exactly 0 where it is 0. */
 export function next_rates(rates, wish, dt) {
     const share = 1 - Math.exp(-dt / kSettle);
     return rates.map((rate, k) => {
@@ -39,7 +39,7 @@ export function next_rates(rates, wish, dt) {
     });
 }
 
-/** The view looking elsewhere: `yaw` to the right, `pitch` up [rad], never past the zenith. */
+/** The view after the eye has turned by `yaw` to the right and `pitch` up [rad], never past the zenith. */
 export function looked(view, yaw, pitch) {
     const up = normalize(view.up);
     const level = turned(normalize(view.direction), up, -yaw);
@@ -50,8 +50,8 @@ export function looked(view, yaw, pitch) {
 }
 
 /**
- * The view moved [m] to the right, forward and up. Walking keeps forward level, so that looking
- * down does not lead into the floor; flying goes where the eye looks.
+ * The view after the eye has moved [m] to the right, forward and up. When walking, forward is horizontal, so that
+ * looking down does not lead into the floor; when flying it is where the eye looks.
  */
 export function moved(view, [right, forward, up], walk) {
     const axes = axes_of(view);
@@ -61,7 +61,7 @@ export function moved(view, [right, forward, up], walk) {
     return { ...view, position: add(view.position, step) };
 }
 
-/** The view after dt seconds at these rates. */
+/** The view after dt seconds of motion at these rates; `speed` in m/s. */
 export function advanced(view, rates, dt, speed, walk) {
     const [right, forward, up, yaw, pitch] = rates;
     const turning = yaw !== 0 || pitch !== 0;
@@ -73,34 +73,33 @@ export function advanced(view, rates, dt, speed, walk) {
     );
 }
 
-/** The view with the eye at the height of `eye`: what walking over steps does. */
+/** The view with its eye moved to the height of `eye`, as the server finds it when somebody walks over steps. */
 export function at_height(view, eye) {
     const up = normalize(view.up);
     const rise = dot(subtract(eye, view.position), up);
     return { ...view, position: add(view.position, times(up, rise)) };
 }
 
-/** A narrower (factor < 1) or wider lens, within what a walk can bear. */
+/** The view with a narrower (factor < 1) or wider lens, within the limits of its type. */
 export function zoomed(view, factor) {
     const [least, most] =
         view.type === "l" ? [1e-3, 1e6] : view.type === "v" ? [4, 130] : [10, 180];
     return { ...view, horizontal: Math.max(least, Math.min(most, view.horizontal * factor)) };
 }
 
-/** The direction `share` of the way from one to the other, along the shortest arc. */
+/** Interpolates directions along the shortest arc; `share` 0..1. */
 function swung(from, to, share) {
     const a = normalize(from),
         b = normalize(to);
     const angle = Math.acos(Math.max(-1, Math.min(1, dot(a, b))));
     if (angle < 1e-6) return b;
     let axis = cross(a, b);
-    // Opposite directions leave the arc open: any will do.
+    // Between opposite directions every arc is a shortest one.
     if (dot(axis, axis) < 1e-12) axis = cross(a, Math.abs(a[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]);
     return turned(a, normalize(axis), angle * share);
 }
 
-/** From one direction to the other as a person turns: round the upward axis and up or down, never
- * over the head. */
+/** Interpolates directions as a person turns: about the vertical axis and up or down, never over the zenith. */
 function turned_between(from, to, up, share) {
     const a = normalize(from),
         b = normalize(to),
@@ -115,7 +114,7 @@ function turned_between(from, to, up, share) {
     return add(times(ahead, Math.cos(rise)), times(zenith, Math.sin(rise)));
 }
 
-/** The view on a smooth way between two of one type; share 0..1 of the time, slow at both ends. */
+/** The view of a smooth transition between two views of one type; share 0..1 of the time, slow at both ends. */
 export function between(from, to, share) {
     if (share >= 1 || from.type !== to.type) return to;
     const s = share * share * (3 - 2 * share);

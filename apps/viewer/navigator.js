@@ -1,5 +1,5 @@
-// Where the eye stands and how it got there: held keys, drags, jumps and their undoing.
-// Knows no document: the page feeds it events and asks it for the next view, a frame at a time.
+// The eye's position and its history: held keys, drags, jumps to views and their undoing.
+// Does not use the document: the page passes events to it, and asks it for the next view once a screen refresh.
 import {
     advanced,
     at_height,
@@ -13,7 +13,7 @@ import {
 import { dot, length, normalize, subtract } from "./vector.js";
 import { same_place } from "./view.js";
 
-const kLongestTick = 0.1; // a page that hung does not leap [s]
+const kLongestTick = 0.1; // longer pauses of the page count as this, so that the eye does not leap [s]
 const kUndo = 50;
 const kFaster = 3,
     kSlower = 0.25;
@@ -22,22 +22,22 @@ export class Navigator {
     constructor() {
         this.view = null;
         this.walk = true;
-        this.speed = 1.4; ///< [m/s]
-        this.on_input = null; ///< called when something was pressed or moved
+        this.speed = 1.4; ///< of walking [m/s]
+        this.on_input = null; ///< called at every key press and drag
         this.keys = new Set();
-        this.modifier = "none"; ///< none, faster, slower
+        this.modifier = "none"; ///< which modifier key is held: none, faster, slower
         this.dragging = false;
         this.rates_ = [0, 0, 0, 0, 0];
-        this.way_ = null; ///< a transition under way: {from, to, begin, duration}
-        this.epoch = 0; ///< rises when the eye is put elsewhere: older pictures tell nothing about it
+        this.way_ = null; ///< the transition under way: {from, to, begin, duration}
+        this.epoch = 0; ///< rises at each jump: frames of views from before it must not correct the eye's height
         this.past_ = [];
         this.changed_ = false;
-        this.input_ = null; ///< when the oldest input came that no view has answered yet [ms]
+        this.input_ = null; ///< time of the oldest input that no view has been sent for yet [ms]
         this.last_ = null;
         this.was_moving_ = false;
     }
 
-    /** The view as a server or a file has it; without a transition. */
+    /** Put the eye at a view that comes from the server or a file, without a transition. */
     place(view) {
         this.view = view;
         this.way_ = null;
@@ -45,7 +45,7 @@ export class Navigator {
         ++this.epoch;
     }
 
-    /** Walking speed for scenes in other units than metres: an eye height a second, nearly. */
+    /** Set the walking speed to .85 eye heights a second, which suits scenes in other units than metres, too. */
     set_eye_height(height) {
         if (height > 0) this.speed = 0.85 * height;
     }
@@ -66,7 +66,7 @@ export class Navigator {
         this.dragging = false;
     }
 
-    /** By a drag: to the right and up [rad]. */
+    /** Turn the eye by a drag: to the right and up [rad]. */
     look(yaw, pitch, now) {
         if (!this.view) return;
         this.stop_transition();
@@ -74,7 +74,7 @@ export class Navigator {
         this.touched_(now);
     }
 
-    /** By two fingers: to the right and forward [m]. */
+    /** Move the eye by a drag of two fingers: to the right and forward [m]. */
     shift(right, forward, now) {
         if (!this.view) return;
         this.stop_transition();
@@ -88,13 +88,13 @@ export class Navigator {
         this.touched_(now);
     }
 
-    /** Faster (notches > 0) or slower; returns the new speed [m/s]. */
+    /** Make the eye move faster (notches > 0) or more slowly; returns the new speed [m/s]. */
     change_speed(notches) {
         this.speed = Math.max(1e-3, Math.min(1e4, this.speed * 1.15 ** notches));
         return this.speed;
     }
 
-    /** Go to a view, smoothly unless `duration` [ms] is 0; undo() comes back. */
+    /** Jump to a view, smoothly unless `duration` [ms] is 0; undo() returns. */
     jump(view, now, duration = this.duration_to(view)) {
         // A second click on the same view is no second jump.
         if (this.view && !same_place(this.way_?.to ?? this.view, view)) {
@@ -104,7 +104,7 @@ export class Navigator {
         this.travel_(view, now, duration);
     }
 
-    /** Back to where the last jump began; false when there was none. */
+    /** Return to where the last jump began; false when there was none. */
     undo(now, duration) {
         const view = this.past_.pop();
         if (!view) return false;
@@ -116,7 +116,7 @@ export class Navigator {
         return this.past_.length > 0;
     }
 
-    /** How long a transition takes [ms]: longer the farther it goes, never tedious. */
+    /** How long a transition takes [ms]: the longer the farther it goes, and at most 1600. */
     duration_to(view) {
         if (!this.view || this.view.type !== view.type) return 0;
         const metres = length(subtract(view.position, this.view.position));
@@ -125,14 +125,14 @@ export class Navigator {
         return Math.min(1600, 300 + 120 * (metres / Math.max(this.speed, 1e-6)) + 250 * turn);
     }
 
-    /** Walk (the server keeps the eye's height) or fly. */
+    /** Switch between walking (the server keeps the eye's height above the floor) and flying. */
     set_walk(walk) {
         this.walk = walk;
         this.changed_ = true;
         ++this.epoch;
     }
 
-    /** The server keeps the eye at its height above what is below. */
+    /** Take over the eye's height from the server, which keeps it constant above the surface below. */
     take_height(eye) {
         if (!this.view || !this.walk || this.way_) return;
         this.view = at_height(this.view, eye);
@@ -151,15 +151,15 @@ export class Navigator {
         this.on_input?.();
     }
 
-    /** Send the view again though nothing moved: a window of another size, a server that is back. */
+    /** Make the next tick return the view though nothing has moved: the window was resized, or the server is new. */
     touch() {
         this.changed_ = true;
     }
 
     /**
-     * One tick of the page's clock [ms].
-     * @returns {{view, moving, walk, input}} what the server should know now, or nothing when
-     *     nothing has changed. input: when the event came that this answers [ms].
+     * Advance the eye to the time `now` [ms].
+     * @returns {{view, moving, walk, input}} what to send to the server, or nothing when nothing has
+     *     changed. input: time of the event that this answers [ms].
      */
     tick(now) {
         if (!this.view) return null;
@@ -175,7 +175,7 @@ export class Navigator {
         return { view: this.view, moving, walk: this.walk && !this.way_, input };
     }
 
-    /** Whether more will follow soon. */
+    /** Whether the eye moves, so that more views will follow soon. */
     get moving() {
         const going =
             this.rates_.some((rate) => rate !== 0) || wish_of(this.keys).some((x) => x !== 0);
@@ -193,7 +193,7 @@ export class Navigator {
         this.rates_ = next_rates(this.rates_, wish_of(this.keys), dt);
         if (this.rates_.every((rate) => rate === 0)) return;
         const pace = { none: 1, faster: kFaster, slower: kSlower }[this.modifier];
-        // Up and down is flying: whoever walks has the floor to tell the height.
+        // Keys for up and down work in flight only: in a walk the floor determines the height.
         if (this.rates_[2] !== 0 && this.walk) this.set_walk(false);
         this.view = advanced(this.view, this.rates_, dt, this.speed * pace, this.walk);
         this.changed_ = true;

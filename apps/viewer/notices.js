@@ -1,4 +1,4 @@
-// Words to the user: short notices, what the page waits for, and a scene's errors.
+// Texts for the user: short notices, what the page waits for, and the errors of a scene.
 import { by_id, element } from "./dom.js";
 
 const kShown = 2600,
@@ -6,7 +6,7 @@ const kShown = 2600,
 
 let timer;
 
-/** A line that goes by itself. `bad`: something did not work. */
+/** Show a line of text that disappears by itself. `bad`: it says that something failed. */
 export function notice(text, bad = false) {
     const words = element("p", { textContent: text, className: bad ? "bad" : "" });
     by_id("notice").replaceChildren(words);
@@ -14,7 +14,7 @@ export function notice(text, bad = false) {
     timer = setTimeout(() => by_id("notice").replaceChildren(), bad ? kShownBad : kShown);
 }
 
-/** What the page waits for, over the whole picture; share 0..1 of it, if known. */
+/** Cover the picture with a text that says what the page waits for; share: progress 0..1, if known. */
 export function cover(text, share) {
     const box = by_id("cover"),
         bar = by_id("cover-share");
@@ -26,7 +26,7 @@ export function cover(text, share) {
 
 export const uncover = () => by_id("cover").classList.add("gone");
 
-/** One message of the scene's reader: where it stands and what is wrong there. */
+/** An element for one error message of a scene: file and line, and what is wrong there. */
 function failure_line(message) {
     const parts = /^(.+?:\d+(?::\d+)?:)\s*(.*)$/s.exec(message);
     const line = element("li");
@@ -36,7 +36,7 @@ function failure_line(message) {
     return line;
 }
 
-/** The messages why the scene cannot be read; none: it can. */
+/** Show the errors for which the scene cannot be read; an empty list hides them. */
 export function show_failures(messages) {
     by_id("failures").replaceChildren(...messages.map(failure_line));
     by_id("failure").hidden = messages.length === 0;

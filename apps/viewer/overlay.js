@@ -1,4 +1,4 @@
-// What is drawn over the picture: pins where they stand in the scene, areas, sources of glare.
+// Marks drawn over the picture: pins at their places in the scene, areas, sources of glare.
 import { shape } from "./dom.js";
 import { locate, same_picture } from "./view.js";
 import { quantity } from "./words.js";
@@ -9,8 +9,8 @@ export class Overlay {
     }
 
     /**
-     * Draw all for the view that the screen shows.
-     * @param view   nothing: not known, then only what lies in the picture's plane is drawn
+     * Draw all marks for the view that the screen shows.
+     * @param view   nothing when it is not known: then only marks that are given in the picture's plane are drawn
      * @param marks  {probes, areas, reading, drag, sources}: see measurements.js, reading.js;
      *     drag: [x0, y0, x1, y1] in CSS pixels; sources: of glare, outlines in shares of the picture
      */
@@ -60,7 +60,7 @@ export class Overlay {
             y = Math.min(y0, y1);
         const size = { width: Math.abs(x1 - x0), height: Math.abs(y1 - y0) };
         const box = shape("rect", { x, y, ...size, class: "area" });
-        // Above the box; inside where that would leave the window.
+        // The label is above the box, or inside where it would leave the window.
         const line = y > 24 ? y - 9 : y + 14;
         return words ? [box, shape("text", { x: x + 2, y: line }, words)] : [box];
     }

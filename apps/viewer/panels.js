@@ -1,15 +1,15 @@
-// What lies over the picture comes when it is asked for and goes when it is not used.
+// Panels over the picture: opened on request, and hidden when nobody uses them.
 import { by_id } from "./dom.js";
 
-const kIdle = 3500; // [ms]
-const kIdleMoving = 700; // while walking
+const kIdle = 3500; // the dock fades after so long without input [ms]
+const kIdleMoving = 700; // the same time while the eye moves [ms]
 
-/** The panel that is open, by its name in the page, or nothing. */
+/** The element id of the panel that is open, or nothing. */
 let open = null;
 
 const button_of = (name) => document.querySelector(`#dock [data-panel=${name}]`);
 
-/** Open a panel (and close the other); its name again, or nothing: close. */
+/** Open a panel and close the one that is open. The id of the open panel, or nothing, only closes it. */
 export function toggle_panel(name) {
     if (open) {
         by_id(`panel-${open}`).hidden = true;
@@ -67,7 +67,7 @@ export function toggle_help() {
     else help.showModal();
 }
 
-/** The small table of figures. */
+/** Show or hide the small table of figures. */
 export function toggle_status() {
     const shown = by_id("status").hidden;
     by_id("status").hidden = !shown;

@@ -1,11 +1,11 @@
-// The card that tells how much light there is where somebody pointed.
+// The card that shows luminance and illuminance at the point that was clicked.
 import { by_id, element, remove_button } from "./dom.js";
 import { locate } from "./view.js";
 import { place, quantity } from "./words.js";
 
-const kApart = 18; // of the card from the point [CSS pixels]
-const kDock = 72; // height that the dock takes [CSS pixels]
-const kTooNarrow = 560; // windows where the card has a place of its own [CSS pixels]
+const kApart = 18; // distance of the card from its point [CSS pixels]
+const kDock = 72; // height of the dock [CSS pixels]
+const kTooNarrow = 560; // in narrower windows the card has a fixed place [CSS pixels]
 
 const line = (name, value) =>
     element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }));
@@ -15,10 +15,10 @@ export class Reading {
     constructor(on) {
         this.card_ = by_id("reading");
         this.on_ = on;
-        this.pick = null; ///< the server's answer, with at: [x, y] of the question
+        this.pick = null; ///< the server's `picked` message, with at: [x, y], the point that was asked for
     }
 
-    /** The answer to a pick: {hit, luminance, illuminance, distance, position, normal, ...}. */
+    /** Show the answer to a pick: {hit, luminance, illuminance, distance, position, normal, ...}. */
     show(pick) {
         this.pick = pick;
         const rows = pick.hit
@@ -70,7 +70,7 @@ export class Reading {
         return true;
     }
 
-    /** Put the card beside its point, within the window; away while the point is out of sight. */
+    /** Put the card beside its point, within the window; hide it while the point is out of sight. */
     follow(view) {
         if (!this.pick) return;
         const at = this.pick.hit && view ? locate(view, this.pick.position) : null;
@@ -85,7 +85,7 @@ export class Reading {
     corner_(x, y, width, height) {
         const right = innerWidth - width - 8,
             bottom = innerHeight - height - kDock;
-        // A thumb and a card do not fit side by side: the card takes the half without the point.
+        // In a narrow window the card takes the upper or lower half, whichever does not have the point.
         if (innerWidth < kTooNarrow)
             return [(innerWidth - width) / 2, y > innerHeight / 2 ? 48 : bottom];
         const left = x + kApart > right ? x - kApart - width : x + kApart;

@@ -1,7 +1,7 @@
-// Who drives and who watches.
+// Roles: one client drives the walk, the others watch.
 import { by_id, element } from "./dom.js";
 
-const kReturning = 30000; // [ms]
+const kReturning = 30000; // how long a driver whose connection broke asks to drive again [ms]
 
 export class Roles {
     /** @param on  {take(), hand(id), changed(driving)} */
@@ -21,17 +21,17 @@ export class Roles {
 
     welcome({ you, driver }) {
         this.you = you;
-        // Whether somebody else drives, the role that follows tells.
+        // The `role` message that follows says whether somebody else drives.
         this.set_(driver === true, undefined, [you]);
     }
 
-    /** {driver, driver_id, clients}: driver_id null: nobody drives. */
+    /** Take over a `role` message {driver, driver_id, clients}; driver_id is null when nobody drives. */
     update({ driver, driver_id, clients }) {
         const driving = driver_id === undefined ? driver === true : driver_id === this.you;
         this.set_(driving, driver_id, clients || [this.you]);
     }
 
-    /** The line broke: whoever drove takes over again, unless somebody else does for long. */
+    /** The connection broke: a page that drove will ask to drive again when it is back within kReturning. */
     lost() {
         if (this.driving) this.returning_until_ = performance.now() + kReturning;
     }
@@ -65,7 +65,7 @@ export class Roles {
             ...this.others_.map((id) => element("option", { textContent: `Viewer ${id}` })),
         );
         by_id("picture").classList.toggle("watching", !this.driving);
-        // What only the driver's word changes; glare is for all.
+        // Controls that work for the driver only; glare is for everybody.
         for (const control of document.querySelectorAll("#panel-light input, #walk"))
             control.disabled = !this.driving;
     }

@@ -2,7 +2,7 @@
 import { element } from "./dom.js";
 import { paint_legend } from "./legend.js";
 
-/** A file's name: scene, moment and kind, e.g. "lodge-20260131-154500.png". */
+/** A file name of the scene, the date and time, and an extension, e.g. "lodge-20260131-154500.png". */
 export function file_name(scene, kind, now = new Date()) {
     const base =
         (scene || "lightwalk")
@@ -15,7 +15,7 @@ export function file_name(scene, kind, now = new Date()) {
     return `${base}-${day}-${time}.${kind}`;
 }
 
-/** Hand a file to the browser's downloads. */
+/** Let the browser download a file. */
 export function download(blob, name) {
     const address = URL.createObjectURL(blob);
     element("a", { href: address, download: name }).click();
@@ -25,7 +25,7 @@ export function download(blob, name) {
 export const download_text = (text, name) =>
     download(new Blob([text], { type: "text/plain" }), name);
 
-/** The picture as it is seen; false colours with the scale that gives them a meaning. */
+/** Save the picture as the screen shows it; with false colours their legend is painted into it. */
 export function picture_blob(canvas, display) {
     let source = canvas;
     if (display.mode === "false") {
@@ -42,7 +42,7 @@ export function picture_blob(canvas, display) {
     );
 }
 
-/** The server's picture of the present view in full quality; throws Error when it has none. */
+/** Save the server's picture of the present view in full quality (.hdr); throws Error when it has none. */
 export async function full_picture(query) {
     const answer = await fetch(`save/picture.hdr${query}`, { cache: "no-store" });
     if (!answer.ok) throw new Error((await answer.text()).slice(0, 200) || `${answer.status}`);

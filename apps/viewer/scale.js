@@ -1,4 +1,4 @@
-// False colours: which colour means which luminance. The server paints by the same table.
+// False colours: which colour stands for which luminance. The server uses the same colour map.
 
 // Mikhailov, "Turbo, an improved rainbow colormap for visualization", Google Research (2019), by
 // its polynomials, from the constant up: red, green, blue.
@@ -8,7 +8,7 @@ const kTurbo = [
     [0.1066733, 12.64194608, -60.58204836, 110.36276771, -89.90310912, 27.34824973],
 ];
 
-/** The colour at `share` of the scale, 0..1; beyond it the ends' colours: [r, g, b], 0..255. */
+/** The colour [r, g, b] (0..255) at `share` 0..1 of the scale; values outside 0..1 get the colour of the nearer end. */
 export function palette_colour(share) {
     const x = Math.max(0, Math.min(1, share));
     return kTurbo.map((terms) => {
@@ -34,7 +34,7 @@ export function scale_problem({ low, high, log }) {
     return null;
 }
 
-/** Round numbers on a linear scale. */
+/** Round numbers for a linear scale. */
 function linear_ticks(low, high, most) {
     const rough = (high - low) / most;
     const power = 10 ** Math.floor(Math.log10(rough));
@@ -45,7 +45,7 @@ function linear_ticks(low, high, most) {
     return ticks;
 }
 
-/** 1, 2, 5 of each decade, or its 1 and 3, or its 1, as many as fit. */
+/** Round numbers for a logarithmic scale: 1, 2, 5 of each decade, or 1 and 3, or 1, as many as fit. */
 function log_ticks(low, high, most) {
     const within = (x) => x >= low * (1 - 1e-9) && x <= high * (1 + 1e-9);
     let ticks = [];

@@ -1,11 +1,11 @@
-// Frames become pixels: pieces are decoded beside each other and drawn in the order of frames.
+// Draws frames: their pieces are decoded concurrently, and drawn in the order of frames.
 import { parse_frame } from "./frame.js";
 
 export class Screen {
     /**
      * @param canvas
-     * @param on  {drawn(frame), skipped(frame), failed(error, frame)}: frame as parse_frame() gives it;
-     *     each is to be acknowledged
+     * @param on  {drawn(frame), skipped(frame), failed(error, frame)}: frame as parse_frame() returns it;
+     *     all three must acknowledge it to the server
      */
     constructor(canvas, on) {
         this.canvas = canvas;
@@ -16,7 +16,7 @@ export class Screen {
         this.newest_complete_ = null;
     }
 
-    /** A frame's bytes came; it is drawn as soon as it is decoded and those before it are drawn. */
+    /** Take the bytes of a frame; it is drawn when it is decoded and the frames before it are drawn. */
     receive(buffer) {
         let frame;
         try {
@@ -26,11 +26,11 @@ export class Screen {
         }
         if (frame.complete) this.newest_complete_ = frame;
         const decoded = this.decode_(frame);
-        decoded.catch(() => {}); // told when its turn comes
+        decoded.catch(() => {}); // reported when its turn to be drawn comes
         this.queue_ = this.queue_.then(() => this.show_(frame, decoded));
     }
 
-    /** Only a frame that holds all pieces makes those before it needless. */
+    /** Whether a later frame supersedes this one: only a frame that holds all pieces of the picture does. */
     superseded_(frame) {
         const newest = this.newest_complete_;
         return newest !== null && newest !== frame && newest.frame > frame.frame;
@@ -67,7 +67,7 @@ export class Screen {
     }
 }
 
-/** The picture's size [pixels] for a window: its own pixels, within what the server draws. */
+/** The picture's size [pixels] for a window: that of the window in device pixels, within the server's limits. */
 export function picture_size(width, height, ratio, [most_width, most_height]) {
     const share = Math.min(1, most_width / (width * ratio), most_height / (height * ratio));
     const pixels = (size) => Math.max(1, Math.round(size * ratio * share));

@@ -1,24 +1,24 @@
-// The walk as server and page agree on it: numbered views out, frames and answers in.
+// The protocol between page and server: numbered views go out, frames and answers come in.
 import { Connection, socket_address } from "./connection.js";
 import { Latency } from "./latency.js";
 import { fit_view } from "./view.js";
 
-const kRemembered = 600; // views that a frame may still show
+const kRemembered = 600; // how many sent views are remembered for frames that show them
 
 export class Session {
     /**
      * @param screen  shows frames; its owner hands them to drawn() and skipped()
-     * @param on      by message: welcome, loaded, picked, ... and connected(), lost(reason, wait)
+     * @param on      a function for each message type: welcome, loaded, picked, ..., and connected(), lost(reason, wait)
      */
     constructor(id, screen, on) {
         this.latency = new Latency();
-        this.view = null; ///< the newest that was sent, fitted to the window
+        this.view = null; ///< the newest view that was sent, fitted to the window
         this.view_id = 0;
         this.shown_id = 0;
-        this.shown = null; ///< the view that the screen shows, as far as it is known
+        this.shown = null; ///< the view that the screen shows; null when it is not known
         this.driving = false;
         this.request_ = 0;
-        this.sent_ = new Map(); // by id: {view, walk, epoch}
+        this.sent_ = new Map(); // what was sent as each view, by id: {view, walk, epoch}
         this.connection = new Connection(socket_address(location.href), {
             open: () => {
                 this.send({ type: "hello", session: id });
@@ -37,7 +37,7 @@ export class Session {
         return this.connection.send(message);
     }
 
-    /** A question with a number of its own, which comes back with the answer. */
+    /** Send a request with a new number, which the answer repeats; returns the number. */
     ask(type, fields = {}) {
         const id = fields.id ?? ++this.request_;
         this.send({ ...fields, type, id });
@@ -45,7 +45,7 @@ export class Session {
     }
 
     /**
-     * Tell the server where the eye is.
+     * Send a view.
      * @param step  as Navigator.tick() gives it
      * @param size  of the picture {width, height} [pixels]
      */
@@ -63,8 +63,8 @@ export class Session {
     }
 
     /**
-     * A frame is on the screen.
-     * @returns what was sent as the view it shows: {view, walk, epoch}; nothing for whoever watches
+     * Acknowledge a frame that is on the screen.
+     * @returns what was sent as the view that it shows: {view, walk, epoch}; nothing for a page that watches
      */
     drawn(frame) {
         this.send({ type: "ack", frame: frame.frame });
@@ -77,7 +77,7 @@ export class Session {
             if (id >= frame.view_id) break;
             this.sent_.delete(id);
         }
-        // The screen shows what was drawn when the browser next paints.
+        // What is drawn on a canvas becomes visible when the browser paints next.
         requestAnimationFrame(() => this.latency.shown(frame.view_id, performance.now()));
         return sent;
     }
@@ -86,7 +86,7 @@ export class Session {
         this.send({ type: "ack", frame: frame.frame });
     }
 
-    /** Who watches learns the view from the server, where it tells. */
+    /** For a page that watches: the view that the driver sees, from the server's `view` message. */
     watch(view) {
         if (!this.driving) this.shown = view;
     }

@@ -1,4 +1,4 @@
-// Keys that do something once, as the help lists them.
+// Keys that trigger an action once; the page's help lists them.
 
 /** Whether a key press belongs to a control that takes text or to an open dialog. */
 function elsewhere(target) {
@@ -12,9 +12,9 @@ function elsewhere(target) {
 }
 
 /**
- * @param actions  by key: the character it types ("?", "+", "1"), or its name ("Enter")
- * Letters go by what they type, in either case; Enter and the space bar work only on the picture, as buttons
- * need them elsewhere.
+ * @param actions  the action of each key, by the character that it types ("?", "+", "1") or its name ("Enter")
+ * Letters work in upper and lower case. Enter and the space bar work only while the picture has the focus, as
+ * they press buttons elsewhere.
  */
 export function listen_for_shortcuts(actions, picture) {
     addEventListener("keydown", (event) => {

@@ -1,4 +1,4 @@
-// How the walk goes: a word in the head, a line at the bottom, and a small table for who asks.
+// The state of the walk: a word at the top, a progress line at the bottom, and a small table on request.
 import { by_id, element } from "./dom.js";
 import { many, percent, quantity } from "./words.js";
 
@@ -13,7 +13,7 @@ const kWords = {
 const line = (name, value) =>
     element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }));
 
-/** The server's state in the head and along the bottom. */
+/** Show the server's phase at the top and its progress along the bottom. */
 export function show_phase({ phase, share }) {
     const settling = phase !== "moving" && phase !== "done";
     const words = kWords[phase] ?? "";
@@ -25,8 +25,8 @@ export function show_phase({ phase, share }) {
 }
 
 /**
- * The table.
- * @param state  of the server; nothing: not known yet
+ * The rows of the table.
+ * @param state  the server's `state` message; nothing when none has come yet
  * @param page   {latency, latency_95 [ms], width, height, speed [m/s], walk, exposure, megabits}
  */
 function show_figures(state, page) {
@@ -46,7 +46,7 @@ function show_figures(state, page) {
     by_id("figures").replaceChildren(...rows.map((row) => line(...row)));
 }
 
-/** Keep the table up to date while it is seen. state_now(): of the server. */
+/** Keep the table up to date while it is visible. state_now() returns the server's newest `state` message. */
 export function start_figures(session, navigator, picture, state_now) {
     let before = 0;
     setInterval(() => {

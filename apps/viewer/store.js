@@ -1,5 +1,5 @@
-// What the browser keeps: in this tab who we are, and for each scene views, keys, pins.
-// A browser that keeps nothing (private windows, full disks) loses comfort, not the walk.
+// What the browser stores: for this tab its session id, and for each scene views, keys of a path and pins.
+// In a browser that stores nothing (private windows, full disks) the walk works, but nothing is restored.
 
 function read(storage, key) {
     try {
@@ -21,7 +21,7 @@ function write(storage, key, value) {
 const tab = () => sessionStorage;
 const kept = () => localStorage;
 
-/** 32 hex digits that stay while the tab does, so that the server knows who returns. */
+/** The session id, 32 hex digits that last as long as the tab: the server recognises a client that returns. */
 export function session_id() {
     const known = read(tab, "lightwalk.session");
     if (typeof known === "string" && /^[0-9a-f]{16,64}$/.test(known)) return known;
@@ -31,7 +31,7 @@ export function session_id() {
     return id;
 }
 
-/** What is kept for a scene under a name; `fallback` where there is nothing, or not its kind. */
+/** The value stored for a scene under a name; `fallback` where there is none, or one of another type. */
 export function scene_item(scene, name, fallback) {
     const value = read(kept, `lightwalk.${name}.${scene}`);
     return Array.isArray(value) === Array.isArray(fallback) && value !== null ? value : fallback;

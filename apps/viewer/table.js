@@ -1,4 +1,4 @@
-// What was measured, as a table that spreadsheets read (CSV, RFC 4180).
+// All measurements as a table that spreadsheets read (CSV, RFC 4180).
 import { view_options } from "./view_text.js";
 
 const kColumns = [
@@ -26,7 +26,7 @@ const kColumns = [
     "time",
 ];
 
-/** A cell; text that a spreadsheet would take for a formula is kept text. */
+/** A cell of the table; text that a spreadsheet would take for a formula is marked as text. */
 function cell(value) {
     if (value === null || value === undefined) return "";
     if (typeof value === "number") return Number.isFinite(value) ? String(value) : "";
@@ -72,15 +72,15 @@ function area_row(area) {
         pixels: area.pixels,
         settled: area.settled,
         time: area.time,
-        // "VIEW= " keeps the leading minus of the options out of a spreadsheet's way.
+        // With "VIEW= " before it the cell does not begin with a minus, which a spreadsheet takes for a formula.
         view: `VIEW= ${view_options(area.view)}`,
     };
 }
 
 /**
- * The table of all probes and means.
- * @param settings  {scene, ambient}: what holds for all rows
- * Positions of means are those of the eye; their corners are shares of the picture.
+ * The table of all pins and means.
+ * @param settings  {scene, ambient}: repeated in every row
+ * The position of a mean is that of the eye; its corners are shares of the picture.
  */
 export function measurement_table(probes, areas, settings) {
     const rows = [...probes.map(probe_row), ...areas.map(area_row)];

@@ -5,10 +5,10 @@ import { cross, dot, length, normalize, subtract } from "./vector.js";
 const radians = (degrees) => (degrees * Math.PI) / 180;
 const degrees = (angle) => (angle * 180) / Math.PI;
 
-/** No window makes a perspective taller than this [degrees]: what is beyond looks torn. */
+/** Largest vertical size of a perspective view in a tall window [degrees]; larger ones look distorted. */
 const kTallest = 80;
 
-/** Largest sizes of each type [degrees], as far as a picture can still be drawn. */
+/** Largest sizes of each view type [degrees] that can be drawn. */
 const kLargest = {
     v: [179, kTallest],
     l: [Infinity, Infinity],
@@ -18,8 +18,8 @@ const kLargest = {
     s: [359, 359],
 };
 
-/** The picture's extent at unit distance of a horizontal or vertical size; `straight`: along a
- * cylinder's axis. */
+/** The extent, at unit distance, of a picture with a horizontal or vertical size [degrees]; `straight`: the
+* direction along the axis of a cylindrical view. */
 function extent_of(type, size, straight) {
     switch (type) {
         case "v":
@@ -56,8 +56,8 @@ function size_of(type, extent, straight) {
 }
 
 /**
- * The view whose picture fills width x height without distortion: its horizontal size stays and the
- * vertical one follows; where that would grow too tall, the horizontal one gives way.
+ * The view with sizes that fill a picture of width x height without distortion. The horizontal size is kept and
+ * the vertical one computed; where that is larger than the type allows, the horizontal one is reduced.
  */
 export function fit_view(view, width, height) {
     const [widest, tallest] = kLargest[view.type];
@@ -76,7 +76,7 @@ export function axes_of(view) {
     return { forward, right, upward: cross(right, forward) };
 }
 
-/** Where a direction lies on the type's image surface, before the extents are divided out. */
+/** Project a direction onto the image surface of the view type, in units of distance 1. */
 function on_image(type, right, upward, forward) {
     const distance = Math.hypot(right, upward, forward);
     switch (type) {
@@ -104,7 +104,7 @@ function on_image(type, right, upward, forward) {
 
 /**
  * Where a point appears: x, y in 0..1 from the left and the bottom of the picture, its distance
- * from the eye [m], and whether the picture shows it, but for what hides it.
+ * from the eye [m], and whether it lies within the picture (whether something hides it is not known here).
  */
 export function locate(view, point) {
     const { forward, right, upward } = axes_of(view);
@@ -121,7 +121,7 @@ export function angle_across(view) {
     return view.type === "l" ? 1 : radians(Math.min(view.horizontal, 120));
 }
 
-/** Whether two views show the same; sizes are left out: they follow the window. */
+/** Whether two views have the same eye, direction and type; sizes may differ, as they follow the window. */
 export function same_place(a, b) {
     const near = (p, q) => length(subtract(p, q)) < 1e-6 * (1 + length(p));
     return (
@@ -132,7 +132,7 @@ export function same_place(a, b) {
     );
 }
 
-/** Whether two views, sizes included, make the same picture. */
+/** Whether two views are the same, sizes included. */
 export const same_picture = (a, b) =>
     same_place(a, b) &&
     Math.abs(a.horizontal - b.horizontal) < 1e-6 &&

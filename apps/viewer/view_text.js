@@ -1,6 +1,6 @@
-// Views as Radiance writes them: lines of view files, and paths of keys.
+// Views as text in Radiance's format: lines of view files, and paths of key views.
 
-/** A number with the digits that matter, without an exponent where it can be avoided. */
+/** A number with its significant digits, without an exponent where that is possible. */
 function number_text(value, digits) {
     return String(Number(value.toPrecision(digits)));
 }
@@ -53,7 +53,7 @@ const kStart = {
     shift: 0,
     lift: 0,
 };
-// A time may stand before it, as in paths.
+// In the files of paths a time precedes the view.
 const kViewLine =
     /^\s*(?:[-+]?[\d.][-+\d.e]*\s+)?(?:VIEW=|(?:rvu|rview|rpict|rtrace|rpiece|pinterp)(?=\s))(.*)$/;
 
@@ -63,13 +63,13 @@ function options_of(line) {
     return found ? found[1] : null;
 }
 
-/** Numbers that follow word k, or nothing when there are fewer than `count`. */
+/** The `count` numbers that follow word k, or nothing when there are fewer. */
 function numbers_after(words, k, count) {
     const numbers = words.slice(k + 1, k + 1 + count).map(Number);
     return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
 }
 
-/** The view with the options in `words` applied, and how many there were. */
+/** The view after the options in `words` are applied, and how many options there were. */
 function apply_options(words, view) {
     const changed = { ...view };
     let applied = 0;
@@ -94,8 +94,8 @@ function apply_options(words, view) {
 }
 
 /**
- * The views of a view file or path, one for each view line; what a line does not mention it takes
- * from the one before. Throws Error when there is none.
+ * The views of a view file or path, one for each view line; options that a line does not have are taken
+ * from the line before. Throws Error when there is no view.
  */
 export function parse_views(text) {
     const views = [];

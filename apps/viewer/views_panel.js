@@ -1,10 +1,10 @@
-// Places to go to: the scene's views, those saved in this browser, and the keys of a path.
+// Views to go to: those of the scene, those saved in this browser, and the keys of a path.
 import { by_id, element, remove_button } from "./dom.js";
 import { round_number } from "./words.js";
 
-const kBetween = 2; // of two keys [s]
+const kBetween = 2; // time between two keys of a path [s]
 
-/** A number that no name of the list ends in yet. */
+/** The least number that no name of the list ends in. */
 function free_number(list) {
     return 1 + Math.max(0, ...list.map(({ name }) => Number(/^View (\d+)$/.exec(name)?.[1] || 0)));
 }
@@ -13,13 +13,13 @@ export class ViewsPanel {
     /** @param on  {go(view), kept(saved), keys_changed(keys)} */
     constructor(on) {
         this.on_ = on;
-        this.scene_views = []; ///< {name, view}: of the scene
-        this.saved = []; ///< {name, view}: kept by this browser
-        this.keys = []; ///< {time, view}
-        this.naming_ = -1; // which saved view's name is being typed
+        this.scene_views = []; ///< {name, view} of each view of the scene
+        this.saved = []; ///< {name, view} of each view that this browser has stored
+        this.keys = []; ///< {time, view} of each key of the path
+        this.naming_ = -1; // index of the saved view whose name is being typed, or -1
     }
 
-    /** View number k = 0, 1, ... of both lists. */
+    /** View number k = 0, 1, ..., counted through the scene's views and then the saved ones. */
     at(k) {
         return [...this.scene_views, ...this.saved][k];
     }
@@ -36,7 +36,7 @@ export class ViewsPanel {
         this.show();
     }
 
-    /** Keep a view; `naming`: its name is to be typed. Returns its name. */
+    /** Save a view; `naming`: let the user type its name. Returns the name. */
     save(view, name, naming = false) {
         const given = name || `View ${free_number(this.saved)}`;
         this.saved.push({ name: given, view });
@@ -68,7 +68,7 @@ export class ViewsPanel {
         field?.select();
         by_id("keys").replaceChildren(...this.keys.map((key, k) => this.key_entry_(key, k)));
         by_id("clear-path").disabled = this.keys.length === 0;
-        // One key is a place, not a path.
+        // A path needs two keys.
         for (const id of ["write-path", "write-path-too"])
             by_id(id).disabled = this.keys.length < 2;
     }

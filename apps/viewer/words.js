@@ -1,4 +1,4 @@
-// Numbers as people read them: three digits that matter, thousands set apart, units.
+// Numbers as text for people: three significant digits, separated thousands, units.
 
 const kThin = "\u202f";
 
@@ -15,7 +15,7 @@ export function quantity(value) {
     return part ? `${apart}.${part}` : apart;
 }
 
-/** A number that is round already, as it is: 0.05, 30, 1 000. */
+/** A number that is round already, with all its digits: 0.05, 30, 1 000. */
 export function round_number(value) {
     if (Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-4)) return quantity(value);
     const [whole, part] = String(value).split(".");
@@ -38,7 +38,7 @@ export const place = (position) => position.map((x) => x.toFixed(2)).join(", ");
 /** An exposure in stops with its sign. */
 export const stops = (ev) => `${ev < 0 ? "−" : "+"}${Math.abs(ev).toFixed(1)}`;
 
-/** How a share of the daylight glare probability is felt (Wienold & Christoffersen 2006). */
+/** The class of perceived glare for a daylight glare probability (Wienold & Christoffersen 2006). */
 export function glare_word(dgp) {
     if (dgp < 0.35) return "imperceptible";
     if (dgp < 0.4) return "perceptible";
