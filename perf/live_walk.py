@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How well `lightwalk walk` keeps up with somebody who moves: frames a second, and how long a view takes to be shown.
+"""Measures how `lightwalk walk` keeps up with a client that moves: frames a second, and the time from a view to its frame.
 
   perf/run.sh walk [--scenes DIR] [--seconds 20] [--sizes 640x480,1280x720]     builds, then this
   live_walk.py --lightwalk PROGRAM ...

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What large models cost before the first picture: seconds to read and to build, and memory; then their rays.
+"""Measures large models before their first picture: seconds to read and to build, memory; then rays a second.
 
   perf/run.sh scene [--sides 100,316,1000]                                   builds, then this
   scene_bench.py --lightwalk PROGRAM [--sides 100,316,1000] [--runs 3] [--threads N] [--reference FOLDER] [--size N]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A long random walk through a room: lightwalk animate must neither crash nor grow, and keep the limit of its cloud.
+"""A long random walk through a room: lightwalk animate must not crash, its memory must not grow, and its point cloud must keep its limit.
 
   soak_walk.py [--scenes DIR] [--lightwalk PROGRAM] [--frames 10000] [--size 160x120]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reuse, speed and truth of walks through rooms, by what is carried from frame to frame.
+"""Measures reuse, speed and errors of walks through rooms, by the settings of reuse between frames.
 
   walk_bench.py --scenes DIR                   how much is reused, how soon frames are there, how true they are
   walk_bench.py --scenes DIR --rules all       the same with each rule of reuse on and off

@@ -1,5 +1,5 @@
-"""What must hold of runs on ranks, whatever they take: the same bytes for every split, ranks that are killed, many ranks
-on few cores. Each check prints what it saw, and ends with exit code 1 where something does not hold."""
+"""Checks of runs on ranks, independent of their times: every split draws the same bytes, runs end and can be resumed when
+ranks are killed, many ranks run on few cores. Each check prints its results, and exits with 1 if it fails."""
 import glob, hashlib, os, pathlib, random, signal, subprocess, sys, tempfile, time
 
 from experiments import picture, print_table, save
@@ -10,12 +10,12 @@ SPLITS = [(Split("threads", 1, n), []) for n in (1, 2, 7)] + [(Split("ranks", n)
          [(Split("hybrid", *n), []) for n in ((1, 2), (2, 1), (2, 2), (4, 2))] + \
          [(split, ["--mca", "btl", "self,tcp"]) for split in (Split("ranks", 4), Split("hybrid", 2, 2))]
 KILLS = 20
-#: Within this a run has to end when one of its ranks is killed [s].
+#: The time within which a run must end when one of its ranks is killed [s].
 SOON = 2.0
 
 
 def digest(data):
-    """Of a picture without its header, which tells when it was made; of all other data."""
+    """A digest of a picture without its header, which has the time of creation; for other data of all bytes."""
     return hashlib.sha256(data[data.index(b"\n\n"):] if data.startswith(b"#?") else data).hexdigest()[:16]
 
 
@@ -27,7 +27,7 @@ def command(program, split, words, more=()):
 
 
 def output(program, split, words, more, rays=b""):
-    """What a run writes to its standard output."""
+    """The standard output of a run."""
     done = subprocess.run(command(program, split, words, more), cwd=program.scene.folder, env=program.environment, input=rays,
                           capture_output=True, timeout=1200)
     if done.returncode != 0:
@@ -78,7 +78,7 @@ def own_ranks(mark):
 
 
 def kill_one(program, words, mark, stream):
-    """Start a run, kill one of its ranks at a random moment; a row of what came of it, or nothing where it was over before."""
+    """Start a run and kill one of its ranks at a random moment. Returns a row, or nothing if the run had ended before."""
     split = stream.choice([Split("ranks", 4), Split("ranks", 3), Split("hybrid", 2), Split("hybrid", 3)])
     run = subprocess.Popen(command(program, split, words), cwd=program.scene.folder, env=program.environment,
                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)

@@ -1,4 +1,4 @@
-"""What perf/run.sh measures: each function writes NAME.json and NAME.svg, and prints a table."""
+"""The experiments of perf/run.sh: each function writes NAME.json and NAME.svg, and prints a table."""
 import json, os
 
 import svg_plot
@@ -141,7 +141,7 @@ def stride(program, options):
 
 
 def ambient_exchange(program, options):
-    """How many values go in one message: rays and time."""
+    """Ambient rays and time by the number of ambient values in one message."""
     scene, view = program.scene, program.scene.views[0]
     cases = {str(batch): (Split("ranks", 4), ["-vf", view, *picture(options.size), *scene.ambient,
                                               "--ambient-batch", batch]) for batch in (0, 1, 4, 16, 64, 256)}

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How Lightwalk scales over ranks and threads, and what walks reuse; perf/run.sh starts this."""
+"""Measures how Lightwalk scales over ranks and threads, and how much walks reuse; started by perf/run.sh."""
 import argparse, os, pathlib, sys
 
 import checks

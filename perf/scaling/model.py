@@ -1,12 +1,12 @@
-"""The scaling model: its input is measured, its predictions are held against measured runs, and then it tells of
-machines that are not at hand."""
+"""The scaling model: its input is measured, its predictions are compared with measured runs, and then it predicts runs
+on other machines."""
 import copy, json, os, statistics
 
 import svg_plot
 from experiments import PAPER, picture, print_table, save
 from runs import Split, about, measure, mpirun
 
-#: Figures of machines that are not at hand; README.md tells where they come from.
+#: LogGP figures of other machines; perf/README.md says where they come from.
 CLUSTER = {"name": "a cluster of today", "latency": 1.5e-6, "overhead": 1e-6, "gap": 3e-7, "byte_gap": 8e-11,
            "byte_work": 3e-10}
 T3E = {"name": "Cray T3E-900", "latency": 6e-6, "overhead": 5e-6, "gap": 5e-6, "byte_gap": 3.3e-9, "byte_work": 1e-10,
@@ -20,13 +20,13 @@ def write_cost_map(program, path, view, size, extra, threads):
 
 
 def measure_machine(program):
-    """LogGP figures of this machine: the best of a few runs, for whatever disturbs only adds to them."""
+    """LogGP figures of this machine: the best of a few runs, as disturbances only increase them."""
     runs = [json.loads(program.run([*mpirun(2), program.beside("message_bench")])) for _ in range(3)]
     return {name: min(run[name] for run in runs) for name in runs[0]}
 
 
 def width(options, light):
-    """Of the measured pictures. With direct light alone they are larger, so that all runs last long enough to be timed."""
+    """The size of the measured pictures. With direct light alone they are larger, so that runs last long enough for timing."""
     return 2 * options.size if light == "direct" else options.size
 
 
@@ -56,7 +56,7 @@ def case(name, split, machine="here", **more):
 
 
 def validation_cases(cores):
-    """What this machine can run: [(split, options, the same for the model)]."""
+    """The runs that this machine can make: [(split, options, the same for the model)]."""
     found = [(Split("threads", 1, n), [], {}) for n in sorted({1, cores})]
     found += [(Split("ranks", n), [], {}) for n in (3, 4, 5, 9)]
     found += [(Split("hybrid", *split), [], {}) for split in ((1, 2), (2, 1), (2, 2), (4, 1))]
@@ -66,7 +66,7 @@ def validation_cases(cores):
 
 
 def background(measured, cases):
-    """Other programs' threads that always wanted a core, from the share that they took beside ours."""
+    """How many threads of other programs were always ready to run, estimated from the share of the cores that they took."""
     shares = []
     for name, one in measured.items():
         split = cases[name][0]

@@ -1,8 +1,8 @@
-"""Runs of lightwalk on ranks and threads, and what they took."""
+"""Runs of lightwalk on ranks and threads, and their times."""
 import dataclasses, json, os, pathlib, platform, resource, statistics, subprocess, sys, tempfile, time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-#: Runs during which other programs took more of the cores than this count only where there are no better ones.
+#: Runs during which other programs took more than this share of the cores count only if there are no others.
 QUIET = 0.05
 
 
@@ -39,7 +39,7 @@ def find_scene(scenes):
 
 @dataclasses.dataclass(frozen=True)
 class Split:
-    """How a run is spread. `threads` has one process; ranks is then 1."""
+    """How a run is divided into ranks and threads. With the variant `threads` there is one process, and ranks is 1."""
     variant: str = "threads"
     ranks: int = 1
     threads: int = 1
@@ -54,7 +54,7 @@ class Split:
 
 
 def busy_seconds():
-    """Of all cores together, of all programs."""
+    """The processor time that all programs have taken on all cores [s]."""
     with open("/proc/stat") as file:
         fields = [int(word) for word in file.readline().split()[1:9]]
     user, nice, system, _, _, irq, soft, steal = fields
@@ -67,7 +67,7 @@ def own_seconds():
 
 
 class Program:
-    """lightwalk, and the programs beside it."""
+    """The program lightwalk, and the benchmark programs beside it."""
 
     def __init__(self, lightwalk, scene):
         self.lightwalk, self.scene = pathlib.Path(lightwalk).resolve(), scene
@@ -82,7 +82,7 @@ class Program:
         sys.exit(f"{name} was not built beside {self.lightwalk}: build the target {name}")
 
     def run(self, command, input=b"", **options):
-        """What it writes to standard output."""
+        """The standard output of a run."""
         done = subprocess.run([str(word) for word in command], cwd=self.scene.folder, env=self.environment, input=input,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
         if done.returncode != 0:
@@ -90,8 +90,8 @@ class Program:
         return done.stdout.decode()
 
     def render(self, split, options, picture=None):
-        """--stats of one run; "others": what other programs took meanwhile, as a share of the cores. The picture is
-        dropped where none is named."""
+        """The --stats of a run, and "others": the share of the cores that other programs took meanwhile. The picture is
+        dropped if no file for it is named."""
         with tempfile.TemporaryDirectory() as scratch:
             stats, picture = os.path.join(scratch, "stats.json"), picture or os.path.join(scratch, "picture.hdr")
             command = [self.lightwalk, "render", "--variant", split.variant, "-n", split.threads, "--quiet", "--stats",
@@ -112,7 +112,7 @@ def mpirun(ranks):
 
 
 def summary(runs):
-    """The median of the quiet runs, where there are any."""
+    """A summary of the quiet runs, or of all if there are none."""
     quiet = [r for r in runs if r["others"] <= QUIET]
     counted = quiet or runs
     seconds = [r["seconds"]["render"] for r in counted]
@@ -138,7 +138,7 @@ def measure(program, cases, count):
 
 
 def about(scene, size):
-    """What every file of results begins with."""
+    """The members that every file of results has: commit, date, machine."""
     commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True)
     names = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return {"commit": commit.stdout.strip() or "unknown", "scene": scene.name, "size": size,

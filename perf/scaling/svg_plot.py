@@ -8,7 +8,7 @@ LEFT, RIGHT, TOP, BOTTOM = 64, 260, 36, 48
 
 
 class Axis:
-    """From values to places. `log`: base-2 or base-10 logarithm, else linear from `low`."""
+    """An axis: the map from values to positions. `log`: base of a logarithmic axis (2 or 10); else linear from `low`."""
 
     def __init__(self, values, begin, end, log=0, low=None, high=None):
         self.log, self.begin, self.end = log, begin, end

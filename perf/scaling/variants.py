@@ -1,4 +1,4 @@
-"""What the variants are worth beside one another: how much faster than one thread, and how near to the truth."""
+"""Compares the variants: speed-up over one thread, and errors against a converged picture."""
 import pathlib, sys, tempfile
 
 from experiments import picture, print_table, save
@@ -44,8 +44,8 @@ def middle(numbers):
 
 
 def accuracy(program, options):
-    """Two bounces of ambient light: each variant's distance from a picture with many more rays and no values to share,
-    and its ambient rays, with and without exchange."""
+    """Two bounces of ambient light: the error of each variant against a picture with many more rays in which no ambient
+    values are shared, and its number of ambient rays, with and without exchange."""
     scene, rows = program.scene, []
     start = scene.ambient.index("-av")
     values = [*scene.ambient[start:start + 4]]

@@ -18,7 +18,7 @@ def walk_views(program, options, frames, folder):
 
 
 def step_costs(stats, pixels):
-    """Of one core, by one thread's run [s]."""
+    """The costs of a frame's steps on one core, from a run on one thread [s]."""
     frames = stats["reuse"]["frames"]
     last, before = frames[-LAST:], frames[-LAST - 1:-1]
     traced = sum(sum(f["traced"].values()) for f in last)

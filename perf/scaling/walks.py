@@ -1,4 +1,4 @@
-"""Walks: what is reused from frame to frame, how much sooner frames are there, and how true they are."""
+"""Measures walks: share of reused pixels, speed-up over traced frames, and errors."""
 import json, pathlib, shutil, statistics, subprocess, sys, tempfile
 
 import svg_plot
@@ -8,7 +8,7 @@ from runs import ROOT, about
 sys.path.append(str(ROOT / "perf"))  # the package walk; as it needs NumPy, it is imported where it is used
 
 MOVES = ("turn", "forward", "backward", "right")
-#: What is kept, and how it is looked up: ours, and as the paper did it.
+#: Settings of points and of their reuse: ours, and those that imitate the paper.
 MODES = {"supersaturated": ("--reuse", "supersaturated"), "cloud": ("--reuse", "cloud"),
          "paper": ("--reuse", "supersaturated", "--look", "forward", "--check", "edges"),
          "paper, first": ("--reuse", "cloud", "--look", "forward", "--check", "edges")}
@@ -32,7 +32,7 @@ def animate(program, options, views, words, folder):
 
 
 def frame_seconds(stats):
-    """Median of the frames after the first, all steps included."""
+    """Median time of all frames but the first, all steps included."""
     return statistics.median(sum(frame["seconds"].values()) for frame in stats["reuse"]["frames"][1:])
 
 

@@ -1,11 +1,11 @@
-"""Radiance's own way: frames between two traced ones are warped from these, by `pinterp`."""
+"""Walks drawn by Radiance's pinterp, which warps frames from the two nearest traced key frames."""
 import math, pathlib, shutil, subprocess, sys
 
 from . import stage, truth, views
 
 
 def find(program):
-    """The program's path; None, with a sentence, where there is none."""
+    """The path of a program; None, and a message, if it is not installed."""
     path = shutil.which(program)
     if path is None:
         print(f"there is no program {program}: the comparison with pinterp is skipped", file=sys.stderr)
@@ -21,12 +21,12 @@ def keys(count, pictures):
 
 
 def neighbours(number, key_frames):
-    """The key frames before and after a frame that is none."""
+    """The key frames before and after a frame that is no key frame."""
     return max(k for k in key_frames if k < number), min(k for k in key_frames if k > number)
 
 
 def draw(program, traced, number, around, path):
-    """One frame from its two key frames, with their distances."""
+    """Draw a frame from its two key frames and their distances."""
     height, width = traced.shape
     files = [traced.folder / "truth" / f"f{key:04d}{kind}" for key in around for kind in (".hdr", ".z")]
     with open(path, "wb") as output:
@@ -37,7 +37,7 @@ def draw(program, traced, number, around, path):
 
 
 def measure(program, traced, pictures, folder):
-    """The row of a walk, drawn from key frames that take no fewer rays than `pictures` whole pictures."""
+    """The row of a walk that is drawn from as many key frames as `pictures`, rounded up."""
     count = len(traced.views)
     key_frames = keys(count, pictures)
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Clients that a walk's server has to bear."""
+"""Abusive clients for tests of a walk's server."""
 import random, socket, time
 
 from walk.websocket import Closed, WebSocket
@@ -10,7 +10,7 @@ VIEWS = [{"width": -1}, {"width": 1e9}, {"view": {**VIEW, "direction": [0, 0, 0]
 
 
 def misbehave(port, chance, session, patience=60):
-    """Random and malformed messages, until the server has enough of them. How many were sent."""
+    """Send random and malformed messages until the server disconnects; returns their number."""
     sent = 0
     try:
         bad = WebSocket("127.0.0.1", port, timeout=patience)

@@ -1,4 +1,4 @@
-"""The views of walks: where they lead so that no wall is in the way."""
+"""The views of walks, placed so that no wall is in the way."""
 import sys
 
 import numpy
@@ -24,15 +24,15 @@ def drawn_views(program, start, move, frames, folder):
 
 
 def free_way(program, origin, direction):
-    """How far it is to the first surface [scene's unit]."""
+    """The distance to the first surface along a ray [units of the scene]."""
     ray = " ".join(f"{number:.9g}" for number in (*origin, *direction))
     told = program.run([program.lightwalk, "trace", "-h", "-oL", "--quiet", *program.scene.words], input=ray.encode())
     return float(told.split()[0])
 
 
 def crossing(steps, step, free_left, free_right):
-    """How many steps to the left of a point a walk of so many steps to the right begins: half of them, or as walls to
-    both sides make it. None where it fits nowhere.
+    """Where a walk of `steps` steps to the right begins, in steps to the left of a point: half of them, or more or fewer
+    if walls require it. None if the walk does not fit between the walls.
 
     step, free_left, free_right  lengths, in one unit
     """

@@ -1,4 +1,4 @@
-"""The parts of a picture where what is seen moves otherwise than surfaces do: mirrors, panes, shiny floors."""
+"""Regions of a picture in which reflections and things behind panes are seen: mirrors, windows, shiny floors."""
 import dataclasses, sys
 
 import numpy
@@ -8,7 +8,7 @@ from . import stage, truth, views
 
 @dataclasses.dataclass(frozen=True)
 class Region:
-    """Pixels whose ray first meets a surface of one of these modifiers."""
+    """The pixels whose ray first hits a surface of one of these modifiers."""
     name: str
     place: str  # a view that shows it
     modifiers: tuple
@@ -22,7 +22,7 @@ REGIONS = (Region("mirror", "cabin/bath", ("mirror",)), Region("mirror", "cabin/
 
 
 def first_modifiers(place, view, shape):
-    """Names of what the middles of the pixels meet, height x width of text; "*" where there is nothing."""
+    """The modifier that the ray through the middle of each pixel hits, height x width of text; "*" for none."""
     origins, along = views.rays(view, shape[1], shape[0])
     rays = numpy.concatenate([origins + numpy.zeros_like(along), along], axis=2).astype(numpy.float64)
     told = place.program.run([place.program.lightwalk, "trace", "-h", "-fda", "-om", "--quiet",
@@ -44,7 +44,7 @@ def mask(names, modifiers):
 
 
 def measure(traced, wanted, ways, folder, report):
-    """Errors in the regions of the walk's last frame, for each way: report(row) for each."""
+    """Calls report(row) with the errors in each region of the walk's last frame, for each setting."""
     last = len(traced.views)
     names = first_modifiers(traced.place, traced.views[-1], traced.shape)
     for way, words in ways.items():

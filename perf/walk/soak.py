@@ -1,4 +1,4 @@
-"""A long walk that never ends up anywhere: does the program grow, does it crash?"""
+"""A long random walk that tests whether the program's memory grows, or the program crashes."""
 import json, pathlib, subprocess, threading, time
 
 from . import stage, views
@@ -30,7 +30,7 @@ def growth(samples):
 
 
 def faults(found, most_growth):
-    """Sentences on what went wrong; none when all is well. See soak()."""
+    """A sentence for each failure; an empty list when there is none. See soak()."""
     said = []
     if found["status"] != 0:
         said.append(f"the program ended with {found['status']}: {found.get('message', '')}")
@@ -44,7 +44,7 @@ def faults(found, most_growth):
 
 
 class Sweeper(threading.Thread):
-    """Deletes frames as they are written, and notes how many there were and how much memory is in use, each second."""
+    """A thread that deletes frames as they are written, and records their number and the memory in use once a second."""
 
     def __init__(self, folder, process):
         super().__init__(daemon=True)

@@ -12,7 +12,7 @@ VIEWS = ("cabin/living", "cabin/interior", "cabin/ext.ne", "lodge/living")
 
 
 def view_file(scene, name):
-    """Where a scene has the view of that name, from its own folder."""
+    """The path of a scene's view file, from the scene's folder."""
     return f"vf/{name}" if scene.name == "cabin" else f"views/{name}.vf"
 
 
@@ -28,7 +28,7 @@ class Place:
 
 
 def places(names, lightwalk, scenes):
-    """The places of these names. Without the sample models those in the cabin are left out, with a sentence."""
+    """The places with these names. Without the sample models those in the cabin are left out, and a message says so."""
     found = []
     for name in names:
         scene, _, view = name.partition("/")
@@ -46,7 +46,7 @@ def places(names, lightwalk, scenes):
 
 @dataclasses.dataclass(frozen=True)
 class Size:
-    """What all walks of a run have in common."""
+    """The size of all walks of a run."""
     frames: int
     width: int  # most [pixels]
     height: int

@@ -1,4 +1,4 @@
-"""Walks against the same walks traced: how much is reused, how soon frames are there, how far they are off."""
+"""Compares walks with the same walks fully traced: share of reused pixels, speed-up, errors."""
 import dataclasses, json, statistics, sys
 
 import numpy
@@ -8,7 +8,7 @@ from . import pictures, stage, views
 
 @dataclasses.dataclass
 class FrameError:
-    """One frame beside the true one. Shares are percent of the pixels."""
+    """The errors of a frame, compared with the true one. Shares are percent of the pixels."""
     off: float  # luminance is off by more than a tenth
     floor: float  # the same of a picture that is moved by half a pixel
     beyond: float  # off from whatever a ray moved by half a pixel finds
@@ -24,7 +24,7 @@ def percent(mask):
 
 @dataclasses.dataclass
 class TracedWalk:
-    """A walk fully traced, and the same with all rays moved by half a pixel to the right and up."""
+    """A fully traced walk, and the same walk with all rays moved by half a pixel to the right and up."""
     place: stage.Place
     size: stage.Size
     views: list
@@ -33,8 +33,8 @@ class TracedWalk:
     shape: tuple = ()  # height, width [pixels]
 
     def trace(self, reverse_of=None):
-        """Draw both; or take those of the walk that goes the other way, `reverse_of`; or those that an earlier run left
-        in the folder."""
+        """Draw both; or take the pictures of `reverse_of`, the same walk in the other direction; or those that an earlier run
+        left in the folder."""
         if reverse_of is not None:
             self.seconds, self.shape = reverse_of.seconds, reverse_of.shape
             self.link(reverse_of)
@@ -51,13 +51,13 @@ class TracedWalk:
                                                                                 "shape": self.shape}))
 
     def made_from(self):
-        """What the traced pictures depend on."""
+        """Everything that the traced pictures depend on, as text."""
         program = self.place.program.lightwalk.stat()
         return {"views": views.lines(self.views), "program": [program.st_size, program.st_mtime_ns],
                 "size": [self.size.width, self.size.height]}
 
     def left_before(self):
-        """Whether the folder holds these very pictures."""
+        """Whether the folder has traced pictures with the same dependencies."""
         path = self.folder / "traced.json"
         found = json.loads(path.read_text()) if path.is_file() else {}
         if not self.made_from().items() <= found.items():
@@ -77,7 +77,7 @@ class TracedWalk:
                     link.symlink_to(path.resolve())
 
     def frame_error(self, picture, number, distances=None, mask=None):
-        """A picture beside the frame of that number; of the mask's pixels only, where there is one."""
+        """The errors of a picture, compared with the true frame of that number; with a mask only those of its pixels."""
         truth, moved = stage.frame(self.folder / "truth", number), stage.frame(self.folder / "moved", number)
         inside = numpy.ones(self.shape, bool) if mask is None else mask
         scale = pictures.exposure(truth)
@@ -96,19 +96,19 @@ class TracedWalk:
 
 
 def compare(traced, folder):
-    """FrameErrors of the frames after the first in a folder."""
+    """The FrameErrors of all frames of a folder but the first."""
     return [traced.frame_error(stage.frame(folder, i), i, stage.depths(folder, i, traced.shape))
             for i in range(2, len(traced.views) + 1)]
 
 
 def frame_seconds(stats):
-    """Mean of the frames after the first, all steps included."""
+    """Mean time of all frames but the first, all steps included."""
     return statistics.mean(sum(frame["seconds"].values()) for frame in stats["reuse"]["frames"][1:])
 
 
 def passing(stats, errors):
-    """Percent of the pixels that were reused and show what their ray meets, mean of the frames after the first. Each
-    pixel that shows something that lies elsewhere is taken for a reused one: traced ones do not."""
+    """Percent of the pixels that were reused and show what their ray hits, mean of all frames but the first. A pixel that
+    shows something at another distance counts as reused, as traced pixels cannot."""
     pixels = stats["picture"]["width"] * stats["picture"]["height"]
     return statistics.mean(max(0.0, 100 * frame["reused"] / pixels - error.elsewhere)
                            for frame, error in zip(stats["reuse"]["frames"][1:], errors))
@@ -127,7 +127,7 @@ def summary(errors):
 
 
 def measure(traced, way, words, folder):
-    """The row of one walk and way, and its frames' errors."""
+    """The row of a walk drawn with one setting, and the errors of its frames."""
     stats = stage.animate(traced.place, traced.size, traced.views, words, folder, depths=True)
     errors = compare(traced, folder)
     seconds = frame_seconds(stats) if "reuse" in stats else stats["seconds"]["render"] / len(traced.views)
@@ -139,5 +139,5 @@ def measure(traced, way, words, folder):
 
 
 def folder_name(way):
-    """A way's name, fit for a folder."""
+    """The label of a setting, with characters that a folder's name may have."""
     return "".join(letter if letter.isalnum() or letter in ".-" else "-" for letter in way)

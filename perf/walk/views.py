@@ -1,11 +1,11 @@
-"""Views as options: moved, as rays, and as random walks through a room."""
+"""Views as options: shifted views, rays of views, and random walks through a room."""
 import random
 
 import numpy
 
-#: Numbers that an option of a view takes. -vtv and the like stand alone.
+#: How many numbers each option of a view takes. -vtv and the like take none.
 LENGTHS = {"-vp": 3, "-vd": 3, "-vu": 3, "-vh": 1, "-vv": 1, "-vo": 1, "-va": 1, "-vs": 1, "-vl": 1}
-#: What a view has that does not say so.
+#: The values of options that a view does not name.
 DEFAULTS = {"-vp": [0, 0, 0], "-vd": [0, 1, 0], "-vu": [0, 0, 1], "-vh": [45], "-vv": [45], "-vo": [0], "-va": [0],
             "-vs": [0], "-vl": [0]}
 
@@ -27,7 +27,7 @@ def parse(text):
 
 
 def words_of(view):
-    """The options again."""
+    """A view as text of options: the inverse of parse()."""
     words = ["-vt" + view["type"]]
     for name in LENGTHS:
         words += [name, *(f"{number:.9g}" for number in view[name])]
@@ -35,12 +35,12 @@ def words_of(view):
 
 
 def shifted(view, right, up):
-    """The view with its picture moved by shares of its width and height, as -vs and -vl say."""
+    """The view with its picture shifted by shares of its width and height (-vs -vl)."""
     return {**view, "-vs": [view["-vs"][0] + right], "-vl": [view["-vl"][0] + up]}
 
 
 def lines(views):
-    """What a file for --path holds."""
+    """The text of a file for --path."""
     return "".join("VIEW= " + " ".join(words_of(view)) + "\n" for view in views)
 
 

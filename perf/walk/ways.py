@@ -1,13 +1,13 @@
-"""What may be carried from frame to frame, as options of `lightwalk animate`."""
+"""Settings of reuse between frames, as options of `lightwalk animate`."""
 import sys
 
-#: What is kept and how it is looked up: ours, and as the paper did it.
+#: Settings of points and of their reuse: ours, and those that imitate the paper.
 WAYS = {"supersaturated": "--reuse supersaturated", "cloud": "--reuse cloud",
         "paper": "--reuse supersaturated --look forward --check edges",
         "paper's first": "--reuse cloud --look forward --check edges"}
 
-#: Each rule by itself: its settings, the weakest first, and what else has to be so for it to count. The watch over
-#: the errors (--audit-limit) is off but where it is what is measured: it would make good what a rule lets through.
+#: The settings of each rule, the weakest first, and the other options under which it has an effect. The controller of
+#: errors (--audit-limit) is off except where it is what is measured, as it would compensate for the errors of a rule.
 RULES = {"check": (("none", "edges", "rotating", "all"), ""),
          "drop": (("none", "hidden", "lonely", "both"), "--check none"),
          "look": (("forward", "back"), ""),
@@ -19,8 +19,8 @@ RULES = {"check": (("none", "edges", "rotating", "all"), ""),
 
 
 def rules(names):
-    """{label: options} of the rules of these names, separated by commas, or of "all": for each rule all its settings.
-    Before them the defaults, and a picture traced with other random numbers: as far as that is off is no fault."""
+    """{label: options}: all settings of each rule whose name is in `names` (separated by commas, or "all"). Before them come
+    the defaults, and a fully traced picture with other random numbers, whose error is the noise of any picture."""
     wanted = list(RULES) if names == "all" else names.split(",")
     unknown = [name for name in wanted if name not in RULES]
     if unknown:
@@ -35,7 +35,7 @@ def rules(names):
 
 
 def given(texts):
-    """{label: options} of texts "LABEL=OPTIONS"."""
+    """{label: options}, from texts "LABEL=OPTIONS"."""
     for text in texts:
         if "=" not in text:
             sys.exit(f"--reuse: expected LABEL=OPTIONS, found {text}")

@@ -3,11 +3,11 @@ import base64, json, os, select, socket, struct
 
 
 class Closed(Exception):
-    """The other side ended the conversation."""
+    """The server closed the connection."""
 
 
 class WebSocket:
-    """A conversation with host:port. Not for many threads."""
+    """A connection to host:port, for one thread."""
 
     def __init__(self, host, port, path="/walk", origin=None, timeout=10):
         self.socket = socket.create_connection((host, port), timeout)
@@ -53,11 +53,11 @@ class WebSocket:
         self.send_raw(1, json.dumps(message).encode())
 
     def waits(self, seconds):
-        """Whether something comes within that time."""
+        """Whether a message arrives within that time."""
         return bool(self.buffer) or bool(select.select([self.socket], [], [], max(seconds, 0))[0])
 
     def receive(self):
-        """The next message: bytes of a binary one, else what the JSON text says."""
+        """The next message: the bytes of a binary one, or the value of a JSON text."""
         whole = b""
         while True:
             first, second = self._take(2)
@@ -84,7 +84,7 @@ class WebSocket:
 
 
 class Frame:
-    """A binary message; io/net/README.md has its layout."""
+    """Decode a binary message, whose layout is in io/net/README.md."""
 
     def __init__(self, message):
         magic, self.number, self.view, self.width, self.height, flags, _, self.pieces, self.exposure = \
