@@ -1,5 +1,5 @@
 #pragma once
-// What a model holds, as a list of primitives.
+// The contents of a model as a list of primitives.
 #include <string>
 #include <vector>
 
@@ -20,13 +20,13 @@ namespace lightwalk::test {
     return primitive;
 }
 
-/// A view of a surface; what it shows must outlive it.
+/// A SurfacePrimitive that refers to a primitive, which must outlive it.
 [[nodiscard]] inline SurfacePrimitive view_of(const Primitive& primitive) {
     return {primitive.type,  primitive.modifier,    primitive.name,      {},
             primitive.reals, &primitive.where.file, primitive.where.line};
 }
 
-/// The surfaces alone, in their order.
+/// The surfaces of a model, in their order.
 [[nodiscard]] inline std::vector<Primitive> surfaces_of(const Model& model) {
     std::vector<Primitive> all;
     for (std::size_t i = 0; i < model.surfaces.size(); ++i)
@@ -34,7 +34,7 @@ namespace lightwalk::test {
     return all;
 }
 
-/// The modifiers, in their order, then the surfaces.
+/// The modifiers of a model, in their order, then its surfaces.
 [[nodiscard]] inline std::vector<Primitive> all_primitives(const Model& model) {
     std::vector<Primitive> all = model.modifiers;
     for (Primitive& surface : surfaces_of(model)) all.push_back(std::move(surface));

@@ -1,5 +1,5 @@
 #pragma once
-// Reference data that lies beside the project for its developers and CI only.
+// Access to reference data, which is not part of the project: developers and CI have it beside it.
 #include <doctest/doctest.h>
 
 #include <filesystem>

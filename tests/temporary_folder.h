@@ -1,5 +1,5 @@
 #pragma once
-// A folder that lives as long as a test, with all that is in it.
+// A temporary folder that is deleted, with its contents, at the end of a test.
 #include <doctest/doctest.h>
 #include <stdlib.h>
 
@@ -25,7 +25,7 @@ class TemporaryFolder {
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-    /// Write a file, with the folders it stands in; returns its path.
+    /// Write a file and make the folders in its path; returns the path.
     std::string write(const std::string& name, const std::string& text) const {
         const std::filesystem::path file = std::filesystem::path(path_) / name;
         std::filesystem::create_directories(file.parent_path());
@@ -34,7 +34,7 @@ class TemporaryFolder {
     }
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::string path(const std::string& name) const { return path_ + "/" + name; }
-    /// Names of what is in it, sorted.
+    /// The sorted names of the files in the folder.
     [[nodiscard]] std::vector<std::string> files() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(path_))

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes in memory for tests: text in, a traced radiance out.
+// Scenes in memory for tests, made from text and ready to trace.
 #include <map>
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace lightwalk::test {
 
-/// Keeps warnings for inspection.
+/// A WarningSink that stores warnings.
 class Silence final : public WarningSink {
   public:
     void warn(const std::string& message) override { messages.push_back(message); }
@@ -68,7 +68,7 @@ struct TestScene {
           tracer(scene, options, warnings),
           context(tracer, warnings) {}
 
-    /// Every light tested, no sampling noise.
+    /// Options with which every light is tested for shadows and there is no sampling noise.
     static RenderOptions exact() {
         RenderOptions options;
         options.shadow_threshold = 0;

@@ -9,18 +9,20 @@
 
 namespace lightwalk {
 
-/// What an ambient file holds. Whole records up to the first damaged one are taken.
+/// The contents of an ambient file: all whole records up to the first damaged one.
 struct AmbientFile {
-    std::vector<std::string> header;  ///< without FORMAT
+    std::vector<std::string> header;  ///< the header's lines but FORMAT
     std::vector<AmbientRecord> records;
-    std::size_t size = 0;  ///< bytes up to the end of the last good record
-    std::string damage;    ///< what is wrong with the rest; "" where nothing is
+    std::size_t size = 0;  ///< length up to the end of the last whole record [bytes]
+    std::string damage;    ///< what is wrong with the bytes after that; "" for an undamaged file
 };
 
-/// Throws InputError for a file that is none, has not three channels, or is of another version.
+/// Throws InputError for bytes that are no ambient file, have not three channels, or are of another
+/// version of the format.
 [[nodiscard]] AmbientFile decode_ambient_file(std::string_view bytes, const std::string& name);
 
-/// Header and magic number of a new file. `lines` are header lines, without FORMAT and NCOMP.
+/// The header and the magic number of a new ambient file. `lines` are the header's lines without
+/// FORMAT and NCOMP.
 [[nodiscard]] std::string encode_ambient_header(const std::vector<std::string>& lines);
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// How values that were computed with some options serve a run with others.
+// Ambient values that were computed with some options, converted for a run with other options.
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,35 +9,35 @@
 
 namespace lightwalk {
 
-/// Between the values of an ambient file, whose header names the options that they were made with,
-/// and those of a run.
+/// Converts between the values of an ambient file, whose header names the options that they were
+/// computed with, and the values of a run.
 ///
-/// * -aa: radii are stored per unit of it, so that a value reaches as far as the run's -aa lets it.
-///   The azimuths that a value has found to be obstructed stay those within the file's -aa.
-/// * -ar: a radius that the file's -ar has raised to its least one shrinks to the run's least one
-///   where that is smaller, for what it would have been is not known; none is larger than the run's
-///   -ar allows.
-/// * -ab: a value of level l holds (-ab - l) bounces of light. In a run with another -ab it serves
-///   at the level that asks for as many; values with more bounces than the run follows serve
-///   nowhere.
-/// * All else changes how exact the values are (-ad -as), or what light they end with (-av -aw):
-///   they serve as they are.
+/// * -aa: validity radii are stored divided by it, so a value reaches as far as the run's -aa lets
+///   it. The azimuths in which a value has found obstructions stay those within the file's -aa.
+/// * -ar: a radius that equals the least one of the file's -ar may have been smaller before it was
+///   raised to that; it shrinks to the run's least radius where that is smaller. No radius is
+///   larger than the run's -ar allows.
+/// * -ab: a value of level l holds (-ab - l) bounces of light. In a run with another -ab it is used
+///   at the level that needs as many bounces; values with more bounces than the run follows are not
+///   used.
+/// * The other options change how exact the values are (-ad -as), or the constant that replaces
+///   further bounces (-av -aw): values are used unchanged.
 class AmbientFit {
   public:
-    /// @param header  of the file; an option that it does not name is taken to be the run's
-    /// @param limits  of the run: the scene's cube, -aa and -ar
+    /// @param header  the file's header; an option that it does not name counts as the run's
+    /// @param limits  limits of the run: the scene's cube, -aa and -ar
     AmbientFit(const std::vector<std::string>& header, const RenderOptions& options,
                const AmbientLimits& limits);
 
-    /// The file's value as it serves in the run; nothing when it serves nowhere.
+    /// A value of the file, converted for the run; nothing when the run cannot use it.
     [[nodiscard]] std::optional<AmbientRecord> for_run(AmbientRecord record) const;
-    /// The run's value as the file's own options mean it; nothing when they can't: the run follows
-    /// more bounces, and the value holds them.
+    /// A value of the run, converted for the file; nothing when the value holds more bounces than
+    /// the file's -ab has.
     [[nodiscard]] std::optional<AmbientRecord> for_file(AmbientRecord record) const;
 
-    /// The options that differ, as "-aa 0.1 (not 0.2), -ab 1 (not 2)"; "" when none does.
+    /// The options that differ, e.g. "-aa 0.1 (not 0.2), -ab 1 (not 2)"; "" when all are equal.
     [[nodiscard]] const std::string& difference() const { return difference_; }
-    /// Whether the run computes values that the file cannot keep.
+    /// Whether the run computes values that for_file() cannot convert.
     [[nodiscard]] bool loses_values() const { return level_shift_ > 0; }
 
   private:
@@ -48,7 +48,7 @@ class AmbientFit {
     std::string difference_;
 };
 
-/// The header line of a file made with these options, as Radiance orders them.
+/// The header line that names the options of an ambient file, in Radiance's order.
 [[nodiscard]] std::string ambient_option_line(const RenderOptions& options);
 
 }  // namespace lightwalk

@@ -1,5 +1,6 @@
 #pragma once
-// A cache that keeps its values in an ambient file, which other processes may use at the same time.
+// An ambient cache that also stores its values in an ambient file, which other processes may use at
+// the same time.
 #include <cstddef>
 #include <mutex>
 #include <optional>
@@ -13,16 +14,16 @@
 
 namespace lightwalk {
 
-/// Stands before another cache: what is stored there goes to the file as well, in whole records, at
-/// once; what other processes append is taken over. The file is locked (fcntl) while it is read or
-/// written, as Radiance's programs do.
+/// A decorator of another cache: each value that is inserted is also appended to the file at once,
+/// as a whole record, and values that other processes append are inserted into the cache. The file
+/// is locked (fcntl) while it is read or written, as by Radiance's programs.
 class AmbientStore final : public AmbientCache {
   public:
-    /// Opens or makes the file, and fills `cache` with those of its values that serve under
-    /// `options` (see AmbientFit); one warning says which options the file was made with, where
-    /// they are others. A damaged end is reported and cut off. Where the file cannot be written its
-    /// values are used, with a warning, and it stays as it is. Throws InputError for a file that is
-    /// none, is of another version of the format, or cannot be read.
+    /// Opens or creates the file, and inserts into `cache` those of its values that a run with
+    /// `options` can use (see AmbientFit). If the file was made with other options, one warning
+    /// names them. A damaged end is reported and cut off. If the file cannot be written, its values
+    /// are used, with a warning, and it stays unchanged. Throws InputError for a file that is no
+    /// ambient file, is of another version of the format, or cannot be read.
     AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
                  WarningSink& warnings);
     ~AmbientStore() override;
@@ -34,7 +35,7 @@ class AmbientStore final : public AmbientCache {
     /// Throws InputError when the file cannot be written.
     void insert(const AmbientRecord& record) override;
     [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
-    /// Within this process.
+    /// Claims hold within this process only, not among those that share the file.
     [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {
         return cache_.claim(query);
     }
@@ -50,9 +51,9 @@ class AmbientStore final : public AmbientCache {
     AmbientCache& cache_;
     int file_ = -1;
     bool writable_ = true;
-    std::optional<AmbientFit> fit_;  ///< set from the header on
+    std::optional<AmbientFit> fit_;  ///< set once the header has been read
     std::mutex mutex_;               ///< guards the file
-    std::size_t known_ = 0;          ///< bytes of the file that are in the cache
+    std::size_t known_ = 0;          ///< the cache has the records of so many bytes of the file
 };
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// Digests of bytes, for telling whether they are still the same: no defence against forgery.
+// Digests of bytes that tell whether they have changed; they do not protect against forgery.
 #include <cstdint>
 #include <string_view>
 

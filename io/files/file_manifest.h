@@ -1,5 +1,5 @@
 #pragma once
-// Which files something was made from, and whether they are still the same.
+// A manifest: the files that something was made from, and whether they have changed since.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -11,19 +11,19 @@
 
 namespace lightwalk {
 
-/// A file as it was when it was read, or looked for.
+/// The state of a file when it was read, or was looked for and did not exist.
 struct ManifestFile {
     std::string path;          ///< absolute
-    bool exists = false;       ///< else the rest says nothing
+    bool exists = false;       ///< false: the members below have no meaning
     std::uint64_t size = 0;    ///< [bytes]
-    std::int64_t written = 0;  ///< [ns] since 1970
-    std::uint64_t digest = 0;  ///< digest_of_bytes()
+    std::int64_t written = 0;  ///< date of the last write [ns since 1970]
+    std::uint64_t digest = 0;  ///< digest_of_bytes() of the contents
     friend bool operator==(const ManifestFile&, const ManifestFile&) = default;
 };
 
-/// Passes on what a source answers, and notes the files that it read, and those that were looked
-/// for in vain: where one appears something else may be found. Standard input and the output of
-/// commands are not noted.
+/// A decorator of a source that records the files that were read, and those that were looked for
+/// and did not exist, as such a file would be found if it appeared. Standard input and the output
+/// of commands are not recorded.
 class ManifestRecorder final : public FileSource {
   public:
     explicit ManifestRecorder(std::shared_ptr<FileSource> source = real_files())
@@ -31,7 +31,7 @@ class ManifestRecorder final : public FileSource {
 
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
-    /// By path.
+    /// The recorded files, sorted by path.
     [[nodiscard]] std::vector<ManifestFile> files() const;
 
   private:
@@ -39,8 +39,9 @@ class ManifestRecorder final : public FileSource {
     std::map<std::string, ManifestFile> files_;
 };
 
-/// What has become of them since: "room.rad has changed", "sky.cal is missing", "more.cal is new",
-/// a phrase each. A file of the same size and date is not read again; of others the digest decides.
+/// A phrase for each file that has changed since it was recorded: "room.rad has changed", "sky.cal
+/// is missing", "more.cal is new". A file of equal size and date counts as unchanged without being
+/// read; of others the digests are compared.
 [[nodiscard]] std::vector<std::string> changes_since(std::span<const ManifestFile> files);
 
 }  // namespace lightwalk

@@ -1,5 +1,6 @@
 #pragma once
-// Where a scene and its options come from: the file system, or what another process has read there.
+// The source of all input files: the file system, or a recording of what another process has read
+// there.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -13,27 +14,30 @@ namespace lightwalk {
 
 inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 
-/// All that reading takes from the world around it, as questions and answers. For one thread.
+/// Everything that readers take from outside the process, as questions and answers. For one thread.
 class FileSource {
   public:
     enum class Question : char {
         readable = 'e',     ///< whether a path is a regular file that can be read
-        bytes = 'r',        ///< a file
+        bytes = 'r',        ///< the contents of a file
         beginning = 'b',    ///< a file, or standard input ("-"), up to its first empty line
-        input = 'i',        ///< all that is left of standard input
-        input_state = 't',  ///< "terminal", "empty" or "waiting": what standard input is
-        matches = 'm',      ///< paths that match a pattern of the shell, a zero byte after each
-        place = 'p',        ///< $NAME, ~, ~user, or "library": our own library folder
-        script = 's',       ///< a shell's output: "0" for success, else "1", then the bytes
+        input = 'i',        ///< the rest of standard input
+        input_state = 't',  ///< the state of standard input: "terminal", "empty" or "waiting"
+        matches = 'm',      ///< the paths that match a shell pattern, a zero byte after each
+        place = 'p',        ///< the path $NAME, ~ or ~user, or "library": Lightwalk's own folder
+        script = 's',  ///< the output of a shell script, after "0" for success or "1" for failure
     };
     virtual ~FileSource() = default;
 
-    /// @return  nothing: there is none. Throws InputError for what is there and cannot be read.
+    /// @param limit  the largest answer [bytes]
+    /// @return  nothing when what is asked for does not exist. Throws InputError when it exists and
+    ///          cannot be read.
     [[nodiscard]] virtual std::optional<std::string> answer(Question question,
                                                             const std::string& text,
                                                             std::size_t limit) = 0;
 
-    // The same, by their types. What cannot be read, or is larger than `limit` bytes: InputError.
+    // answer() for each kind of question, with typed results. These throw InputError for what
+    // cannot be read, or is larger than `limit` bytes.
     [[nodiscard]] bool readable(const std::string& path);
     [[nodiscard]] std::string read(const std::string& path, std::size_t limit = kLargestFile);
     [[nodiscard]] std::string standard_input();
@@ -41,31 +45,31 @@ class FileSource {
     [[nodiscard]] std::optional<std::string> place(const std::string& name);
 };
 
-/// The process's own files, environment and standard input.
+/// The source that asks the operating system: files, environment and standard input of the process.
 [[nodiscard]] std::shared_ptr<FileSource> real_files();
 
-/// Passes on what a source answers, and remembers it.
+/// A decorator of a source that records its answers.
 class FileRecorder final : public FileSource {
   public:
-    /// @param keep  whether answers are kept, for take(), or only their digests
+    /// @param keep  true: whole answers are recorded, for take(); false: only their digests
     explicit FileRecorder(std::shared_ptr<FileSource> source = real_files(), bool keep = false)
         : source_(std::move(source)), keep_(keep) {}
 
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
 
-    /// A line for each file, command and standard input that was read, in the order of the first
-    /// time: its name without folders, and a digest of its bytes.
+    /// A line for each file, command and standard input, in the order in which they were first
+    /// read: the name without folders, and a digest of the bytes.
     [[nodiscard]] const std::vector<std::string>& digests() const { return digests_; }
-    /// A line for a file that is used without being read.
+    /// Record a line for a file that is mapped into memory rather than read through this source.
     void note_mapped(const std::string& path, std::uint64_t digest);
-    /// One digest of all these.
+    /// One digest of all lines of digests().
     [[nodiscard]] std::string digest() const;
 
-    /// For FileReplay: every question so far with its answer. They are forgotten here.
-    /// Two strings for each question, each after its length in 64 bits, little-endian: the
-    /// question's letter and text; then '1' and the answer, '0' for none, or 'x' and the message of
-    /// an error.
+    /// Removes and returns the recording of all questions so far with their answers, for
+    /// FileReplay. Its format: two strings for each question, each after its length as a
+    /// little-endian number of 64 bits: the question's letter and text; then '1' and the answer, or
+    /// '0' for no answer, or 'x' and the message of an error.
     [[nodiscard]] std::string take();
 
   private:
@@ -75,19 +79,19 @@ class FileRecorder final : public FileSource {
 
     std::shared_ptr<FileSource> source_;
     bool keep_;
-    std::map<std::string, std::string> answers_;  ///< '1', '0' or 'x', and the text; if kept
+    std::map<std::string, std::string> answers_;  ///< in the format of take(); empty unless keep_
     std::map<std::string, bool> digested_;
     std::vector<std::string> digests_;
 };
 
-/// Answers what a recording answers, and nothing else.
+/// A source that answers from a recording, and knows no other answers.
 class FileReplay final : public FileSource {
   public:
-    /// Throws InputError for bytes that no recorder made.
+    /// Throws InputError for bytes that are no recording of FileRecorder::take().
     explicit FileReplay(std::string_view recording);
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
-    /// Forget all.
+    /// Release the memory of the recording.
     void clear() { answers_.clear(); }
 
   private:

@@ -1,23 +1,24 @@
 #pragma once
-// Gives the memory of long texts back to the system while they are read.
+// Gives the memory of a long text back to the operating system while the text is being read.
 #include <cstddef>
 #include <span>
 #include <string>
 
 namespace lightwalk {
 
-/// Give back the pages that lie wholly within `bytes`, which are undefined from then on, though
-/// they may be written and freed as before. Where the system does not take them they stay as they
-/// are.
+/// Give the pages that lie wholly within `bytes` back to the system. Their contents are undefined
+/// from then on, but the memory may be written and freed as before. Without support of the system
+/// nothing happens.
 void forget_pages(std::span<char> bytes) noexcept;
 
-/// A text that is read once, from front to back: its memory goes while it is read.
+/// A text that is read once, from front to back, and whose memory is given back meanwhile.
 class FadingText {
   public:
     explicit FadingText(std::string& text) : text_(text) {}
 
-    /// The first `offset` characters will not be looked at again; never less than before. Costs
-    /// nothing until another few megabytes are read.
+    /// Promise that the first `offset` characters will not be read again. `offset` must not
+    /// decrease. Memory is given back in stretches of eight megabytes; other calls cost next to
+    /// nothing.
     void read_to(std::size_t offset) {
         if (offset >= forgotten_ + kStretch) forget_to(offset);
     }

@@ -1,16 +1,16 @@
 #pragma once
-// Memory of long texts, in few pages.
+// Large memory pages for long texts.
 #include <cstddef>
 
 namespace lightwalk {
 
-/// From this size on texts are worth pages of two megabytes [bytes].
+/// The least size of texts for which pages of two megabytes are worth asking for [bytes].
 inline constexpr std::size_t kWorthLargePages = std::size_t{4} << 20;
 
-/// Asks for large pages under a block that malloc or new gave, before it is first touched: pages of
-/// 4 kB that are touched for the first time take a good part of the time in which a long text is
-/// read, on virtual machines above all. A hint: what is in the block stays, and where the system
-/// has no such pages nothing happens.
+/// Asks the system for large pages for a block from malloc or new, which should not have been
+/// touched yet. The first touch of each page of 4 kB takes a good part of the time in which a long
+/// text is read, above all on virtual machines. This is a hint: the block's contents stay, and a
+/// system without large pages ignores it.
 void prefer_large_pages(void* block) noexcept;
 
 }  // namespace lightwalk

@@ -1,22 +1,24 @@
 #pragma once
-// A file as memory: its pages are read when they are looked at, and shared by all who map it.
+// A memory-mapped file: pages are read on first access, and shared by all processes that map it.
 #include <cstddef>
 #include <span>
 #include <string>
 
 namespace lightwalk {
 
-/// A regular file, mapped for reading. Who shortens the file meanwhile ends the process (SIGBUS);
-/// who replaces it by renaming, as write_file_atomically does, leaves the mapped one as it is.
+/// A regular file, mapped for reading. If somebody truncates the file meanwhile the process is
+/// killed (SIGBUS); if somebody replaces it by renaming, as write_file_atomically does, the mapped
+/// contents stay.
 class MappedFile {
   public:
-    /// Throws InputError for what is not there, cannot be opened, is no regular file, or is empty.
+    /// Throws InputError for a file that does not exist, cannot be opened, is not regular, or is
+    /// empty.
     explicit MappedFile(std::string path);
     ~MappedFile();
     MappedFile(const MappedFile&) = delete;
     MappedFile& operator=(const MappedFile&) = delete;
 
-    /// Begins at a page.
+    /// The contents; the address is a multiple of the page size.
     [[nodiscard]] std::span<const std::byte> bytes() const { return {data_, size_}; }
     [[nodiscard]] const std::string& path() const { return path_; }
 

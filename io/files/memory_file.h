@@ -1,23 +1,23 @@
 #pragma once
-// A file that has no place in any folder: what processes of one machine hand each other.
+// An anonymous file in memory, through which processes of one machine share bytes.
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace lightwalk {
 
-/// Bytes in memory that other processes of the same user on this machine can map: each page is
-/// there once for all of them. Gone when this and all mappings are.
+/// Bytes in memory that other processes of the same user on this machine can map; all of them share
+/// each page. The memory is freed when this object and all mappings are gone.
 class MemoryFile {
   public:
-    /// @param pieces  one after the other
+    /// @param pieces  their concatenation is the contents
     /// Throws InputError where there is not enough memory, or the system has no such files.
     explicit MemoryFile(std::span<const std::string_view> pieces);
     ~MemoryFile();
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
-    /// To be opened while this object lives.
+    /// A path by which processes can open the file while this object lives.
     [[nodiscard]] const std::string& path() const { return path_; }
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// A file of records that only grows, and that survives the death of its writer at any moment.
+// An append-only file of records that stays usable if its writer is killed at any moment.
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -13,11 +13,11 @@ namespace lightwalk {
 /// size of the payload (u64), its FNV-1a hash (u64), the payload. Numbers are little-endian.
 class RecordLog {
   public:
-    /// Opens or makes the file for appending. A file that is there must have the same header; its
-    /// whole records are handed to `take`, in order; a damaged end is reported and cut off.
-    /// @param header  lines of text without an empty one: what the records belong to
-    /// Throws InputError for a file that is no log, is another's (the first line that differs is
-    /// named), is open in another process, or cannot be read or written.
+    /// Opens or creates the file for appending. An existing file must have the same header; `take`
+    /// is called with each of its whole records, in order; a damaged end is reported and cut off.
+    /// @param header  lines of text, none of them empty, that say what the records belong to
+    /// Throws InputError for a file that is no log, has another header (the first line that differs
+    /// is named), is open in another process, or cannot be read or written.
     RecordLog(std::string path, const std::string& header,
               const std::function<void(std::string_view)>& take, WarningSink& warnings);
     ~RecordLog();
@@ -26,9 +26,9 @@ class RecordLog {
 
     /// Throws InputError when the file cannot be written.
     void append(std::string_view payload);
-    /// What was appended is on the disk when this returns.
+    /// Wait until everything appended so far is on the disk.
     void sync();
-    /// The file is no longer needed: removes it.
+    /// Delete the file.
     void remove();
 
   private:

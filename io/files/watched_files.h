@@ -1,5 +1,5 @@
 #pragma once
-// Whether files have changed since they were read.
+// Detects files that have changed since they were read.
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace lightwalk {
 
-/// Passes on what a source answers, and notes what state the files were in that it was asked for.
+/// A decorator of a source that records the state of each file that it is asked for.
 class WatchedFiles final : public FileSource {
   public:
     explicit WatchedFiles(std::shared_ptr<FileSource> source = real_files())
@@ -19,8 +19,8 @@ class WatchedFiles final : public FileSource {
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
 
-    /// Whether one of them is there now and was not, or is gone, or was written since. A look at
-    /// each file's date and size.
+    /// Whether a recorded file has appeared, disappeared or been written since, by its date and
+    /// size.
     [[nodiscard]] bool have_changed() const;
 
   private:

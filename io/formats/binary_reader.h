@@ -10,26 +10,27 @@
 
 namespace lightwalk {
 
-/// Reads from bytes in memory; every method throws InputError "NAME: truncated KIND" at their end.
+/// Reads from bytes in memory; every method throws InputError "NAME: truncated KIND" when the bytes
+/// end too soon.
 class BinaryReader {
   public:
-    /// `kind` is what messages call the file: "octree", "mesh".
+    /// `kind` is the word for the file in messages: "octree", "mesh".
     BinaryReader(std::string_view bytes, std::string name, std::string kind)
         : bytes_(bytes), name_(std::move(name)), kind_(std::move(kind)) {}
 
-    /// Most significant byte first, two's complement; `size` is 1 to 8 bytes.
+    /// A big-endian integer in two's complement; `size` is 1 to 8 [bytes].
     [[nodiscard]] std::int64_t integer(int size);
     [[nodiscard]] std::uint64_t unsigned_integer(int size);
-    /// (m ± 0.5) / 2147483647 · 2^e, from a 4-byte mantissa m with a sign and a 1-byte exponent e;
-    /// 0 for m = 0.
+    /// A real of 5 bytes: a signed mantissa m of 4 bytes and an exponent e of 1 byte mean
+    /// (m ± 0.5) / 2147483647 · 2^e, and 0 for m = 0.
     [[nodiscard]] double real();
     [[nodiscard]] std::string string() { return std::string(text()); }
-    /// The same where it stands in the bytes: a zero byte follows.
+    /// A string as a view of the bytes; a zero byte follows it there.
     [[nodiscard]] std::string_view text();
     void skip(std::uint64_t count);
 
-    /// Throws unless `count` more values of at least `size` bytes each can follow: a bound for what
-    /// is allocated.
+    /// Throws unless `count` values of at least `size` bytes each can still follow, so that a
+    /// damaged count cannot cause a large allocation.
     void expect(std::uint64_t count, std::size_t size);
     [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
     [[noreturn]] void fail(const std::string& what) const;

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers, texts and lists as bytes, for files that are read on the kind of machine that wrote
-// them.
+// Serialisation of numbers, texts and lists in native byte order, for files that are read on the
+// same kind of machine as they were written.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -12,13 +12,13 @@
 
 namespace lightwalk {
 
-/// What may be copied byte by byte; a bool may not: not all its bytes are values.
+/// Types that may be copied byte by byte. bool is not among them, as not every byte is a valid one.
 template <class T>
 concept Packable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
                    !std::is_same_v<T, bool> && !std::is_same_v<T, std::string_view>;
 
-/// Numbers as they are in memory; texts and lists after their length in 64 bits; a bool as one
-/// byte.
+/// Appends values: numbers as they are in memory, texts and lists after their length in 64 bits, a
+/// bool as one byte.
 class PackedWriter {
   public:
     template <Packable T>
@@ -44,12 +44,12 @@ class PackedWriter {
     std::string bytes_;
 };
 
-/// The inverse. Every method throws InputError "NAME: damaged: WHAT" where the bytes end too soon:
-/// what is allocated is bounded by what is there.
+/// Reads what PackedWriter wrote. Every method throws InputError "NAME: damaged: WHAT" when the
+/// bytes end too soon, before anything is allocated for them.
 class PackedReader {
   public:
-    /// @param name  of the file, for messages
-    /// @param what  the bytes are of: "the list of files"
+    /// @param name  the name of the file, for messages
+    /// @param what  what the bytes hold, for messages: "the list of files"
     PackedReader(std::span<const std::byte> bytes, std::string name, std::string what);
 
     template <Packable T>
@@ -58,8 +58,9 @@ class PackedReader {
         std::memcpy(&value, take(sizeof value), sizeof value);
         return value;
     }
-    [[nodiscard]] bool boolean();  ///< throws for what is neither 0 nor 1
-    /// How many things follow, each of `least` bytes or more.
+    [[nodiscard]] bool boolean();  ///< throws for a byte that is neither 0 nor 1
+    /// The number of items that follow, of at least `least` bytes each; throws for a number that
+    /// the remaining bytes cannot hold.
     [[nodiscard]] std::size_t count(std::size_t least);
     [[nodiscard]] std::string text();
     template <Packable T>
@@ -70,7 +71,7 @@ class PackedReader {
         return values;
     }
     [[nodiscard]] std::vector<std::string> texts();
-    /// Throws unless all has been read.
+    /// Throws unless all bytes have been read.
     void end() const;
     /// Throws InputError.
     [[noreturn]] void fail() const;

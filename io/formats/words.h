@@ -9,21 +9,23 @@
 
 namespace lightwalk {
 
-/// Take the next line off the front of `text`, without its LF or CR LF.
+/// Remove the next line from the front of `text` and return it without its LF or CR LF.
 [[nodiscard]] std::string_view take_line(std::string_view& text);
 
-/// Take the next word (between white space) off the front of `text`; empty at the end.
+/// Remove the next word (characters between white space) from the front of `text` and return it;
+/// empty at the end.
 [[nodiscard]] std::string_view take_word(std::string_view& text);
 
-/// The words of a data or font file: separated by white space, `#` begins a comment to the end of
-/// the line, also directly behind a word.
+/// Reads the words of a data or font file. They are separated by white space; `#`, also directly
+/// after a word, begins a comment that extends to the end of the line.
 class WordReader {
   public:
     WordReader(std::string_view text, std::string name) : rest_(text), where_{std::move(name), 1} {}
 
-    /// Nothing at the end. Throws InputError for words of more than 63 characters.
+    /// The next word; nothing at the end. Throws InputError for words of more than 63 characters.
     [[nodiscard]] std::optional<std::string_view> next();
-    /// No more words than this can follow: what counts in the file are checked against.
+    /// An upper bound of the number of words that follow, against which counts in the file are
+    /// checked before memory is allocated for them.
     [[nodiscard]] std::size_t most_left() const { return (rest_.size() + 1) / 2; }
     [[nodiscard]] InputError error(const std::string& problem) const { return {where_, problem}; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Built-in replacements of the programs that scene files call: they turn words into scene text.
+// Built-in replacements of the programs that scene files call: functions from words to scene text.
 #include <functional>
 #include <span>
 #include <string>
@@ -11,35 +11,36 @@
 
 namespace lightwalk {
 
-/// What a generator may use.
+/// The environment of a generator.
 struct GeneratorContext {
     const LibraryPath& library;
     std::string directory;  ///< working directory for relative file names; "" is the process's
-    std::string input;      ///< standard input: what stands before the pipe
+    std::string input;      ///< standard input: the output of the command before the pipe
     bool has_input = false;
     WarningSink& warnings;
-    /// Run a `!` command found in a file (xform, replmarks -e): returns its output. `directory` as
-    /// above.
+    /// Runs a `!` command found in a file (xform, replmarks -e) in `directory`, and returns its
+    /// output.
     std::function<std::string(const std::string& command, const std::string& directory)>
         run_command;
-    /// Where a generator that writes much hands over what it has so far; null: it returns all.
+    /// Receives the output of a generator that writes much, in parts; null: all is returned.
     TextSink* output = nullptr;
 };
 
-/// Returns what it writes: what comes after that which went to context.output. args[0] is the
-/// program's name. Throws InputError with the usage line for wrong arguments.
+/// A generator. It returns its output, without the beginning that it has passed to context.output.
+/// args[0] is the program's name. Throws InputError with the usage line for wrong arguments.
 using Generator = std::string (*)(std::span<const std::string> args, GeneratorContext& context);
 
-/// xform, genbox, gensurf, genrev, genworm, genprism, genblinds, gensky, gendaylit, replmarks; null
-/// otherwise.
+/// The generator of this name: xform, genbox, gensurf, genrev, genworm, genprism, genblinds,
+/// gensky, gendaylit or replmarks. Null for other names.
 [[nodiscard]] Generator find_generator(const std::string& program);
 
-/// Output is bounded so that hostile counts cannot exhaust memory; beyond it InputError is thrown.
+/// The largest output that is held in memory as a whole, so that hostile counts cannot exhaust it;
+/// beyond it InputError is thrown.
 inline constexpr std::size_t kMaxGeneratedBytes = std::size_t{512} << 20;
-/// The same for output that goes to a sink, and is never whole.
+/// The largest output that goes to a sink in parts.
 inline constexpr std::size_t kMaxStreamedBytes = std::size_t{2} << 30;
 
-// One function a program; each in its own file.
+// One function for each program, each in a file of its own.
 std::string run_xform(std::span<const std::string> args, GeneratorContext& context);
 std::string run_genbox(std::span<const std::string> args, GeneratorContext& context);
 std::string run_gensurf(std::span<const std::string> args, GeneratorContext& context);

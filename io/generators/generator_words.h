@@ -1,5 +1,5 @@
 #pragma once
-// The words of a generator's command line, read from left to right.
+// Reads the words of a generator's command line from left to right.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -9,10 +9,12 @@
 
 namespace lightwalk {
 
-/// Every mistake is an InputError "PROGRAM: what is wrong; usage: PROGRAM ...".
+/// A cursor over the words. Every mistake is an InputError "PROGRAM: what is wrong; usage: PROGRAM
+/// ...".
 class GeneratorWords {
   public:
-    /// `usage` is what follows the program's name. Both arguments must outlive the object.
+    /// `usage` is the usage line without the program's name. Both arguments must outlive the
+    /// object.
     GeneratorWords(std::span<const std::string> args, std::string_view usage)
         : args_(args), usage_(usage) {}
 
@@ -20,21 +22,21 @@ class GeneratorWords {
     [[nodiscard]] std::size_t left() const { return args_.size() - at_; }
     [[nodiscard]] const std::string& program() const { return args_[0]; }
     [[nodiscard]] std::span<const std::string> all() const { return args_; }
-    /// The next word, without taking it; not at the end.
+    /// The next word, without consuming it. There must be one.
     [[nodiscard]] const std::string& peek() const { return args_[at_]; }
 
-    /// Take a word; `what` names it in messages.
+    /// Consume a word; `what` is its name in messages.
     const std::string& text(std::string_view what);
-    /// Take a number of the scene language.
+    /// Consume a number of the scene language.
     double real(std::string_view what);
     double positive(std::string_view what);
-    /// Take a whole number from `least` to `most`.
+    /// Consume an integer from `least` to `most`.
     long integer(std::string_view what, long least, long most);
-    /// Take `word` when it is next.
+    /// Consume the next word if it is `word`.
     bool accept(std::string_view word);
 
     [[noreturn]] void fail(const std::string& what) const;
-    [[noreturn]] void unknown_option() const;  ///< fail at the next word
+    [[noreturn]] void unknown_option() const;  ///< fail because the next word is no option
 
   private:
     std::span<const std::string> args_;

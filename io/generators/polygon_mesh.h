@@ -1,5 +1,5 @@
 #pragma once
-// Faces with shared vertices: what generators write as a Wavefront .OBJ.
+// Polygon meshes with shared vertices, which generators write as Wavefront .OBJ.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace lightwalk {
 
-/// Vertices and faces. Texture coordinates and normals belong to vertices; they are given for all
-/// of them or for none.
+/// A mesh of triangles and quadrilaterals. All vertices have texture coordinates, or none; likewise
+/// normals.
 struct PolygonMesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
@@ -24,10 +24,10 @@ struct PolygonMesh {
     std::vector<Face> faces;
 };
 
-/// The mesh as .OBJ text: usemtl, o, v, vt, vn, f; indices count backwards from the last vertex, so
-/// that files can be joined. Throws InputError when it is larger than kMaxGeneratedBytes, and for
-/// numbers that are not finite. Source: Wavefront, "Object files (.obj)", Advanced Visualizer
-/// manual, app. B1.
+/// A mesh as .OBJ text with the statements usemtl, o, v, vt, vn, f. Indices are negative, counted
+/// from the last vertex, so that files can be concatenated. Throws InputError for a text larger
+/// than kMaxGeneratedBytes, and for numbers that are not finite. Source: Wavefront, "Object files
+/// (.obj)", Advanced Visualizer manual, app. B1.
 [[nodiscard]] std::string write_obj(std::span<const std::string> args, const std::string& material,
                                     const std::string& name, const PolygonMesh& mesh);
 

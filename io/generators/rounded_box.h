@@ -1,5 +1,5 @@
 #pragma once
-// A box whose rounded edges and corners are made of flat pieces.
+// A box with rounded edges and corners, as a polygon mesh.
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -10,19 +10,19 @@
 namespace lightwalk {
 
 struct RoundedBox {
-    Vec3 size;  ///< from the origin
+    Vec3 size;  ///< the corner opposite to the origin
     double radius = 0;
     bool inward = false;       ///< normals point into the box
-    bool smooth = false;       ///< triangles with normals instead of quadrilaterals for the edges
+    bool smooth = false;       ///< edges are triangles with normals instead of quadrilaterals
     std::size_t segments = 1;  ///< of a quarter circle; rounded up to a power of two
 };
 
-/// 6 quadrilaterals, then the 12 edges with a quadrilateral for each segment, then the 8 corners,
-/// each an octant of 4^k triangles made by splitting edges at their middles.
+/// The mesh of a box: 6 faces, then 12 edges with a quadrilateral for each segment, then 8 corners,
+/// each an octant of a sphere of 4^k triangles, made by k subdivisions at the middles of edges.
 [[nodiscard]] PolygonMesh rounded_box(const RoundedBox& box);
 
-/// Write the texture that turns a triangle's normal into its vertices' normals, interpolated: a
-/// texfunc "Phong" of tmesh.cal. False, and nothing written, for a triangle without an area.
+/// Write the texture that replaces a triangle's normal by the interpolated normals of its vertices:
+/// a texfunc "Phong" of tmesh.cal. False, and nothing is written, for a triangle of no area.
 bool write_smoothing(std::string_view modifier, std::span<const Vec3> corners,
                      std::span<const Vec3> normals, SceneWriter& out);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of numbers that take the place of gensurf's functions.
+// Tables of numbers as arguments of gensurf, in place of functions.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -7,13 +7,13 @@
 
 namespace lightwalk {
 
-/// Values at the vertices or the centres of an m x n grid, interpolated linearly and extrapolated
-/// so too.
+/// Values at the vertices or the cell centres of an m x n grid, with linear interpolation and
+/// extrapolation.
 class SurfaceData {
   public:
-    /// `text` holds numbers separated by white space, `channels` for each point, s fastest. Throws
-    /// InputError naming `where`: for what is not a number, and when there are neither (m+1)(n+1)
-    /// points nor m n.
+    /// `text` is a list of numbers separated by white space, `channels` for each point, s fastest.
+    /// Throws InputError with `where` for a word that is no number, and when there are neither
+    /// (m+1)(n+1) nor m n points.
     SurfaceData(std::string_view text, const std::string& where, std::size_t m, std::size_t n,
                 std::size_t channels);
 
@@ -25,8 +25,8 @@ class SurfaceData {
     double scale_s_, scale_t_, offset_ = 0;
 };
 
-/// All numbers of a text, separated by white space. Throws InputError "WHERE:LINE: ...", also when
-/// there are more than `most`.
+/// The numbers of a text, which are separated by white space. Throws InputError "WHERE:LINE: ..."
+/// for other words, and for more than `most` numbers.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text, const std::string& where,
                                                 std::size_t most);
 

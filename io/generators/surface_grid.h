@@ -1,6 +1,5 @@
 #pragma once
-// Points of a parametric surface on a grid of its parameters, their normals, and the cells between
-// them.
+// A parametric surface sampled on a grid of its parameters: points, normals and cells.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,17 +11,19 @@
 
 namespace lightwalk {
 
-/// (m+1) x (n+1) points at (i/m, j/n), and with a border the points one step outside, too.
+/// (m+1) x (n+1) points at the parameters (i/m, j/n); with a border also the points one step
+/// outside.
 class SurfaceGrid {
   public:
     using PointAt = FunctionRef<std::optional<Vec3>(double s, double t)>;
 
-    /// `point_at` gives nothing where the surface is not valid.
+    /// `point_at` returns nothing where the surface is not valid.
     SurfaceGrid(std::size_t m, std::size_t n, bool border, PointAt point_at);
 
     [[nodiscard]] std::size_t m() const { return m_; }
     [[nodiscard]] std::size_t n() const { return n_; }
-    /// Inside, i from 0 to m and j from 0 to n; (0, 0, 0) where the surface is not valid.
+    /// A point of the grid, i from 0 to m and j from 0 to n; (0, 0, 0) where the surface is not
+    /// valid.
     [[nodiscard]] const Vec3& point(std::size_t i, std::size_t j) const {
         return points_[index(i + border_, j + border_)];
     }
@@ -45,7 +46,7 @@ class SurfaceGrid {
     std::vector<std::uint8_t> valid_;
 };
 
-/// One cell's corners: how it is cut into the triangles p0 p1 p2 and p2 p1 p3.
+/// The corners of a cell, which is divided into the triangles p0 p1 p2 and p2 p1 p3.
 struct SurfaceCell {
     struct Corner {
         std::size_t i = 0, j = 0;
@@ -53,17 +54,18 @@ struct SurfaceCell {
     std::array<Corner, 4> p;
 };
 
-/// The cell between (i, j) and (i+1, j+1), cut along a diagonal of valid points, else alternately.
+/// The cell between (i, j) and (i+1, j+1). It is divided along a diagonal whose points are valid;
+/// if both are, diagonals alternate.
 [[nodiscard]] SurfaceCell surface_cell(const SurfaceGrid& grid, std::size_t i, std::size_t j);
 
-/// The interpolation n(u, v) = c1 uv + c2 u + c3 v + c4 of four corners' normals over the plane of
-/// the two coordinates that follow `axis`.
+/// The bilinear interpolation n(u, v) = c1 uv + c2 u + c3 v + c4 of four corners' normals, where u
+/// and v are the two coordinates that follow `axis`.
 struct NormalFit {
-    std::size_t axis = 0;  ///< the dominant one of the normals' sum
+    std::size_t axis = 0;  ///< the dominant axis of the sum of the normals
     std::array<Vec3, 4> c;
 };
 
-/// Nothing when the corners do not determine the coefficients.
+/// Fit the interpolation to four corners; nothing when they do not determine its coefficients.
 [[nodiscard]] std::optional<NormalFit> fit_normals(const std::array<Vec3, 4>& points,
                                                    const std::array<Vec3, 4>& normals);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where text goes that is too long to be held whole.
+// A stream of text in parts, for text that is too long to be held as a whole.
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -7,24 +7,25 @@
 
 namespace lightwalk {
 
-/// About how long the pieces are: short enough for the processor's cache, long enough that their
+/// The approximate length of parts: short enough for the processor's cache, long enough that their
 /// number does not matter.
 inline constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
-/// Takes a text by pieces, in order. Each ends where a line and an item of the scene language end.
+/// Receives a text in parts, in order. Each part ends where a line and an item of the scene
+/// language end.
 class TextSink {
   public:
     virtual ~TextSink() = default;
-    /// `piece` is the caller's again afterwards. What this throws goes through the caller
+    /// Receive a part, which is valid during the call only. Exceptions pass through the caller
     /// unchanged.
     virtual void push(std::string_view piece) = 0;
 };
 
-/// Hands pieces on to another sink, perhaps later.
+/// A sink that forwards parts to another sink, possibly later and on another thread.
 class TextPipe : public TextSink {
   public:
-    /// Returns when all pieces are handed on. Throws what the other sink has thrown, as push()
-    /// does for an earlier piece; it gets nothing more then.
+    /// Wait until all parts have been forwarded. finish() and push() rethrow an exception of the
+    /// other sink, which receives nothing after it.
     virtual void finish() = 0;
 };
 

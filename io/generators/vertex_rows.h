@@ -1,5 +1,5 @@
 #pragma once
-// The points of a surface's grid as text: each is written once, for the four cells around it.
+// The points of a surface grid as text, each converted once for the four cells around it.
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -11,12 +11,13 @@
 
 namespace lightwalk {
 
-/// Keeps two rows of points, so that cells may be written row by row.
+/// A cache of two rows of points, for writing cells row by row.
 class VertexRows {
   public:
     explicit VertexRows(const SurfaceGrid& grid) : grid_(grid) {}
 
-    /// Point (i, j) as a polygon lists it. It stays as it is until row i + 2 or i - 2 is asked for.
+    /// Point (i, j) in the form of a polygon's vertex. The view is valid until row i + 2 or i - 2
+    /// is asked for.
     [[nodiscard]] std::string_view text(std::size_t i, std::size_t j) {
         Row& row = rows_[i % rows_.size()];
         if (row.i != i) write(i, row);
@@ -27,7 +28,7 @@ class VertexRows {
     struct Row {
         std::size_t i = std::numeric_limits<std::size_t>::max();  ///< none yet
         std::string text;
-        std::vector<std::size_t> begin;  ///< of each point's text, and the end of the last
+        std::vector<std::size_t> begin;  ///< offsets of the points' texts, and the last's end
     };
     void write(std::size_t i, Row& row) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a transform does to one primitive of the scene language.
+// Applies a transformation of xform to a primitive of the scene language.
 #include <string>
 #include <vector>
 
@@ -8,18 +8,18 @@
 
 namespace lightwalk {
 
-/// One application of xform: everything but the primitives.
+/// One transformation of xform, with its other effects on primitives.
 struct XformStep {
     Transform transform;
     std::vector<std::string>
-        words;            ///< the transform's options, for primitives that keep them as strings
-    bool invert = false;  ///< turn every surface inside out
-    std::string prefix;   ///< of surface identifiers, without the '.'; "" for none
-    std::string surface_modifier;  ///< replaces the modifier of every surface; "" for none
+        words;            ///< options of the transform, for primitives that store them as strings
+    bool invert = false;  ///< reverse the orientation of every surface
+    std::string prefix;   ///< prefix of surface names, without the '.'; "" for none
+    std::string surface_modifier;  ///< new modifier of every surface; "" to keep theirs
 };
 
-/// Append `primitive`, transformed, to `out`. Throws InputError "bad TYPE "NAME"" for argument
-/// counts that leave nothing to transform. Source: Radiance manual page xform(1).
+/// Append the transformed `primitive` to `out`. Throws InputError "bad TYPE "NAME"" when it has too
+/// few arguments. Source: Radiance manual page xform(1).
 void write_transformed(const PrimitiveText& primitive, const XformStep& step, std::string& out);
 
 }  // namespace lightwalk

@@ -11,18 +11,19 @@
 
 namespace lightwalk {
 
-/// A command that cannot be run at all, or runs away; unlike a command that fails, it ends the
-/// reading.
+/// The error of a command that cannot be run, or exceeds a limit. It ends the reading of the scene,
+/// unlike a command that runs and fails.
 class CommandError : public InputError {
   public:
     using InputError::InputError;
 };
 
-/// The same for a command that may not be run, since it is not built in; scenes can be read on
-/// without it.
+/// The error of a command that is not built in and may not be run. The rest of the scene can be
+/// read without its output.
 class UnknownCommandError : public CommandError {
   public:
-    /// `program`: the first one of the command that is not built in, or all of it.
+    /// `program`: the first program of the command that is not built in, or the whole command when
+    /// it cannot be divided.
     UnknownCommandError(const SourceLocation& where, const std::string& message,
                         std::string program)
         : CommandError(where, message), program_(std::move(program)) {}
@@ -34,28 +35,28 @@ class UnknownCommandError : public CommandError {
 
 struct CommandWord {
     std::string text;
-    bool pattern = false;  ///< holds an unquoted * ? or [: file names that match take its place
+    bool pattern = false;  ///< has an unquoted * ? or [: stands for the file names that match it
 };
 using SimpleCommand = std::vector<CommandWord>;  ///< a program and its arguments; never empty
-using Pipeline = std::vector<SimpleCommand>;     ///< each one's output is the next one's input
+using Pipeline = std::vector<SimpleCommand>;     ///< the output of each is the input of the next
 
-/// Split a command as sh(1) does. Nothing when it needs a real shell: redirections, variables,
-/// command substitution, conditions, groups, or a syntax error.
+/// Split a command into pipelines as sh(1) does. Nothing when it needs a real shell, which is the
+/// case for redirections, variables, command substitution, conditions, groups, and syntax errors.
 [[nodiscard]] std::optional<std::vector<Pipeline>> split_command(std::string_view text);
 
-/// The words with patterns replaced by the names in `files` that match in `directory`, sorted; a
-/// pattern without a match stays as it is.
+/// The words of a command, where each pattern is replaced by the sorted names of the files in
+/// `directory` that match it; a pattern without a match stays as it is.
 [[nodiscard]] std::vector<std::string> expand_patterns(const SimpleCommand& command,
                                                        const std::string& directory,
                                                        FileSource& files);
 
-/// The command without the '!' that it may begin with.
+/// `command` without the '!' that it may begin with.
 [[nodiscard]] std::string_view without_command_mark(std::string_view command);
 
-/// The command for messages: its first line, shortened, with the '!'.
+/// `command` for messages: its first line, shortened, with the '!'.
 [[nodiscard]] std::string abbreviate_command(const std::string& command);
 
-/// The word as the shell reads it back.
+/// `word` in quotes where the shell needs them to read it unchanged.
 [[nodiscard]] std::string quoted_for_shell(std::string_view word);
 
 }  // namespace lightwalk

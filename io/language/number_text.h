@@ -1,6 +1,6 @@
 #pragma once
-// Numbers of the scene language as text: the plain ones, which nearly all are, without the detours
-// of the others.
+// Conversion between numbers and text, with a fast path for plain decimals, as nearly all numbers
+// of scene files are.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -8,13 +8,14 @@
 namespace lightwalk {
 
 /// Read a plain decimal at the beginning of `text`: [+-]digits[.digits], then perhaps an exponent.
-/// It is taken when its digits are a whole number below 2^53 times a power of ten from -22 to 22:
-/// both are doubles, and so the one product or quotient is the nearest double, as std::from_chars
-/// finds it. Source: Clinger, "How to read floating point numbers accurately", PLDI (1990).
-/// @return  how many characters the number has; 0 when it is not so plain, and `value` is as it was
+/// Plain means: the digits are an integer below 2^53, times 10^k with k from -22 to 22. Both
+/// factors are doubles without rounding, so one product or quotient of them is the nearest double,
+/// equal to the result of std::from_chars. Source: Clinger, "How to read floating point numbers
+/// accurately", PLDI (1990).
+/// @return  the number of characters read; 0, with `value` unchanged, when the number is not plain
 [[nodiscard]] std::size_t parse_simple_real(std::string_view text, double& value);
 
-/// Append `value` as printf's %.Ng in the C locale, N being `digits`. Throws InputError for a
+/// Append `value` as printf's %.Ng in the C locale, with N = `digits`. Throws InputError for a
 /// number that is not finite.
 void append_real(double value, int digits, std::string& out);
 

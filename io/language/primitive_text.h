@@ -1,5 +1,5 @@
 #pragma once
-// One primitive as scene text: read without resolving names, and written back.
+// A primitive as scene text, read without resolving names, and written.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,34 +17,34 @@ struct PrimitiveText {
     std::string type_word;
     PrimitiveType type{};
     std::string name;
-    std::vector<std::string> strings;  ///< an alias: its one reference
+    std::vector<std::string> strings;  ///< for an alias the name that it refers to
     std::vector<double> reals;
     SourceLocation where;
 };
 
-/// The first three words, MODIFIER TYPE IDENTIFIER, as far as the text goes; `type` is not set yet.
-/// `primitive` may be one that was read before: its memory is used again, its arguments are
-/// forgotten.
+/// Read the first three words, MODIFIER TYPE IDENTIFIER; words beyond the end of the text are
+/// empty. `type` is not set. `primitive` may hold an earlier primitive: its memory is reused, its
+/// arguments are removed.
 void read_primitive_head(SceneTokenizer& tokens, PrimitiveText& primitive);
 
-/// Set `type` from its word. Throws InputError "unknown type ...".
+/// Set `type` from `type_word`. Throws InputError "unknown type ...".
 void resolve_type(PrimitiveText& primitive);
 
-/// Read the counts and arguments that follow the head (an alias: its reference). Throws InputError
-/// "bad arguments for TYPE "NAME": ..." when they are not what the counts promise.
+/// Read the counts and arguments that follow the head, or the reference of an alias. Throws
+/// InputError "bad arguments for TYPE "NAME": ..." when the arguments do not agree with the counts.
 void read_primitive_arguments(SceneTokenizer& tokens, PrimitiveText& primitive);
 
-/// All of the above, for readers that do not look names up.
+/// Read a whole primitive: its head, its type and its arguments.
 [[nodiscard]] PrimitiveText read_primitive(SceneTokenizer& tokens);
 
-/// How `write_primitive` rounds numbers: significant decimal digits.
+/// Significant decimal digits that `write_primitive` is usually called with.
 inline constexpr int kFullDigits = 12;
 
-/// Append a word, in quotes where it must be.
+/// Append a word, in quotes where the scene language needs them.
 void append_word(std::string_view word, std::string& out);
 
-/// Append the primitive as scene text, numbers with `digits` significant digits, words quoted where
-/// they must be. Throws InputError for a number that is not finite.
+/// Append a primitive as scene text; numbers have `digits` significant digits. Throws InputError
+/// for a number that is not finite.
 void write_primitive(const PrimitiveText& primitive, int digits, std::string& out);
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// Words of the scene language: white space, quotes, comments and commands.
+// The tokenizer of the scene language: words, quotes, comments and commands.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,28 +11,28 @@
 
 namespace lightwalk {
 
-/// Walks over scene text, of which it keeps no copy. Keeps the line number for messages.
+/// Reads scene text from front to back, and counts lines for messages. The text is not copied.
 class SceneTokenizer {
   public:
-    /// @param line  of the text's first character, for text that is a piece of a longer one
+    /// @param line  the line number of the text's first character, for a part of a longer text
     SceneTokenizer(std::string_view text, FileName file, std::int32_t line = 1)
         : text_(text), where_{std::move(file), line} {}
 
     enum class Item { end, comment, command, primitive };
-    /// Skip white space and tell what begins here; does not consume it.
+    /// Skip white space and return the kind of item that begins there, without consuming it.
     [[nodiscard]] Item peek();
-    std::string_view comment();  ///< consume the rest of the line, '#' included
-    /// Consume to the end of the line, '!' included. Backslash-newline does not end it; both
-    /// characters are kept.
+    std::string_view comment();  ///< consume and return the rest of the line, '#' included
+    /// Consume and return a command up to the end of the line, '!' included. A backslash before the
+    /// line end continues it; both characters are kept.
     [[nodiscard]] std::string command();
-    /// Next word with quotes removed; nothing at the end of the text. It stays as it is until the
-    /// next word is asked for, and no longer than the text. Words longer than 64 KiB are an
-    /// InputError.
+    /// Consume and return the next word, with quotes removed; nothing at the end of the text. The
+    /// view is valid until the next call, and no longer than the text. Throws InputError for words
+    /// longer than 64 KiB.
     [[nodiscard]] std::optional<std::string_view> word();
-    /// The next word where it is a number that parse_simple_real takes; else it is not consumed.
+    /// Consume the next word if parse_simple_real() can read it; else return false.
     [[nodiscard]] bool simple_real(double& value);
     [[nodiscard]] const SourceLocation& where() const { return where_; }
-    /// How many characters of the text have been read, and how many not.
+    /// How many characters of the text have been consumed, and how many are left.
     [[nodiscard]] std::size_t offset() const { return at_; }
     [[nodiscard]] std::size_t left() const { return text_.size() - at_; }
 
@@ -44,7 +44,7 @@ class SceneTokenizer {
     std::string_view text_;
     std::size_t at_ = 0;
     SourceLocation where_;
-    std::string unquoted_;  ///< the last word, where it is not as in the text
+    std::string unquoted_;  ///< the last word, if it differs from its text because of quotes
 };
 
 }  // namespace lightwalk

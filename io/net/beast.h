@@ -1,6 +1,6 @@
 #pragma once
-// Boost.Asio and Boost.Beast, compiled once: in beast.cpp. Whoever speaks to sockets includes them
-// from here, so that all agree on that.
+// Boost.Asio and Boost.Beast with separate compilation: their code is compiled in beast.cpp only.
+// All files that use sockets include this header, so that all have the same macros.
 #ifndef BOOST_ASIO_SEPARATE_COMPILATION
 #define BOOST_ASIO_SEPARATE_COMPILATION
 #endif

@@ -14,27 +14,30 @@ namespace lightwalk {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
-/// Whom a client's session reports to.
+/// Receives the events of client sessions.
 class ClientHost {
   public:
     virtual ~ClientHost() = default;
     virtual void opened(ClientId client) = 0;
     virtual void message(ClientId client, std::string_view text) = 0;
-    /// Once; `opened`: whether it had been. The session's owner may let go of it.
+    /// Called once for each session; `opened`: whether opened() had been called for it. The owner
+    /// may release the session.
     virtual void closed(ClientId client, bool opened) = 0;
 };
 
-/// All members are called on the server's thread, by who holds a shared pointer to it.
+/// All member functions must be called on the server's thread, while a shared pointer to the
+/// session is held.
 class ClientSession final : public Connection, public std::enable_shared_from_this<ClientSession> {
   public:
     ClientSession(boost::beast::tcp_stream stream, ClientId id, const WebLimits& limits,
                   ClientHost& host, List& list);
 
     void accept(const HttpRequest& request);
-    /// Behind what waits. A client that leaves too much waiting is cut off.
+    /// Append a message to the queue of outgoing ones. A client whose queue exceeds the limits is
+    /// disconnected.
     void send(std::shared_ptr<const std::string> bytes, bool binary);
-    /// An orderly end: a bye behind the texts that wait, then a close frame; cut off if that takes
-    /// too long.
+    /// End the session in order: a `bye` after the texts in the queue, then a close frame. The
+    /// socket is closed when that takes longer than WebLimits::farewell.
     void end(boost::beast::websocket::close_code code, const std::string& reason);
     void stop(const std::string& reason) override;
 
@@ -55,17 +58,17 @@ class ClientSession final : public Connection, public std::enable_shared_from_th
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
     boost::asio::steady_timer close_timer_;
     boost::beast::flat_buffer received_;
-    std::deque<Outgoing> waiting_;  ///< the first is being written, while writing_
+    std::deque<Outgoing> waiting_;  ///< the queue; while writing_ its first is being written
     boost::beast::websocket::close_reason reason_;
     RateLimit rate_;
     ClientId id_;
     const WebLimits& limits_;
     ClientHost& host_;
-    std::size_t text_bytes_ = 0, frames_ = 0;  ///< in waiting_
+    std::size_t text_bytes_ = 0, frames_ = 0;  ///< texts [bytes] and frames in waiting_
     bool open_ = false, writing_ = false;
-    bool ended_ = false;    ///< nothing is taken from it or for it any more
-    bool left_ = false;     ///< the host knows
-    bool flooded_ = false;  ///< by control frames
+    bool ended_ = false;    ///< no more messages are accepted in either direction
+    bool left_ = false;     ///< ClientHost::closed() has been called
+    bool flooded_ = false;  ///< the client has sent more control frames than the rate limit allows
 };
 
 }  // namespace lightwalk

@@ -1,11 +1,12 @@
 #pragma once
-// What the sockets of a web server have in common.
+// The base class of the web server's connections.
 #include <set>
 #include <string>
 
 namespace lightwalk {
 
-/// A socket that the server has, in its list while it lives. On the server's thread.
+/// A connection of the server; it is in the server's list as long as it exists. For the server's
+/// thread only.
 class Connection {
   public:
     using List = std::set<Connection*>;
@@ -14,7 +15,7 @@ class Connection {
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
-    /// The server ends.
+    /// Close the connection, because the server ends.
     virtual void stop(const std::string& reason) = 0;
 
   private:

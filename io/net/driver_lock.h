@@ -1,5 +1,5 @@
 #pragma once
-// Who sits where in a walk: one client drives, the others watch. Values alone.
+// The roles of a walk's clients: one drives, the others watch. Data only, no sockets.
 #include <deque>
 #include <optional>
 #include <string>
@@ -12,25 +12,27 @@ namespace lightwalk {
 
 class DriverLock {
   public:
-    /// Walks that are remembered for clients that return.
+    /// How many sessions are remembered for clients that return.
     static constexpr std::size_t kMostSessions = 64;
 
-    /// A client says hello. It drives when nobody else does. False: it has said so before.
+    /// Add a client, after its `hello`. It drives when nobody else does. False when it is here
+    /// already.
     bool join(ClientId client, const std::string& session);
-    /// Nobody drives when the driver leaves, until somebody takes over.
+    /// Remove a client. When the driver leaves nobody drives until somebody takes over.
     void leave(ClientId client);
-    /// A watcher wants to drive. False: somebody does, or it has not said hello.
+    /// Make a client the driver. False when another one is, or this one has not joined.
     bool acquire(ClientId client);
-    /// The driver hands over. False: it does not drive, or the other is not there.
+    /// Make `to` the driver in place of `from`. False when `from` does not drive, or `to` has not
+    /// joined.
     bool hand(ClientId from, ClientId to);
 
     [[nodiscard]] std::optional<ClientId> driver() const { return driver_; }
     [[nodiscard]] bool drives(ClientId client) const { return driver_ == client; }
     [[nodiscard]] bool is_here(ClientId client) const;
-    /// All that have said hello, in that order.
+    /// All clients, in the order in which they joined.
     [[nodiscard]] std::vector<ClientId> clients() const;
 
-    /// Where a client stands, for when it returns.
+    /// Store a client's view under its session, for when it returns.
     void remember(ClientId client, const View& view);
     [[nodiscard]] std::optional<View> place(ClientId client) const;
 

@@ -8,7 +8,7 @@
 
 namespace lightwalk {
 
-/// An asset, and the name of its contents by which browsers ask whether it changed.
+/// An asset with its ETag, by which browsers ask whether it has changed.
 struct StoredAsset {
     WebAsset asset;
     std::string etag;
@@ -16,7 +16,7 @@ struct StoredAsset {
 
 class HttpSession;
 
-/// Whom an HTTP connection asks.
+/// What an HTTP session needs of the server.
 class HttpHost {
   public:
     virtual ~HttpHost() = default;
@@ -24,11 +24,11 @@ class HttpHost {
     [[nodiscard]] virtual const StoredAsset* asset(const std::string& path) const = 0;
     [[nodiscard]] virtual bool room_for_client() const = 0;
     virtual void upgrade(boost::beast::tcp_stream stream, const HttpRequest& request) = 0;
-    /// The session waits for answer(); keep it.
+    /// Keep `session`, which waits for a call of its answer().
     virtual void save(const std::string& path, std::shared_ptr<HttpSession> session) = 0;
 };
 
-/// All members are called on the server's thread.
+/// All member functions must be called on the server's thread.
 class HttpSession final : public Connection, public std::enable_shared_from_this<HttpSession> {
   public:
     HttpSession(boost::asio::ip::tcp::socket socket, const WebLimits& limits, HttpHost& host,
@@ -36,7 +36,7 @@ class HttpSession final : public Connection, public std::enable_shared_from_this
 
     /// Wait for a request.
     void read();
-    /// To the request that went to HttpHost::save().
+    /// Answer the request that was passed to HttpHost::save().
     void answer(WebAnswer answer);
     void stop(const std::string& reason) override;
 

@@ -1,7 +1,7 @@
 #pragma once
-// What a walk tells its browsers: values, and the texts they become. The format is in README.md
-// beside this. Numbers that are not finite are written as null, bytes that are no UTF-8 (names in
-// scenes may be anything) as U+FFFD.
+// The text messages from server to browser, as values and as JSON in the format of
+// io/net/README.md. Numbers that are not finite become null. Names in scenes may be any bytes;
+// those that are not UTF-8 become U+FFFD.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ struct NamedView {
     std::string name;
     View view;
 };
-/// The first reply, to a hello.
+/// `welcome`, the answer to HelloRequest.
 struct WelcomeReply {
     std::string version;
     std::uint32_t you = 0;
@@ -26,16 +26,16 @@ struct WelcomeReply {
     WalkSizeLimit max_size;
     double fps = 30;
     std::vector<NamedView> views;
-    std::optional<View> view;  ///< where this client stands
+    std::optional<View> view;  ///< where this client was last, if it was here before
     DisplayRequest display;
     SettingsRequest settings;
 };
-/// The scene is being read.
+/// `loading`: the scene is being read.
 struct LoadingReply {
     std::string text;
-    double share = 0;
+    double share = 0;  ///< progress, 0 to 1
 };
-/// The scene cannot be read.
+/// `failed`: the scene cannot be read.
 struct FailedReply {
     std::vector<std::string> messages;  ///< "file:line: ..."
 };
@@ -69,43 +69,43 @@ struct ProbeValue {
 };
 struct ProbesReply {
     std::vector<ProbeValue> probes;
-    double settled = 0;  ///< share
+    double settled = 0;  ///< progress of the picture's refinement; 1: values are final
 };
 struct GlareOutline {
-    std::vector<std::pair<double, double>> outline;  ///< 0 to 1 of the picture
+    std::vector<std::pair<double, double>> outline;  ///< x, y as shares of the picture, 0 to 1
     double luminance = 0;                            ///< [cd/m²]
     double solid_angle = 0;                          ///< [sr]
     double position_index = 1;
 };
 struct GlareReply {
     std::uint32_t id = 0;
-    double done = 0;  ///< share
+    double done = 0;  ///< progress, 0 to 1; dgp and sources are valid at 1
     double dgp = 0;
     std::vector<GlareOutline> sources;
 };
 enum class WalkPhase { moving, filling, refining, ambient, done };
 struct StateReply {
     double fps = 0;
-    double reuse = 0;  ///< share of the pixels
+    double reuse = 0;  ///< share of the pixels that points of earlier frames answered
     double rays_per_second = 0;
     WalkPhase phase = WalkPhase::moving;
-    double share = 0;  ///< of the phase that is done
+    double share = 0;  ///< progress of the phase, 0 to 1
     int ranks = 1, threads = 1;
     std::uint64_t points = 0;
 };
-/// What the driver sees, to those who watch.
+/// `view`, to watchers: what the driver sees.
 struct ViewReply {
     View view;
 };
 struct DisplayReply {
     DisplayRequest display;
 };
-/// A request that cannot be done.
+/// `refused`: a request cannot be answered.
 struct RefusedReply {
     std::string text;
     std::optional<std::uint32_t> id;
 };
-/// Before the server closes.
+/// `bye`, the last message before the server closes the connection.
 struct ByeReply {
     std::string reason;
 };

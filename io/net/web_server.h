@@ -1,6 +1,6 @@
 #pragma once
-// The walk's web server: assets over HTTP, conversations with browsers over WebSockets. What is
-// said in them, and who is let in, stands in README.md beside this.
+// The web server of a walk: assets over HTTP, messages over WebSockets. The messages, and the rules
+// for requests, are in io/net/README.md.
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -11,43 +11,43 @@
 
 namespace lightwalk {
 
-/// A browser with an open WebSocket. Numbers rise from 1 and are not used again.
+/// The number of a browser with an open WebSocket. Numbers rise from 1 and are not reused.
 enum class ClientId : std::uint32_t {};
 
-/// What is served at a path. The texts must outlive the server.
+/// A file that is served at a path. The texts must outlive the server.
 struct WebAsset {
     std::string_view path;          ///< "/", "/page/walk.js"
     std::string_view content_type;  ///< "text/javascript; charset=utf-8"
     std::string_view bytes;
 };
 
-/// How much the server takes, and how long it waits.
+/// Limits of what the server accepts, and its timeouts.
 struct WebLimits {
     using Time = std::chrono::milliseconds;
     int clients = 8;
-    int connections = 256;  ///< all sockets; more are closed at once
-    int saves = 4;          ///< requests of /save/ that wait for their answer
+    int connections = 256;  ///< number of all sockets; further ones are closed at once
+    int saves = 4;          ///< number of requests for /save/ that wait for their answer
     std::size_t header_bytes = std::size_t{16} * 1024;
     std::size_t message_bytes = std::size_t{64} * 1024;
-    /// Of a client, on average; pings count as well. A page on a screen of 240 Hz sends a view and
-    /// an acknowledgement for each picture.
+    /// Messages of a client, on average; pings count as well. A page on a screen of 240 Hz sends a
+    /// view and an acknowledgement for each picture.
     double messages_per_second = 500;
     double messages_at_once = 1000;
     std::size_t text_bytes =
-        std::size_t{1024} * 1024;  ///< that wait for a slow reader before it is closed
-    std::size_t frames = 4;        ///< binary messages that do
-    Time request{5'000};  ///< from connecting, or from the answer before, to a whole request
-    Time answer{60'000};  ///< until an answer has been taken
-    /// Of a WebSocket; after half of it it is pinged. One that broke the protocol and does not
-    /// leave is cut off in half of it, too.
+        std::size_t{1024} * 1024;  ///< texts in the queue of a slow client before it is closed
+    std::size_t frames = 4;        ///< binary messages in the queue before it is closed
+    Time request{5'000};           ///< from connecting, or from the last answer, to a whole request
+    Time answer{60'000};           ///< until the client has received an answer
+    /// A WebSocket that sends nothing for so long is closed; after half of the time it is pinged. A
+    /// client that broke the protocol has half of the time to close its side.
     Time silence{20'000};
     Time close_timeout{2'000};  ///< from the decision to close a WebSocket until its socket is cut
 };
 
 struct WebServerOptions {
-    std::string address = "127.0.0.1";  ///< as numbers, or "localhost"
-    std::uint16_t port = 8080;          ///< 0: any that is free
-    std::string token;                  ///< empty: none is demanded; see make_token()
+    std::string address = "127.0.0.1";  ///< numeric, or "localhost"
+    std::uint16_t port = 8080;          ///< 0: any free port
+    std::string token;                  ///< see make_token(); with an empty one none is demanded
     WebLimits limits;
 };
 
@@ -55,12 +55,12 @@ struct WebAnswer {
     unsigned status = 200;
     std::string content_type = "text/plain; charset=utf-8";
     std::string bytes;
-    std::string file_name;  ///< to save it under; empty: none. Letters, digits, "._-".
+    std::string file_name;  ///< name for the download, of letters, digits, "._-"; empty for none
 };
 
-/// Answers one request, once: further answers are ignored. Copies are the same; when the last is
-/// gone without an answer the browser gets a 503. Any thread may call it, also after the server is
-/// gone.
+/// Answers one request; only the first call has an effect. All copies answer the same request; when
+/// the last of them is destroyed without an answer the browser gets a 503. Any thread may call it,
+/// also after the server is destroyed.
 class WebReply {
   public:
     explicit WebReply(std::function<void(WebAnswer)> deliver);
@@ -71,22 +71,23 @@ class WebReply {
     std::shared_ptr<State> state_;
 };
 
-/// The program behind the server. Called on the server's thread, one call at a time: a long one
-/// keeps everybody waiting. What it throws ends WebServer::run(), but for InputError in message()
+/// The program behind the server. It is called on the server's thread, one call at a time, so a
+/// long call delays all clients. An exception ends WebServer::run(), except InputError in message()
 /// and save().
 class WebHandler {
   public:
     virtual ~WebHandler() = default;
     virtual void opened(ClientId client) = 0;
-    /// An InputError closes this client with its text as reason.
+    /// A message of a client. An InputError closes the client, with its text as the reason.
     virtual void message(ClientId client, std::string_view text) = 0;
-    /// Once for every one that opened, as soon as it is decided; then nothing more comes from it.
+    /// Called once for every client that opened, as soon as its end is decided; no more messages of
+    /// it follow.
     virtual void closed(ClientId client) = 0;
-    /// A request for `path`, which begins with "/save/". An InputError becomes its answer (503).
+    /// A request for `path`, which begins with "/save/". An InputError becomes the answer (503).
     virtual void save(const std::string& path, WebReply reply) = 0;
 };
 
-/// Listens from construction on, works in run().
+/// Listens from construction on; serves in run().
 class WebServer {
   public:
     /// `handler` must outlive the server. Throws InputError "address:port: why" when it cannot
@@ -97,21 +98,22 @@ class WebServer {
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
 
-    [[nodiscard]] std::uint16_t port() const;  ///< the one that it listens on
-    /// "http://host:port/", with the token where one is demanded: what to open in a browser.
+    [[nodiscard]] std::uint16_t port() const;  ///< the port that it listens on
+    /// The address to open in a browser: "http://host:port/", with the token where one is demanded.
     [[nodiscard]] std::string url() const;
 
-    /// Serve, on the caller's thread, until stop(). Once.
+    /// Serve on the caller's thread until stop(). May be called once.
     void run();
 
-    // Any thread may call these, at any time in the server's life. A client that is gone is no
-    // error: nothing happens.
-    /// Say farewell to all and let run() return, after WebLimits::farewell at the latest.
+    // Any thread may call the following at any time. For a client that has disconnected they do
+    // nothing.
+    /// Close all connections and let run() return, after WebLimits::farewell at the latest.
     void stop(std::string reason = "the server ends");
     void send_text(ClientId client, std::string text);
-    /// The bytes are shared, not copied: one frame goes to many.
+    /// The bytes are shared, not copied, as one frame is sent to many clients.
     void send_binary(ClientId client, std::shared_ptr<const std::string> bytes);
-    /// A bye with the reason behind what waits to be sent (frames aside), then the end.
+    /// Disconnect a client, after the texts in its queue and a `bye` with the reason; frames in its
+    /// queue are dropped.
     void close(ClientId client, std::string reason);
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// How bright a picture is: what its display has to be set to.
+// The histogram of a picture's brightness, from which exposure is chosen.
 #include <array>
 #include <cstddef>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace lightwalk {
 
-/// Counts of brightness in steps of an eighth of an octave, 2^-20 to 2^20 W/(m² sr); what is
-/// beyond lies in the first and the last step. Pixels that are black or no numbers do not count.
+/// Counts of brightness in steps of an eighth of an octave, 2^-20 to 2^20 W/(m² sr); darker and
+/// brighter pixels are counted in the first and the last step, black ones and NaN not at all.
 class BrightnessHistogram {
   public:
     static constexpr int kStepsPerOctave = 8;
@@ -17,18 +17,18 @@ class BrightnessHistogram {
     static constexpr std::size_t kSteps =
         static_cast<std::size_t>(kHighest - kLowest) * kStepsPerOctave;
 
-    /// @param stride  only every so-manieth pixel is looked at
+    /// @param stride  only every stride-th pixel is counted
     explicit BrightnessHistogram(std::span<const Rgb> pixels, std::size_t stride = 1);
 
     [[nodiscard]] std::span<const double> counts() const { return counts_; }
     [[nodiscard]] double total() const { return total_; }
-    /// Middle of a step [W/(m² sr)].
+    /// The brightness at the middle of a step [W/(m² sr)].
     [[nodiscard]] static double middle(std::size_t step);
 
-    /// Mean of the logarithms, back as a brightness; 0 when nothing was counted [W/(m² sr)].
+    /// The geometric mean of the brightness [W/(m² sr)]; 0 when nothing was counted.
     [[nodiscard]] double log_average() const;
-    /// What this share of the pixels stays below, by their largest channels; 0 when nothing was
-    /// counted [W/(m² sr)].
+    /// The quantile `share` of the pixels' largest channels [W/(m² sr)]; 0 when nothing was
+    /// counted.
     [[nodiscard]] double below_which(double share) const;
 
   private:

@@ -1,5 +1,6 @@
 #pragma once
-// How radiance becomes the colours of a screen, many pixels at a time.
+// Conversion of radiance to the colours of a screen, many pixels at a time, with a state of
+// adaptation.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -11,55 +12,55 @@
 
 namespace lightwalk {
 
-/// What the viewer asks for.
+/// The settings that a viewer chooses.
 struct DisplaySettings {
     enum class Mode : std::uint8_t {
         tone,          ///< as on a photograph, or to a person's eye
         false_colour,  ///< luminance as colours of a scale
     };
     Mode mode = Mode::tone;
-    bool automatic = true;  ///< exposure follows what is looked at
+    bool automatic = true;  ///< exposure adapts to the pictures
     double ev = 0;          ///< when not automatic [stops]: radiance 2^-ev W/(m² sr) becomes 1
-    bool human = false;     ///< tone: what a person would see (see HumanTone)
-    // False colour: ends of the scale [cd/m²], 0 < low < high when it is logarithmic.
+    bool human = false;     ///< tone mapping that models human vision (see HumanTone)
+    // The ends of the scale of false colours [cd/m²]; 0 < low < high when it is logarithmic.
     double low = 1, high = 10000;
     bool logarithmic = true;
     friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
 };
 
-/// Eyes take a moment to get used to light: exposure follows what the pictures call for.
+/// Models the adaptation of the eye: exposure follows the brightness of the pictures with a delay.
 class Adaptation {
   public:
-    /// The next picture, so long after the one before.
+    /// Adapt to the next picture, `seconds` after the previous one.
     void look_at(const BrightnessHistogram& picture, double seconds);
 
-    [[nodiscard]] double average() const { return average_; }  ///< [W/(m² sr)], 0: no light yet
-    [[nodiscard]] double white() const { return white_; }      ///< brightest worth drawing
+    [[nodiscard]] double average() const { return average_; }  ///< [W/(m² sr)]; 0 before any light
+    [[nodiscard]] double white() const { return white_; }      ///< shown as white [W/(m² sr)]
 
   private:
     double average_ = 0, white_ = 0;
 };
 
-/// The colours of one picture. A pixel's bytes are a function of its radiance alone; many threads
-/// may ask.
+/// The colours of one picture. The bytes of a pixel depend on its radiance only, so threads may
+/// convert parts of the picture at the same time.
 class Display {
   public:
-    /// @param picture  for human vision; otherwise what the eye is adapted to tells
+    /// @param picture  used for human vision only; otherwise `eye` determines the exposure
     Display(const DisplaySettings& settings, const Adaptation& eye,
             const BrightnessHistogram& picture);
 
-    /// sRGB bytes r, g, b of each pixel; bytes.size() is three times that of pixels. Within one
-    /// step of display_pixel() where that has the same tone.
+    /// Write sRGB bytes r, g, b of each pixel; bytes.size() is 3 pixels.size(). They differ by at
+    /// most one step from those of display_pixel() with the same tone.
     void show(std::span<const Rgb> pixels, std::span<std::uint8_t> bytes) const;
 
-    /// From radiance to display values before any curve.
+    /// The factor from radiance to display values, before any curve.
     [[nodiscard]] double exposure() const { return exposure_; }
 
   private:
     struct Entry {
-        float factor = 1;  ///< of the colour
+        float factor = 1;  ///< that the colour is multiplied by
         float white = 0;   ///< added to all channels
-        float grey = 0;    ///< share of it that is shown without colour
+        float grey = 0;    ///< share of the brightness that is shown without colour
     };
     template <class Make>
     void fill_table(Make make);
@@ -68,11 +69,11 @@ class Display {
 
     DisplaySettings settings_;
     double exposure_ = 1;
-    std::vector<Entry> table_;  ///< by brightness, or by the largest channel
-    std::vector<std::array<std::uint8_t, 3>> colours_;  ///< false ones, by brightness
+    std::vector<Entry> table_;  ///< indexed by brightness, or by the largest channel
+    std::vector<std::array<std::uint8_t, 3>> colours_;  ///< false colours, indexed by brightness
 };
 
-/// The colour of a place on the scale, 0 ... 1, as sRGB values 0 ... 1. Source: Mikhailov,
+/// The colour at the place `at` (0 to 1) on the scale, as sRGB values 0 to 1. Source: Mikhailov,
 /// "Turbo, an improved rainbow colormap for visualization", Google Research (2019); its
 /// approximation by polynomials.
 [[nodiscard]] std::array<double, 3> scale_colour(double at);

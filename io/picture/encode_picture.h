@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as the bytes of a file, in memory: for files, and for viewers that get them over a wire.
+// Encoders of pictures to the bytes of a file, in memory.
 #include <string>
 #include <vector>
 
@@ -8,19 +8,19 @@
 
 namespace lightwalk {
 
-/// JPEG's scale of 1 (smallest) to 100; 95 shows no blocks.
+/// Quality on JPEG's scale of 1 (smallest file) to 100; at 95 no blocks are visible.
 inline constexpr int kJpegQuality = 95;
 
-// All take pictures with one pixel a place, width times height of them, and throw InputError
-// "cannot encode FORMAT: ..." where OpenImageIO refuses (a picture without pixels) or its module is
-// missing. Any thread may call them. For .hdr see encode_hdr in picture.h.
+// All encoders need width times height pixels, and throw InputError "cannot encode FORMAT: ..."
+// when OpenImageIO refuses the picture (e.g. one without pixels) or its module is missing. Any
+// thread may call them. For .hdr see encode_hdr in picture.h.
 
-/// OpenEXR: float R G B [W/(m² sr)] with Radiance's primaries; the header's lines as comments,
-/// CAPDATE as the date.
+/// OpenEXR with float channels R G B [W/(m² sr)] and Radiance's primaries. The lines of `header`
+/// become comments, CAPDATE the date.
 [[nodiscard]] std::string encode_exr(const Picture& picture, const PictureHeader& header);
-/// OpenEXR: one float channel Z; `depth` is row by row from the top.
+/// OpenEXR with one float channel Z; `depth` is row by row from the top [m].
 [[nodiscard]] std::string encode_exr(int width, int height, const std::vector<float>& depth);
-/// 8-bit sRGB. The tone is settled already: the parts of one picture are shown with one.
+/// PNG with 8-bit sRGB. The tone is an argument, so that parts of one picture can have the same.
 [[nodiscard]] std::string encode_png(const Picture& picture, const DisplayTone& tone);
 [[nodiscard]] std::string encode_jpeg(const Picture& picture, const DisplayTone& tone,
                                       int quality = kJpegQuality);

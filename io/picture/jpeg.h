@@ -1,6 +1,6 @@
 #pragma once
-// JPEG for pictures that are seen for a moment: by libjpeg-turbo itself, without OpenImageIO's
-// module, and without memory of its own a picture.
+// A fast JPEG encoder for the frames of a walk, which calls libjpeg-turbo directly and reuses its
+// memory.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace lightwalk {
 
-/// A rectangle of 8-bit pixels r g b, rows from the top, their beginnings `stride` bytes apart.
+/// A rectangle of 8-bit pixels r g b, in rows from the top that begin `stride` bytes apart.
 struct RgbRows {
     const std::uint8_t* first = nullptr;
     int width = 0, height = 0;
     std::size_t stride = 0;  ///< [bytes], at least 3 width
 };
 
-/// From this quality on colours keep their full resolution (4:4:4, else 4:2:0).
+/// The least quality at which colours keep their full resolution (4:4:4); below it 4:2:0.
 inline constexpr int kJpegFullColour = 90;
 
-/// Compresses one rectangle after another; one object a thread.
+/// A compressor whose memory is reused from rectangle to rectangle; for one thread.
 class JpegCompressor {
   public:
     JpegCompressor();
@@ -27,9 +27,9 @@ class JpegCompressor {
     JpegCompressor(JpegCompressor&&) noexcept;
     JpegCompressor& operator=(JpegCompressor&&) noexcept;
 
-    /// The bytes of a JPEG file, up to the next call; `quality` 1 to 100. The same pixels give the
-    /// same bytes. Throws InputError "cannot encode jpeg: ..." for a rectangle that is empty or has
-    /// a side beyond 65535, and when libjpeg-turbo fails.
+    /// Encode a rectangle as a JPEG file. The returned bytes are valid until the next call, and
+    /// depend on the pixels and `quality` (1 to 100) only. Throws InputError "cannot encode jpeg:
+    /// ..." for an empty rectangle, for a side beyond 65535, and when libjpeg-turbo fails.
     [[nodiscard]] std::span<const std::uint8_t> compress(const RgbRows& rows, int quality);
 
   private:

@@ -16,31 +16,31 @@ struct Picture {
     std::vector<Rgb> pixels;
 };
 
-/// What a picture's header says beside the pixels; lines as Radiance tools expect them (see
+/// The header of a picture; its lines are in the form that Radiance's tools expect (see
 /// picture_header.h).
 struct PictureHeader {
-    /// History and variables, without #?RADIANCE, FORMAT and resolution.
+    /// The lines of history and variables, without #?RADIANCE, FORMAT and resolution.
     std::vector<std::string> lines;
     bool xyz = false;  ///< pixels are stored as CIE XYZ, Y in cd/m² (FORMAT=32-bit_rle_xyze)
 };
 
-/// The bytes of a Radiance picture (.hdr): header, new run-length scanlines, identical to what
-/// Radiance writes. The picture is radiance also where `header` asks for XYZ.
+/// Encode a Radiance picture (.hdr) with scanlines in the new run-length form; the bytes are
+/// identical to those of Radiance. `picture` is radiance, also when `header` asks for XYZ.
 [[nodiscard]] std::string encode_hdr(const Picture& picture, const PictureHeader& header);
-/// Read any RGBE/XYZE picture; EXPOSURE and COLORCORR are undone and left out of `header`. Throws
-/// InputError.
+/// Decode an RGBE or XYZE picture. EXPOSURE and COLORCORR are undone, and left out of `header`.
+/// Throws InputError.
 [[nodiscard]] Picture read_hdr(std::string_view bytes, const std::string& name,
                                PictureHeader* header = nullptr);
 
-/// Write by extension: .hdr .pic (Radiance), .exr (float RGB), .png .jpg .jpeg (sRGB, see tone.h).
-/// The file appears whole or not at all (temporary name, then rename). Throws InputError for other
-/// extensions and failed writes, naming the path.
+/// Write a picture in the format of the extension: .hdr .pic (Radiance), .exr (float RGB), .png
+/// .jpg .jpeg (sRGB, see tone.h). The file is written atomically. Throws InputError with the path
+/// for other extensions and failed writes.
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone);
-/// Whether write_picture makes a Radiance picture of this name.
+/// Whether write_picture writes a Radiance picture for this name.
 [[nodiscard]] bool is_radiance_picture(const std::string& path);
-/// Depth: `path` ending in .exr: one float channel Z; otherwise raw native floats, row by row from
-/// the top.
+/// Write depths: for a `path` that ends in .exr as one float channel Z, otherwise as raw native
+/// floats, row by row from the top.
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth);
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as tables, for patterns that look them up.
+// Decodes pictures to tables, for patterns that look up their values.
 #include <string>
 #include <string_view>
 
@@ -7,9 +7,10 @@
 
 namespace lightwalk {
 
-/// RGBE picture (any orientation, flat, old or new run-length form) as a table whose shorter side
-/// has length 1; PIXASPECT is heeded, EXPOSURE and COLORCORR are not; other formats are refused.
-/// Throws InputError "name: ..." for damaged files, and bounds what it allocates by what they hold.
+/// Decode an RGBE picture (any orientation; flat, old or new run-length form) to a table whose
+/// shorter side has length 1. PIXASPECT is respected, EXPOSURE and COLORCORR are ignored. Throws
+/// InputError "name: ..." for other formats and damaged files, and allocates no more than the size
+/// of the file justifies.
 [[nodiscard]] PictureData decode_picture(std::string_view bytes, const std::string& name);
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// Radiance pictures as their stored pixels.
+// Decodes Radiance pictures to the pixels as they are stored.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,24 +12,24 @@ namespace lightwalk {
 struct RgbePicture {
     InfoHeader header;
     int width = 0, height = 0;
-    /// Row by row from the top, left to right, whatever the file's orientation.
+    /// Row by row from the top, left to right, for any orientation of the file.
     std::vector<Rgbe> pixels;
 };
 
 enum class XyzPictures { refuse, accept };
 
 /// Decode header, resolution line and scanlines. FORMAT must be 32-bit_rle_rgbe, or 32-bit_rle_xyze
-/// where that is accepted, or absent. Memory stays within 64 pixels a byte of the file plus 16
-/// million. Throws InputError.
+/// where that is accepted, or absent. At most 64 pixels for each byte of the file plus 16 million
+/// are allocated. Throws InputError.
 [[nodiscard]] RgbePicture decode_rgbe_picture(std::string_view bytes, const std::string& name,
                                               XyzPictures xyz);
 
-/// Product of the positive numbers that stand in the header lines "name=number"; 1 without such a
-/// line. Throws InputError for anything but positive numbers.
+/// The product of the numbers in the header lines "name=number"; 1 without such a line. Throws
+/// InputError for a value that is no positive number.
 [[nodiscard]] double header_product(const InfoHeader& header, std::string_view variable,
                                     const std::string& name);
 
-/// Product of the PIXASPECT lines: pixel height / pixel width.
+/// The product of the PIXASPECT lines: pixel height / pixel width.
 [[nodiscard]] double pixel_aspect(const InfoHeader& header, const std::string& name);
 
 }  // namespace lightwalk

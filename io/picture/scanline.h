@@ -1,7 +1,7 @@
 #pragma once
-// Scanlines of Radiance pictures, flat and run-length coded. Source: G. Ward's description of the
-// RADIANCE picture format ("Real Pixels", Graphics Gems II, and the file format guide of the
-// Radiance distribution).
+// Encodes and decodes scanlines of Radiance pictures, flat or run-length coded. Source: G. Ward's
+// description of the RADIANCE picture format ("Real Pixels", Graphics Gems II, and the file format
+// guide of the Radiance distribution).
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,13 +10,13 @@
 
 namespace lightwalk {
 
-/// Append one scanline to `out`: new run-length form where Radiance writes it (17 to 32767 pixels),
-/// else flat. The bytes equal Radiance's.
+/// Append a scanline to `out`, in the new run-length form where Radiance uses it (17 to 32767
+/// pixels), else flat. The bytes equal Radiance's.
 void encode_scanline(std::span<const Rgbe> pixels, std::string& out);
 
-/// Take one scanline in any form off the front of `bytes`. Throws InputError with the problem alone
-/// (no place) when the bytes end too soon, a run leaves the scanline, or a coded length differs
-/// from `pixels.size()`.
+/// Remove a scanline of any form from the front of `bytes` and decode it. Throws InputError,
+/// without a place, when the bytes end too soon, a run is longer than the rest of the scanline, or
+/// a coded length differs from `pixels.size()`.
 void decode_scanline(std::string_view& bytes, std::span<Rgbe> pixels);
 
 }  // namespace lightwalk

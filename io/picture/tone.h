@@ -1,5 +1,5 @@
 #pragma once
-// From radiance to what a screen shows: exposure, a curve for the highlights, sRGB.
+// Tone mapping from radiance to a screen: exposure, a curve for the highlights, sRGB.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -9,32 +9,33 @@
 
 namespace lightwalk {
 
-/// What becomes of values beyond a display's range.
+/// How values beyond the display's range are shown.
 enum class ToneCurve {
-    highlights,  ///< they are compressed smoothly, so that windows and lamps keep their drawing
-    linear,      ///< they are cut off at white
+    highlights,  ///< compressed smoothly, so that windows and lamps keep visible detail
+    linear,      ///< clipped to white
 };
 
-/// How a picture is shown on a screen, as asked for.
+/// The tone mapping that was asked for, independent of a picture.
 struct ToneMapping {
-    /// Log-average at middle grey (18 %), and the curve's white where the picture's is; otherwise a
-    /// fixed exposure and a fixed curve, the same for all pictures of a sequence.
+    /// true: the picture's log-average is shown as middle grey (18 %), and its white determines the
+    /// curve. false: exposure and curve are fixed, the same for all pictures of a sequence.
     bool automatic = true;
-    double ev = 0;  ///< when not automatic [stops]: radiance 2^-ev W/(m² sr) becomes 1
+    double ev = 0;  ///< exposure when not automatic [stops]: radiance 2^-ev W/(m² sr) becomes 1
     ToneCurve curve = ToneCurve::highlights;
 };
 
-/// Compresses what is brighter than a stop above middle grey so that `white` becomes 1.
+/// A curve that compresses values brighter than a stop above middle grey so that `white` becomes 1.
 class HighlightCurve {
   public:
-    explicit HighlightCurve(double white);  ///< >= 1, of values that are exposed
+    /// @param white  the value, after exposure, that becomes 1; at least 1
+    explicit HighlightCurve(double white);
 
     [[nodiscard]] double white() const { return white_; }
-    /// x itself up to 0.36, the knee. The part above it, u, counted like white's, w, in units of
-    /// the room that the knee leaves, becomes log(1 + c u) / log(1 + c w): Drago et al., "Adaptive
-    /// logarithmic mapping for displaying high contrast scenes", Eurographics 2003, eq. 1, in the
-    /// unit of light 1 / c in which it begins with slope 1. It rises up to white, where it reaches
-    /// 1, and is 1 beyond; with white at 1 it changes nothing. x >= 0.
+    /// The value shown for x >= 0. Up to the knee at 0.36 it is x. Above, with u and w the parts of
+    /// x and white above the knee, in units of 1 - 0.36, the part above the knee becomes log(1 + c
+    /// u) / log(1 + c w), with c such that the slope is 1 at the knee. Source: Drago et al.,
+    /// "Adaptive logarithmic mapping for displaying high contrast scenes", Eurographics 2003,
+    /// eq. 1. The result is 1 from white on. With white = 1 nothing is compressed.
     [[nodiscard]] double operator()(double x) const;
 
   private:
@@ -42,25 +43,25 @@ class HighlightCurve {
     double c_;  ///< c = log(1 + c w)
 };
 
-/// How one picture is shown.
+/// Exposure and curve of one picture.
 struct DisplayTone {
-    double scale = 1;  ///< from radiance to display values, exposed but not yet compressed
-    std::optional<HighlightCurve> curve = HighlightCurve(16);  ///< nothing: cut off at 1
+    double scale = 1;  ///< factor from radiance to exposed values, before the curve
+    std::optional<HighlightCurve> curve = HighlightCurve(16);  ///< nothing: values are clipped at 1
 };
 
-/// Settle exposure and white for a picture. Automatic: the log-average of the brightness, without
-/// pixels that have no light, becomes 18 % (Reinhard et al., "Photographic tone reproduction for
-/// digital images", SIGGRAPH 2002, eqs. 1 and 2); white is the largest channel that 999 of 1000
-/// such pixels stay below, and never less than 1, so that a picture without highlights is not
-/// changed by the curve. Fixed: white lies four stops above the display's.
+/// Choose exposure and white for a picture. Automatic: the log-average of the brightness of all
+/// pixels that are not black becomes 18 % (Reinhard et al., "Photographic tone reproduction for
+/// digital images", SIGGRAPH 2002, eqs. 1 and 2); white is the largest channel that 999 of 1000 of
+/// these pixels stay below, and at least 1, so that the curve does not change a picture without
+/// highlights. Fixed: white is four stops above the display's white.
 [[nodiscard]] DisplayTone choose_tone(const Picture& picture, const ToneMapping& tone);
 
-/// sRGB bytes r, g, b of one pixel. The curve acts on the largest channel and the others follow in
-/// proportion, which keeps hue and lets no channel clip; the more a colour is compressed, the more
-/// it fades to white, by the share 1 - 1 / (1 + 0.03 (before - after)): the form of Khronos Group,
-/// "PBR Neutral Tone Mapper" (2024), with 0.03 for 0.15, since this curve compresses sooner. Then
-/// the sRGB curve (IEC 61966-2-1). Radiance's white is shown as the display's white; negative
-/// channels and those that are not numbers count as 0.
+/// sRGB bytes r, g, b of one pixel. The curve is applied to the largest channel and the others are
+/// scaled in proportion, which keeps the hue and clips no channel. The more a colour is compressed,
+/// the more it fades to white, by the share 1 - 1 / (1 + 0.03 (before - after)): the form of
+/// Khronos Group, "PBR Neutral Tone Mapper" (2024), with 0.03 instead of 0.15, as this curve
+/// compresses from lower values on. Then follows the sRGB curve (IEC 61966-2-1). Radiance's white
+/// is shown as the display's white; negative channels and NaN count as 0.
 [[nodiscard]] std::array<std::uint8_t, 3> display_pixel(const Rgb& color, const DisplayTone& tone);
 
 }  // namespace lightwalk

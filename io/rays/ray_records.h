@@ -1,5 +1,6 @@
 #pragma once
-// Records of traced rays as rtrace prints them: the letters of -o.
+// Records of traced rays in rtrace's output formats, with the fields that the letters of -o ask
+// for.
 #include <string>
 #include <string_view>
 
@@ -9,7 +10,7 @@
 
 namespace lightwalk {
 
-/// What stands for a colour in a record.
+/// The form of colours in a record.
 enum class ColorOutput {
     rgb,        ///< -pRGB: radiance [W/(m² sr)]
     xyz,        ///< -pXYZ: CIE X Y Z, Y in cd/m²
@@ -17,38 +18,39 @@ enum class ColorOutput {
     mean,       ///< -pA: one number, the plain mean [W/(m² sr)]
 };
 
-/// A finished ray as a record sees it.
+/// A finished ray, as input of a record.
 struct RayRecord {
     const Ray& ray;
     const Hit& first;     ///< the nearest hit before shading turned anything over
-    bool sensor = false;  ///< irradiance at a given point (-I): nothing was hit
+    bool sensor = false;  ///< the ray is an irradiance at a given point (-I) and has hit nothing
 };
 
 class RayRecords {
   public:
-    /// @param letters  of -o; see the manual page rtrace(1): o d v V w W l L c p n N s m M r x R X
-    /// ~ Throws UsageError for an empty list, unknown letters, ray trees (t, T: see ray_tree.h),
-    /// and for formats that cannot hold the fields.
+    /// @param letters  the letters of -o; see the manual page rtrace(1):
+    ///                 o d v V w W l L c p n N s m M r x R X ~
+    /// Throws UsageError for an empty list, unknown letters, letters of ray trees (t, T: see
+    /// ray_tree.h), and for formats that cannot hold the fields.
     RayRecords(std::string_view letters, NumberFormat format, ColorOutput color);
 
-    /// Whether some field needs radiance; if not, a single ray cast answers everything.
+    /// Whether some field needs shading; if not, the nearest hit of the ray is enough.
     [[nodiscard]] bool shades() const;
-    /// Whether mirrored and direct parts are told apart (r R x X).
+    /// Whether some field distinguishes mirrored from direct light (r R x X).
     [[nodiscard]] bool splits() const {
         return letters_.find_first_of("rRxX") != std::string::npos;
     }
-    /// Whether V or W are asked for, which only mean something in ray trees.
+    /// Whether V or W are among the fields, which only have a meaning in ray trees.
     [[nodiscard]] bool asks_for_coefficients() const {
         return letters_.find_first_of("VW") != std::string::npos;
     }
-    /// Numbers in a record, a name counting as one.
+    /// How many numbers a record has; a name counts as one.
     [[nodiscard]] int components() const;
 
     void append(const RayRecord& traced, const Scene& scene, std::string& output) const;
 
-    /// The lines NCOMP= (unless records are of several kinds), PRIMARIES= (XYZ only), BigEndian=
-    /// and FORMAT= with the empty line that ends the header. Binary data start at a multiple of
-    /// their size when `bytes_before` precede these lines.
+    /// The last lines of the output's header: NCOMP= (unless records are of several kinds),
+    /// PRIMARIES= (XYZ only), BigEndian= and FORMAT= with the empty line that ends the header. When
+    /// `bytes_before` bytes precede them, binary data start at a multiple of their size.
     [[nodiscard]] std::string header_end(std::size_t bytes_before, bool one_kind = true) const;
 
   private:

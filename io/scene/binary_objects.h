@@ -1,5 +1,6 @@
 #pragma once
-// What octrees and meshes share: the bounding cube, the tree, and serialised objects.
+// Decodes the parts that octrees and meshes have in common: bounding cube, tree, serialised
+// objects.
 #include <cstdint>
 
 #include "core/model/model_builder.h"
@@ -8,16 +9,16 @@
 
 namespace lightwalk {
 
-/// The cube as four decimal strings: origin x y z, edge. Throws InputError when they are no
-/// numbers.
+/// Read the cube, which is stored as four decimal strings: x y z of the origin, edge length. Throws
+/// InputError when they are no numbers.
 [[nodiscard]] ModelCube read_cube(BinaryReader& reader);
 
-/// Skip a tree in pre-order whose leaves hold numbers of `id_size` bytes. Returns how many nodes it
-/// has.
+/// Skip a tree in pre-order whose leaves hold object numbers of `id_size` bytes. Returns the number
+/// of nodes.
 std::uint64_t skip_tree(BinaryReader& reader, int id_size);
 
-/// Read the type table and the objects that follow it into `builder`, which is empty: object
-/// numbers of the file are then indices into the model.
+/// Read the type table and the objects that follow it into `builder`. It must be empty, so that
+/// object numbers of the file are indices into the model.
 void read_objects(BinaryReader& reader, int id_size, ModelBuilder& builder);
 
 }  // namespace lightwalk

@@ -1,6 +1,5 @@
 #pragma once
-// Runs the `!` commands of scenes: by built-in generators, or through the shell where that is
-// allowed.
+// Runs the `!` commands of scenes: by built-in generators, or by the shell if that is allowed.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -13,27 +12,29 @@
 
 namespace lightwalk {
 
-/// One for each scene that is read: it bounds what all its commands together may do.
+/// Runs the commands of one scene, and limits their total number and output.
 class CommandRunner {
   public:
     CommandRunner(LibraryPath library, bool allow_commands, WarningSink& warnings)
         : library_(std::move(library)), allow_commands_(allow_commands), warnings_(warnings) {}
 
-    /// Output of `command`, which may begin with '!', run in `directory` ("" is the process's) with
-    /// an empty standard input. A command that fails gives the warning "bad status from ..."; what
-    /// it wrote is kept. Throws UnknownCommandError for programs that are not built in (unless
-    /// commands are allowed), CommandError for commands that nest without end or write too much.
+    /// Run `command`, which may begin with '!', in `directory` ("" is the process's) with an empty
+    /// standard input, and return its output. A command that fails causes the warning "bad status
+    /// from ..."; its output is used. Throws UnknownCommandError for programs that are not built in
+    /// (unless commands are allowed), CommandError for commands that nest too deep or write too
+    /// much.
     [[nodiscard]] std::string run(const std::string& command, const std::string& directory,
                                   const SourceLocation& where);
-    /// The same, with the output going to `sink`: by pieces where its last program writes them,
-    /// else whole. Of a command that fails half way `sink` has had the pieces before.
+    /// Run `command` and pass its output to `sink`: in parts if its last program writes so, else as
+    /// a whole. If a command fails midway `sink` has received the parts before that.
     void run(const std::string& command, const std::string& directory, const SourceLocation& where,
              TextSink& sink);
 
   private:
     class Output;
 
-    /// @param sink  may get the beginning of the output; null: all of it is returned
+    /// Returns the output, without the beginning that `sink` has received; all of it if that is
+    /// null.
     [[nodiscard]] std::string run_to(const std::string& command, const std::string& directory,
                                      const SourceLocation& where, TextSink* sink);
     [[nodiscard]] std::string run_pipelines(const std::vector<Pipeline>& pipelines,
@@ -53,7 +54,7 @@ class CommandRunner {
     WarningSink& warnings_;
     int depth_ = 0;
     std::size_t commands_ = 0, bytes_ = 0;
-    std::size_t streamed_bytes_ = 0;  ///< of output that was never whole
+    std::size_t streamed_bytes_ = 0;  ///< length of all output that went to sinks in parts
 };
 
 }  // namespace lightwalk

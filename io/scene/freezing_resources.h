@@ -1,6 +1,6 @@
 #pragma once
-// What a scene asked of its library while it was compiled, and the answers: all that it needs
-// again.
+// Records the library files that a scene asks for while it is compiled: what a frozen scene has to
+// hold.
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace lightwalk {
 
-/// What was found, or the message that it was not.
+/// The answer to a question: a value, or the message that the file is missing.
 template <class T>
 struct ResourceAnswer {
     std::optional<T> found;
@@ -21,8 +21,8 @@ struct ResourceAnswer {
 template <class T>
 using ResourceAnswers = std::map<std::string, ResourceAnswer<T>>;  ///< by the name asked for
 
-/// Passes questions on, and remembers the answers; errors other than missing files are passed on
-/// only. For one thread.
+/// A decorator of Resources that records all answers. Missing files are recorded as well; other
+/// errors are not. For one thread.
 class FreezingResources final : public Resources {
   public:
     /// @param source  must outlive it

@@ -1,5 +1,5 @@
 #pragma once
-// The container of a frozen scene: parts of bytes in one file, mapped rather than read.
+// The container format of frozen scenes: a memory-mapped file of parts.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -14,7 +14,8 @@
 
 namespace lightwalk {
 
-/// One part: `kind` says what it holds, `owner` of what, for kinds of which there are several.
+/// A part of a frozen file. `kind` is the kind of data; `owner` distinguishes several parts of one
+/// kind, e.g. those of different models.
 struct FrozenPart {
     std::uint32_t kind = 0, owner = 0;
     std::span<const std::byte> bytes;
@@ -28,38 +29,39 @@ struct FrozenPart {
 inline constexpr std::string_view kFrozenMark = "lwfrozen";
 inline constexpr std::size_t kFrozenAlignment = 64;
 
-/// The whole file, or none; parts are written from where they lie. No two may have the same kind
+/// Write a frozen file atomically. Parts are written without a copy; no two may have the same kind
 /// and owner. Throws InputError.
 void write_frozen_file(const std::string& path, std::span<const FrozenPart> parts);
 
-/// The same in memory that processes share.
+/// A frozen file in memory that processes can share.
 [[nodiscard]] std::shared_ptr<const MemoryFile> frozen_memory_file(
     std::span<const FrozenPart> parts);
 
-/// The same bytes in memory.
+/// The bytes of a frozen file.
 [[nodiscard]] std::string frozen_file_bytes(std::span<const FrozenPart> parts);
 
-/// A frozen file whose header and table are sound: parts lie inside it, one behind the other. What
-/// it hands out lives as long as it does. For any number of threads.
+/// A frozen file whose header and table have been validated: parts do not overlap and lie inside
+/// the file. Spans of its bytes are valid as long as this object. For any number of threads.
 class FrozenFile {
   public:
-    /// Throws InputError for a file that is none, is damaged or cut short, or was written by
-    /// another version of Lightwalk or on another kind of machine.
+    /// Throws InputError for a file that is no frozen file, is damaged or truncated, or was written
+    /// by another version of Lightwalk or on another kind of machine.
     explicit FrozenFile(const std::shared_ptr<const MappedFile>& file);
-    /// Bytes in memory that `owner` keeps, from a multiple of 8 on; messages call them `name`.
+    /// A frozen file in memory, at an address that is a multiple of 8; `owner` keeps the memory,
+    /// and `name` is used in messages.
     FrozenFile(std::shared_ptr<const void> owner, std::span<const std::byte> bytes,
                std::string name);
 
     [[nodiscard]] bool has(std::uint32_t kind, std::uint32_t owner = 0) const;
-    /// The bytes of a part, from a multiple of 8 on, after a look at all of them: throws InputError
-    /// where they do not have the part's digest, or there is none.
+    /// The bytes of a part, at an address that is a multiple of 8. All of them are read to verify
+    /// the digest; throws InputError if it differs, and if there is no such part.
     [[nodiscard]] std::span<const std::byte> part(std::uint32_t kind,
                                                   std::uint32_t owner = 0) const;
 
     [[nodiscard]] const std::string& name() const { return name_; }
-    /// Of all parts: those of two files with the same digest are the same.
+    /// A digest of all parts: files with equal digests have equal parts.
     [[nodiscard]] std::uint64_t digest() const;
-    /// What keeps the bytes.
+    /// The owner of the memory.
     [[nodiscard]] const std::shared_ptr<const void>& owner() const { return owner_; }
 
   private:
@@ -75,8 +77,8 @@ class FrozenFile {
     std::map<std::pair<std::uint32_t, std::uint32_t>, Place> parts_;  ///< by kind and owner
 };
 
-/// `bytes`, damaged in any way, with all digests and sizes as its header and table need them to be
-/// taken: for tests of what comes behind the digests.
+/// `bytes` with all digests and sizes in its header and table corrected: for tests of how damage
+/// that no digest reveals is handled.
 [[nodiscard]] std::string resealed(std::string bytes);
 
 }  // namespace lightwalk

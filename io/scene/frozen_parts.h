@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of a frozen scene are called.
+// The kinds of parts of a frozen scene, and typed access to them.
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -15,15 +15,15 @@
 
 namespace lightwalk {
 
-/// What a part of a frozen scene holds.
+/// The kind of a part.
 enum class FrozenKind : std::uint32_t {
-    manifest = 1,
-    answers,  ///< what the library answered, by name
+    manifest = 1,  ///< the files that the scene was made from
+    answers,       ///< the answers of Resources, by name
     data,
     picture,
     font,
-    pixels,  ///< of a picture
-    // Of each model; the scene is number 0.
+    pixels,  ///< pixels of a picture
+    // Parts of each model; the scene is model number 0.
     model = 16,
     records,
     reals,
@@ -35,7 +35,7 @@ enum class FrozenKind : std::uint32_t {
     rings,
     sources,
     corners,
-    // Of each mesh.
+    // Parts of each mesh.
     mesh = 32,
     positions,
     normals,
@@ -44,10 +44,10 @@ enum class FrozenKind : std::uint32_t {
     triangles,
 };
 
-/// The parts of a file that is to be written.
+/// Collects the parts of a file to be written.
 class FrozenParts {
   public:
-    /// The values must stay where they are until the file is written.
+    /// Add a part that refers to `values`, which must stay in memory until the file is written.
     template <class T>
     void add(FrozenKind kind, std::uint32_t owner, std::span<const T> values) {
         parts_.push_back({static_cast<std::uint32_t>(kind), owner, std::as_bytes(values)});
@@ -63,20 +63,21 @@ class FrozenParts {
     std::deque<std::string> packed_;
 };
 
-/// A thing, and what keeps the bytes that its columns show.
+/// A value whose columns refer to bytes of a file, with the owner of these bytes.
 template <class T>
 struct Mapped {
     std::shared_ptr<const void> bytes;
     T thing;
 };
 
-/// The bytes of a part; throws InputError as FrozenFile::part.
+/// The bytes of a part; throws InputError as FrozenFile::part() does.
 [[nodiscard]] inline std::span<const std::byte> part_of(const FrozenFile& file, FrozenKind kind,
                                                         std::uint32_t owner = 0) {
     return file.part(static_cast<std::uint32_t>(kind), owner);
 }
 
-/// The values of a part, where they lie; throws InputError also for a broken number of them.
+/// The values of a part, without a copy. Throws InputError as FrozenFile::part() does, and when the
+/// length of the part is no multiple of their size.
 template <class T>
 Column<T> column_of(const FrozenFile& file, FrozenKind kind, std::uint32_t owner) {
     static_assert(alignof(T) <= 8);

@@ -1,5 +1,5 @@
 #pragma once
-// A scene with all that a run needs of it in one file, which is mapped rather than read.
+// Frozen scenes: a scene with everything that a run needs of it, in one memory-mapped file.
 #include <map>
 #include <memory>
 #include <span>
@@ -16,38 +16,39 @@
 
 namespace lightwalk {
 
-/// Writes a scene that was compiled with `library`, and what it was read from; whole or not at all.
-/// Throws InputError.
+/// Write a scene that was compiled with `library`, and the manifest of the files that it was read
+/// from, atomically. Throws InputError.
 void write_frozen_scene(const std::string& path, const Scene& scene,
                         const FreezingResources& library, std::span<const ManifestFile> manifest);
-/// The same in memory that processes share, of a scene that need not have a search tree. It does
-/// not know what it was read from.
+/// A frozen scene in memory that processes can share. The scene need not have a search tree; the
+/// manifest is empty.
 [[nodiscard]] std::shared_ptr<const MemoryFile> share_scene(const Scene& scene,
                                                             const FreezingResources& library);
-/// The same bytes in memory.
+/// The bytes of a frozen scene.
 [[nodiscard]] std::string frozen_scene_bytes(const Scene& scene, const FreezingResources& library,
                                              std::span<const ManifestFile> manifest);
 
-/// Whether a file begins as a frozen scene does.
+/// Whether bytes begin with the mark of a frozen scene.
 [[nodiscard]] inline bool is_frozen_scene(std::string_view bytes) {
     return bytes.starts_with(kFrozenMark);
 }
-/// The same of a file that may be none: `files` is asked for its first bytes.
+/// Whether a file exists and begins with the mark of a frozen scene; `files` is asked for its first
+/// bytes.
 [[nodiscard]] bool is_frozen_scene(const std::string& path, FileSource& files);
 
-/// A frozen scene, as the model and the library that it was compiled with. Models show the file's
-/// pages, and keep them. For one thread, as all Resources.
+/// An open frozen scene: the model, and the library files that it was compiled with. Models refer
+/// to the mapped pages, and keep them alive. For one thread, as all Resources.
 class FrozenScene final : public Resources {
   public:
-    /// Throws InputError for a file that is damaged, in so far as a scene relies on it. Parts are
-    /// looked at when they are asked for.
+    /// Throws InputError for a damaged file, as far as a scene relies on the damaged parts. Parts
+    /// are validated when they are first asked for.
     explicit FrozenScene(FrozenFile file);
 
     [[nodiscard]] std::shared_ptr<const Model> model();
     [[nodiscard]] const std::vector<ManifestFile>& manifest() const { return manifest_; }
     [[nodiscard]] const FrozenFile& file() const { return file_; }
 
-    // What is asked for by a name that was not asked for when the scene was frozen: InputError.
+    // Names that were not asked for when the scene was frozen are an InputError.
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
@@ -59,7 +60,7 @@ class FrozenScene final : public Resources {
   private:
     FrozenFile file_;
     std::vector<ManifestFile> manifest_;
-    // Answers that are parts: their numbers.
+    // Answers that are parts of the file are stored as the number of the part.
     ResourceAnswers<std::string> functions_;
     ResourceAnswers<std::vector<std::string>> texts_;
     ResourceAnswers<std::uint32_t> tables_, pictures_, fonts_, octrees_, meshes_;
@@ -72,8 +73,8 @@ class FrozenScene final : public Resources {
     Mapped<MeshModel> mapped_meshes_;
 };
 
-/// Maps a file. Throws InputError as FrozenScene, and where files that it was made from have
-/// changed since, which are named, unless that is allowed.
+/// Open a frozen scene. Throws InputError as FrozenScene() does, and, unless `stale_allowed`, when
+/// files that it was made from have changed since; the message names them.
 [[nodiscard]] std::unique_ptr<FrozenScene> open_frozen_scene(const std::string& path,
                                                              bool stale_allowed);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes from the command line: one octree, or scene files; commands by built-in generators.
+// Reads scenes: one octree, or scene files, whose commands run as built-in generators.
 #include <memory>
 #include <span>
 #include <string>
@@ -14,35 +14,33 @@ namespace lightwalk {
 
 struct SceneReadOptions {
     LibraryPath library = LibraryPath::from_environment();
-    bool allow_commands = false;  ///< run commands that no generator replaces through the shell
-    /// Working directory for scene files, commands and relative elements of `library`; "" is the
+    bool allow_commands = false;  ///< run commands that are not built in through the shell
+    /// Working directory of scene files, commands and relative elements of `library`; "" is the
     /// process's.
     std::string directory = {};
-    /// Lets generators that write much run beside the reading of what they write; null: one after
-    /// the other.
+    /// Makes pipes by which generators that write much run concurrently with the parsing of their
+    /// output; null: output is parsed on the generator's thread.
     MakeTextPipe pipe = {};
 };
 
-/// Read a scene: `files` is one octree (frozen or not) or any number of scene files in order; "-"
-/// is standard input, "!words" a command. Throws InputError "file:line: what is wrong". Warnings
-/// follow Radiance's rules.
-/// Commands that may not be run, unknown types and undefined modifiers do not end the reading: they
-/// are gathered in `problems`, and the model is what is left; without `problems` they are thrown
-/// together at the end. Names that a command may have defined, or a primitive of an unknown type,
-/// are not complained of.
+/// Read a scene. `files` is one octree (frozen or not) or any number of scene files in order, where
+/// "-" is standard input and "!words" a command. Throws InputError "file:line: what is wrong".
+/// Warnings follow Radiance's rules. Commands that may not be run, unknown types and undefined
+/// modifiers do not end the reading: they are collected in `problems`, and the model is made of the
+/// rest; without `problems` they are thrown together at the end. Undefined names that a skipped
+/// command or a primitive of an unknown type may have defined are not reported.
 [[nodiscard]] std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
                                                       const SceneReadOptions& options,
                                                       WarningSink& warnings,
                                                       ProblemList* problems = nullptr);
 
-/// Parse scene text that is in memory, for tests and tools.
+/// Parse scene text in memory, for tests and tools.
 [[nodiscard]] std::shared_ptr<const Model> parse_scene(std::string_view text,
                                                        const std::string& name,
                                                        const SceneReadOptions& options,
                                                        WarningSink& warnings);
 
-/// The model of an octree whose bytes are in memory; the scene files of one that is not frozen are
-/// read.
+/// The model of an octree in memory; if it is not frozen its scene files are read.
 [[nodiscard]] std::shared_ptr<const Model> read_octree(std::string_view bytes,
                                                        const std::string& name,
                                                        const SceneReadOptions& options,

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the built program as a user would.
+// Runs the built program as a process.
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace lightwalk::test {
 
 struct ProgramResult {
-    int status = -1;  ///< exit status; 128 + n for a process that signal n ended
+    int status = -1;  ///< exit status; 128 + n for a process that signal n killed
     std::string out, err;
 };
 
@@ -17,7 +17,7 @@ struct ProgramResult {
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input = "",
                           const std::vector<std::string>& launcher = {});
 
-/// The program while it runs.
+/// The program as a running process.
 class RunningProgram {
   public:
     /// @param launcher  the command that starts it, before its own name: mpirun(...)
@@ -29,23 +29,24 @@ class RunningProgram {
 
     [[nodiscard]] int process() const { return process_; }
     void send(const std::string& input) const;
-    /// Read `bytes` of standard output; fewer when it ends or says nothing for ten seconds.
+    /// Read `bytes` bytes of standard output; fewer when it ends, or writes nothing for ten
+    /// seconds.
     [[nodiscard]] std::string receive(std::size_t bytes) const;
     void end_input();
     void interrupt() const;
-    /// All that is left of its output, and its exit status, after more input of any size.
+    /// Write `input` (of any size), and return the rest of the output and the exit status.
     ProgramResult finish(const std::string& input = "");
 
   private:
     int process_ = -1, in_ = -1, out_ = -1, err_ = -1;
 };
 
-/// Whether it was not the program that failed: Open MPI 4's mpirun itself may die while it passes
-/// input on (open-mpi/ompi issue 7483).
+/// Whether mpirun failed rather than the program: Open MPI 4's mpirun may crash while it forwards
+/// input (open-mpi/ompi issue 7483).
 [[nodiscard]] bool launcher_died(const ProgramResult& result);
 
-/// The command that starts ranks of the program on this machine, however many cores it has; nothing
-/// where there is none, or where the sanitizer cannot stand it.
+/// The command that starts ranks of the program on this machine, for any number of cores; nothing
+/// without Open MPI, or under a sanitizer that it does not work with.
 [[nodiscard]] std::optional<std::vector<std::string>> mpirun(
     int ranks, const std::vector<std::string>& more = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// A walk of small frames through a room of the tests: its command line, and what comes of it.
+// A walk of small frames through a room of the tests: its command line and its results.
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@ inline std::vector<std::string> line(const std::vector<std::string>& more) {
     return words;
 }
 
-/// Of a picture: its pixels, encoded, without the header, which tells when it was made.
+/// The encoded pixels of a picture file, without the header, which has the time of creation.
 inline std::string pixels_of(const std::string& path) {
     const std::string bytes = read_whole(path);
     return bytes.substr(bytes.find("\n\n"));

@@ -1,6 +1,6 @@
 #pragma once
-// What the mutation test and the fuzzers feed with damaged input, and the sound inputs they start
-// from.
+// The functions that the mutation test and the fuzzers call with damaged input, and the valid
+// inputs that they start from.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace lightwalk::test {
 
-/// Reads `bytes` the way a render would; InputError is the right answer to nonsense and is
-/// swallowed. Returns whether the input was accepted. Anything else that is thrown is a defect.
+/// Each reads `bytes` as the program would. InputError is the correct response to invalid input and
+/// is caught. Returns whether the input was accepted. Any other exception is a defect.
 using FuzzTarget = bool (*)(std::string_view bytes);
 
 bool read_scene_text(std::string_view bytes);     ///< parse, compile, trace a few rays
-bool read_octree(std::string_view bytes);         ///< the same for an octree
+bool read_octree(std::string_view bytes);         ///< decode an octree, compile, trace a few rays
 bool read_function_file(std::string_view bytes);  ///< load, compile and evaluate its variables
 bool read_picture(std::string_view bytes);        ///< as a pattern and as a picture
 bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
 bool read_walk_request(std::string_view bytes);   ///< a browser's message
 bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, compile, trace
-bool read_resealed(std::string_view bytes);       ///< the same, with digests that fit again
+bool read_resealed(std::string_view bytes);       ///< a frozen scene whose digests are made right
 
-/// Sound inputs of each target; made here, so that the tests need no other files.
+/// Valid inputs for each target; generated, so that the tests need no files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
 
 struct NamedTarget {

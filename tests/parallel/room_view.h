@@ -1,10 +1,10 @@
 #pragma once
-// The eye in the rooms that frames and blocks are tested with.
+// The view of the rooms in which frames and blocks are tested.
 #include "core/view/view.h"
 
 namespace lightwalk::test {
 
-/// Six metres before a ball at the origin, looking at it from above.
+/// A view from above of a ball at the origin, at a distance of six metres.
 inline View room_view() {
     View view;
     view.position = {1, -6, 2};

@@ -1,5 +1,5 @@
 #pragma once
-// Evaluation of one expression in a function file's context.
+// Evaluates an expression in the context of a function file.
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 namespace lightwalk::test {
 
 struct Setting {
-    std::string_view definitions;  ///< of function file tt.cal
+    std::string_view definitions;  ///< text of the function file tt.cal
     std::vector<double> reals;
     ChannelMask material_channels = 0;
     ChannelValues channels{};
@@ -21,7 +21,7 @@ inline void set(ChannelValues& channels, Channel c, double value) {
     channels[static_cast<std::size_t>(c)] = value;
 }
 
-/// A ray that meets the plane z = 0 at the origin from straight above.
+/// A ray that hits the plane z = 0 at the origin from straight above.
 inline ChannelValues straight_down() {
     ChannelValues channels{};
     set(channels, Channel::Dz, -1);
@@ -36,7 +36,7 @@ struct Evaluated {
     EvalError error = EvalError::none;
 };
 
-/// Several expressions, in the order given, in one epoch.
+/// The values of several expressions, evaluated in the given order in one epoch.
 inline std::vector<Evaluated> evaluate_all(const std::vector<std::string>& expressions,
                                            const Setting& in) {
     FunctionEnvironment environment;
@@ -60,12 +60,12 @@ inline Evaluated evaluate(const std::string& expression, const Setting& in) {
     return evaluate_all({expression}, in).front();
 }
 
-/// Value of an expression that needs no ray.
+/// The value of an expression that does not depend on a ray.
 inline double value_of(const std::string& expression, std::string_view definitions = "") {
     return evaluate(expression, {definitions, {}, 0, straight_down()}).value;
 }
 
-/// What is wrong with an expression or its definitions; "" when nothing is.
+/// The error message for an expression or its definitions; "" when there is none.
 inline std::string complaint(const std::string& expression, std::string_view definitions = "") {
     try {
         (void)evaluate(expression, {definitions, {}, 0, straight_down()});

@@ -1,5 +1,6 @@
 #pragma once
-// Random scenes for the ray casting tests, and the slow way to cast a ray through them.
+// Random scenes for tests of ray casting, and a reference that casts rays through them by brute
+// force.
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -24,7 +25,7 @@ inline Primitive primitive(PrimitiveType type, std::vector<double> reals) {
     return result;
 }
 
-/// The same, kept until the program ends: shapes are views of its numbers.
+/// A primitive that is kept until the program ends, as shapes refer to its numbers.
 inline SurfacePrimitive kept_primitive(PrimitiveType type, std::vector<double> reals) {
     static std::deque<Primitive> all;
     return view_of(all.emplace_back(primitive(type, std::move(reals))));
@@ -34,12 +35,13 @@ inline constexpr SurfaceTraits kOpaque{true, false, ShadowClass::blocks};
 inline constexpr SurfaceTraits kGlass{true, true, ShadowClass::needs_shading};
 inline constexpr SurfaceTraits kNoMaterial{false, false, ShadowClass::ignored};
 
-/// Traits belong to modifiers: each number stands for three modifiers, one for each of the above.
+/// Traits belong to modifiers, so each number stands for three modifiers, one for each kind of
+/// traits.
 inline ModifierId modifier_of(int number, const SurfaceTraits& traits) {
     const int kind = !traits.has_material ? 0 : traits.transparent ? 1 : 2;
     return number < 0 ? kVoid : ModifierId{3 * number + kind};
 }
-/// Of all modifiers that modifier_of gives for numbers below 1000; void is none.
+/// The traits of all modifiers that modifier_of returns for numbers below 1000; void has none.
 inline ModifierTraits test_traits() {
     std::vector<SurfaceTraits> traits;
     for (int number = 0; number < 1000; ++number)
@@ -143,7 +145,7 @@ struct TestModels {
     [[nodiscard]] BuiltGeometry build(const std::string& embree_options = {}) const;
 };
 
-/// A Geometry with the tables that it looks at; it cannot be parted from them.
+/// A Geometry together with the tables that it refers to.
 class BuiltGeometry : private std::unique_ptr<TestModels::Tables>, private Geometry {
   public:
     BuiltGeometry(std::unique_ptr<TestModels::Tables> tables, const std::string& embree_options)
@@ -265,7 +267,7 @@ inline TestModels random_models(std::uint64_t seed, int surfaces_per_model) {
     return scene;
 }
 
-/// Casting rays by trying everything, recursively through the placements.
+/// Casts rays by testing all surfaces, recursively through the placements.
 class BruteForce {
   public:
     explicit BruteForce(const TestModels& scene) : scene_(scene), tables_(scene) {}

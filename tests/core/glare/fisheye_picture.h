@@ -17,8 +17,8 @@ inline View fisheye_view(char type) {
     return view;
 }
 
-/// A disc of light on the sphere. Its centre lies `right` and `up` degrees from the line of sight,
-/// as an angular fisheye counts them: at that place of the picture.
+/// A disc of light on the sphere. Its centre is `right` and `up` degrees from the line of sight, in
+/// the coordinates of an angular fisheye picture.
 struct LightDisc {
     double right = 0, up = 0;
     double radius = 1;       ///< [degrees]
@@ -30,13 +30,12 @@ inline Vec3 direction_of(const LightDisc& disc) {
     return Camera(view).ray(0.5 + disc.right / 180, 0.5 + disc.up / 180)->direction;
 }
 
-/// Grey of a luminance, as a Radiance picture keeps it.
+/// The grey radiance of a luminance, rounded as in a Radiance picture.
 inline Rgb stored_grey(double luminance) {
     return decode_rgbe(encode_rgbe(Rgb::grey(static_cast<float>(luminance) / kEfficacy)));
 }
 
-/// A square picture in a view; black where the view has no ray before the eye. Later discs cover
-/// earlier ones.
+/// A square picture of a view; black where the view has no ray. Later discs cover earlier ones.
 inline std::vector<Rgb> disc_picture(int size, const View& view, double background,
                                      const std::vector<LightDisc>& discs) {
     const Camera camera(view);

@@ -6,7 +6,7 @@
 
 namespace lightwalk::test {
 
-/// Radiance 1 from everywhere: what conserves energy shows radiance 1 (a furnace).
+/// Radiance 1 from all directions (a furnace): materials that conserve energy have radiance 1.
 inline const std::string kFurnace =
     "void glow white 0 0 4 1 1 1 0\n"
     "white source up 0 0 4 0 0 1 180\n"
@@ -18,7 +18,8 @@ inline std::string sheet(const std::string& name, double z = 0) {
     return "m polygon " + name + " 0 0 12 -9 -9" + h + "9 -9" + h + "9 9" + h + "-9 9" + h + "\n";
 }
 
-/// Two panes and a solid have many faces: follow the path until nothing is left.
+/// Options that follow paths until nothing is left, for scenes of many faces such as panes and
+/// solids.
 inline RenderOptions deep() {
     RenderOptions options = TestScene::exact();
     options.reflection_limit = 60;

@@ -1,5 +1,5 @@
 #pragma once
-// Laws of surfaces that enclose a volume.
+// Checks of surfaces that enclose a volume.
 #include <array>
 #include <cmath>
 #include <map>
@@ -24,7 +24,7 @@ inline Polygons polygons(const Generated& generated) {
     return result;
 }
 
-/// By the divergence theorem: positive when the normals of a closed surface point outward.
+/// The enclosed volume by the divergence theorem; positive when the normals point outward.
 inline double enclosed_volume(const Polygons& polygons) {
     double volume = 0;
     for (const std::vector<Vec3>& p : polygons) {
@@ -34,8 +34,8 @@ inline double enclosed_volume(const Polygons& polygons) {
     return volume;
 }
 
-/// Whether every edge belongs to two polygons that run along it in opposite senses. Points nearer
-/// than a millionth are one.
+/// Whether every edge belongs to two polygons that traverse it in opposite directions. Points
+/// nearer to each other than a millionth count as equal.
 inline bool is_closed(const Polygons& polygons) {
     using Key = std::array<long long, 3>;
     const auto key = [](const Vec3& p) {

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a generator as a scene's command does, and reads what it writes.
+// Runs a generator like a command of a scene, and parses its output.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -19,14 +19,14 @@ struct Generated {
     std::string text;
     std::vector<std::string> warnings;
     std::vector<PrimitiveText> primitives;
-    std::vector<std::string> commands;  ///< that it writes
+    std::vector<std::string> commands;  ///< commands in the output
 };
 
 struct GeneratorInput {
     std::string directory, text;
 };
 
-/// What `command`, words as a shell takes them, writes; warnings go to `sink`.
+/// The output of `command`, which is divided into words as by a shell; warnings go to `sink`.
 inline std::string generate_text(const std::string& command, const GeneratorInput& input,
                                  Silence& sink) {
     const auto pipelines = split_command(command);
@@ -45,7 +45,7 @@ inline std::string generate_text(const std::string& command, const GeneratorInpu
     return generator(args, context);
 }
 
-/// The same, read as a scene.
+/// The output of `command`, parsed as a scene.
 inline Generated generate(const std::string& command, const GeneratorInput& input = {}) {
     Silence sink;
     Generated result;
@@ -94,8 +94,8 @@ inline Vec3 polygon_normal(const PrimitiveText& polygon) {
     return normalize(sum);
 }
 
-/// Coordinates have twelve digits: half a unit of the last one for those below 10, of three of
-/// them.
+/// The rounding error of three coordinates below 10 that are printed with twelve digits: half a
+/// unit of the last digit of each.
 inline constexpr double kPrinted = 1.5e-11;
 
 inline bool near(const Vec3& a, const Vec3& b, double tolerance = kPrinted) {

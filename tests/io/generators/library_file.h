@@ -12,12 +12,12 @@
 
 namespace lightwalk::test {
 
-/// What a function file reads of a ray.
+/// The values of a ray that a function file can read.
 struct RayValues {
     Vec3 direction{0, 0, 1};
     Vec3 normal{0, 0, 1};
     Vec3 position{};
-    double distance = 0;  ///< of the shadow ray's target, Ts
+    double distance = 0;  ///< distance of the shadow ray's target, Ts
 };
 
 class LibraryFile {
@@ -26,7 +26,7 @@ class LibraryFile {
         environment_.load("file.cal", read_file(path));
     }
 
-    /// Values of `variables` for a primitive with these real arguments.
+    /// The values of `variables` for a primitive with these real arguments.
     [[nodiscard]] std::vector<double> values(std::span<const std::string> variables,
                                              std::span<const double> reals,
                                              const RayValues& ray) const {
@@ -63,7 +63,7 @@ class LibraryFile {
     FunctionEnvironment environment_;
 };
 
-/// Our own file of that name.
+/// The library file of this name in io/library.
 inline LibraryFile own_library_file(const std::string& name) {
     return LibraryFile(std::string(LIGHTWALK_SOURCE "/io/library/") + name);
 }

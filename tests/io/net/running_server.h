@@ -1,5 +1,5 @@
 #pragma once
-// A web server on a thread of its own, with a handler that echoes and remembers.
+// A web server on a thread of its own, whose handler echoes messages and records events.
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -16,8 +16,9 @@
 
 namespace lightwalk::test {
 
-/// Echoes messages; "wrong" is malformed. /save/now is answered at once, /save/later by another
-/// thread, /save/never not at all, /save/wrong by an error; others are kept for the test.
+/// Echoes messages; the message "wrong" counts as malformed. /save/now is answered at once,
+/// /save/later by another thread, /save/never not at all, /save/wrong by an error; requests for
+/// other paths are kept for the test.
 class EchoHandler final : public WebHandler {
   public:
     WebServer* server = nullptr;
@@ -53,7 +54,7 @@ class EchoHandler final : public WebHandler {
         const std::lock_guard lock(mutex_);
         return open_;
     }
-    /// Wait until so many clients are open and so many have closed, or ten seconds.
+    /// Wait until so many clients are open and so many have closed, at most ten seconds.
     [[nodiscard]] bool wait(std::size_t open, std::size_t closed) const {
         return wait_for([&] { return open_.size() == open && closed_ == closed; });
     }

@@ -1,6 +1,6 @@
 #pragma once
-// The other end of a web server: HTTP requests, WebSockets and bare sockets to a port of this
-// machine. Whatever takes longer than ten seconds counts as failed.
+// Clients of a web server on this machine: HTTP requests, WebSockets and bare sockets. Everything
+// fails that takes longer than ten seconds.
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace lightwalk::test {
 
-/// Replace those that a client sends by itself, too.
+/// Headers of a request; they replace those that a client sends by default.
 using WebHeaders = std::vector<std::pair<std::string, std::string>>;
 
 struct WebResponse {
@@ -22,23 +22,24 @@ struct WebResponse {
     std::string body;
 };
 
-/// One request over a connection of its own.
+/// Send a request over a connection of its own.
 WebResponse web_request(std::uint16_t port, const std::string& target,
                         const WebHeaders& headers = {}, const std::string& method = "GET",
                         const std::string& body = "");
 
 class WebClient {
   public:
-    /// Upgrade; see status(). `receive_bytes`: of the socket's buffer, 0: as the system has it.
+    /// Connect and upgrade; see status(). `receive_bytes`: size of the socket's receive buffer; 0:
+    /// the system's default.
     explicit WebClient(std::uint16_t port, const WebHeaders& headers = {},
                        const std::string& target = "/walk", int receive_bytes = 0);
     ~WebClient();
     WebClient(const WebClient&) = delete;
     WebClient& operator=(const WebClient&) = delete;
 
-    /// Of the handshake: 101 when it is open; 0: no answer.
+    /// HTTP status of the handshake: 101 when the WebSocket is open, 0 without an answer.
     [[nodiscard]] unsigned status() const;
-    /// False when the socket does not take it any more.
+    /// Send a message; false when the socket is closed.
     bool send(std::string_view text);
     bool send_binary(std::string_view bytes);
     bool ping();
@@ -46,12 +47,12 @@ class WebClient {
     std::optional<std::string> receive();
     /// Whether the last one received was binary.
     [[nodiscard]] bool binary() const;
-    /// Read until the connection ends; the messages on the way. See close_code().
+    /// Read until the connection ends, and return the messages. See close_code().
     std::vector<std::string> receive_all();
-    /// What the other side's close frame said; 0: there was none.
+    /// The code in the server's close frame; 0 when there was none.
     [[nodiscard]] unsigned close_code() const;
     [[nodiscard]] std::string close_reason() const;
-    /// An orderly end.
+    /// Close the WebSocket in order.
     void close();
 
   private:
@@ -66,16 +67,17 @@ class BareSocket {
     BareSocket(BareSocket&&) noexcept;
 
     bool send(std::string_view bytes);
-    /// What came within the time, until the other side closed or the time was over.
+    /// The bytes received until the server closed the connection or the time was over.
     std::string receive(std::chrono::milliseconds time);
-    [[nodiscard]] bool closed() const;  ///< by the other side, as receive() found
+    [[nodiscard]] bool closed()
+        const;  ///< whether receive() found that the server closed the connection
 
   private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
 
-/// Upgrade by hand, for BareSocket.
+/// The text of an upgrade request, for BareSocket.
 std::string upgrade_text(std::uint16_t port);
 
 }  // namespace lightwalk::test
