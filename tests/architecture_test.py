@@ -1,12 +1,16 @@
 #!/usr/bin/python3
 """The arrows of the design: apps -> parallel, io -> core, and inside core and io from folder to folder in one
-order. core knows no threads, sockets, MPI or files. Also: types that share a name, test names that CTest can find.
+order. core knows no threads, sockets, MPI or files. Also: types that share a name, test names that CTest can find, the READMEs' tables
+of rooms, and whether the picture of the architecture is up to date.
 
     architecture_test.py              the project
     architecture_test.py --self-test  small planted trees: what must be found is found, and nothing else"""
 import pathlib, re, sys, tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True  # the source tree stays as it is
+import architecture_picture
+from architecture_picture import INCLUDE, ROOT, ROW, sources, subfolder
+
 FORBIDDEN_FOLDERS = {"core": {"io", "parallel", "apps"}, "io": {"parallel", "apps"}, "parallel": {"io", "apps"}, "apps": set()}
 FORBIDDEN_HEADERS = {
     "core": r"<(thread|mutex|shared_mutex|condition_variable|future|fstream|iostream|filesystem|mpi\.h|tbb/.*|oneapi/.*|boost/.*|sys/.*)>",
@@ -20,12 +24,6 @@ ORDER = {
     "core": [".", "math", "model", "view", "glare", "function", "geometry", "scene", "transport", "texture", "light", "virtual_source", "material", "ambient", "batch", "trace", "cloud"],
     "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "generators", "scene", "net"],
 }
-INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
-
-
-def sources(folder):
-    return [path for path in sorted(folder.rglob("*")) if path.suffix in (".h", ".cpp")]
-
 
 def wrong_includes(root):
     for folder, forbidden in FORBIDDEN_FOLDERS.items():
@@ -33,12 +31,6 @@ def wrong_includes(root):
             for kind, name in INCLUDE.findall(path.read_text()):
                 if name.split("/")[0] in forbidden or (kind == "<" and re.match(FORBIDDEN_HEADERS[folder], f"<{name}>")):
                     yield f"{path.relative_to(root)}: includes {name}"
-
-
-def subfolder(name):
-    """Of "io/picture/picture.h": "picture"; of "core/error.h": "."."""
-    parts = name.split("/")
-    return parts[1] if len(parts) > 2 else "."
 
 
 def wrong_order(root, order):
@@ -68,14 +60,15 @@ def wrong_order(root, order):
                 yield f"{top}: the order names the folder {folder}, which has no sources"
 
 
-def unnamed_order(root, order):
-    """The README names the order in the words of the table: `a`, `b`, `c`."""
-    readme = (root / "README.md").read_text()
+def unsorted_rooms(root, order):
+    """The table of rooms in a folder's README is in the order of its rooms. Rooms without sources may stand anywhere."""
     for top, folders in order.items():
-        if folders is not None:
-            words = ", ".join(f"`{folder}`" for folder in folders if folder != ".")
-            if words not in " ".join(readme.split()):
-                yield f"README.md: the order of {top}'s folders is not there: {words}"
+        readme = root / top / "README.md"
+        if folders is None or not readme.is_file():
+            continue
+        rooms = ["." if name.startswith("*") else name.strip("/") for name, _ in ROW.findall(readme.read_text())]
+        if [room for room in rooms if room in folders] != folders:
+            yield f"{top}/README.md: the rows of its table of rooms are not in the order of folders: {', '.join(folders)}"
 
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.M)
@@ -107,7 +100,7 @@ def lost_tests(root):
 def check_project():
     files = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.h")]
     embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.[hc]*") if "embree3/" in p.read_text()]
-    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unnamed_order(ROOT, ORDER), *shared_names(ROOT), *lost_tests(ROOT)]
+    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unsorted_rooms(ROOT, ORDER), *shared_names(ROOT), *lost_tests(ROOT)]
     if len(files) < 20:
         problems.append("the headers were not found: is this the project's root?")
     if len(embree) != 1:
@@ -122,7 +115,7 @@ SOUND = {
     "io/low/low.h": '#include "io/base.h"\n',
     "io/low/low.cpp": '#include "io/low/low.h"\n',
     "io/high/high.cpp": '#include "core/any/where.h"\n#include "io/low/low.h"\n',
-    "README.md": "`.`: the rest; upwards `low`,\n`high`\n",
+    "io/README.md": "| `*.h` | all |\n| `low/` | the low: much |\n| `data/` | none |\n| `high/` | the high |\n",
     "tests/sound_test.cpp": 'TEST_CASE("a name") {}\n',
 }
 SOUND_ORDER = {"core": None, "io": [".", "low", "high"]}
@@ -137,7 +130,10 @@ PLANTED = [
     ({"io/new/new.h": ""}, "io/new/new.h: io's folder new is not in the order of folders"),
     ({"io/low/low.h": '#include "io/gone/gone.h"\n'}, "io/low/low.h: includes io/gone/gone.h, whose folder is not in the order of folders"),
     ({"io/high/high.cpp": None}, "io: the order names the folder high, which has no sources"),
-    ({"README.md": "`high`, `low`\n"}, "README.md: the order of io's folders is not there: `low`, `high`"),
+    ({"io/README.md": "| `*.h` | all |\n| `high/` | the high |\n| `low/` | the low: much |\n"},
+     "io/README.md: the rows of its table of rooms are not in the order of folders: ., low, high"),
+    ({"io/README.md": "| `low/` | the low: much |\n| `high/` | the high |\n"},
+     "io/README.md: the rows of its table of rooms are not in the order of folders: ., low, high"),
     ({"io/low/low.cpp": '#include "parallel/blocks.h"\n'}, "io/low/low.cpp: includes parallel/blocks.h"),
     ({"io/low/low.cpp": "#include <thread>\n"}, "io/low/low.cpp: includes thread"),
     ({"core/any/a.h": '#include "io/base.h"\n'}, "core/any/a.h: includes io/base.h"),
@@ -149,21 +145,57 @@ PLANTED = [
 ]
 
 
-def self_test():
+# What is planted in it, and what the check of its picture and tables must find once the picture is that of SOUND and PICTURED.
+PICTURED = {"io/data/table.txt": "1\n", "io/high/more.h": '#include "io/base.h"\n'}
+OUTDATED = ("core/architecture.svg: the folders, their includes or their READMEs have changed since it was drawn: "
+            "run tests/architecture_picture.py")
+PICTURE_PLANTED = [
+    ({}, []),
+    # high includes base, as it does already; it would follow anyway, since high includes low, which includes base.
+    ({"io/high/more.h": ""}, []),
+    ({"io/low/low.h": ""}, [OUTDATED]),
+    ({"io/low/low.h": '#include "io/base.h"\n#include "io/high/more.h"\n'}, [OUTDATED]),  # a circle is drawn, too
+    ({"io/high/high.cpp": '#include "core/any/where.h"\n'}, [OUTDATED]),
+    ({"io/new/new.h": ""}, ["io/README.md: the table of rooms has no row for `new/`", OUTDATED]),
+    ({"io/data/table.txt": None}, ["io/README.md: the table of rooms names data, which is not there", OUTDATED]),
+    ({"io/README.md": SOUND["io/README.md"].replace("much", "little")}, []),
+    ({"io/README.md": SOUND["io/README.md"].replace("the low", "the lowest")}, [OUTDATED]),
+]
+
+
+def plant(root, files):
+    for name, text in files.items():
+        if text is not None:
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+
+
+def self_test_picture():
     failures = 0
+    for planted, expected in PICTURE_PLANTED:
+        with tempfile.TemporaryDirectory() as drawn, tempfile.TemporaryDirectory() as folder:
+            plant(pathlib.Path(drawn), SOUND | PICTURED)
+            root = pathlib.Path(folder)
+            plant(root, SOUND | PICTURED | planted | {"core/architecture.svg": architecture_picture.picture(pathlib.Path(drawn))})
+            found = [*architecture_picture.unnamed_rooms(root), *architecture_picture.outdated_picture(root)]
+        if found != expected:
+            failures += 1
+            print(f"planted {planted}:\n  found {found}\n  expected {expected}")
+    return failures
+
+
+def self_test():
+    failures = self_test_picture()
     for planted, expected in PLANTED:
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
-            for name, text in (SOUND | planted).items():
-                if text is not None:
-                    (root / name).parent.mkdir(parents=True, exist_ok=True)
-                    (root / name).write_text(text)
-            found = [*wrong_includes(root), *wrong_order(root, SOUND_ORDER), *unnamed_order(root, SOUND_ORDER), *shared_names(root),
+            plant(root, SOUND | planted)
+            found = [*wrong_includes(root), *wrong_order(root, SOUND_ORDER), *unsorted_rooms(root, SOUND_ORDER), *shared_names(root),
                      *lost_tests(root)]
         if found != ([] if expected is None else [expected]):
             failures += 1
             print(f"planted {planted}:\n  found {found}\n  expected {expected}")
-    print(f"{len(PLANTED)} trees, {failures} failures")
+    print(f"{len(PLANTED) + len(PICTURE_PLANTED)} trees, {failures} failures")
     return 1 if failures else 0
 
 

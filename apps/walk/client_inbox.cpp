@@ -104,7 +104,7 @@ void ClientInbox::save(const std::string& path, WebReply reply) {
 }
 
 void ClientInbox::accept(ClientId client, const HelloRequest& request) {
-    if (!driver_lock_.join(client, request.session)) throw InputError("hello was said before");
+    if (!driver_lock_.join(client, request.session)) throw InputError("hello was sent before");
     WelcomeReply welcome = welcome_;
     welcome.you = static_cast<std::uint32_t>(client);
     welcome.driver = driver_lock_.drives(client);
@@ -164,7 +164,8 @@ void ClientInbox::ask(WalkQuestion question) {
         return;
     }
     const std::uint32_t id = std::visit([](const auto& ask) { return ask.id; }, question.ask);
-    server_->send_text(question.client, walk_text(RefusedReply{"too many questions", id}));
+    server_->send_text(question.client,
+                       walk_text(RefusedReply{"too many requests are waiting for an answer", id}));
 }
 
 void ClientInbox::announce_roles() {

@@ -112,7 +112,7 @@ void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
         text += std::to_string(used) + " of its " + std::to_string(contents.records.size()) +
                 " values are used";
         if (fit_->loses_values() && writable_)
-            text += ", and values of more bounces than it knows are not kept";
+            text += ", and values of more bounces than its own are not stored in it";
         warnings.warn(text);
     }
     if (contents.damage.empty()) return;

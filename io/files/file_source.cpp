@@ -32,10 +32,10 @@ void append_text(std::string& out, std::string_view text) {
 
 std::string_view take_text(std::string_view& from) {
     std::uint64_t size = 0;
-    if (from.size() < sizeof size) throw InputError("a recording of files is cut short");
+    if (from.size() < sizeof size) throw InputError("a recording of files is truncated");
     std::memcpy(&size, from.data(), sizeof size);
     from.remove_prefix(sizeof size);
-    if (size > from.size()) throw InputError("a recording of files is cut short");
+    if (size > from.size()) throw InputError("a recording of files is truncated");
     const std::string_view text = from.substr(0, size);
     from.remove_prefix(size);
     return text;
@@ -143,7 +143,7 @@ FileReplay::FileReplay(std::string_view recording) {
         const std::string_view question = take_text(recording);
         const std::string_view said = take_text(recording);
         if (question.empty() || said.empty() || std::strchr("01x", said.front()) == nullptr)
-            throw InputError("a recording of files that is none");
+            throw InputError("not a recording of files");
         answers_.emplace(question, said);
     }
 }

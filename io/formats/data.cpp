@@ -61,7 +61,7 @@ class DataReader {
     }
     DataArray::Axis axis() {
         DataArray::Axis axis;
-        axis.origin = real("the begin of a range");
+        axis.origin = real("the beginning of a range");
         const float end = real("the end of a range");
         const long count = integer("a number of points");
         if (count < 2) throw bad_format(std::to_string(count), "at least 2 points");

@@ -202,7 +202,8 @@ class Replmarks {
 
   private:
     void copy(std::string_view text, const std::string& name, int depth) {
-        if (depth > kMaxDepth) throw CommandError({name, 0}, "commands write commands without end");
+        if (depth > kMaxDepth)
+            throw CommandError({name, 0}, "commands that write commands nest too deep");
         SceneTokenizer tokens(text, name);
         for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
             if (item == SceneTokenizer::Item::comment) {

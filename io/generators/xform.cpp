@@ -54,7 +54,8 @@ class Xform {
 
     void read_text(std::string_view text, const std::string& name, const std::string& directory,
                    int depth) {
-        if (depth > kMaxDepth) throw CommandError({name, 0}, "commands write commands without end");
+        if (depth > kMaxDepth)
+            throw CommandError({name, 0}, "commands that write commands nest too deep");
         SceneTokenizer tokens(text, name);
         for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
             switch (item) {

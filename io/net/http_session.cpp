@@ -62,7 +62,7 @@ void HttpSession::on_read(beast::error_code error) {
         error.category() != malformed) {
         return stream_.close();  // gone, or too slow
     }
-    refuse(status_of(error), "the request is not understood");
+    refuse(status_of(error), "bad request");
 }
 
 void HttpSession::decide() {
@@ -72,9 +72,9 @@ void HttpSession::decide() {
             return refuse(verdict.status, verdict.text);
         case WebDoor::asset:
             if (const StoredAsset* stored = host_.asset(verdict.path)) return give(*stored);
-            return refuse(404, "there is nothing here");
+            return refuse(404, "not found");
         case WebDoor::walk:
-            if (!host_.room_for_client()) return refuse(503, "there is no room for more clients");
+            if (!host_.room_for_client()) return refuse(503, "too many clients are connected");
             return host_.upgrade(std::move(stream_), parser_->get());
         case WebDoor::save:
             stream_.expires_never();

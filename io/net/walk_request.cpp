@@ -148,7 +148,7 @@ DisplayRequest read_display(const Json& object) {
     display.logarithmic = truth(scale, "log");
     if (!(display.low < display.high)) refuse("scale", "low below high");
     if (display.logarithmic && !(display.low > 0))
-        refuse("low", "more than 0 on a scale of logarithms");
+        refuse("low", "more than 0 on a logarithmic scale");
     return display;
 }
 
@@ -169,7 +169,7 @@ MeanRequest read_rectangle(const Json& object) {
     const auto side = [&](std::size_t k) { return number(rect[k], "rect", 0, 1); };
     const MeanRequest request{identity(object, "id"), side(0), side(1), side(2), side(3)};
     if (!(request.x0 < request.x1 && request.y0 < request.y1)) {
-        refuse("rect", "left, bottom, right, top of some size");
+        refuse("rect", "left, bottom, right, top with left < right and bottom < top");
     }
     return request;
 }

@@ -56,31 +56,31 @@ WebVerdict refusal(unsigned status, std::string text) {
 }  // namespace
 
 WebVerdict judge_request(const WebRequest& request, std::string_view token) {
-    if (!request.get) return refusal(405, "only GET is answered here");
+    if (!request.get) return refusal(405, "only GET is supported");
     const std::size_t end = std::min(request.target.find('?'), request.target.size());
     const std::string_view path = request.target.substr(0, end);
     const bool walk = path == "/walk", save = path.starts_with("/save/");
     if (token.empty() && !is_loopback(request.host)) {
-        return refusal(421, "this server answers to localhost and loopback addresses alone");
+        return refusal(421, "this server answers to localhost and loopback addresses only");
     }
     if (!token.empty() && (walk || save || path == "/")) {
         const std::string_view query = request.target.substr(end);
         const std::string_view given =
             query_value(query.substr(std::min<std::size_t>(1, query.size())), "token");
         if (!same_secret(given, token)) {
-            return refusal(403, "the address needs its token, as lightwalk printed it");
+            return refusal(403, "the token is missing: use the address that lightwalk printed");
         }
     }
     if (walk) {
         const std::optional<std::string_view> asks =
             request.origin ? host_of(*request.origin) : request.host;
         if (!asks || !same_name(*asks, request.host)) {
-            return refusal(403, "pages of other hosts may not walk here");
+            return refusal(403, "requests from pages of other hosts are refused");
         }
-        if (!request.upgrade) return refusal(426, "a WebSocket is expected here");
+        if (!request.upgrade) return refusal(426, "this path is for WebSockets only");
     }
     if (save && request.fetch_site == "cross-site") {
-        return refusal(403, "pages of other hosts may not ask for pictures here");
+        return refusal(403, "requests from pages of other sites are refused");
     }
     return {walk ? WebDoor::walk : save ? WebDoor::save : WebDoor::asset, std::string(path), 0, {}};
 }

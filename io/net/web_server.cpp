@@ -55,7 +55,7 @@ struct WebReply::State {
 
     explicit State(std::function<void(WebAnswer)> to) : deliver(std::move(to)) {}
     ~State() {
-        if (!answered) deliver(not_done("this was not done"));
+        if (!answered) deliver(not_done("the request was dropped without an answer"));
     }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -210,7 +210,7 @@ void WebServer::Core::save(const std::string& path, std::shared_ptr<HttpSession>
     const std::uint64_t number = ++last_save_;
     const bool room = saves_.size() < static_cast<std::size_t>(options_.limits.saves);
     saves_.emplace(number, std::move(session));
-    if (!room) return deliver(number, not_done("too much is being saved"));
+    if (!room) return deliver(number, not_done("too many pictures are being saved at once"));
     try {
         handler_.save(path, WebReply([weak = weak_from_this(), number](WebAnswer answer) {
                           const std::shared_ptr<Core> core = weak.lock();

@@ -83,7 +83,7 @@ void decode_components(std::string_view& bytes, std::span<Rgbe> pixels) {
             const std::size_t code = take_byte(bytes);
             const bool run = code > 128;
             const std::size_t count = run ? code - 128 : code;
-            if (count > pixels.size() - at) throw InputError("a run leaves its scanline");
+            if (count > pixels.size() - at) throw InputError("a run is longer than its scanline");
             const unsigned char value = run ? take_byte(bytes) : 0;
             for (const std::size_t end = at + count; at < end; ++at) {
                 pixels[at].*component = run ? value : take_byte(bytes);

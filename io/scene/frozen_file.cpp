@@ -133,7 +133,7 @@ std::optional<std::string> header_problem(const FrozenHeader& header, std::size_
     }
     if (header.digest != header_digest(header)) return "damaged: the header";
     if (header.file_size > file_size) return "truncated: its end is missing";
-    if (header.file_size < file_size) return "damaged: more follows its end";
+    if (header.file_size < file_size) return "damaged: there are bytes after its end";
     if (header.part_count > (file_size - sizeof header) / sizeof(FrozenEntry))
         return "damaged: the header";
     return {};

@@ -22,7 +22,7 @@ template <class T>
 void check_bools(const FrozenFile& file, std::span<const T> values, std::size_t offset) {
     const auto* byte = reinterpret_cast<const unsigned char*>(values.data()) + offset;
     for (std::size_t i = 0; i < values.size(); ++i, byte += sizeof(T)) {
-        if (*byte > 1) refuse_column(file, "neither yes nor no");
+        if (*byte > 1) refuse_column(file, "a flag that is neither 0 nor 1");
     }
 }
 
@@ -161,7 +161,7 @@ void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns)
                           : row.kind == ShapeKind::ring   ? usable(columns.rings)
                           : row.kind == ShapeKind::source ? usable(columns.sources)
                                                           : true;
-        if (!good) refuse_column(file, "a shape that is none");
+        if (!good) refuse_column(file, "an unknown kind of shape");
     }
 }
 

@@ -83,7 +83,8 @@ Column<T> column_of(const FrozenFile& file, FrozenKind kind, std::uint32_t owner
     static_assert(alignof(T) <= 8);
     const std::span<const std::byte> bytes = part_of(file, kind, owner);
     if (bytes.size() % sizeof(T) != 0)
-        throw InputError({file.name(), 0}, "damaged: a column of broken length");
+        throw InputError({file.name(), 0},
+                         "damaged: the length of a column is no multiple of its elements");
     return Column<T>::mapped({reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)});
 }
 

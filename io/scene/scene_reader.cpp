@@ -112,7 +112,7 @@ class SceneReader {
         const SourceLocation where = outer != nullptr ? *outer : tokens.where();
         const std::string command = tokens.command();
         if (depth >= kMaxNesting) {
-            throw InputError(where, "commands write commands more than " +
+            throw InputError(where, "commands that write commands nest more than " +
                                         std::to_string(kMaxNesting) + " levels deep");
         }
         const std::string name = to_prefix(where) + abbreviate_command(command);

@@ -81,8 +81,9 @@ TEST_CASE("ambient files of other options: what a run adds means the same under 
         Run shorter(path, options_of(1, 0.2));
         shorter.store.insert(record(0, 0.5f));  // one bounce: level 1 of two
         Run longer(path, options_of(3, 0.2));
-        CHECK(longer.warnings.all.at(0).ends_with(
-            "1 of its 1 values are used, and values of more bounces than it knows are not kept"));
+        CHECK(
+            longer.warnings.all.at(0).ends_with("1 of its 1 values are used, and values of more "
+                                                "bounces than its own are not stored in it"));
         longer.store.insert(record(0, 0.25f));  // three bounces: the file cannot say that
         longer.store.insert(record(1, 0.75f));  // two
         CHECK(longer.values() == 3);

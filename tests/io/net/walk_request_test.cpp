@@ -145,12 +145,12 @@ TEST_CASE("walk request: numbers beyond their range are refused, also where none
     }
     CHECK(refusal(3, "/exposure/ev", 41) != "accepted");
     CHECK(refusal(3, "/scale/low", 3000) == "\"scale\": expected low below high");
-    CHECK(refusal(3, "/scale/low", 0) == "\"low\": expected more than 0 on a scale of logarithms");
+    CHECK(refusal(3, "/scale/low", 0) == "\"low\": expected more than 0 on a logarithmic scale");
     CHECK(refusal(3, "/scale/high", 1e13) != "accepted");
     CHECK(refusal(5, "/x", -0.01) != "accepted");
     CHECK(refusal(5, "/y", 1.01) != "accepted");
     CHECK(refusal(6, "/rect", {0.5, 0, 0.5, 1}) ==
-          "\"rect\": expected left, bottom, right, top of some size");
+          "\"rect\": expected left, bottom, right, top with left < right and bottom < top");
     CHECK(refusal(6, "/rect", {0, 0, 1}) == "\"rect\": expected a list of the right length");
     CHECK(refusal(7, "/probes/1/normal", {0, 0, 0}) == "\"normal\": expected a direction");
     CHECK(refusal(7, "/probes/0/position", {1e30, 0, 0}) != "accepted");

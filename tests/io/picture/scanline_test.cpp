@@ -159,8 +159,8 @@ TEST_CASE("damaged scanlines are refused") {
     check_error("", 3, "the data end within a scanline");
     check_error(bytes_of({5, 5, 5, 5, 6, 6}), 2, "the data end within a scanline");
     check_error(bytes_of({2, 2, 0, 9}), 8, "scanline of length 9, expected 8");
-    check_error(bytes_of({2, 2, 0, 8, 0x89, 5}), 8, "a run leaves its scanline");
-    check_error(bytes_of({2, 2, 0, 8, 9, 1, 2, 3}), 8, "a run leaves its scanline");
+    check_error(bytes_of({2, 2, 0, 8, 0x89, 5}), 8, "a run is longer than its scanline");
+    check_error(bytes_of({2, 2, 0, 8, 9, 1, 2, 3}), 8, "a run is longer than its scanline");
     check_error(bytes_of({2, 2, 0, 8, 0x88}), 8, "the data end within a scanline");
     check_error(bytes_of({2, 2, 0, 8, 8, 1, 2, 3}), 8, "the data end within a scanline");
     std::string repeats = bytes_of({9, 8, 7, 128});

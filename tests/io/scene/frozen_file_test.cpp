@@ -85,7 +85,7 @@ TEST_CASE("a frozen file that is cut short anywhere, or too long, is refused") {
         CHECK(said ==
               (size < 8 ? "a.lwz: is no frozen scene" : "a.lwz: truncated: its end is missing"));
     }
-    CHECK(refusal(whole + 'x') == "a.lwz: damaged: more follows its end");
+    CHECK(refusal(whole + 'x') == "a.lwz: damaged: there are bytes after its end");
 }
 
 TEST_CASE("every changed bit of header, table and parts is noticed") {

@@ -334,7 +334,7 @@ TEST_CASE("a file that reads itself ends with an error") {
           "does a "
           "file read itself?");
     CHECK(parse("!cat cat.rad", inside(folder.path())).error ==
-          "room.rad:1: commands write commands more than 64 levels deep");
+          "room.rad:1: commands that write commands nest more than 64 levels deep");
     CHECK(parse("!cat twice.rad", inside(folder.path())).error != "");
 }
 
