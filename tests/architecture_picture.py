@@ -62,7 +62,7 @@ def captions(root):
 # ---------------------------------------------------------------------------------------------------------- layout
 
 ROOM_WIDTH, ROOM_HEIGHT, GAP, LAYER_PITCH = 142, 46, 14, 78
-LETTERS = 26  # of a caption's line
+LETTERS = 24  # of a caption's line
 
 
 class Layout:
@@ -270,9 +270,9 @@ def room_box(top, room, place, caption):
     name = f"{room}/" if room != "." else f"{top}/*.h"
     lines = textwrap.wrap(caption, LETTERS)
     out = [f'<rect x="{x:.1f}" y="{y:.1f}" width="{ROOM_WIDTH}" height="{ROOM_HEIGHT}" rx="6" fill="#ffffff" stroke="{INKS[top]}"/>',
-           f'<text x="{place[0]:.1f}" y="{y + (16 if lines else 27):.1f}" class="room" fill="{INKS[top]}">{html.escape(name)}</text>']
+           f'<text x="{place[0]:.1f}" y="{y + ((16 if len(lines) > 1 else 19) if lines else 27):.1f}" class="room" fill="{INKS[top]}">{html.escape(name)}</text>']
     for k, line in enumerate(lines):
-        shift = 28.5 if len(lines) > 1 else 33
+        shift = 28.5 if len(lines) > 1 else 34
         out.append(f'<text x="{place[0]:.1f}" y="{y + shift + 11.5 * k:.1f}" class="caption">{html.escape(line)}</text>')
     return out
 
