@@ -9,7 +9,7 @@
 
 namespace lightwalk {
 
-/// The name of an input file, in memory once for all that stands in it.
+/// The name of an input file, shared by every location that refers to it.
 class FileName {
   public:
     FileName() = default;
@@ -22,7 +22,7 @@ class FileName {
     friend bool operator==(const FileName& a, const FileName& b) {
         return a.name_ == b.name_ || (a.name_ && b.name_ && *a.name_ == *b.name_);
     }
-    /// Whether both are one string in memory: equal then, and found out at once.
+    /// Whether both share one string in memory: a quick test that implies equality.
     [[nodiscard]] bool is(const FileName& other) const { return name_ == other.name_; }
 
   private:
@@ -57,7 +57,8 @@ class InputError : public std::runtime_error {
         : std::runtime_error(printable(to_prefix(where) + message)) {}
 };
 
-/// A file that a scene names is not there. Whoever does not need it yet may go on without.
+/// A file that a scene names does not exist. A caller that does not need its contents may catch
+/// this and go on.
 class MissingFile : public InputError {
   public:
     using InputError::InputError;

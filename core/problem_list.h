@@ -1,5 +1,5 @@
 #pragma once
-// Everything that is wrong with an input, so that one run tells all of it.
+// Collects all problems of an input, so that one run reports them together.
 #include <cstddef>
 #include <map>
 #include <string>
@@ -12,15 +12,16 @@ namespace lightwalk {
 /// Problems in the order in which they were found.
 class ProblemList {
   public:
-    /// Of problems of one `kind` (a name that is missing, a type of primitives) the first few are
-    /// told, the others counted.
+    /// Add a problem. Of each `kind` (for example one missing name, or one type of primitives) only
+    /// the first `told` are listed, the others are counted.
     void add(const SourceLocation& where, const std::string& message, const std::string& kind,
              std::size_t told = 1);
-    /// A problem like no other.
+    /// Add a problem that is always listed.
     void add(const InputError& problem) { lines_.push_back({problem.what(), {}}); }
 
     [[nodiscard]] bool empty() const { return lines_.empty(); }
-    /// A line each, "file:line: message", with "(and N more)" behind the last one told of a kind.
+    /// One line for each listed problem, "file:line: message"; the last one of a kind ends in "(and
+    /// N more)" where others were only counted.
     [[nodiscard]] std::string text() const;
     /// Throws InputError(text()) unless the list is empty.
     void raise() const;

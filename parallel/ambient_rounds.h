@@ -1,5 +1,6 @@
 #pragma once
-// Ambient values for many points at once, in rounds: the same values for any number of workers.
+// Deterministic parallel computation of ambient values in rounds: the same values for any number of
+// workers.
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -17,43 +18,45 @@
 
 namespace lightwalk {
 
-/// Fills a cache as one worker would who takes the points in a fixed order, after Blelloch,
-/// Fineman, Gibbons & Shun, "Internally Deterministic Parallel Algorithms Can Be Fast", PPoPP 2012.
-/// A round chooses points from the head of that order, far enough apart that none of their values
-/// is likely to serve another's point; computes all of them at once, while the cache stays as the
-/// rounds before have left it; and stores them in their order. The values of deeper levels that
-/// those will need come first, in rounds of their own: Jones & Reinhart, "Parallel Multiple-Bounce
-/// Irradiance Caching", EGSR 2016. Several processes that do the same rounds share the computing,
-/// and end with the same cache.
+/// Fills a cache with the values that one worker would compute who visits the points in a fixed
+/// order (deterministic reservations), after Blelloch, Fineman, Gibbons & Shun, "Internally
+/// Deterministic Parallel Algorithms Can Be Fast", PPoPP 2012. A round chooses points from the head
+/// of that order, far enough apart that none of their values is likely to serve another's point;
+/// computes all of them at once, while the cache stays as the rounds before have left it; and
+/// stores them in their order. The values of deeper levels that those will need come first, in
+/// rounds of their own: Jones & Reinhart, "Parallel Multiple-Bounce Irradiance Caching", EGSR 2016.
+/// Several processes that do the same rounds share the computing, and end with the same cache.
 class AmbientRounds {
   public:
-    /// What was done, for one level.
+    /// Statistics of one ambient level.
     struct Counts {
         std::size_t rounds = 0;
-        std::size_t values = 0;       ///< computed in them
-        std::size_t needless = 0;     ///< of these: another one of their round would have served
+        std::size_t values = 0;  ///< computed in them
+        std::size_t needless =
+            0;  ///< of these: values for which another value of their round could have been used
         std::size_t new_records = 0;  ///< computed on the way to values of the level above
     };
 
     /// All must outlive this; `cache` is the one that `tracer` uses, and is left frozen: it takes
     /// no values but those of the rounds.
-    /// @param after_round  called after each, on the calling thread, with the number of points of
-    ///                     level 0 that are still to be looked at
+    /// @param after_round  called after each round, in the calling thread, with the number of
+    /// points of level 0 that remain
     AmbientRounds(const Tracer& tracer, FreezableCache& cache, Executor& executor,
                   WorkerContexts& contexts, RoundExchange& exchange, const StopFlag& stop,
                   std::function<void(std::size_t left)> after_round);
 
-    /// The points that `trace`, which may trace rays by all workers, finds to miss a value, in any
-    /// of the processes.
+    /// Runs `trace`, which may trace rays by all workers, and returns the points for which it found
+    /// no ambient value, in this process or another.
     [[nodiscard]] std::vector<AmbientPoint> collect(FunctionRef<void()> trace);
 
-    /// Compute values until each of the points, which are of one level, has one that serves it, or
-    /// cannot have. Their order does not matter.
+    /// Compute values until each of the points, which must be of one level, has a usable value, or
+    /// cannot have one. The result is independent of their order.
     void compute_in_rounds(std::vector<AmbientPoint> points);
 
-    /// A stop was requested, of this process or of another: nothing is done any more.
+    /// Whether this process or another was requested to stop; no more work is done then.
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// Pixels missed values at points that do not stand alone, which rounds leave out.
+    /// Whether pixels need values at points inside clipped matter or a mist, which rounds cannot
+    /// compute.
     [[nodiscard]] bool left_out() const { return left_out_; }
     [[nodiscard]] const std::vector<Counts>& counts() const { return counts_; }  ///< by level
 

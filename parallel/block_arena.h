@@ -1,5 +1,5 @@
 #pragma once
-// Memory for values that many threads add and read while nobody waits.
+// An arena of values that many threads add and read concurrently.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -38,7 +38,7 @@ class BlockArena {
         return static_cast<std::uint32_t>(i);
     }
     [[nodiscard]] std::uint64_t size() const { return used_.load(std::memory_order_relaxed); }
-    /// Of all blocks and directories, beside the arena itself.
+    /// Bytes of all blocks and directories, without the arena object.
     [[nodiscard]] std::size_t memory_bytes() const {
         return memory_bytes_.load(std::memory_order_relaxed);
     }
@@ -56,7 +56,7 @@ class BlockArena {
                                 std::memory_order_relaxed);
         place.store(blocks_.back().get(), std::memory_order_release);
     }
-    /// Readers may still be in the old directory: it stays.
+    /// The old directory is kept, as readers may still use it.
     void grow(std::size_t least) {
         const std::size_t old = places_.load(std::memory_order_relaxed);
         const std::size_t places = std::max({least, 2 * old, std::size_t{8}});
@@ -70,8 +70,8 @@ class BlockArena {
         places_.store(places, std::memory_order_release);
     }
 
-    std::atomic<Place*> directory_{nullptr};  ///< the last of directories_
-    std::atomic<std::size_t> places_{0};      ///< in it
+    std::atomic<Place*> directory_{nullptr};  ///< the newest of directories_
+    std::atomic<std::size_t> places_{0};      ///< number of entries in it
     std::atomic<std::uint64_t> used_{0};
     std::atomic<std::size_t> memory_bytes_{0};
     std::mutex making_;

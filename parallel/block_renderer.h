@@ -1,5 +1,5 @@
 #pragma once
-// A block in, its pixels out.
+// Renders blocks of a picture.
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -29,9 +29,9 @@ struct BlockPixels {
     }
 };
 
-/// Renders any block of a picture, refinement and small light sources included. A block's pixels
-/// are a function of picture and place alone: whatever the blocks, windows and workers, the same
-/// bytes (with indirect light: as far as the ambient cache gives the same answers).
+/// Renders any block of a picture, including refinement and small light sources. Deterministic:
+/// pixels are the same bytes for any division into blocks, window or number of workers (with
+/// indirect light: as far as the ambient cache gives the same answers).
 class BlockRenderer {
   public:
     /// The arguments, and options.previous, must outlive this; `stop` ends a block within about the
@@ -42,8 +42,8 @@ class BlockRenderer {
     [[nodiscard]] const FrameOptions& options() const { return options_; }
     [[nodiscard]] WorkerContexts& contexts() const { return contexts_; }
 
-    /// Blocks whose corners lie at multiples of it, or at the picture's edge, cost least: others
-    /// trace pixels beyond their edges.
+    /// Blocks whose corners are multiples of this number, or lie at the picture's edge, are
+    /// cheapest: other blocks trace pixels beyond their edges.
     [[nodiscard]] int alignment() const;
 
     /// Render `block`, which lies inside the picture. False: stopped; then `pixels` is not whole.

@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles of pixels: the unit of work that is handed out, and who hands it out.
+// Blocks: rectangles of pixels as units of work, and their distribution.
 #include <atomic>
 #include <cstddef>
 #include <optional>
@@ -22,14 +22,15 @@ using Block = PixelRectangle;  ///< a rectangle in its role as a unit of work
 /// out and what is done early covers the area evenly.
 [[nodiscard]] std::vector<Block> make_blocks(const PixelRectangle& area, int side);
 
-/// What is left of blocks when some pixels are known.
+/// Blocks divided by whether their pixels are known already.
 struct BlocksLeft {
-    std::vector<Block> left;   ///< none of whose pixels need be known: in the order of the blocks
-    std::vector<Block> known;  ///< all of whose pixels are
+    std::vector<Block> left;   ///< blocks to be rendered, in the original order
+    std::vector<Block> known;  ///< blocks all of whose pixels are known
 };
 
-/// Blocks are quartered, with corners at multiples of `alignment`, until none is known in part; one
-/// that cannot be quartered counts as left.
+/// Divide blocks into known ones and those left to render. A block that is known in part is
+/// quartered, with corners at multiples of `alignment`; where it is too small for that, it counts
+/// as left.
 /// @param known  rectangles of known pixels, which do not overlap
 [[nodiscard]] BlocksLeft blocks_left(const std::vector<Block>& blocks,
                                      const std::vector<PixelRectangle>& known, int alignment);
@@ -38,12 +39,12 @@ struct BlocksLeft {
 /// the block itself where it is too small.
 [[nodiscard]] std::vector<Block> quarters(const Block& block, int alignment);
 
-/// Where those who render get their blocks from: each pulls its next one when it is free.
+/// A source of blocks, from which each worker pulls its next one (work queue).
 class BlockSource {
   public:
     virtual ~BlockSource() = default;
-    /// The next block, which no one else gets; nothing: there is none left. May wait. Called by
-    /// many threads at once.
+    /// The next block, which is given out once; nothing when there are no more. May wait. Safe to
+    /// call from many threads.
     [[nodiscard]] virtual std::optional<Block> next() = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Before a picture with indirect light: fill the ambient cache, evenly over the view.
+// The cache prepass of a picture with indirect light (Radiance's overture): fills the ambient cache
+// evenly over the view.
 #include "core/transport/tracer.h"
 #include "core/view/view.h"
 #include "parallel/executor.h"
@@ -12,9 +13,9 @@ namespace lightwalk {
 enum class CachePrepass {
     none,   ///< the picture fills the cache as it goes
     quick,  ///< one coarse picture, by all workers
-    /// Finer and finer pictures, the last one whole: what they miss is computed in rounds, whose
-    /// values are the same for any number of workers. Then the cache takes no more, so that what is
-    /// looked up no longer depends on who computes what when.
+    /// Ever finer pictures, finally the full one; the ambient values that they lack are computed in
+    /// rounds, deterministically for any number of workers. The cache is then frozen, so that later
+    /// lookups are independent of scheduling.
     deterministic,
 };
 
@@ -31,14 +32,15 @@ struct CachePrepassResult {
 inline constexpr int kQuickStep = 6;
 [[nodiscard]] FrameOptions quick_prepass(const FrameOptions& options, int step = kQuickStep);
 
-/// Trace coarse pictures of the view that leave nothing but ambient values, so that the picture
-/// itself finds most of them. Their pixels are not kept: computed while the cache was nearly empty,
-/// they would stand out in a grid.
-/// @param options   of the picture that is to come. `deterministic` looks at all of it even when
-///                  only a window is wanted, so that every window finds the same values
+/// Trace coarse pictures of the view to fill the ambient cache, so that the picture itself finds
+/// most values there. Their pixels are discarded: computed while the cache was nearly empty, they
+/// would be visible as a grid.
+/// @param options   of the picture that follows. `deterministic` covers the whole picture even
+/// where only a window is rendered, so that every window finds the same values
 /// @param cache     the one that `tracer` uses; open while the prepass lasts, and after it unless
 ///                  `deterministic`
-/// @param progress  of the prepass as a whole; otherwise as in render_frame, as are the others
+/// @param progress  of the whole prepass; called as in render_frame. Further parameters as in
+/// render_frame
 /// @param exchange  with other processes that call this with the same scene and options for a
 ///                  `deterministic` prepass, and end with the same cache; null: there are none.
 ///                  Counters tell of this process alone

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks that outlive the run that rendered them.
+// Storage of finished blocks for a later run (checkpoint).
 #include <vector>
 
 #include "parallel/block_renderer.h"
@@ -9,9 +9,9 @@ namespace lightwalk {
 class CheckpointSink {
   public:
     virtual ~CheckpointSink() = default;
-    /// Blocks of this picture that are known already; they do not overlap.
+    /// Blocks of this picture that an earlier run has finished; they do not overlap.
     [[nodiscard]] virtual std::vector<BlockPixels> known() = 0;
-    /// A finished block; called by many threads at once.
+    /// Store a finished block. Safe to call from many threads.
     virtual void keep(const BlockPixels& pixels) = 0;
 };
 

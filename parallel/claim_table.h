@@ -1,6 +1,6 @@
 #pragma once
-// Which ambient values are being computed, so that threads that miss the same one at the same time
-// do not all compute it.
+// A table of the ambient values that are being computed, so that threads that need the same one at
+// the same time do not all compute it.
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace lightwalk {
 
-/// Claims are hints: losing one costs a value that is computed twice, never a wrong one. Who holds
-/// claims waits only for values of deeper levels than its own, so that nobody waits for himself,
-/// and never for long.
+/// Claims are hints: a lost claim means that a value is computed twice, never a wrong one. A thread
+/// that holds claims waits only for values of deeper levels than its own, which excludes deadlocks,
+/// and only for a limited time.
 class ClaimTable {
   public:
-    /// `reach`: distance up to which any value serves its neighbours [m].
+    /// `reach`: largest distance at which any value is used [m].
     explicit ClaimTable(double reach) : reach_(reach) {}
 
     /// Claim the value that the query asks for. Where a thread is computing one that will serve it,
     /// wait until that is done, or half as long as values took so far.
     [[nodiscard]] AmbientClaim claim(const AmbientQuery& query);
-    /// The value is stored, or will not be.
+    /// Release a claim: the value has been stored, or will not be.
     void release(const AmbientClaim& claim);
     [[nodiscard]] std::size_t open() const;
-    /// Beside the table itself.
+    /// Bytes allocated beside the table object.
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
@@ -41,7 +41,7 @@ class ClaimTable {
     double reach_;
     mutable std::mutex mutex_;
     std::condition_variable released_;
-    std::vector<Entry> entries_;  ///< at most one a thread and level
+    std::vector<Entry> entries_;  ///< at most one for each thread and level
     std::uint64_t next_ = 1;
     Clock::duration usual_{};  ///< moving average of how long a value takes
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The ambient cache that all threads of a process share. Looking up takes no lock; storing takes
-// that of one shard.
+// The ambient cache that all threads of a process share. Lookups take no lock; insertions lock one
+// shard.
 #include <array>
 #include <atomic>
 #include <memory>
@@ -14,7 +14,7 @@
 namespace lightwalk {
 
 /// Any number of threads may look up and insert at the same time. A lookup sees every record whose
-/// insertion had ended before it began. Records stay until the cache goes.
+/// insertion had ended before it began. Records are never removed.
 class ConcurrentCache final : public AmbientCache {
   public:
     explicit ConcurrentCache(const AmbientLimits& limits);
@@ -28,7 +28,7 @@ class ConcurrentCache final : public AmbientCache {
     void release(const AmbientClaim& claim) override { claims_.release(claim); }
     [[nodiscard]] std::size_t open_claims() const { return claims_.open(); }
     [[nodiscard]] std::size_t size() const { return records_.size(); }
-    /// Of everything, used or set aside.
+    /// Bytes of everything that is allocated.
     [[nodiscard]] std::size_t memory_bytes() const {
         return sizeof(*this) + records_.memory_bytes() + families_.memory_bytes() +
                claims_.memory_bytes();
@@ -38,9 +38,9 @@ class ConcurrentCache final : public AmbientCache {
     static constexpr std::uint32_t kNone = 0xffffffff;
     static constexpr std::size_t kShards = 64;
     struct Node {
-        std::atomic<std::uint32_t> children{0};   ///< family; 0: none
-        std::atomic<std::uint32_t> first{kNone};  ///< record, newest first
-        ReachBox reach;                           ///< of its records and its children's
+        std::atomic<std::uint32_t> children{0};   ///< index of the family of children; 0: none
+        std::atomic<std::uint32_t> first{kNone};  ///< first of a list of records, newest first
+        ReachBox reach;  ///< region in which its records and those of its children are usable
     };
     struct alignas(128) Family {
         std::array<Node, 8> child;

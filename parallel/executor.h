@@ -1,5 +1,5 @@
 #pragma once
-// Who runs independent tasks: one thread, a pool of std::threads, or a TBB arena.
+// Executors run independent tasks: in one thread, a pool of std::threads, or a TBB arena.
 #include <cstddef>
 #include <memory>
 
@@ -8,8 +8,8 @@
 
 namespace lightwalk {
 
-/// One call of a task: which one, and by whom. No two tasks run with the same worker at the same
-/// time, so workers index scratch memory.
+/// A task, called with its number and the index of its worker. No two tasks run with the same
+/// worker index at the same time, so that it can index scratch memory.
 using Task = FunctionRef<void(std::size_t task, int worker)>;
 
 class Executor {
@@ -31,20 +31,20 @@ class Executor {
 };
 
 enum class ExecutorKind {
-    serial,   ///< the calling thread: the reference of all others
+    serial,   ///< the calling thread only
     threads,  ///< std::thread, which ThreadSanitizer understands
     tbb,      ///< a TBB arena
 };
 
-/// What to use when nobody asks for another: TBB, or std::thread where ThreadSanitizer watches, for
-/// it takes what the packaged libtbb does for races.
+/// The default: TBB, or std::thread under ThreadSanitizer, which reports false races in the
+/// packaged libtbb.
 #if defined(__SANITIZE_THREAD__)
 inline constexpr ExecutorKind kDefaultExecutor = ExecutorKind::threads;
 #else
 inline constexpr ExecutorKind kDefaultExecutor = ExecutorKind::tbb;
 #endif
 
-/// `workers` >= 1, the calling thread included; `serial` has one whatever is asked for.
+/// Make an executor of `workers` >= 1 threads, including the calling one; `serial` always has one.
 [[nodiscard]] std::unique_ptr<Executor> make_executor(ExecutorKind kind, int workers);
 
 /// Number of hardware threads this process may use, at least 1.

@@ -1,5 +1,5 @@
 #pragma once
-// An executor as the task runner that core builds scenes with.
+// Adapts an executor to the TaskRunner interface of core.
 #include "core/math/task_runner.h"
 #include "parallel/executor.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The executors that have a file of their own; see executor.h for how to get one.
+// Makers of the executors of separate files; use make_executor of executor.h.
 #include <memory>
 
 #include "parallel/executor.h"

@@ -1,5 +1,5 @@
 #pragma once
-// One frame: every pixel of a view, or of a window of it, by all workers of an executor.
+// Rendering of a frame: every pixel of a view, or of a window of it, by all workers of an executor.
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +16,7 @@
 
 namespace lightwalk {
 
-/// Rows from the top, left to right.
+/// A rendered picture; rows from the top, left to right.
 struct Frame {
     int width = 0, height = 0;
     std::vector<Rgb> radiance;  ///< [W/(m² sr)]
@@ -37,14 +37,15 @@ using TakeBlock = FunctionRef<void(const BlockPixels& pixels, int worker)>;
 void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor& executor,
                    const StopFlag& stop, TakeBlock take);
 
-/// Render; light sources too small for the pixel grid are drawn in with their coverage (unless a
-/// lens or motion blurs the picture, or pixels have several samples: these find them). The same
-/// options give the same bytes with any executor and any number of workers, and windows put
-/// together those of the whole picture.
+/// Render a frame. Light sources smaller than a pixel are drawn by their coverage (unless a lens or
+/// motion blurs the picture, or pixels have several samples, which find them). Deterministic: the
+/// same options give the same bytes with any executor and number of workers, and windows equal the
+/// parts of the whole picture.
 /// @param contexts  one for each worker of the executor, made for `tracer`; their counters start
 ///                  from zero
 /// @param stop      ends the work within about the time of one pixel
-/// @param checkpoint    null: none. What it knows is not rendered again; it gets what is
+/// @param checkpoint    null: none. Blocks that it knows are not rendered again; the others are
+/// stored in it
 /// @param progress  called after blocks, by whichever worker finished one, but never twice at once
 /// Throws what the tracer throws (InputError for errors that only show while shading).
 [[nodiscard]] Frame render_frame(const Tracer& tracer, const Camera& camera,

@@ -1,5 +1,5 @@
 #pragma once
-// What a picture is to be: for the renderer of its blocks, and for those who hand them out.
+// Options of a picture that its renderer and the distribution of its blocks need.
 #include <cstdint>
 #include <optional>
 
@@ -14,16 +14,16 @@ struct FrameOptions {
     PixelOptions pixels;
     std::uint64_t seed = 0;
     bool use_distances =
-        false;  ///< they count in refinement and in drawing small sources (rpict -z)
+        false;  ///< distances are considered in refinement and in drawing small sources (rpict -z)
     const Camera* previous = nullptr;  ///< view of the frame before, for motion blur
-    /// More than 1: trace one pixel out of step x step; picture and frame are so much smaller.
+    /// More than 1: trace one pixel of every step x step; the picture is smaller by that factor.
     int step = 1;
-    /// The part of the picture to make, inside it; nothing: all. In the pixels that are traced, so
-    /// of the smaller picture when `step` is not 1.
+    /// The window to render, inside the picture; nothing: all of it. In traced pixels: those of the
+    /// smaller picture when `step` is not 1.
     std::optional<PixelRectangle> window;
-    bool hits = false;  ///< tell what each pixel's ray met, too
+    bool hits = false;  ///< whether to return the first hit of each pixel, too
 
-    /// All pixels of the picture of every step-th pixel.
+    /// The rectangle of all traced pixels, of every step-th pixel of the picture.
     [[nodiscard]] PixelRectangle whole() const {
         return {0, 0, (width + step - 1) / step, (height + step - 1) / step};
     }

@@ -1,6 +1,6 @@
 #pragma once
-// A cache that can be closed to new values, so that what is looked up no longer depends on who
-// computes what when.
+// An ambient cache that can be frozen: it then takes no new values, and lookups are independent of
+// scheduling.
 #include "core/ambient/ambient_cache.h"
 
 namespace lightwalk {
@@ -8,7 +8,8 @@ namespace lightwalk {
 class FreezableCache final : public AmbientCache {
   public:
     explicit FreezableCache(AmbientCache& cache) : cache_(cache) {}
-    /// New values are dropped from now on, or kept again. Not while rays are traced.
+    /// Freeze the cache (new values are dropped), or open it again. Must not be called while rays
+    /// are traced.
     void freeze(bool frozen) { frozen_ = frozen; }
 
     [[nodiscard]] const AmbientLimits& limits() const override { return cache_.limits(); }

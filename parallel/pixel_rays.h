@@ -10,7 +10,7 @@
 
 namespace lightwalk {
 
-/// How a picture is sampled; names and defaults of rpict.
+/// Options of the sampling of pixels, with names and defaults of rpict.
 struct PixelOptions {
     int samples = 1;  ///< --samples: rays a pixel; more than 1 are drawn from the pixel's filter
     int spacing = 4;  ///< -ps: distance of the pixels that are traced in any case, 1 ... 16
@@ -21,14 +21,14 @@ struct PixelOptions {
     double motion = 0;     ///< -pm: share of the time between two frames that the shutter is open
 };
 
-/// A pixel's ray, and the random numbers that it goes on with.
+/// A pixel's primary ray, and the random numbers for tracing it.
 struct PixelRay {
     std::optional<Camera::ViewRay> ray;  ///< nothing outside the view's domain
     RandomStream random;
-    double h = 0, v = 0;  ///< its place in the picture, as Camera::ray has it
+    double h = 0, v = 0;  ///< image position, see Camera::ray
 };
 
-/// The ray of each pixel as a pure function of the pixel.
+/// Generates the primary ray of each pixel: a pure function of the pixel and sample.
 class PixelRays {
   public:
     /// @param previous  the view of the frame before, for motion blur; null: none
@@ -40,12 +40,11 @@ class PixelRays {
     /// Pixel (x, y), y from the bottom, goes through ((x + j1) / width, (y + j2) / height), j
     /// uniform in ½ ± jitter / 2. Source: Radiance manual page rpict(1), -pj, -pd and -pm.
     /// With several samples a pixel their places come from pixel_sample() (core/view) instead, some
-    /// of them beyond the pixel's edge; the jitter does not count. Lens and motion as with one.
+    /// of them beyond the pixel's edge, and jitter is not used. Lens and motion as with one sample.
     /// @param sample  0 ... samples - 1; sample 0 is nearest to the pixel's centre
     [[nodiscard]] PixelRay operator()(int x, int y, int sample = 0) const;
 
-    /// Where in the picture that ray goes through, as Camera::ray has it, and the random numbers
-    /// that are left.
+    /// The image position (see Camera::ray) of a pixel's ray, and the random numbers that remain.
     struct Place {
         double h = 0, v = 0;
         RandomStream random;

@@ -1,5 +1,5 @@
 #pragma once
-// Any pixels of a picture, traced in packets.
+// Traces arbitrary pixels of a picture in packets.
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace lightwalk {
 
-/// Nearest hits at once, then shading one by one. Scratch of one worker. What a pixel gets does not
-/// depend on those that are traced with it.
+/// Finds the nearest hits of a packet of rays together, then shades them. For one worker. The
+/// result of a pixel is independent of the other pixels of its packet.
 class PixelTracer {
   public:
     /// All must outlive this; the context is used while pixels are traced.
@@ -39,8 +39,8 @@ class PixelTracer {
     std::vector<Ray> rays_;
     std::vector<RaySegment> segments_;
     std::vector<Hit> hits_;
-    std::vector<std::size_t> targets_;  ///< into places
-    std::vector<PixelValue> more_;      ///< of one further sample
+    std::vector<std::size_t> targets_;  ///< indices into places
+    std::vector<PixelValue> more_;      ///< values of one further sample
     std::vector<PixelHit> more_hits_;
 };
 

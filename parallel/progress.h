@@ -1,12 +1,12 @@
 #pragma once
-// How far work is.
+// Progress of work.
 #include <cstdint>
 
 #include "core/math/function_ref.h"
 
 namespace lightwalk {
 
-/// Of a frame or an prepass, since it began.
+/// Progress of a frame or a prepass since it began.
 struct FrameProgress {
     double done = 0;                   ///< share of the pixels, 0 ... 1
     std::uint64_t rays = 0;            ///< traced so far

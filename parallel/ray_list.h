@@ -1,5 +1,5 @@
 #pragma once
-// Many separate rays by all workers of an executor, as rtrace takes them.
+// Tracing of lists of single rays, as rtrace does, by all workers of an executor.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,7 +23,7 @@ struct RayListOptions {
     std::uint64_t seed = 0;
 };
 
-/// Rays with the same index / kRaysPerTask are traced by one thread, in order.
+/// Number of consecutive rays that one task traces, in order.
 inline constexpr std::size_t kRaysPerTask = 64;
 
 /// Takes a finished ray and its nearest hit before shading.
@@ -34,8 +34,8 @@ using TakeRay = FunctionRef<void(std::size_t index, const Ray& ray, const Hit& f
 void trace_rays(const Tracer& tracer, TraceContext& context, std::span<const RayQuery> queries,
                 std::uint64_t first_index, const RayListOptions& options, TakeRay take);
 
-/// The same with all workers of an executor; ray i has the random numbers of ray `first_index` + i
-/// of the whole input, whatever the workers.
+/// Trace `queries` with all workers of an executor. Ray i has the random numbers of ray
+/// `first_index` + i of the whole input, for any number of workers.
 void trace_ray_list(const Tracer& tracer, WorkerContexts& contexts,
                     std::span<const RayQuery> queries, std::uint64_t first_index,
                     const RayListOptions& options, Executor& executor, TakeRay take);

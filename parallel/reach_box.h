@@ -1,5 +1,6 @@
 #pragma once
-// Where the records of a cube of the ambient cache reach, in eight bytes that grow without a lock.
+// Lock-free bounding boxes of the regions in which the records of a cube of the ambient cache are
+// usable, in eight bytes each.
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace lightwalk {
 
-/// Steps of a place within a cube that is grown by its edge on either side: 127 from side to side,
-/// clamped to them. Monotone, so that a place between two others never leaves their steps.
+/// Quantized coordinates of a place in a cube that is grown by its edge length on either side: 0 to
+/// 127, clamped. Monotone: a place between two others never lies outside their steps.
 class ReachGrid {
   public:
     explicit ReachGrid(const CachePath& cube)
@@ -32,7 +33,7 @@ class ReachGrid {
 /// bit for the borrow when all six are compared by one subtraction.
 class ReachBox {
   public:
-    /// Twice the steps of a place, as `holds` takes them.
+    /// The steps of a place, stored twice, in the form that `holds` compares.
     static constexpr std::uint64_t place(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
         return (x | y << 8 | z << 16) * 0x1000001;
     }
@@ -42,7 +43,7 @@ class ReachBox {
                             lesser = (box & kLow) | (place & kHigh);
         return (((greater | kBorrow) - lesser) & kBorrow) == kBorrow;
     }
-    /// Make it hold all from `low` to `high`, in world coordinates.
+    /// Enlarge the box to include the one from `low` to `high`, in world coordinates.
     void grow(const ReachGrid& grid, const Vec3& low, const Vec3& high) {
         std::uint64_t old = box_.load(std::memory_order_relaxed), grown = 0;
         do {

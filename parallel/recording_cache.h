@@ -1,5 +1,5 @@
 #pragma once
-// A cache that remembers what is stored in it, for a while.
+// An ambient cache that records insertions.
 #include <utility>
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace lightwalk {
 
-/// Records until stop(), by one thread.
+/// Records the insertions by one thread until stop().
 class RecordingCache final : public AmbientCache {
   public:
     explicit RecordingCache(AmbientCache& cache) : cache_(cache) {}
-    /// What was stored so far; nothing is recorded any more.
+    /// Stop recording; returns what was inserted.
     [[nodiscard]] std::vector<AmbientRecord> stop() {
         recording_ = false;
         return std::exchange(records_, {});

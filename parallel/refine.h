@@ -1,8 +1,8 @@
 #pragma once
-// Fewer rays than pixels: trace a grid of pixels, then decide level by level which between them are
-// traced, too, and which are interpolated.
+// Adaptive sampling with fewer rays than pixels: a grid of pixels is traced; of the pixels in
+// between it is decided, level by level, which are traced and which are interpolated.
 //
-// The picture is divided into tiles that know nothing of each other. A tile begins with a grid of
+// The picture is divided into independent tiles. A tile begins with a grid of
 // traced pixels, its border lines among them, and halves the distances between the lines until each
 // line of pixels has its turn: first the pixels between four corners, then those on the sides,
 // which have a neighbour on either side along their line and across it. Such a pixel
@@ -29,28 +29,28 @@ namespace lightwalk {
 /// Traces pixels: values[i] is set for places[i].
 using TracePixels =
     FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelValue> values)>;
-/// Takes the final value of one pixel.
+/// Receives the final value of one pixel.
 using StorePixel = FunctionRef<void(const PixelPlace& place, const PixelValue& value)>;
 
 struct RefineOptions {
-    int spacing = 4;          ///< about the distance of the pixels that are traced first, >= 1
+    int spacing = 4;          ///< approximate distance of the pixels that are traced first, >= 1
     double threshold = 0.05;  ///< neighbours that differ by more than this share of the smaller one
                               ///< are not interpolated
-    bool by_distance = false;  ///< distances count, too
+    bool by_distance = false;  ///< compare distances, too
 };
 
-/// Tiles are refined independently of each other: their side is a function of the spacing alone.
+/// Side of the tiles that are refined independently of each other: a function of the spacing only.
 [[nodiscard]] int refine_tile_side(int spacing);
 
-/// Whether two or more values are too unlike to interpolate between them: in any channel
+/// Whether two or more values differ too much for interpolation: in any channel
 /// max - min > threshold * min, or (by distance) 2 (max - min) > threshold * (max + min).
 /// Source: Radiance manual page rpict(1), -pt.
 [[nodiscard]] bool differ(std::span<const PixelValue> values, const RefineOptions& options);
 
 /// Set every pixel of `tile` (corners at multiples of refine_tile_side, or at the picture's edge),
 /// each traced at most once, none outside. The result is a pure function of the tile, the options
-/// and the traced values: neither blocks nor threads show, nor what else of the picture is drawn.
-/// At a spacing of 1 every pixel is traced.
+/// and the traced values, independent of blocks, threads and windows. At a spacing of 1 every pixel
+/// is traced.
 void refine_tile(const PixelRectangle& tile, const RefineOptions& options, TracePixels trace,
                  StorePixel store);
 

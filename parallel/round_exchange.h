@@ -1,13 +1,13 @@
 #pragma once
-// What processes that fill the same ambient cache in rounds have to say to each other.
+// Communication of processes that fill the same ambient cache in rounds.
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lightwalk {
 
-/// Processes that do the same rounds: each does its share of the work of a round, and all get what
-/// all have found.
+/// A group of processes that execute the same rounds: each computes its share of a round, and all
+/// get all results.
 class RoundExchange {
   public:
     RoundExchange() = default;
@@ -15,19 +15,19 @@ class RoundExchange {
     RoundExchange(const RoundExchange&) = delete;
     RoundExchange& operator=(const RoundExchange&) = delete;
 
-    [[nodiscard]] virtual int index() const = 0;  ///< of this process, 0 ... count() - 1
+    [[nodiscard]] virtual int index() const = 0;  ///< index of this process, 0 ... count() - 1
     [[nodiscard]] virtual int count() const = 0;
-    /// Every process gives bytes and gets everyone's, in the order of their indices; waits for the
-    /// slowest.
+    /// All-gather: every process contributes bytes and gets those of all, in the order of their
+    /// indices. A barrier: waits for the slowest.
     [[nodiscard]] virtual std::vector<std::string> all_gather(std::string mine) = 0;
 
-    /// Whether this process does the i-th part of the work.
+    /// Whether part i of the work belongs to this process.
     [[nodiscard]] bool does(std::size_t i) const {
         return i % static_cast<std::size_t>(count()) == static_cast<std::size_t>(index());
     }
 };
 
-/// One process by itself.
+/// A group of one process.
 class NoExchange final : public RoundExchange {
   public:
     [[nodiscard]] int index() const override { return 0; }

@@ -1,5 +1,5 @@
 #pragma once
-// How far from each other values will be needed, as the values tell that are there.
+// Prediction of the spacing of ambient values from existing values.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace lightwalk {
 
-/// Learns from values, in cells of several sizes, how large their neighbours are.
+/// Predicts the radius of ambient values from those of neighbouring values, averaged in grid cells
+/// of several sizes.
 class SpacingGuess {
   public:
     explicit SpacingGuess(const AmbientLimits& limits);
-    /// Learn.
+    /// Add a known value.
     void add(const AmbientRecord& record);
-    /// Distance up to which a value at the point is likely to serve [m]: the (geometric) mean of
-    /// those in the smallest cell around it that holds any; the greatest possible where there are
-    /// none.
+    /// The predicted distance up to which a value at the point will be usable [m]: the geometric
+    /// mean over the known values in the smallest cell around the point that holds any; the largest
+    /// possible distance where there are none.
     [[nodiscard]] double operator()(const AmbientQuery& query) const;
 
     [[nodiscard]] double least() const { return least_; }
@@ -38,11 +39,11 @@ class SpacingGuess {
     std::unordered_map<std::uint64_t, Mean> cells_;
 };
 
-/// Points that were chosen, none within the reach of one before it.
+/// The set of points chosen for a round, none within the reach of an earlier one.
 class ApartSet {
   public:
     ApartSet(double least, double greatest);
-    /// Whether a point lies within the reach of a chosen one, whose normal is much the same.
+    /// Whether a point lies within the reach of a chosen point with a similar normal.
     [[nodiscard]] bool reached(const AmbientQuery& query) const;
     void add(const AmbientQuery& query, double reach);
 

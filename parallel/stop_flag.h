@@ -4,7 +4,7 @@
 
 namespace lightwalk {
 
-/// Shared by who asks and who works. Safe to request from a signal handler: it is lock-free.
+/// A flag shared by the requester and the workers. Lock-free, so that a signal handler may set it.
 class StopFlag {
   public:
     void request() noexcept { requested_.store(true, std::memory_order_relaxed); }

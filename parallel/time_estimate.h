@@ -1,5 +1,5 @@
 #pragma once
-// How long a picture will take, from how it went so far.
+// Estimate of the remaining time of a picture from its progress so far.
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -10,22 +10,22 @@
 
 namespace lightwalk {
 
-/// A part of the making of a picture, as it is planned.
+/// A phase of the rendering of a picture, as planned.
 struct WorkPhase {
     enum class Kind {
         prepass,  ///< coarse pictures that fill the ambient cache
         picture,
     };
     Kind kind = Kind::picture;
-    double pixels = 0;   ///< that will be reported done
-    double rays = 1;     ///< primary ones a pixel, about: samples, or a share of the pixels
-    double workers = 1;  ///< that share the work
-    /// That it computes, where each pixel has a ray, per value of its prepass; measured as the
-    /// constants of the model are.
+    double pixels = 0;   ///< number of pixels that the phase will report
+    double rays = 1;     ///< approximate number of primary rays for each pixel
+    double workers = 1;  ///< number of workers that share the work
+    /// Number of ambient values that the phase computes for each value of its prepass, if each
+    /// pixel has a ray; measured, as are the constants of the model.
     double late_values = 2.5;
 };
 
-/// The phases of a picture: its prepass, when it has one, and itself.
+/// The phases of a picture: its prepass, if any, and the picture itself.
 [[nodiscard]] std::vector<WorkPhase> plan_picture(const FrameOptions& options, CachePrepass prepass,
                                                   int workers);
 
@@ -34,19 +34,19 @@ struct TimeEstimate {
     std::optional<double> seconds_left;  ///< nothing: not known yet
 };
 
-/// A model of what the phases of a picture cost, fitted to what they did cost. A picture costs so
-/// much a pixel, throughout: its blocks lie scattered. An prepass's pixels cost less and less,
-/// because later ones find ambient values of earlier ones: its work grows as a power of the share
-/// done, whose exponent is fitted. What the picture after it will cost is told by the prepass: so
-/// many rays a pixel, and so many for each value, of which a share is still to be computed. Pure:
-/// it knows no clock.
+/// A cost model of the phases of a picture, fitted to their progress. The pixels of a picture have
+/// the same cost throughout, as its blocks are handed out in stride order. Those of a prepass
+/// become cheaper, because later ones find ambient values of earlier ones: its work grows as a
+/// power of the share done, with a fitted exponent. The cost of the picture that follows is
+/// predicted from the prepass: a number of rays for each pixel, and for each ambient value, of
+/// which a share remains to be computed. Pure: it reads no clock.
 class TimeEstimator {
   public:
     /// The phases follow each other in this order; at least one.
     explicit TimeEstimator(std::vector<WorkPhase> phases);
 
-    /// Take what a phase reports, `seconds` after the first phase began. Shares and times do not
-    /// fall, nor does the phase.
+    /// Record the progress of a phase, `seconds` after the first phase began. Phases, shares and
+    /// times must not decrease.
     void add(std::size_t phase, double seconds, const FrameProgress& progress);
 
     [[nodiscard]] TimeEstimate estimate() const { return estimate_; }
@@ -69,7 +69,8 @@ class TimeEstimator {
     std::optional<double> expected_;  ///< time of the present phase, as it was expected before [s]
     FrameProgress now_;               ///< of the present phase
     std::vector<Point> points_;       ///< of the present phase, ever farther apart
-    /// Sums over an prepass's reports, to split its rays into those of pixels (p) and values (v).
+    /// Sums over the reports of a prepass, to split its rays into those of pixels (p) and of values
+    /// (v).
     double pp_ = 0, pv_ = 0, vv_ = 0, pr_ = 0, vr_ = 0;
     TimeEstimate estimate_;
 };

@@ -9,8 +9,8 @@
 
 namespace lightwalk {
 
-/// Contexts are made when a worker asks first; worker w may only be asked for by the thread that is
-/// worker w.
+/// Contexts are made on first use; the context of worker w may only be requested by the thread that
+/// is worker w.
 class WorkerContexts {
   public:
     WorkerContexts(const Tracer& tracer, WarningSink& warnings, int workers)
@@ -27,7 +27,7 @@ class WorkerContexts {
 
     [[nodiscard]] int size() const { return static_cast<int>(contexts_.size()); }
 
-    /// Counters start from zero again; only while no task runs.
+    /// Reset the counters to zero. Must not be called while a task runs.
     void reset_counters() {
         for (const auto& context : contexts_) {
             if (!context) continue;
@@ -36,7 +36,7 @@ class WorkerContexts {
         }
     }
 
-    /// Rays traced by all workers so far; only while no task runs.
+    /// The rays traced by all workers so far. Must not be called while a task runs.
     [[nodiscard]] RayCounters rays() const {
         RayCounters sum;
         for (const auto& context : contexts_) {

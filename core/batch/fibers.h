@@ -1,33 +1,33 @@
 #pragma once
-// Pieces of work that wait in the middle for others to get as far, all on the calling thread: what
-// core asks of whoever runs it.
+// Coroutines with stacks of their own (fibers), run by the calling thread. Core uses this interface
+// to let the shading of many rays meet at a barrier.
 #include <cstddef>
 
 #include "core/math/function_ref.h"
 
 namespace lightwalk {
 
-/// Stacks on which work runs until it is done or waits. Used by one thread at a time; what was
-/// started on one goes on there.
+/// A fixed number of fibers. Each runs a function until it returns or waits, and goes on from there
+/// when it is resumed. One thread at a time may use the object.
 class Fibers {
   public:
-    virtual ~Fibers() = default;  ///< none may wait
+    virtual ~Fibers() = default;  ///< no fiber may be waiting
     Fibers(const Fibers&) = delete;
     Fibers& operator=(const Fibers&) = delete;
 
     [[nodiscard]] virtual std::size_t size() const = 0;
 
-    /// Give fiber i its stack, unless it has one. False: there is no memory for it.
+    /// Allocate the stack of fiber i, unless it has one. False: there is no memory for it.
     [[nodiscard]] virtual bool prepare(std::size_t i) = 0;
-    /// Run `work` on fiber i, which is prepared and idle, until it is done (true) or waits (false).
-    /// It has to stay alive until it is done, and may not throw. Fibers do not start others.
+    /// Run `work` on fiber i, which must be prepared and idle, until it returns (result: true) or
+    /// waits (false). `work` must stay alive until it has returned, must not throw and must not
+    /// start other fibers.
     virtual bool start(std::size_t i, FunctionRef<void()> work) = 0;
-    /// Let fiber i, which waits, go on; as start().
+    /// Resume fiber i, which is waiting, until its work returns (true) or waits again (false).
     virtual bool resume(std::size_t i) = 0;
-    /// To be called in the work of a fiber: return from start() or resume().
+    /// Called by the work of a fiber: suspend it, and return false from start() or resume().
     virtual void wait() = 0;
-    /// The same: whether there is room for going deeper. What one step needs after that fits into
-    /// what is left.
+    /// Called by the work of a fiber: whether its stack has room for one more level of recursion.
     [[nodiscard]] virtual bool has_room() const = 0;
 
   protected:

@@ -1,6 +1,7 @@
 #pragma once
-// Rays that are shaded side by side: where one needs direct light it waits, until that of all is
-// calculated at once. What a ray brings back is the same as when it is shaded alone.
+// A batch of rays whose shading is interleaved: a ray that needs direct light waits (as a fiber)
+// until all others have come to such a point, and then the direct light of all is calculated at
+// once. Results are the same, to the bit, as of rays that are shaded alone.
 #include <cstddef>
 #include <exception>
 #include <memory>
@@ -13,32 +14,35 @@
 
 namespace lightwalk {
 
-/// One thread's. The order in which rays are begun is that of their numbers; nothing is said of how
-/// far one is when the next begins.
+/// A batch for one thread. Rays begin in the order of their numbers; how far one has come when the
+/// next begins is not specified.
 class ShadingBatch {
   public:
-    /// Calculates direct light of several points.
+    /// Calculates the direct light of several points at once.
     using Calculate = FunctionRef<void(std::span<const DirectRequest> requests)>;
 
-    /// @param fibers  for as many rays side by side; the others follow
+    /// @param fibers  their number is that of the rays in flight; further rays follow
     explicit ShadingBatch(std::unique_ptr<Fibers> fibers)
         : fibers_(std::move(fibers)), tasks_(fibers_->size()) {}
 
-    /// body(i) for i = 0 ... count - 1, in which context.batch is this; `calculate` runs outside.
-    /// What a body throws ends the run when all have ended: the first one's exception goes on.
+    /// Calls body(i) for i = 0 ... count - 1, each on a fiber, with context.batch set to this
+    /// batch. `calculate` runs on the caller's stack. When bodies throw, the run ends after all
+    /// bodies have ended, and the exception of the first one is thrown again.
     void run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
              TraceContext& context);
 
-    /// The context's level of ambient light in the bodies. What asks for direct light on another
-    /// one is not of this batch, and does not wait in it.
+    /// The ambient level (number of diffuse bounces) of the rays of this batch. Requests for direct
+    /// light on another level do not wait in this batch.
     [[nodiscard]] int level() const { return level_; }
 
-    // In a body:
-    /// Wait until the request has been served.
+    // Functions to be called in a body:
+    /// Wait until the direct light of `request` has been calculated.
     void wait(const DirectRequest& request, TraceContext& context);
-    /// Whether the stack suffices for going deeper by a ray or a mixture; if not: outside().
+    /// Whether the fiber's stack has room for one more level of recursion (a ray or a mixture);
+    /// where it has not, call outside().
     [[nodiscard]] bool has_room() const { return fibers_->has_room(); }
-    /// Do `work` on the stack that runs the batch: the thread's, or that of the batch around it.
+    /// Run `work` on the stack that called run(): the thread's own, or that of a fiber of an
+    /// enclosing batch.
     void outside(FunctionRef<void()> work, TraceContext& context);
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// Which points the cloud keeps for the next frame.
+// Ageing of points: which of them the cloud keeps for the next frame.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,15 +14,15 @@ inline constexpr int kOldestAge = 255;
 
 /// How long points live.
 struct CloudLife {
-    int age = 25;                ///< frames without use that a point outlives, at most kOldestAge
+    int age = 25;  ///< unused frames after which a point is dropped, at most kOldestAge
     bool supersaturated = true;  ///< false: a point that a frame did not use is dropped
 };
 
-/// Points by age, of the cloud or of a part of it.
+/// Numbers of points by age.
 using AgeCounts = std::array<std::size_t, kOldestAge + 1>;
 
-/// Make points one frame older; those that were used are of age 0 again. Those that do not stay are
-/// gone (PointKind).
+/// Age points by one frame; the age of those that were used is reset to 0. Points to be dropped
+/// become PointKind::gone.
 /// @param points  a part of the cloud
 /// @param used    for each of them: not 0 where it was used
 /// @param places  for each of them: where the frame showed it
@@ -33,14 +33,14 @@ using AgeCounts = std::array<std::size_t, kOldestAge + 1>;
                                    std::span<const ImagePlace> places, const CloudLife& life,
                                    std::span<std::uint8_t> keep);
 
-/// What has to go for want of room: the longest unused points, and of one age those that draw the
-/// lowest lots (see lot). So it does not matter who keeps which of them.
+/// Which points are dropped when there are too many: those unused longest, and of one age those
+/// whose lot() is lowest. The choice depends on the points only, not on which rank keeps them.
 struct AgeLimit {
-    int age = kOldestAge;     ///< older ones go
-    std::uint32_t share = 0;  ///< and of just that age those whose lots lie below
+    int age = kOldestAge;     ///< older points are dropped
+    std::uint32_t share = 0;  ///< and points of this age whose lot() is below
     friend bool operator==(const AgeLimit&, const AgeLimit&) = default;
 };
-/// For so many points to stay at most: as lots are drawn, a few less do.
+/// The limit by which at most `most` points stay. As lots are random, a few less do.
 [[nodiscard]] AgeLimit age_limit(const AgeCounts& counts, std::size_t most);
 
 }  // namespace lightwalk

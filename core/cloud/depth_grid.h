@@ -17,13 +17,13 @@ namespace lightwalk {
 
 inline constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 
-/// One cell a pixel. Of the points offered to a cell it keeps the nearest one; of those about
-/// equally near (within 0.8 %) the one closest to the pixel's centre; of those the first by an
-/// order that the caller gives. So it does not matter who offers first, and many threads may at
-/// once, while none reads.
+/// A grid with one cell for each pixel. A cell keeps the nearest of the points offered to it; of
+/// those about equally near (within 0.8 %) the one closest to the pixel's centre; of those the
+/// first in an order given by the caller. The result is independent of the order of offers; many
+/// threads may offer at once (lock-free), while none reads.
 class DepthGrid {
   public:
-    /// All cells are empty.
+    /// A grid whose cells are empty.
     explicit DepthGrid(const PixelRectangle& area)
         : area_(area), cells_(area.pixels()), keys_(std::make_unique<std::uint64_t[]>(cells_)) {
         clear(0, cells_);
@@ -36,10 +36,10 @@ class DepthGrid {
         std::fill(&keys_[first], &keys_[first] + (last - first), kEmpty);
     }
 
-    /// @param x,y       the pixel, inside the area
+    /// Offer a point to a cell. @param x,y       the pixel, inside the area
     /// @param distance  > 0 [m]
     /// @param apart     from the pixel's centre, 0 ... 1 [pixels]
-    /// @param first     of two indices: whether the one is to be preferred to the other
+    /// @param first     first(a, b): whether index a is preferred to index b
     template <class First = std::less<std::uint32_t>>
     void offer(int x, int y, float distance, float apart, std::uint32_t index, First first = {}) {
         const std::uint64_t key = pack(distance, apart, index);
@@ -55,27 +55,29 @@ class DepthGrid {
         lightwalk::prefetch(&keys_[at(x, y)]);
     }
 
-    /// kNoPoint where there is none.
+    /// The index of the point that a cell holds; kNoPoint where it is empty.
     [[nodiscard]] std::uint32_t winner(int x, int y) const {
         return static_cast<std::uint32_t>(keys_[at(x, y)]);
     }
 
-    /// What each pixel's cell and the eight around it hold, for a square of pixels, row by row.
+    /// Statistics of each 3 x 3 neighbourhood of cells, for a square of pixels, row by row.
     struct Surroundings {
         static constexpr int kSide = 8;
-        std::array<std::uint16_t, std::size_t{kSide} * kSide> known;  ///< cells not empty
-        /// By how much their depths differ [steps of .4 to .8 %].
+        std::array<std::uint16_t, std::size_t{kSide} * kSide>
+            known;  ///< number of cells that are not empty
+        /// Largest difference of their depths [steps of .4 to .8 %].
         std::array<std::uint16_t, std::size_t{kSide} * kSide> spread;
     };
-    /// Cheap: no point is looked up.
+    /// Statistics of the neighbourhoods in a square. Cheap: needs the cells only, not the points.
     /// @param corner  the square's lower left pixel; parts of it may lie outside
     [[nodiscard]] Surroundings surroundings(const PixelPlace& corner) const;
-    /// Cells lie before another one that is so much deeper, a tenth about [steps of .4 to .8 %].
+    /// Difference of depth, about a tenth, from which a cell counts as lying in front of another
+    /// one [steps of .4 to .8 %].
     static constexpr int kBehind = 16;
-    /// Whether most of the cells around a pixel, as far as they are not empty, lie before its own.
-    /// As cheap.
+    /// Whether most of the non-empty cells around a pixel lie in front of its own. Needs the cells
+    /// only.
     [[nodiscard]] bool is_behind(int x, int y) const;
-    /// Whether all cells of the square and those around it are empty. As cheap.
+    /// Whether all cells of the square, and those adjacent to it, are empty. Needs the cells only.
     [[nodiscard]] bool is_empty(const PixelPlace& corner) const;
 
   private:
@@ -180,11 +182,11 @@ inline DepthGrid::Surroundings DepthGrid::surroundings(const PixelPlace& corner)
     return found;
 }
 
-/// The grids of what lies ahead and of what is mirrored: a mirror's images lie behind it, and
-/// would lose against it.
+/// Separate grids for points seen directly and for points seen in mirrors: these lie behind the
+/// mirror, and would lose against its own points.
 struct CloudGrids {
     explicit CloudGrids(const PixelRectangle& area) : ahead(area), mirrored(area) {}
-    /// The one that points of a kind are in.
+    /// The grid for points of a kind.
     [[nodiscard]] DepthGrid& of(PointKind kind) {
         return kind == PointKind::mirrored ? mirrored : ahead;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Pixels that nobody had time for, from those around them.
+// Filling of pixels that were not traced in time, from the pixels around them.
 #include <cstdint>
 #include <span>
 
@@ -8,7 +8,8 @@
 
 namespace lightwalk {
 
-/// Calls part(first, last) until all rows are done; many threads may do so at once.
+/// A parallel loop over rows: calls part(first, last) for ranges that make up [0, rows), possibly
+/// from many threads at once.
 using ForRows = FunctionRef<void(int rows, FunctionRef<void(int first, int last)> part)>;
 
 /// Fill the unknown pixels of a picture: means of ever larger neighbourhoods are taken until one
@@ -16,11 +17,11 @@ using ForRows = FunctionRef<void(int rows, FunctionRef<void(int first, int last)
 /// of pixels however large the gaps are. Known pixels stay as they are; a picture without any is
 /// left alone.
 /// @param radiance  width x height pixels, row by row
-/// @param known     for each: not 0 where it is
+/// @param known     for each pixel: not 0 where it is known
 /// Source: Gortler et al., "The Lumigraph", SIGGRAPH 1996, section 3.4 (pull-push).
 void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const std::uint8_t> known,
                ForRows by_rows);
-/// By one thread.
+/// Fill the unknown pixels in the calling thread.
 void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const std::uint8_t> known);
 
 }  // namespace lightwalk

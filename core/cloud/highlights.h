@@ -1,5 +1,5 @@
 #pragma once
-// Where glossy surfaces shine: how far the eye may move before their colour is another one.
+// Highlights on glossy surfaces: how far the eye may move before their colour changes visibly.
 #include "core/geometry/geometry.h"
 #include "core/light/light_sources.h"
 
@@ -12,16 +12,17 @@ struct GlossyLobe {
     double alpha = 0;    ///< rms slope of the facets
 };
 
-/// The lights of a scene, as glossy surfaces see them. Immutable.
+/// Estimates how fast highlights of a scene's lights change with the view direction. Immutable.
 class Highlights {
   public:
     /// All must outlive this.
     Highlights(const LightSources& lights, const Geometry& geometry, const RenderOptions& options)
         : lights_(lights), geometry_(geometry), options_(options) {}
 
-    /// How fast the colour at a hit changes as the ray turns about it: a tenth of it over the
-    /// largest turn that changes what each light brings by no more [1/rad]. 0: it may turn as far
-    /// as it likes. Light from elsewhere does not count: it makes colours steadier.
+    /// Relative change of the colour at a hit per angle by which the ray turns about it [1/rad]: a
+    /// tenth, divided by the largest angle over which the contribution of no light changes by more
+    /// than a tenth. 0 where that angle is unlimited. Conservative: other light, which is left out,
+    /// makes relative changes smaller.
     [[nodiscard]] double slope(const Hit& hit, const Vec3& direction, const GlossyLobe& lobe) const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// What a traced pixel leaves behind: the points of the cloud.
+// Points of the cloud: samples of radiance that traced pixels leave for later frames.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -12,33 +12,33 @@ namespace lightwalk {
 
 /// How the light of a point came to the eye.
 enum class PointKind : std::uint8_t {
-    plain,     ///< straight from a surface that looks the same from all sides
-    mirrored,  ///< by a mirror-like reflection: the point lies where the image is, behind the
-               ///< mirror
+    plain,     ///< directly from a surface that looks the same from all sides
+    mirrored,  ///< by a mirror-like reflection: the point is the mirror image, behind the mirror
     through,   ///< through panes
-    glossy,    ///< from a surface that looks different from other sides
-    gone,      ///< no point any more: the cloud drops it when the frame is done
+    glossy,    ///< from a surface whose colour depends on the view direction
+    gone,      ///< dropped: removed from the cloud at the end of the frame
 };
 inline constexpr std::uint8_t kPointKinds = 5;
 
-/// Of light that takes no part in reuse: its colour holds from the traced direction alone.
+/// The view angle is not limited: the colour holds from all directions.
 inline constexpr float kAnyViewAngle = HUGE_VALF;
 
-/// Where light came from, and how much. A pixel leaves up to two: what lies ahead, and what a
-/// mirror-like surface adds to it.
+/// A sample of radiance and the place that it came from. A pixel leaves up to two: of what lies
+/// ahead, and of what a mirror-like surface reflects.
 struct CloudPoint {
-    std::array<float, 3> position{};  ///< world; an image's behind its mirror; a background's 1e10
-                                      ///< m away [m]
+    std::array<float, 3> position{};  ///< world; a mirror image lies behind its mirror, the
+                                      ///< background 1e10 m away [m]
     Rgb radiance;                     ///< as traced, its share of the pixel [W/(m² sr)]
     std::uint32_t surface =
-        0;  ///< what the light met on its way to the eye (see PrimaryVisibility::surface)
-    std::uint32_t direction = 0;           ///< of the ray that saw it (encode_direction)
-    float max_view_angle = kAnyViewAngle;  ///< how far that direction may turn before the colour is
-                                           ///< wrong; see kAnyViewAngle [rad]
+        0;  ///< hash of the surfaces on the light's way (see PrimaryVisibility::surface)
+    std::uint32_t direction = 0;  ///< of the ray that saw it (encode_direction)
+    float max_view_angle =
+        kAnyViewAngle;  ///< largest angle between that direction and another one for which the
+                        ///< colour still holds; or kAnyViewAngle [rad]
     PointKind kind = PointKind::plain;
     std::uint8_t age = 0;  ///< frames since it was last used
     std::uint8_t old = 0;  ///< frames since it was traced, at most 255
-    bool paired = false;   ///< its pixel left two points, whose sum it shows
+    bool paired = false;   ///< its pixel left two points, and shows their sum
 
     [[nodiscard]] Vec3 place() const {
         return {static_cast<double>(position[0]), static_cast<double>(position[1]),
@@ -48,8 +48,8 @@ struct CloudPoint {
 };
 static_assert(sizeof(CloudPoint) <= 40, "millions of points are kept");
 
-/// Whether a point looks the same along the unit vector `direction`: it has not turned from the
-/// ray that saw the point by more than `tightness` (0 ... 1) times what the point allows.
+/// Whether the colour of a point holds for a ray along the unit vector `direction`: its angle to
+/// the ray that saw the point is at most `tightness` (0 ... 1) times max_view_angle.
 [[nodiscard]] inline bool holds_from(const CloudPoint& point, const Vec3& direction,
                                      double tightness) {
     if (point.max_view_angle == kAnyViewAngle) return true;

@@ -6,21 +6,21 @@ namespace lightwalk {
 namespace {
 
 /// The point of one visible thing, unless nothing of it can be reused.
-void add_point(const PrimaryVisibility& seen_thing, const Rgb& radiance, const TracedPixel& pixel,
+void add_point(const PrimaryVisibility& primary, const Rgb& radiance, const TracedPixel& pixel,
                double tolerance, PixelPoints& result) {
-    if (!seen_thing.seen || seen_thing.slope == kNeverReuse) return;
+    if (!primary.seen || primary.slope == kNeverReuse) return;
     CloudPoint& point = result.points[result.count++];
-    point.position = {static_cast<float>(seen_thing.position.x),
-                      static_cast<float>(seen_thing.position.y),
-                      static_cast<float>(seen_thing.position.z)};
+    point.position = {static_cast<float>(primary.position.x),
+                      static_cast<float>(primary.position.y),
+                      static_cast<float>(primary.position.z)};
     point.radiance = radiance;
-    point.surface = seen_thing.surface;
+    point.surface = primary.surface;
     point.direction = encode_direction(pixel.visibility.direction);
-    point.kind = seen_thing.kind;
+    point.kind = primary.kind;
     // What is faint beside the other visible thing may change more.
     const double whole = static_cast<double>(brightness(pixel.radiance));
     const double part = static_cast<double>(brightness(radiance));
-    const double change = static_cast<double>(seen_thing.slope) * part;
+    const double change = static_cast<double>(primary.slope) * part;
     constexpr double kHalfTurn = kPi;
     if (change * kHalfTurn > tolerance * whole)
         point.max_view_angle = static_cast<float>(tolerance * whole / change);

@@ -1,5 +1,5 @@
 #pragma once
-// What the cloud asks of whoever casts rays: what pixels see, and what they look like.
+// Interface by which the cloud has rays cast: what pixels see (cheap), and their radiance (traced).
 #include <cstdint>
 #include <span>
 
@@ -9,27 +9,27 @@
 
 namespace lightwalk {
 
-/// Of things whose colour holds for one ray only: nothing of them is reused.
+/// Slope of a colour that holds for one ray only: it is never reused.
 inline constexpr float kNeverReuse = HUGE_VALF;
-/// Of things that change nobody knows how when the eye moves: curved mirrors, refraction. Eyes that
-/// only turn see them as they were.
+/// Slope of a colour whose change with the eye's position cannot be predicted (curved mirrors,
+/// refraction). It is reused only where the eye turns without moving.
 inline constexpr float kMirrorLike = 100;
 
-/// One thing that a pixel's ray sees.
+/// One place that a pixel's ray sees.
 struct PrimaryVisibility {
     bool seen = false;
-    Vec3 position;              ///< on the ray, as far along it as the light has come; where there
-                                ///< is nothing, kHuge away [m]
-    float distance = 0;         ///< of that from the ray's origin [m]
-    std::uint32_t surface = 0;  ///< what the light met: of two rays that met the same surfaces in
-                                ///< the same order the same number, of others another one
+    Vec3 position;  ///< on the straight extension of the ray, at the length of the light's path;
+                    ///< kHuge away for the background [m]
+    float distance = 0;         ///< of the position from the ray's origin [m]
+    std::uint32_t surface = 0;  ///< hash of the sequence of surfaces that the light met
     PointKind kind = PointKind::plain;
-    float slope = 0;  ///< relative change of its colour as the ray turns, at most [1/rad];
-                      ///< 0: it looks the same from everywhere; kNeverReuse: who knows
+    float slope =
+        0;  ///< largest relative change of its colour per angle by which the ray turns [1/rad]; 0:
+            ///< independent of the view direction; or kMirrorLike, kNeverReuse
 };
 
-/// What a pixel's ray sees: what lies ahead (a surface, or what shows through panes), and what the
-/// first surface mirrors. A mirror has nothing ahead.
+/// What a pixel's ray sees: ahead (a surface, or what is seen through panes), and reflected by the
+/// first surface. For a mirror `ahead` is not seen.
 struct PixelVisibility {
     bool ray = false;    ///< false: outside the view's domain; the pixel is black
     Vec3 direction;      ///< of the ray, unit
@@ -37,7 +37,7 @@ struct PixelVisibility {
     PrimaryVisibility ahead, mirrored;
 };
 
-/// A pixel traced.
+/// A traced pixel.
 struct TracedPixel {
     PixelVisibility visibility;
     Rgb radiance;        ///< of the whole pixel [W/(m² sr)]
@@ -45,23 +45,23 @@ struct TracedPixel {
     float distance = 0;  ///< along the ray [m]
 };
 
-/// The caster of rays. Many workers call it at once, each with its own number.
+/// Callbacks that cast rays. Many workers may call them at once, each with its own number.
 struct PixelCaster {
-    /// Cheap: what the pixels' rays see. Of slopes only kNeverReuse counts.
+    /// Find what the pixels' rays see, without shading (cheap). Slopes need only be right where
+    /// they are kNeverReuse.
     FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
                      int worker)>
         probe;
-    /// Dear: the pixels themselves, with the same visibility.
-    /// @param sample  0: the rays that were looked along; 1, 2, ...: others through the same
-    /// pixels,
-    ///                as good as these
+    /// Trace the pixels, with all of their visibility (expensive).
+    /// @param sample  0: the rays that `probe` casts; 1, 2, ...: other rays of the same pixels,
+    /// equally distributed
     FunctionRef<void(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                      int worker)>
         trace;
 };
 
 /// The points that a traced pixel leaves: at most two.
-/// @param tolerance  how far the pixel may be off for a point to be reused, as a share of it
+/// @param tolerance  largest relative error of a pixel that reuses a point
 struct PixelPoints {
     std::array<CloudPoint, 2> points;
     std::size_t count = 0;

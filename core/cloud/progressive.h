@@ -1,5 +1,5 @@
 #pragma once
-// A view that stands still: which pixels to trace next, so that its picture becomes ever better.
+// Progressive refinement of a view that stands still: which pixels to trace next.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace lightwalk {
 
-/// Grids of pixels, each twice as fine as the one before: the coarsest has every 16th pixel of
-/// every 16th row. What is traced grid by grid looks like the picture early.
+/// Number of nested grids of pixels, each twice as fine as the preceding one; the coarsest has
+/// every 16th pixel of every 16th row. Tracing grid by grid shows a rough picture early.
 inline constexpr int kGridLevels = 5;
 /// The coarsest grid that a pixel belongs to, 0 ... kGridLevels - 1.
 [[nodiscard]] inline int grid_level(const PixelPlace& place) {
@@ -24,14 +24,14 @@ inline constexpr int kGridLevels = 5;
 /// Where a pixel's value comes from.
 struct PixelOrigin {
     enum class Kind : std::uint8_t {
-        filled,   ///< from its neighbours
-        guessed,  ///< from points that are not near enough
+        filled,   ///< interpolated from its neighbours
+        guessed,  ///< from points that are not close enough to be reused
         reused,   ///< from points
         traced,
     };
     Kind kind = Kind::filled;
-    std::uint8_t samples = 0;  ///< traced: rays so far
-    std::uint32_t order = 0;   ///< reused: the lower, the longer ago the point was traced
+    std::uint8_t samples = 0;  ///< rays so far, for traced pixels
+    std::uint32_t order = 0;  ///< for reused pixels: the lower, the longer ago the point was traced
 };
 
 /// Pixels that are to be traced with the same sample number, the most needed first.
@@ -40,31 +40,33 @@ struct ProgressiveWork {
     std::vector<PixelPlace> places;
 };
 
-/// The picture of a progressive view, and how good each of its pixels is.
+/// The picture of a view that stands still, with the origin of each pixel.
 class ProgressivePicture {
   public:
-    /// Rays that a pixel at an edge gets in the end, unless told otherwise.
+    /// Default of the number of rays that a pixel at an edge finally gets.
     static constexpr int kMostSamples = 8;
 
-    /// @param samples  1 ... 255: rays that a pixel at an edge gets in the end
+    /// @param samples  1 ... 255: number of rays that a pixel at an edge finally gets
     ProgressivePicture(int width, int height, int samples = kMostSamples)
         : width_(width), height_(height), most_samples_(samples) {}
 
-    /// A new picture to work on, row by row.
+    /// Start to refine a new picture, given row by row.
     void begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins);
 
-    /// At most so many pixels: those filled from others, coarse grids first, guessed ones, then
-    /// reused ones, oldest points first, then, one ray more a pixel each time, those that differ by
-    /// more than a tenth from a neighbour. Nothing when the picture is as good as it gets.
+    /// The next pixels to trace, at most `most`: first interpolated ones (coarse grids first), then
+    /// guessed ones, then reused ones (oldest points first), then further rays, one at a time, for
+    /// pixels that differ by more than a tenth from a neighbour. Empty when the picture is
+    /// finished.
     [[nodiscard]] ProgressiveWork next(std::size_t most) const;
-    /// Pixels that have not been traced.
+    /// Number of pixels that have not been traced.
     [[nodiscard]] std::size_t open_pixels() const;
-    /// Pixels that show neither what was traced nor what points tell truthfully.
+    /// Number of pixels that are interpolated or guessed.
     [[nodiscard]] std::size_t guessed_pixels() const;
-    /// The picture, its filled pixels from what is known by now.
+    /// The picture; its interpolated pixels are filled from all that is known by now.
     [[nodiscard]] std::vector<Rgb> picture() const;
 
-    /// The first pixels of `work` were traced: the others were not.
+    /// Record the radiances of the first traced.size() pixels of `work`; the others were not
+    /// traced.
     void record(const ProgressiveWork& work, std::span<const Rgb> traced);
 
     [[nodiscard]] std::span<const Rgb> radiance() const { return radiance_; }

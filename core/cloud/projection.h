@@ -1,5 +1,5 @@
 #pragma once
-// Where the points of the cloud appear in a view.
+// Projection of the points of the cloud into a view.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,25 +16,25 @@ namespace lightwalk {
 /// A place in a picture.
 struct ImagePlace {
     float x = -1, y = -1;  ///< from the lower left [pixels]
-    float distance = 0;  ///< from where the pixel's ray begins [m]; 0: the picture doesn't show it
+    float distance = 0;    ///< from the origin of the pixel's ray [m]; 0: outside the picture
 };
 
-/// The pixel of a place that the picture shows.
+/// The pixel that contains a place inside the picture.
 [[nodiscard]] inline PixelPlace pixel_of(const ImagePlace& place, int width, int height) {
     // In single precision the right edge may round up to the width.
     return {std::min(static_cast<int>(place.x), width - 1),
             std::min(static_cast<int>(place.y), height - 1)};
 }
 
-/// From points to places in a picture of width x height pixels; any view type.
+/// Projects points to places in a picture of width x height pixels, for any view type.
 class PointProjector {
   public:
     /// The camera must outlive this.
     PointProjector(const Camera& camera, int width, int height);
 
-    /// The place of a point, but for what hides it.
+    /// The place of a point, without regard to what may hide it.
     [[nodiscard]] ImagePlace operator()(const Vec3& point) const;
-    /// The places of many; what is gone has none.
+    /// The places of many points; points that are gone get none.
     void operator()(std::span<const CloudPoint> points, std::span<ImagePlace> places) const;
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] int width() const { return width_; }
@@ -46,15 +46,15 @@ class PointProjector {
     const Camera& camera_;
     int width_, height_;
     bool perspective_;
-    // Of perspectives: image coordinates times depth [pixels m], and depth [m].
+    // For perspectives: image coordinates times depth [pixels m], and depth [m].
     Vec3 across_, upward_, forward_;
     double shift_ = 0, lift_ = 0;
     Vec3 eye_;
     double fore_ = 0, nearest_ = 0, farthest_ = HUGE_VAL;  ///< along the axis [m]
 };
 
-/// Project points first ... last - 1 into the grids, as far as these reach. They hold the winners
-/// of all ranges when all are done: whatever the points' order.
+/// Project points first ... last - 1 and offer them to the grids, as far as these reach. Ranges may
+/// be projected in any order or in parallel: the grids then hold the same winners.
 /// @param places  one for each point of the cloud; those of the range are set
 void project_points(const PointProjector& projector, std::span<const CloudPoint> points,
                     std::size_t first, std::size_t last, CloudGrids& grids,

@@ -40,9 +40,9 @@ constexpr int kWellKnown = 5, kSmooth = 4, kWitnesses = 3;
 
 /// Direction from where the pixel's ray begins to a point beside it.
 Vec3 toward(const CloudPoint& point, const PixelVisibility& visibility,
-            const PrimaryVisibility& seen_thing) {
-    const double scale = 1 / std::max(static_cast<double>(seen_thing.distance), kEpsilon);
-    return normalize(visibility.direction + (point.place() - seen_thing.position) * scale);
+            const PrimaryVisibility& primary) {
+    const double scale = 1 / std::max(static_cast<double>(primary.distance), kEpsilon);
+    return normalize(visibility.direction + (point.place() - primary.position) * scale);
 }
 
 }  // namespace
@@ -79,16 +79,16 @@ inline float PointFinder::squared_distance(std::uint32_t index,
 /// @param squared  the point's squared_distance()
 inline void PointFinder::consider(std::uint32_t index, float squared,
                                   const PixelVisibility& visibility,
-                                  const PrimaryVisibility& seen_thing, Search& found) const {
+                                  const PrimaryVisibility& primary, Search& found) const {
     found.any = true;
     const CloudPoint& point = points_[index];
     const float light = brightness(point.radiance);
     if (light > found.faint) {
-        if (point.surface != seen_thing.surface) return;
+        if (point.surface != primary.surface) return;
         const float distance = places_[index].distance;
-        if (std::abs(distance - seen_thing.distance) > kSameDepth * seen_thing.distance) return;
+        if (std::abs(distance - primary.distance) > kSameDepth * primary.distance) return;
         if (point.max_view_angle != kAnyViewAngle &&
-            !holds_from(point, toward(point, visibility, seen_thing), rules_.tightness)) {
+            !holds_from(point, toward(point, visibility, primary), rules_.tightness)) {
             found.turned = true;
             return;
         }
@@ -113,8 +113,8 @@ inline void PointFinder::consider(std::uint32_t index, float squared,
 /// what the ray sees, for else they change nothing.
 /// @param near  squared, at most kOwnPixel2 [pixels²]
 void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
-                                const PixelVisibility& visibility,
-                                const PrimaryVisibility& seen_thing, Search& found) const {
+                                const PixelVisibility& visibility, const PrimaryVisibility& primary,
+                                Search& found) const {
     std::array<std::uint32_t, 8> far;
     std::array<float, 8> far_squared;
     std::size_t count = 0;
@@ -126,7 +126,7 @@ void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, 
             if (index == kNoPoint || (x == pixel.x && y == pixel.y)) continue;
             const float squared = squared_distance(index, visibility);
             if (squared <= near) {
-                consider(index, squared, visibility, seen_thing, found);
+                consider(index, squared, visibility, primary, found);
             } else {
                 far[count] = index;
                 far_squared[count++] = squared;
@@ -135,27 +135,26 @@ void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, 
     }
     if (found.points > 0) return;
     for (std::size_t i = 0; i < count; ++i)
-        consider(far[i], far_squared[i], visibility, seen_thing, found);
+        consider(far[i], far_squared[i], visibility, primary, found);
 }
 
 /// Adds to the answer. What it shows already counts: points may differ by a share of the sum. What
 /// lies between points is their mean by the fourth power of the distance (Shepard, "A
 /// two-dimensional interpolation function for irregularly-spaced data", ACM 1968).
 TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
-                               const PixelVisibility& visibility,
-                               const PrimaryVisibility& seen_thing, std::uint32_t& best,
-                               PixelAnswer& answer) const {
+                               const PixelVisibility& visibility, const PrimaryVisibility& primary,
+                               std::uint32_t& best, PixelAnswer& answer) const {
     Search found;
     const float base = brightness(answer.radiance);
     if (base > 0) found.faint = kFaint * base;
     const float near = rules_.near * rules_.near;
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
     if (own != kNoPoint)
-        consider(own, squared_distance(own, visibility), visibility, seen_thing, found);
+        consider(own, squared_distance(own, visibility), visibility, primary, found);
     // What lies on the pixel itself is as good a sample of it as its ray's.
     const bool inside_pixel = found.points > 0;
     if (rules_.look_back && !inside_pixel)
-        search_around(grid, pixel, std::min(near, kOwnPixel2), visibility, seen_thing, found);
+        search_around(grid, pixel, std::min(near, kOwnPixel2), visibility, primary, found);
     best = found.best;
     answer.apart = std::max(answer.apart, std::sqrt(found.squared));
     if (found.points == 0)

@@ -1,5 +1,5 @@
 #pragma once
-// Which points of the cloud answer a pixel truthfully.
+// Reuse of points: which points of the cloud can be shown in a pixel.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -11,48 +11,51 @@
 
 namespace lightwalk {
 
-/// Why a pixel has to be traced, the worst first.
+/// Why a pixel has to be traced, the worst cause first.
 enum class TraceCause : std::uint8_t {
-    none,          ///< it has not
-    uncovered,     ///< no point lies there
-    hidden,        ///< what lies there belongs to another surface, or is not what the ray meets
+    none,          ///< it need not be traced
+    uncovered,     ///< no point is projected there
+    hidden,        ///< the points there are not of the surface that the ray meets
     never_reused,  ///< its colour holds for this ray only
-    turned,        ///< its colour was seen from too different a side
-    uneven,        ///< the points around disagree, and none of them is near enough
-    audited,       ///< it is not an uncached pixel, but traced all the same
-    refined,       ///< it is not an uncached pixel, but the view stands still, and there is time
+    turned,        ///< the point was seen from a too different direction
+    uneven,        ///< the points around it differ, and none is near enough
+    audited,       ///< points answer it, but it is traced to measure their error
+    refined,       ///< points answer it, but the view stands still, and there is time to refine it
 };
 inline constexpr std::size_t kTraceCauses = 8;
 
-/// When a point answers a pixel.
+/// Conditions under which a pixel may reuse a point.
 struct ReuseRules {
     /// Search around the pixel for the nearest point of what its ray meets; false: only the point
-    /// that fell onto the pixel counts (forward projection alone).
+    /// projected onto the pixel counts (forward projection alone).
     bool look_back = true;
-    float near = 1;         ///< a point as near as this to the ray is as good as its own [pixels]
-    float reach = 1.5f;     ///< and where the points around agree, one as near as this [pixels];
-                            ///< in between, the less they agree the nearer it has to be
-    float contrast = 0.1f;  ///< they agree when they differ by no more, as a share of the brightest
-    double tightness = 1;   ///< factor of how far view directions may turn, 0 ... 1
-    // Where no ray says what is there:
-    bool drop_hidden = true;  ///< a point far behind most of those around it shows through a gap
-    bool drop_lonely = true;  ///< a point far from all those around it may be left over
+    float near = 1;      ///< a point within this distance of the ray is always reused [pixels]
+    float reach = 1.5f;  ///< a point within this distance is reused where the points around agree;
+                         ///< in between, the less they agree the nearer it has to be [pixels]
+    float contrast =
+        0.1f;              ///< largest difference of points that agree, as a share of the brightest
+    double tightness = 1;  ///< factor of CloudPoint::max_view_angle, 0 ... 1
+    // For pixels that are not checked by a ray:
+    bool drop_hidden =
+        true;  ///< ignore a point far behind most of those around it: it is seen through a gap
+    bool drop_lonely = true;  ///< ignore a point far from all those around it: it may be stale
 };
 
-/// What answers a pixel: the sum of up to two points.
+/// The points that a pixel reuses: up to two, whose sum it shows.
 struct PixelAnswer {
     TraceCause cause = TraceCause::uncovered;
     std::uint32_t ahead = kNoPoint, mirrored = kNoPoint;
-    float apart = 0;  ///< of the farther one from the pixel's ray [pixels]
-    Rgb radiance;     ///< theirs; where none is near, of what lies around [W/(m² sr)]
+    float apart = 0;  ///< distance of the farther point from the pixel's ray [pixels]
+    Rgb radiance;     ///< of these points; where none is near, of points around [W/(m² sr)]
     [[nodiscard]] bool found() const { return cause == TraceCause::none; }
 };
 
-/// What the grids hold in a square of 8 x 8 pixels, with corners at multiples of 8, and around it.
+/// The state of the grids in a square of 8 x 8 pixels, aligned to multiples of 8, and of the cells
+/// adjacent to it.
 struct PixelSquare {
     PixelPlace corner;
     DepthGrid::Surroundings ahead;
-    bool mirrors = false;  ///< whether there are points of what is mirrored
+    bool mirrors = false;  ///< whether it holds points seen in mirrors
 
     [[nodiscard]] std::size_t at(const PixelPlace& pixel) const {
         return static_cast<std::size_t>(pixel.y - corner.y) * DepthGrid::Surroundings::kSide +
@@ -64,7 +67,8 @@ struct PixelSquare {
     }
 };
 
-/// Finds points for the pixels of one frame. All arguments must outlive it; many threads may ask.
+/// Finds points for the pixels of one frame. All arguments must outlive it; many threads may use it
+/// at once.
 class PointFinder {
   public:
     PointFinder(const PointProjector& projector, std::span<const CloudPoint> points,
@@ -72,40 +76,43 @@ class PointFinder {
                 const ReuseRules& rules)
         : projector_(projector), points_(points), grids_(grids), places_(places), rules_(rules) {}
 
-    /// A pixel will be checked soon: fetch its cell into the cache.
+    /// Prefetch the cells of a pixel that will be checked soon.
     [[gnu::always_inline]] void expect(const PixelPlace& pixel) const {
         grids_.ahead.prefetch(pixel.x, pixel.y);
         grids_.mirrored.prefetch(pixel.x, pixel.y);
     }
-    /// For a pixel of which a ray has told what it sees.
+    /// The answer for a pixel whose ray has been probed.
     [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel,
                                       const PixelVisibility& visibility) const;
-    /// For many of them, which is faster: what they need is fetched into the cache together.
+    /// The answers for many probed pixels: faster than one by one, as their memory is prefetched
+    /// together.
     void checked(std::span<const PixelPlace> pixels, std::span<const PixelVisibility> visibility,
                  std::span<PixelAnswer> answers) const;
-    /// For a pixel of which nothing is known: the point that fell onto it.
+    /// The answer for a pixel that is not probed: the point projected onto it.
     [[nodiscard]] PixelAnswer unchecked(const PixelPlace& pixel) const;
     /// The square that a pixel lies in.
     [[nodiscard]] PixelSquare square_of(const PixelPlace& pixel) const;
-    /// For pixels of a square, which are shown for a moment only: the points that fell onto them,
-    /// though they may have been seen from elsewhere, or, in the midst of a surface, those around.
+    /// Approximate answers for pixels of a square that are shown for a moment only: the points
+    /// projected onto them, whatever direction they were seen from, or, in the interior of a
+    /// surface, points around.
     void unverified(const PixelSquare& square, std::span<const PixelPlace> pixels,
                     std::span<PixelAnswer> answers) const;
-    /// For pixels of which no ray has told, in the midst of a surface: where no depth around steps,
-    /// nothing is mirrored, and the last frame has shown what lies there, what is there still.
-    /// Elsewhere TraceCause::uncovered, and nothing is known. A point that a ray finds hidden is
-    /// not used, and vouches for nothing in the next frame.
-    /// @param pixels  of the square
+    /// Answers by temporal coherence, for pixels that are not probed: in the interior of a surface
+    /// (depths around do not jump, nothing is reflected) whose points the last frame has shown,
+    /// these points are assumed to be visible still. Elsewhere TraceCause::uncovered. A point that
+    /// a probe finds hidden is not used, and supports no such inference in the next frame.
+    /// @param pixels  inside the square
     void temporal(const PixelSquare& square, std::span<const PixelPlace> pixels,
                   std::span<PixelAnswer> answers) const;
-    /// Whether something may come into view beside the pixel: at the picture's edge, beside a pixel
-    /// without a point, where depths jump.
+    /// Whether something new may come into view at the pixel: at the edge of the picture, beside a
+    /// pixel without a point, or where depths jump.
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
 
-    /// Whether an answer that was not found still has all points that its pixel is made of, though
-    /// not near enough: the best guess until it is traced.
+    /// Whether an answer that was not found has all points of its pixel, though not near enough:
+    /// the best guess until the pixel is traced.
     [[nodiscard]] bool is_guess(const PixelAnswer& answer) const;
-    /// Along the ray: of what lies ahead, or of what is mirrored where that dominates [m].
+    /// The distance along the ray of an answer: of what lies ahead, or of the reflection where that
+    /// is brighter [m].
     [[nodiscard]] float distance(const PixelAnswer& answer) const;
 
   private:
@@ -114,13 +121,13 @@ class PointFinder {
                PixelAnswer& answer) const;
     [[nodiscard]] TraceCause search(const DepthGrid& grid, const PixelPlace& pixel,
                                     const PixelVisibility& visibility,
-                                    const PrimaryVisibility& seen_thing, std::uint32_t& best,
+                                    const PrimaryVisibility& primary, std::uint32_t& best,
                                     PixelAnswer& answer) const;
     void search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
-                       const PixelVisibility& visibility, const PrimaryVisibility& seen_thing,
+                       const PixelVisibility& visibility, const PrimaryVisibility& primary,
                        Search& found) const;
     void consider(std::uint32_t index, float squared, const PixelVisibility& visibility,
-                  const PrimaryVisibility& seen_thing, Search& found) const;
+                  const PrimaryVisibility& primary, Search& found) const;
     void expect(std::span<const PixelPlace> pixels) const;
     void find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const;
     void find_around(const PixelPlace& pixel, PixelAnswer& answer) const;

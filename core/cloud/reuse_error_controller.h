@@ -1,5 +1,6 @@
 #pragma once
-// Reuse under audit: pixels that were traced though points answered them tell how true points are.
+// Feedback control of reuse: pixels that are traced although points answered them measure the error
+// of reuse.
 #include <span>
 #include <vector>
 
@@ -7,29 +8,28 @@
 
 namespace lightwalk {
 
-/// The value that a share (0 ... 1) of the values lies below; 0 where there are none.
+/// The quantile of some values: a `share` (0 ... 1) of them lies below it; 0 for no values.
 [[nodiscard]] double quantile(std::vector<float> values, double share);
 
-/// Rules that are stricter: points must lie nearer, agree better, and views may turn less.
-/// @param tightness  1: as they are ... 0: hardly anything is reused
+/// Stricter rules: points must lie nearer and agree better, and view directions may differ less.
+/// @param tightness  1: unchanged ... 0: hardly anything is reused
 [[nodiscard]] ReuseRules tightened(ReuseRules rules, double tightness);
 
-/// Tightens reuse while it is found wrong, and loosens it again, slowly, when it is right. A
-/// function of what it was told: not of time.
+/// Tightens the rules of reuse while the measured error is above a limit, and loosens them slowly
+/// when it is below. Deterministic: depends on the recorded errors only, not on time.
 class ReuseErrorController {
   public:
-    /// @param limit  most audited pixels that may be off by more than a tenth, as a share of them,
-    ///               beyond the share of pixels of which two equally good rays differ by as much:
-    ///               with patterns and edges that is a quarter of a picture, and its percentiles
-    ///               say little. 0: any
+    /// @param limit  largest share of audited pixels whose error may exceed a tenth, in addition to
+    /// the share of pixels of which two equally good rays differ by as much (the noise, which with
+    /// patterns and edges is up to a quarter of a picture). 0: no limit
     explicit ReuseErrorController(double limit) : limit_(limit) {}
 
-    /// What one frame's audit found.
+    /// Record the measurements of one frame.
     /// @param errors  relative errors of reused pixels
     /// @param floors  relative differences of two equally good rays of a pixel
     void record(std::span<const float> errors, std::span<const float> floors);
 
-    /// For tightened(), 1/1024 ... 1.
+    /// The argument for tightened(), 1/1024 ... 1.
     [[nodiscard]] double tightness() const { return tightness_; }
 
   private:

@@ -120,15 +120,15 @@ float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
 /// The walk ends at `hit`, or at infinity.
 void VisibilityProbe::end(const Walk& walk, const Hit& hit,
                           const SurfaceAppearance& appearance) const {
-    PrimaryVisibility& seen_thing = *walk.seen_thing;
-    seen_thing.seen = true;
+    PrimaryVisibility& primary = *walk.primary;
+    primary.seen = true;
     const double length = hit.exists() ? walk.length + hit.t : kHuge;
-    seen_thing.position = walk.pixel->origin + walk.pixel->direction * length;
-    seen_thing.distance = static_cast<float>(length);
-    seen_thing.surface = walk.met;
+    primary.position = walk.pixel->origin + walk.pixel->direction * length;
+    primary.distance = static_cast<float>(length);
+    primary.surface = walk.met;
     float slope = 0;
     if (!hit.exists()) {
-        seen_thing.surface = background(walk);
+        primary.surface = background(walk);
     } else if (appearance.appearance == Appearance::glossy) {
         if (walk.slopes) slope = glossy_slope(walk, hit, appearance);
     } else if (appearance.appearance == Appearance::polished) {
@@ -136,9 +136,8 @@ void VisibilityProbe::end(const Walk& walk, const Hit& hit,
     } else if (appearance.appearance != Appearance::constant) {
         slope = kMirrorLike;
     }
-    seen_thing.slope = never_reuse_ ? kNeverReuse : seen_thing.slope + slope;
-    if (seen_thing.kind == PointKind::plain && seen_thing.slope > 0)
-        seen_thing.kind = PointKind::glossy;
+    primary.slope = never_reuse_ ? kNeverReuse : primary.slope + slope;
+    if (primary.kind == PointKind::plain && primary.slope > 0) primary.kind = PointKind::glossy;
 }
 
 /// The next surface on the way. False: the light comes from there; true: from farther on.
@@ -157,8 +156,8 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
         return false;
     }
     if (pane) {
-        walk.seen_thing->slope += static_cast<float>(slopes_of(hit, appearance).left);
-        if (walk.seen_thing->kind == PointKind::plain) walk.seen_thing->kind = PointKind::through;
+        walk.primary->slope += static_cast<float>(slopes_of(hit, appearance).left);
+        if (walk.primary->kind == PointKind::plain) walk.primary->kind = PointKind::through;
     }
     walk.pass(hit, mirror);
     return true;
@@ -183,7 +182,7 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
         image->kind = PointKind::mirrored;
         image->slope = static_cast<float>(slopes_of(hit, appearance).reflected);
         Walk mirrored = walk;
-        mirrored.seen_thing = image;
+        mirrored.primary = image;
         mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
         if (reflects_flat(hit, appearance)) {
             mirrored.pass(hit, true);

@@ -1,5 +1,5 @@
 #pragma once
-// What a ray sees of a scene, without shading it: surfaces, panes and mirrors on its way.
+// Finds what a ray sees of a scene without shading: the surfaces, panes and mirrors on its way.
 #include <vector>
 
 #include "core/cloud/highlights.h"
@@ -8,34 +8,34 @@
 
 namespace lightwalk {
 
-/// What one modifier's surfaces appearance like.
+/// The appearance of surfaces of one modifier.
 struct SurfaceAppearance {
     Appearance appearance = Appearance::unknown;
     float gloss = 0, roughness = 0, diffuse = 0;  ///< see MaterialTraits
-    bool textured = false;                        ///< normals are turned
+    bool textured = false;                        ///< normals are perturbed
     bool patterned = false;
 };
 
-/// Follows the light of a pixel back to where it comes from: straight through panes and surfaces
-/// without material, along the reflection of flat mirrors. Whether the first surface mirrors
-/// something is told beside what lies ahead. Immutable; many threads may ask.
+/// Follows a pixel's ray to what it shows: straight through panes and surfaces without material,
+/// and reflected by flat mirrors. The reflection of the first surface is found beside what lies
+/// ahead. Immutable; many threads may use it at once.
 ///
-/// Surfaces whose appearance nobody can tell are reused as long as the eye does not move: bent or
-/// curved mirrors, materials given by functions, refraction. In scenes with antimatter or a medium
-/// nothing is reused.
+/// Surfaces whose change of appearance cannot be predicted (curved or textured mirrors, materials
+/// given by functions, refraction) get the slope kMirrorLike: they are reused only while the eye
+/// does not move. In scenes with antimatter or a medium all slopes are kNeverReuse.
 class VisibilityProbe {
   public:
     /// The tracer must outlive this.
     explicit VisibilityProbe(const Tracer& tracer);
 
-    /// Memory of searches, for the next ones. Each thread has its own.
+    /// Reusable working memory; each thread needs its own.
     class Scratch;
 
-    /// @param rays    the pixels'
-    /// @param first   what each meets
-    /// @param slopes  tell how steadily colours hold; else the slopes are only right where they are
-    ///                kNeverReuse, which is cheaper
-    /// @param visibility  of each ray; all but x and y are set, where `ray` says that there is one
+    /// @param rays    of the pixels
+    /// @param first   the nearest hit of each ray
+    /// @param slopes  whether slopes are needed; false is cheaper, and slopes are then right only
+    /// where they are kNeverReuse
+    /// @param visibility  in and out, for each ray with `ray` true: all members but x and y are set
     void find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
               std::span<PixelVisibility> visibility, Scratch& scratch) const;
 
@@ -55,28 +55,28 @@ class VisibilityProbe {
     const Tracer& tracer_;
     Highlights highlights_;
     std::vector<SurfaceAppearance> appearances_;  ///< by modifier
-    bool never_reuse_ = false;                    ///< all of the scene
+    bool never_reuse_ = false;                    ///< for all surfaces of the scene
 };
 
-/// A ray on its way.
+/// The state of a ray that is followed.
 struct VisibilityProbe::Walk {
-    const RaySegment* pixel = nullptr;        ///< the ray it began as
-    PrimaryVisibility* seen_thing = nullptr;  ///< that it ends in
-    PrimaryVisibility* image = nullptr;  ///< of what the first surface that counts mirrors; null
-                                         ///< from there on
-    RaySegment segment;                  ///< the way on
-    bool slopes = true;                  ///< are asked for
-    int surfaces = 0;                    ///< met, before that one or after
-    double length = 0;                   ///< of the way so far [m]
-    std::uint32_t met = 0;               ///< see PrimaryVisibility::surface
+    const RaySegment* pixel = nullptr;     ///< the pixel's ray
+    PrimaryVisibility* primary = nullptr;  ///< result, set at the end
+    PrimaryVisibility* image =
+        nullptr;  ///< result for the reflection of the first surface with a material; null after it
+    RaySegment segment;     ///< the remaining ray
+    bool slopes = true;     ///< see find()
+    int surfaces = 0;       ///< number of surfaces met, before or after the first with a material
+    double length = 0;      ///< of the path so far [m]
+    std::uint32_t met = 0;  ///< see PrimaryVisibility::surface
 
-    /// Goes on from a hit, straight or mirrored.
+    /// Continue from a hit, straight on or reflected.
     void pass(const Hit& hit, bool reflect);
 };
 
 class VisibilityProbe::Scratch {
     friend class VisibilityProbe;
-    std::vector<Walk> ahead, images;  ///< on their ways
+    std::vector<Walk> ahead, images;  ///< rays being followed
     std::vector<RaySegment> segments;
     std::vector<Hit> hits;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// How function files call the inputs of an evaluation.
+// Names of the inputs of an evaluation in function files.
 #include <array>
 #include <string_view>
 
@@ -7,7 +7,7 @@
 
 namespace lightwalk::function {
 
-/// By Channel. From NxP on they are variables that only some materials set.
+/// The names, indexed by Channel. NxP and later ones are variables that only some materials set.
 inline constexpr std::array<std::string_view, kChannelCount> kChannelNames{
     "",   "Dx", "Dy",  "Dz",  "Nx",  "Ny",    "Nz",  "Px",  "Py",  "Pz",  "T",   "Rdot", "S",
     "Tx", "Ty", "Tz",  "Ix",  "Iy",  "Iz",    "Jx",  "Jy",  "Jz",  "Kx",  "Ky",  "Kz",   "Ts",

@@ -9,8 +9,8 @@
 
 namespace lightwalk::function {
 
-/// The rows of instructions.def; then of library.def each function's own, which is checked, and
-/// each reduction's step, which is not.
+/// The instructions: the rows of instructions.def, then one for each function of library.def (which
+/// checks for errors) and one for the step of each reduction (which does not).
 enum class Op : std::uint8_t {
 #define INSTRUCTION(name, operands, lanes) name,
 #include "core/function/instructions.def"
@@ -20,22 +20,23 @@ enum class Op : std::uint8_t {
 #include "core/function/library.def"
 };
 
-/// What a row says of an instruction.
+/// Properties of an instruction, from its row.
 struct OpEntry {
     const char* name;
     const char* operands;
-    bool lanes;  ///< evaluations side by side know it
+    bool lanes;  ///< available in SIMD evaluation of several rays (lanes)
 };
 [[nodiscard]] const OpEntry& op_entry(Op op);
 
 struct Instruction {
     Op op = Op::halt;
-    std::uint8_t error_mask = 0;  ///< of checked ones: 0 clears the error flag first, 0xff keeps it
+    std::uint8_t error_mask =
+        0;  ///< for checked instructions: 0 clears the error flag first, 0xff keeps it
     std::uint32_t dst = 0, a = 0, b = 0, c = 0;
 };
 
-/// A frame: a call's cells. First the cached ones, each of which has a flag that tells whether its
-/// value is valid: parameters, then thunks. Then temporaries.
+/// The layout of the cells (registers) of a call: first cached cells, each with a flag that tells
+/// whether its value is valid (parameters, then thunks), then temporaries.
 struct FunctionCode {
     std::uint32_t entry = 0;
     std::uint32_t cells = 0;
@@ -44,7 +45,7 @@ struct FunctionCode {
     std::uint32_t cost = 0;  ///< instructions
 };
 
-/// An argument: a cell of the caller, or the block of the caller that computes it.
+/// An argument of a call: a cell of the caller, or the code block of the caller that computes it.
 struct Argument {
     bool is_value = false;
     std::uint32_t at = 0;
@@ -71,7 +72,7 @@ struct Program::Code {
     std::vector<std::uint32_t> targets;
     std::vector<std::string> messages;
     std::vector<double> constants;
-    std::vector<std::uint8_t> used_channels;  ///< those that instructions read from cells
+    std::vector<std::uint8_t> used_channels;  ///< channels that instructions read from cells
     ChannelMask channels = 0;
     std::uint32_t inputs_at = 0;
     std::uint32_t thunks_at = 0;
@@ -79,7 +80,7 @@ struct Program::Code {
     std::uint32_t cells = 0;
     std::vector<double> reals;
     SourceLocation where;
-    bool has_lanes = false;  ///< evaluate_lanes knows all instructions
+    bool has_lanes = false;  ///< all instructions are available in evaluate_lanes
 };
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// From a graph to register code.
+// Code generation: from a graph to register code.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,16 +11,16 @@
 
 namespace lightwalk::function {
 
-/// Lays out expressions in the language's order of evaluation. What is certain at a place decides
-/// what is emitted there: which thunks are valid ("available expressions" of a compiler), and
-/// whether the error flag is clear.
+/// Emits expressions in the language's order of evaluation. The code depends on what is certain at
+/// a place: which thunks are valid ("available expressions" of a compiler), and whether the error
+/// flag is clear.
 ///
-/// A thunk that is first needed in one place only is evaluated in line. One that may be needed
-/// first in several goes out of line: a block of its own, which `force` runs unless the cell is
-/// valid. Which those are is found by generating the code again until there are no more of them.
+/// A thunk whose value can first be needed in one place only is evaluated in line. A thunk with
+/// several such places becomes a block of its own, which `force` runs unless the cell is valid. To
+/// find these thunks, code is generated repeatedly until there are no new ones.
 ///
-/// A `Cell into` is where the value is wanted; kAnyCell lets the generator choose, so that what is
-/// in a cell already is not copied.
+/// A parameter `Cell into` is where the caller wants the value; kAnyCell lets the generator choose,
+/// which saves a copy of a value that is in a cell already.
 class CodeGenerator {
   public:
     explicit CodeGenerator(const Graph& graph);
@@ -29,9 +29,9 @@ class CodeGenerator {
   private:
     using Cell = std::uint32_t;
     static constexpr Cell kAnyCell = 0xffffffffu;
-    /// Deepest nesting of thunks in line.
+    /// Deepest nesting of thunks that are evaluated in line.
     static constexpr std::uint32_t kDeepest = 400;
-    /// A block to generate: of a thunk (node: its body), or of an argument of a call.
+    /// A block to generate: for a thunk (`node` is its body), or for an argument of a call.
     struct Block {
         NodeId node = kNoNode;
         std::uint32_t argument = 0;
@@ -76,10 +76,10 @@ class CodeGenerator {
     void clear_error();
     std::uint8_t begin_checked(std::span<const NodeId> arguments);
 
-    /// Whether evaluating it leaves the error flag alone, and evaluates no thunk for the first
-    /// time: it may be done earlier or later, then. False where finding out takes long.
+    /// Whether evaluating a node changes neither the error flag nor the validity of thunks, so that
+    /// it may be moved. Conservative: false where analysis would take long.
     [[nodiscard]] bool is_side_effect_free(NodeId id, int depth = 0) const;
-    /// Whether its value is in a cell already: no side effect, and no instruction.
+    /// Whether the value of a node is in a cell already, so that it needs no instruction.
     [[nodiscard]] bool is_in_cell(NodeId id) const;
 
     std::uint32_t emit(Op op, Cell dst = 0, std::uint32_t a = 0, std::uint32_t b = 0,
@@ -92,8 +92,9 @@ class CodeGenerator {
     [[nodiscard]] Cell thunk_cell(ThunkId id) const;
     [[nodiscard]] bool in_global_frame() const { return frame_ == 0; }
 
-    // Which thunks and parameters are valid for certain at the present place. What a branch adds is
-    // taken back at its end: `start` is the length that available_log_ had before it.
+    // Bookkeeping of the thunks and parameters that are certainly valid at the present place. What
+    // a branch adds is undone at its end: `start` is the length of available_log_ before the
+    // branch.
     [[nodiscard]] std::size_t available_index_of_parameter(std::uint32_t i) const {
         return graph_.thunks.size() + i;
     }
@@ -103,14 +104,15 @@ class CodeGenerator {
 
     const Graph& graph_;
     Program::Code code_;
-    std::vector<bool> out_of_line_;  ///< thunks that are blocks
+    std::vector<bool> out_of_line_;  ///< thunks that have blocks of their own
     std::vector<std::uint32_t>
-        first_uses_;                      ///< places of this pass where a thunk may be first needed
-    std::vector<bool> emitting_;          ///< thunks whose body is being emitted in line
-    std::vector<std::uint32_t> entries_;  ///< of the thunks' blocks
-    std::vector<std::uint32_t> thunk_index_;                  ///< within its frame
-    std::vector<std::uint32_t> frame_thunks_;                 ///< how many each frame has
-    std::unordered_map<std::uint64_t, Cell> constant_cells_;  ///< by the bits of the value
+        first_uses_;  ///< number of places, in this pass, where a thunk may be first needed
+    std::vector<bool> emitting_;               ///< thunks whose body is being emitted in line
+    std::vector<std::uint32_t> entries_;       ///< first instructions of the thunks' blocks
+    std::vector<std::uint32_t> thunk_index_;   ///< index of each thunk within its frame
+    std::vector<std::uint32_t> frame_thunks_;  ///< number of thunks of each frame
+    std::unordered_map<std::uint64_t, Cell>
+        constant_cells_;  ///< cells of constants, by the bits of the value
     std::vector<bool> available_;
     std::vector<std::size_t> available_log_;
     std::vector<Block> global_blocks_, frame_blocks_;
@@ -120,7 +122,7 @@ class CodeGenerator {
     bool error_clear_ = false;
     std::uint32_t frame_ = 0;
     std::uint32_t depth_ = 0;
-    std::uint32_t parameters_ = 0;  ///< of the function whose frame this is
+    std::uint32_t parameters_ = 0;  ///< number of parameters of the present function
     Cell next_cell_ = 0;            ///< next free temporary
     Cell high_cell_ = 0;            ///< cells that the frame uses so far
 };

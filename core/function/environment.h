@@ -30,7 +30,7 @@ class FunctionEnvironment {
     /// "name:line: ...".
     void load(const std::string& name, std::string_view text);
 
-    /// Evaluate-as-you-go definitions in the global context (`-e expr` of generators). Throws
+    /// Evaluate definitions in the global context (`-e expr` of generators). Throws
     /// InputError.
     void define(std::string_view text, const SourceLocation& where);
 
@@ -42,16 +42,17 @@ class FunctionEnvironment {
                                   std::span<const double> reals, ChannelMask material_channels,
                                   const SourceLocation& where) const;
 
-    /// The same, but that primitives with the same requests and arguments, as generators write them
-    /// by the thousand, share a program. Those that can throw while they run do not: `where` is
-    /// theirs.
+    /// As compile(), but primitives with the same requests and arguments (generators write
+    /// thousands of such) share one program. Programs that can throw at run time are not shared, as
+    /// their errors carry `where`.
     [[nodiscard]] Program shared_program(std::string_view file,
                                          std::span<const ExpressionRequest> requests,
                                          std::span<const double> reals,
                                          ChannelMask material_channels,
                                          const SourceLocation& where);
 
-    /// What compile() makes of the same on its way, as text: README.md in core/function reads one.
+    /// The intermediate results of compile() as text; README.md in core/function explains an
+    /// example.
     struct Listing {
         std::string graph, code;
     };
@@ -60,10 +61,10 @@ class FunctionEnvironment {
                                   std::span<const double> reals, ChannelMask material_channels,
                                   const SourceLocation& where) const;
 
-    /// Number of parameters of the function that `name` means in the context of `file`; 0 when it
-    /// is unknown. Library functions: their argument count (1 for min, max, select).
+    /// Number of parameters of the function that `name` refers to in the context of `file`; 0 when
+    /// there is none. Library functions: their argument count (1 for min, max, select).
     [[nodiscard]] int parameters(std::string_view file, std::string_view name) const;
-    /// Whether `name` is defined as a function (user or library) there.
+    /// Whether `name` refers to a function (user or library) in the context of `file`.
     [[nodiscard]] bool is_function(std::string_view file, std::string_view name) const;
 
   private:

@@ -14,19 +14,19 @@ inline constexpr SymbolId kNoSymbol = 0xffffffffu;
 enum class ExprKind : std::uint8_t {
     number,
     channel,    ///< $index
-    parameter,  ///< the index-th of the function being defined
+    parameter,  ///< the index-th parameter of the function being defined
     variable,   ///< symbol `index`, spelled `name`
-    sum,        ///< of all kids, from 0, left to right
-    product,    ///< of all kids, from 1, left to right
+    sum,        ///< sum of all kids, starting from 0, left to right
+    product,    ///< product of all kids, starting from 1, left to right
     difference,
     quotient,
     power,
     negation,
     call,            ///< of symbol `index`, spelled `name`
-    call_parameter,  ///< of what the index-th parameter names
+    call_parameter,  ///< call of the function that the index-th parameter names
 };
 
-/// Deepest tree that an expression may be: what works on trees may recurse.
+/// Largest depth of an expression tree: it bounds the recursion of functions on trees.
 inline constexpr std::uint32_t kMaxExprDepth = 800;
 
 struct Expr {

@@ -1,6 +1,6 @@
 #pragma once
-// What a primitive evaluates: expressions with its real arguments put in, user functions inlined,
-// constants folded, and untaken branches gone.
+// The graph of a primitive's expressions after specialisation: its real arguments are substituted,
+// user functions inlined, constants folded, and branches that are never taken removed.
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,15 +21,15 @@ inline constexpr NodeId kNoNode = 0xffffffffu;
 enum class NodeKind : std::uint8_t {
     constant,   ///< `value`; evaluating it may clear the error flag, see Node
     channel,    ///< `index`: Channel
-    input,      ///< the index-th value that an output is called with
+    input,      ///< the index-th argument that an output is called with
     thunk,      ///< `index`: ThunkId
-    parameter,  ///< of the function instance, by need
-    sum,        ///< kids, from 0, left to right
-    product,    ///< kids, from 1, left to right
+    parameter,  ///< parameter of the function instance, evaluated by need
+    sum,        ///< sum of the kids, starting from 0, left to right
+    product,    ///< product of the kids, starting from 1, left to right
     difference,
-    quotient,  ///< divisor first
+    quotient,  ///< the divisor is evaluated first
     negation,
-    power,        ///< exponent first
+    power,        ///< the exponent is evaluated first
     library,      ///< `index`: LibraryFunction, of kids
     conditional,  ///< if(kids[0], kids[1], kids[2])
     choice,       ///< select(kids[0], kids[1], ...)
@@ -52,16 +52,17 @@ struct Node {
     std::vector<ThunkId> folded_thunks;
 };
 
-/// What is evaluated when its value is first needed and then cached: a variable, or an argument of
-/// an inlined call. The cache holds for an epoch, or a call.
+/// An expression that is evaluated when its value is first needed and then cached (call by need): a
+/// variable, or an argument of an inlined call. The cache lasts for an epoch, or for a call.
 struct Thunk {
     NodeId body = kNoNode;
-    std::uint32_t frame = 0;         ///< 0: the global one; k + 1: a call's of instance k
-    std::uint32_t output = kNoNode;  ///< the output it belongs to: invalid again when that starts
+    std::uint32_t frame = 0;  ///< 0: the global frame; k + 1: the frame of a call of instance k
+    std::uint32_t output = kNoNode;  ///< the output that it belongs to, whose start invalidates it
     [[nodiscard]] bool is_global() const { return frame == 0; }
 };
 
-/// A user function that is called rather than inlined, with its functional arguments put in.
+/// An instance of a user function that is called rather than inlined; its function-valued arguments
+/// are substituted.
 struct Instance {
     SymbolId symbol = kNoSymbol;
     std::vector<SymbolId> functions;  ///< what each parameter names; kNoSymbol where it is a value
@@ -73,11 +74,11 @@ struct Graph {
     std::vector<Thunk> thunks;
     std::vector<Instance> instances;
     std::vector<NodeId> outputs;
-    std::vector<std::uint32_t> inputs;  ///< values that each output is called with
+    std::vector<std::uint32_t> inputs;  ///< number of arguments that each output is called with
     std::vector<std::string> messages;
 };
 
-/// What a graph is made for.
+/// Options of building a graph.
 struct Specialisation {
     const SymbolTable& symbols;
     std::span<const double> reals;
@@ -86,7 +87,7 @@ struct Specialisation {
     SourceLocation where;   ///< for messages
 };
 
-/// One output: an expression of the values $0, $1, .. that it is called with (as parameters).
+/// One output: an expression of the arguments that it is called with (as parameters $0, $1, ...).
 struct OutputRequest {
     Expr expression;
     std::uint32_t inputs = 0;

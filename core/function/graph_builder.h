@@ -1,5 +1,5 @@
 #pragma once
-// The specialising compiler's front: from expressions to a graph.
+// Front end of the specialising compiler: from expressions to a graph.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace lightwalk::function {
 
-/// Inlining is bounded, so that any text compiles in time and memory like its own size: what goes
-/// beyond becomes a call, which means the same.
+/// Limits of inlining, so that time and memory of compilation are proportional to the size of the
+/// text. Beyond them functions are called instead of inlined, with the same results.
 struct InlineLimits {
     static constexpr std::uint32_t kDepth = 800;      ///< of recursion while building
     static constexpr std::size_t kNodes = 20000;      ///< of the graph
@@ -29,24 +29,24 @@ class GraphBuilder {
   public:
     explicit GraphBuilder(const Specialisation& specialisation) : with_(specialisation) {}
     void add_output(const OutputRequest& output);
-    /// Build what only calls refer to, then hand over.
+    /// Build the function instances that calls refer to, and return the graph.
     Graph finish();
     [[nodiscard]] std::uint64_t effort() const { return effort_; }
 
   private:
     struct Activation;
     struct Binding {
-        const Expr* argument = nullptr;  ///< in the caller's terms
+        const Expr* argument = nullptr;  ///< an expression in the caller's scope
         const Activation* caller = nullptr;
-        mutable NodeId node = kNoNode;  ///< once it is used
+        mutable NodeId node = kNoNode;  ///< built when the parameter is first used
     };
-    /// A call that is being inlined; the root of an instance's body; or an output.
+    /// A scope of parameters: a call that is being inlined, the body of an instance, or an output.
     struct Activation {
         const Activation* caller =
             nullptr;  ///< the chain of functions that this one is inlined into
         SymbolId symbol = kNoSymbol;
-        std::uint32_t conditions = 0;      ///< conditions_ when it was entered
-        std::uint32_t argument_depth = 0;  ///< of all arguments along the chain together
+        std::uint32_t conditions = 0;      ///< value of conditions_ on entry
+        std::uint32_t argument_depth = 0;  ///< sum of the argument depths along the chain
         std::uint32_t instance = kNoNode;  ///< parameters are this instance's
         std::vector<Binding> bindings;
     };
@@ -55,7 +55,7 @@ class GraphBuilder {
         Progress progress = Progress::building;
         NodeId node = kNoNode;
     };
-    /// What a call means.
+    /// What a call refers to.
     struct Callee {
         SymbolId symbol = kNoSymbol;
         bool bare_name = true;
@@ -68,7 +68,7 @@ class GraphBuilder {
     NodeId variable(const Expr& e);
     NodeId build_global(const Expr& body);
     [[nodiscard]] std::optional<Channel> material_channel(const Expr& e) const;
-    /// Those of `channels` that are a material's to provide, but not this one's.
+    /// The channels among `channels` that only other materials provide.
     [[nodiscard]] ChannelMask missing_channels(ChannelMask channels) const;
 
     NodeId call(const Expr& e, const Activation* in);
@@ -88,7 +88,7 @@ class GraphBuilder {
     NodeId arg_call(NodeId index);
     NodeId check(NodeId chosen, const std::vector<ThunkId>& folded_thunks);
 
-    // Nodes, folded where that is exact.
+    // Make nodes, folding constants where that is exact.
     NodeId add(Node node);
     NodeId constant(double value);
     NodeId fatal(std::string message);
@@ -109,7 +109,7 @@ class GraphBuilder {
     std::map<std::pair<SymbolId, std::vector<SymbolId>>, std::uint32_t> instances_;
     std::size_t instances_built_ = 0;
     std::uint32_t depth_ = 0;
-    std::uint32_t conditions_ = 0;  ///< branches around the present place that depend on the ray
+    std::uint32_t conditions_ = 0;  ///< number of enclosing branches that depend on the ray
     std::uint32_t frame_ = 0;
     std::uint32_t output_ = kNoNode;
     std::uint64_t effort_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Words of the function language: numbers, names, punctuation; comments in braces.
+// Lexer of the function language: numbers, names, punctuation; comments in braces.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace lightwalk::function {
 
-/// Walks over a text, past white space and comments; one that does not end throws InputError.
+/// Reads a text from front to back, skipping white space and comments; an unterminated comment
+/// throws InputError.
 class Lexer {
   public:
     /// `where` is the place of the first character; lines are counted from there on when it has

@@ -21,13 +21,13 @@ enum class LibraryKind : std::uint8_t { special_form, reduction, function, ray_f
 enum class LibraryPart : std::uint8_t { core, renderer };
 enum class LaneSupport : std::uint8_t { none, in_turn, vector };
 
-/// A row of library.def, which says what its columns mean.
+/// A row of library.def, where the columns are described.
 struct LibraryEntry {
     std::string_view name;
     LibraryFunction function;
     LibraryKind kind;
     int arguments;
-    int evaluated;  ///< of a reduction: all
+    int evaluated;  ///< for a reduction: all arguments
     LibraryPart part;
     LaneSupport lanes;
     ChannelMask channels;
@@ -37,27 +37,26 @@ struct LibraryEntry {
 };
 
 [[nodiscard]] std::span<const LibraryEntry> library_functions();
-/// The entry called `name`; nothing when there is none.
+/// The function called `name`; nothing when there is none.
 [[nodiscard]] const LibraryEntry* find_library_function(std::string_view name,
                                                         FunctionEnvironment::Library library);
 [[nodiscard]] const LibraryEntry& library_entry(LibraryFunction function);
 
-/// Value of a call whose arguments are these numbers, before the check for numeric errors. Nothing
-/// for special forms and for functions of the ray.
+/// The value of a call with numeric arguments, before the check for numeric errors. Nothing for
+/// functions that control evaluation (if, select, ...) and for functions of the ray.
 /// @param arguments  at least as many as the function uses
 [[nodiscard]] std::optional<double> constant_value(LibraryFunction function,
                                                    std::span<const double> arguments);
 
-/// trunc(x + 0.5) as the language rounds selectors; the limits of int stand for all beyond, and
-/// INT_MIN for NaN.
+/// trunc(x + 0.5) as the language rounds selectors, clamped to the range of int; INT_MIN for NaN.
 [[nodiscard]] inline int rounded_index(double x) {
     const double r = x + 0.5;
     if (!(r > -2147483648.0)) return -2147483647 - 1;
     return r < 2147483647.0 ? static_cast<int>(r) : 2147483647;
 }
 
-/// Which of `cases` values select(n, ...) chooses, from 1; 0 for their number; -1 for a domain
-/// error.
+/// Which of `cases` values select(n, ...) chooses, counted from 1; 0: it returns the number of
+/// cases; -1: domain error.
 [[nodiscard]] inline int selected_case(double n, int cases) {
     if (!(n >= -0.5)) return -1;
     const int k = rounded_index(n);
@@ -79,8 +78,7 @@ inline constexpr double kMostHalves = 32;
 /// Pseudo-random number in [0, 1) that depends on x alone.
 [[nodiscard]] double rand_value(double x);
 
-/// The definitions that a renderer starts with, and those of the generators; text of a function
-/// file.
+/// Texts of function files: the initial definitions of renderers, and those of generators.
 [[nodiscard]] std::string_view initial_definitions(FunctionEnvironment::Library library);
 
 }  // namespace lightwalk::function

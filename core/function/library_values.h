@@ -1,6 +1,6 @@
 #pragma once
-// What the built-in functions compute: the column `value` of library.def as code, the same for
-// constants, for one ray and for several side by side.
+// Implementation of the built-in functions: the column `value` of library.def as code, used for
+// constants, for single rays and for several rays at once (SIMD).
 #include <cmath>
 
 #include "core/function/code.h"
@@ -13,11 +13,12 @@
 
 namespace lightwalk::function {
 
-/// Of a function of up to three arguments (it ignores the others), or a step of a reduction.
+/// The value of a function of up to three arguments (unused ones are ignored), or of a step of a
+/// reduction.
 template <LibraryFunction f>
 double library_value(double x, double y, double z, EvalState& state);
 
-/// Of a function of the ray or of the primitive's real arguments.
+/// The value of a function of the ray or of the primitive's real arguments.
 template <LibraryFunction f>
 double ray_value(double x, double y, double z, const Program::Code& code, EvalState& state);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Graphs and code as text: what becomes of an expression. README.md beside this file reads one.
+// Listings of graphs and code, which show how an expression is compiled. README.md beside this file
+// explains an example.
 #include <string>
 
 #include "core/function/code.h"
@@ -7,10 +8,11 @@
 
 namespace lightwalk::function {
 
-/// A line for each output, thunk and function instance.
+/// A listing of a graph: one line for each output, thunk and function instance.
 [[nodiscard]] std::string listing(const Graph& graph);
 
-/// A line for each instruction; # stands before numbers that are no values: targets, tables.
+/// A listing of code: one line for each instruction. Numbers that are not values (jump targets,
+/// tables) are marked by #.
 [[nodiscard]] std::string listing(const Program::Code& code);
 
 }  // namespace lightwalk::function

@@ -1,6 +1,6 @@
 #pragma once
-// The noise functions with a memory of the last point: neighbouring points, and functions of one
-// point, share most of the work.
+// The noise functions of the language, with a cache of the last point: evaluations at neighbouring
+// points, or of several functions at one point, share most of the work.
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace lightwalk {
 
 namespace lightwalk::function {
 
-/// Step of the backward differences noise3x, noise3y, noise3z.
+/// Step of the backward differences that noise3x, noise3y and noise3z compute.
 inline constexpr double kNoiseStep = .0005;
 
 /// The last point and noise3 there.
@@ -28,7 +28,7 @@ struct NoiseMemory {
 };
 [[nodiscard]] inline double noise3(double x, double y, double z, NoiseMemory& memory) {
     const std::array<double, 3> p{x, y, z};
-    // Equal bits: -0 is another point than 0.
+    // Compared by bits: -0 and 0 are different points.
     using Bits = std::array<std::uint64_t, 3>;
     if (std::bit_cast<Bits>(p) != std::bit_cast<Bits>(memory.point)) {
         memory = {p, lightwalk::noise3(x, y, z)};
@@ -38,8 +38,8 @@ struct NoiseMemory {
 /// (noise3(p) - noise3(p - step along axis)) / step.
 [[nodiscard]] double noise3_difference(int axis, double x, double y, double z, NoiseMemory& memory);
 
-/// How fnoise3 last came down to a point: the cell, and for each halving the octant and the values
-/// at the corners of the cube before it.
+/// The path by which fnoise3 last descended to a point: the cell, and for each halving the octant
+/// and the values at the corners of the enclosing cube.
 struct FractalMemory {
     static constexpr std::size_t kLevels = 10;
     std::array<std::int64_t, 3> cell{std::numeric_limits<std::int64_t>::min(), 0, 0};

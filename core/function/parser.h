@@ -1,5 +1,5 @@
 #pragma once
-// From text to expressions and definitions, folding constants on the way.
+// Parser: from text to expressions and definitions, with constant folding.
 #include <string>
 #include <string_view>
 
@@ -10,10 +10,11 @@
 
 namespace lightwalk::function {
 
-/// Value of a variable or call that is constant: known now. Throws InputError when it has none.
+/// The value of a constant variable or call, which must be known while parsing. Throws InputError
+/// when it has none.
 using ConstantEvaluator = FunctionRef<double(const Expr& e, const SourceLocation& where)>;
 
-/// What names mean to a parser.
+/// The scope in which a parser resolves names.
 struct Scope {
     const SymbolTable& symbols;
     SymbolTable* writable =

@@ -67,14 +67,14 @@ using ChannelValues = std::array<double, kChannelCount>;  ///< indexed by Channe
 /// files" notes.
 enum class EvalError : std::uint8_t { none, domain, range };
 
-/// A number in each of several evaluations that go side by side.
+/// One number for each of several simultaneous evaluations (SIMD lanes).
 inline constexpr std::size_t kLanes = 8;
 struct alignas(64) Lanes {
     std::array<double, kLanes> value{};
 };
 using LaneMask = std::uint32_t;  ///< bit k: lane k
 
-/// Results of evaluations side by side.
+/// Results of simultaneous evaluations.
 struct LaneValues {
     Lanes lanes;
     LaneMask done = 0;  ///< lanes that have a result
@@ -92,17 +92,18 @@ struct EvalState {
     std::uint64_t warnings = 0;       ///< numeric errors met
     void clear_error() { error = EvalError::none; }
 
-    struct Return {  ///< where a call of the implementation goes on
+    struct Return {  ///< where the interpreter continues after a call
         std::uint32_t instruction = 0, frame = 0, cell = 0;
     };
     std::vector<Return> returns;
-    struct PrismRays {             ///< of fprism_val
-        std::vector<double> rays;  ///< direction and energy each
-        bool valid = false;        ///< whether they are this epoch's
+    struct PrismRays {             ///< cache of fprism_val
+        std::vector<double> rays;  ///< direction and energy of each ray
+        bool valid = false;        ///< whether they belong to this epoch
     };
-    std::uint64_t operations = 0;           ///< done by calls in this epoch; bounded
-    std::vector<Lanes> lanes;               ///< registers of evaluations side by side
-    std::vector<std::uint32_t> lane_queue;  ///< rays that are still to be evaluated side by side
+    std::uint64_t operations =
+        0;  ///< number of instructions executed by calls in this epoch, which is limited
+    std::vector<Lanes> lanes;               ///< registers of simultaneous evaluations
+    std::vector<std::uint32_t> lane_queue;  ///< rays that still have to be evaluated
     function::NoiseMemory noise;
     function::FractalMemory fractal;
     PrismRays prism;
@@ -124,7 +125,7 @@ class Program {
     explicit Program(std::shared_ptr<const Code> code) : code_(std::move(code)) {}
 
     [[nodiscard]] bool empty() const { return !code_; }
-    /// Whether both are the same compiled program.
+    /// Whether both share one compiled program.
     friend bool operator==(const Program&, const Program&) = default;
     [[nodiscard]] std::size_t outputs() const;
     /// Whether evaluate() and call() can throw.
@@ -132,8 +133,8 @@ class Program {
     [[nodiscard]] ChannelMask channels()
         const;  ///< channels that any output may read: fill at least these
 
-    /// Start an epoch: a new ray, for which no variable has been computed. It ends with the next
-    /// begin; until then `channels` must stay alive and unchanged.
+    /// Start an epoch: the evaluations for one ray, during which variables are cached. It ends with
+    /// the next begin(); until then `channels` must stay alive and unchanged.
     void begin(EvalState& state, const ChannelValues& channels) const;
 
     /// Evaluate output k. Values that other outputs need, too, are cached for the epoch; the others
@@ -142,24 +143,25 @@ class Program {
     /// state.clear_error() where the primitive clears. Throws InputError for what the language
     /// calls fatal (undefined name met, missing argument).
     [[nodiscard]] double evaluate(std::size_t output, EvalState& state) const;
-    /// The same for an output with `parameters >= 0`; arguments.size() must equal it.
+    /// Evaluate output k with arguments, for a request with `parameters >= 0`; arguments.size()
+    /// must equal that.
     [[nodiscard]] double call(std::size_t output, std::span<const double> arguments,
                               EvalState& state) const;
 
     /// Whether evaluate_lanes can succeed: the program needs neither noise, nor calls (recursion),
     /// nor more of the ray than its channels. Inputs (`parameters` > 0) have no lanes.
     [[nodiscard]] bool has_lanes() const;
-    /// Output k for 1 to kLanes rays side by side, each an epoch of its own. Same values as
-    /// evaluate(), to the bit, for those that take the same branches as the first of them; not for
-    /// those that meet a numeric error.
+    /// Output k for 1 to kLanes rays at once (SIMD), each in an epoch of its own. Lanes that take
+    /// the same branches as the first one and meet no numeric error get the same values as from
+    /// evaluate(), to the bit; others get none.
     [[nodiscard]] LaneValues evaluate_lanes(std::size_t output, std::span<const ChannelValues> rays,
                                             EvalState& state) const;
-    /// The same for any number of rays, all but those that meet a numeric error: these get nothing,
-    /// and have to be evaluated one by one. values.size() == rays.size().
+    /// Output k for any number of rays by evaluate_lanes(). Rays that meet a numeric error get
+    /// nothing, and have to be evaluated one by one. values.size() == rays.size().
     void evaluate_all(std::size_t output, std::span<const ChannelValues> rays,
                       std::span<std::optional<double>> values, EvalState& state) const;
 
-    /// When output k is the same number whatever the channels: that number.
+    /// The value of output k where it is a constant; else nothing.
     [[nodiscard]] const double* constant(std::size_t output) const;
 
   private:

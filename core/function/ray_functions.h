@@ -1,6 +1,6 @@
 #pragma once
-// Built-in functions of the ray and the primitive's real arguments. `where` is the primitive's
-// place, for what they throw.
+// Built-in functions of the ray and of the primitive's real arguments. `where` is the primitive's
+// place, for errors.
 #include <span>
 
 #include "core/error.h"
@@ -8,7 +8,7 @@
 
 namespace lightwalk::function {
 
-/// The n-th real argument, n rounded; how many there are when n is less than 1.
+/// The n-th real argument (n is rounded); for n < 1 the number of arguments.
 /// @throws InputError when there are fewer than n
 [[nodiscard]] double real_argument(std::span<const double> reals, double n,
                                    const SourceLocation& where);

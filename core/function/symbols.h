@@ -27,7 +27,7 @@ struct Symbol {
     [[nodiscard]] bool is_user_function() const { return definition && definition->is_function; }
     [[nodiscard]] bool is_variable() const { return definition && !definition->is_function; }
     [[nodiscard]] bool is_function() const { return is_user_function() || library; }
-    /// Whether a call with constant arguments is replaced by its value.
+    /// Whether a call with constant arguments may be replaced by its value.
     [[nodiscard]] bool is_constant_function() const {
         return definition ? definition->is_function && definition->constant
                           : library && library->constant();
@@ -39,15 +39,16 @@ struct Symbol {
 /// one by one; `x is only the first of these and x` only the last.
 class SymbolTable {
   public:
-    /// Knows the built-in functions.
+    /// A table that contains the built-in functions.
     explicit SymbolTable(FunctionEnvironment::Library library);
 
     [[nodiscard]] const Symbol& operator[](SymbolId id) const { return symbols_[id]; }
 
-    /// The entry that a reference to `name` in `context` means; nothing when there is none yet.
+    /// The symbol that `name` refers to in `context`; nothing when there is none yet.
     [[nodiscard]] std::optional<SymbolId> find(std::string_view name,
                                                std::string_view context) const;
-    /// The same, making an entry where there is none: global for library functions, else local.
+    /// The symbol that `name` refers to in `context`; it is created where there is none: globally
+    /// for library functions, else locally.
     SymbolId refer(std::string_view name, std::string_view context);
     /// Create or replace the definition of `name` at `context` itself.
     void define(std::string_view name, std::string_view context, Definition definition);
@@ -66,7 +67,7 @@ class SymbolTable {
 /// character that no name may have replaced by '_'; "" for ".".
 [[nodiscard]] std::string context_of_file(std::string_view file);
 
-/// What names are made of, whatever the locale.
+/// Character classes of names, independent of the locale.
 [[nodiscard]] inline bool is_letter(char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }

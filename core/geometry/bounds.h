@@ -9,7 +9,8 @@
 
 namespace lightwalk {
 
-/// Smallest box around the surface (a polygon: around its vertices). Empty for sources and nothing.
+/// Smallest box around the surface (a polygon: around its vertices). Empty for sources at infinity
+/// and for no shape.
 [[nodiscard]] Bounds bounds_of(const Shape& shape);
 [[nodiscard]] Bounds bounds_of(const PolygonShape& polygon);
 
@@ -21,9 +22,10 @@ namespace lightwalk {
 /// The box, grown by `margin` on every side [m]; an empty one stays empty.
 [[nodiscard]] Bounds grown(Bounds bounds, double margin);
 
-/// Box around the transformed box.
-/// Half of the surface of a box: the share of rays that meet it goes by that [m²].
+/// Half of the surface area of a box, to which the number of rays that meet it is proportional
+/// (surface area heuristic) [m²].
 [[nodiscard]] double half_area(const Bounds& bounds);
+/// Box around the transformed box.
 [[nodiscard]] Bounds transformed(const Bounds& bounds, const Matrix& matrix);
 
 /// The cube around a box as Radiance's octrees have it: same centre, 1e-5 more on each side [m].
@@ -31,8 +33,8 @@ namespace lightwalk {
 
 void extend(Bounds& bounds, const Bounds& other);
 
-/// A few boxes, at most 64, that hold the given ones together: by the cells of a grid that their
-/// centres are in. What is round or slanted is held more tightly than by one box.
+/// At most 64 boxes that together enclose the given ones, which are grouped by the cell of a grid
+/// that their centre lies in. They enclose round or slanted things more tightly than one box would.
 [[nodiscard]] std::vector<Bounds> outline_of(std::span<const Bounds> boxes);
 
 [[nodiscard]] bool contains(const Bounds& bounds, const Vec3& point);

@@ -1,5 +1,6 @@
 #pragma once
-// Slices of long slanted cones, for the search tree: a branch's box is mostly air.
+// Slices of long slanted cones for the search tree: the box of a whole slanted branch would be
+// mostly empty.
 #include "core/geometry/bounds.h"
 #include "core/geometry/shapes.h"
 
@@ -7,11 +8,11 @@ namespace lightwalk {
 
 /// How a cone, cup, cylinder or tube is cut across its axis.
 struct ConeSlices {
-    int count = 1;    ///< of equal length; 1: left as it is
-    double gain = 0;  ///< half the area that all boxes together lose [m²]
+    int count = 1;    ///< slices of equal length; 1: the cone is not cut
+    double gain = 0;  ///< by how much half the surface area of the boxes shrinks [m²]
 };
 
-/// As many slices as are worth their boxes.
+/// The number of slices for which the smaller boxes outweigh their number.
 /// @param least  gain below which a cone is left as it is [m²]
 [[nodiscard]] ConeSlices slices_of(const ConeShape& cone, double least);
 

@@ -1,5 +1,5 @@
 #pragma once
-// How Embree searches a placed scene: the records that it hands to the callbacks, and these.
+// How Embree searches a placed scene: the callbacks, and the records that it hands to them.
 #include <embree3/rtcore.h>
 
 #include <array>
@@ -21,10 +21,11 @@ using ScenePtr = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 inline constexpr unsigned kPacket = 16;
 inline constexpr unsigned kOwnSurfaces = 0, kInstances = 1;  ///< geometry ids in Embree's scenes
 
-/// A model placed in another one, in whose search tree it is. An Embree instance would need half a
-/// kilobyte, and would know no more than one level.
+/// A model placed in another one, as a user-defined primitive of that one's search tree. An Embree
+/// instance would take half a kilobyte, and cannot be nested.
 struct Instance {
-    std::array<float, 12> inverse{};  ///< images of the axes and of the origin, into the model
+    std::array<float, 12>
+        inverse{};  ///< transform into the model: images of the three axes and of the origin
     RTCSceneTy* scene = nullptr;
     const Placement* placement = nullptr;
     std::int32_t first = 0;  ///< see PlacedChild
@@ -39,25 +40,25 @@ struct Instances {
 struct Hierarchy {
     const ModelPrimitives* primitives = nullptr;
     SearchSpace space;
-    // What Embree calls primitives: bvh primitives, their boxes only while the tree is built; or
-    // leaves of them, which take their place.
+    // What Embree treats as its primitives: the BVH primitives (whose boxes are kept only while the
+    // tree is built), or in large models leaves of up to eight of them.
     BvhPrimitives bvh_primitives;
     std::vector<QuantizedLeaf> leaves;
     Instances instances;
     ScenePtr scene;
-    std::vector<Bounds> outline;  ///< of all in the tree, in the search coordinates; while trees
-                                  ///< are built
+    std::vector<Bounds> outline;  ///< of everything in the tree, in the search coordinates; only
+                                  ///< while trees are built
 };
 
 class InstanceScope;
 
-/// One traversal: what Embree hands to the callbacks.
+/// The context of one traversal, which Embree hands to the callbacks.
 struct Query : RTCIntersectContext {
     const PlacedScene* placed = nullptr;
     InstanceScope* within =
         nullptr;  ///< the placed model that the search is in; null: the scene itself
 };
-/// Ray i of a packet has the id i.
+/// A search for nearest hits. Ray i of a packet has Embree's ray id i.
 struct NearestQuery : Query {
     NearestRay* rays = nullptr;
     std::array<double, kPacket> start{};  ///< distance of Embree's origin from the true one [m]
@@ -66,16 +67,16 @@ struct ShadowQueries : Query {
     ShadowRay* rays = nullptr;
 };
 
-/// Make all rays of a packet ones that Embree skips: without AVX-512 it does not look at the mask
-/// of valid lanes, only at whether a ray ends before it begins.
+/// Make Embree skip all rays of a packet. Without AVX-512 Embree ignores the mask of valid lanes,
+/// and skips only rays that end before they begin.
 void close_lanes(RTCRayHit16& packet);
 
-/// End of Embree's ray: nothing up to `limit` may be lost in rounding.
+/// tfar of Embree's ray, rounded so that no hit up to `limit` is lost.
 [[nodiscard]] float embree_end(double limit, double start);
 
-/// The box in Embree's numbers, rounded outwards.
+/// The box in single precision, rounded outwards.
 [[nodiscard]] RTCBounds rounded(const Bounds& box);
-/// Of a committed scene, in its search coordinates.
+/// Bounds of a committed Embree scene, in its search coordinates.
 [[nodiscard]] Bounds bounds_of_tree(RTCSceneTy* scene);
 
 // Callbacks of a model's own surfaces (user data: Hierarchy) and of the instances of models (user
@@ -83,7 +84,7 @@ void close_lanes(RTCRayHit16& packet);
 void primitive_bounds(const RTCBoundsFunctionArguments* args);
 void intersect_primitive(const RTCIntersectFunctionNArguments* args);
 void occlude_primitive(const RTCOccludedFunctionNArguments* args);
-// The same of leaves.
+// Callbacks of quantized leaves (user data: Hierarchy).
 void leaf_bounds(const RTCBoundsFunctionArguments* args);
 void intersect_leaf(const RTCIntersectFunctionNArguments* args);
 void occlude_leaf(const RTCOccludedFunctionNArguments* args);

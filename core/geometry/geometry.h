@@ -32,7 +32,7 @@ struct Hit {
 enum class Visibility : std::uint8_t {
     clear,          ///< nothing but material-less surfaces in between
     blocked,        ///< an opaque surface lies in between
-    needs_shading,  ///< no opaque surface, but at least one ShadowClass::needs shading one
+    needs_shading,  ///< no opaque surface, but at least one surface of ShadowClass::needs_shading
 };
 
 /// Axis-aligned bounds.
@@ -76,25 +76,25 @@ struct RaySegment {
     double t_max = kHuge;    ///< hits beyond it do not count [m]
 };
 
-/// An opaque surface that blocked a ray, to be tried first for the next one.
+/// The opaque surface that blocked a shadow ray: the next ray is tested against it first.
 struct Blocker {
     InstanceId instance = kWorld;
     std::uint32_t primitive = kNone;
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 };
 
-/// Asks what lies between a point and a light.
+/// A shadow query: what lies between a point and a light?
 struct ShadowQuery {
     RaySegment ray;                 ///< up to the light
-    SurfaceId target = kNoSurface;  ///< does not shadow: it is the light itself
-    Blocker* last = nullptr;  ///< what blocked an earlier ray is tried first, and is brought up to
-                              ///< date; changes the speed only
+    SurfaceId target = kNoSurface;  ///< a surface that casts no shadow: the light itself
+    Blocker* last =
+        nullptr;  ///< cache of the last blocker, read and updated; affects speed only; may be null
 };
 
-/// In memory of its own [bytes].
+/// Memory that the search takes [bytes].
 struct SearchMemory {
     std::size_t tree = 0;    ///< Embree's
-    std::size_t tables = 0;  ///< ours beside it
+    std::size_t tables = 0;  ///< tables beside Embree's tree
 };
 
 /// Immutable after building; every method may be called from many threads at once.
@@ -103,10 +103,11 @@ class Geometry {
     /// Throws InputError when nested placements multiply to more than 2^22 instances or are nested
     /// more than 32 deep, when one scales by less than 1e-7 or more than 1e7 in all, and for
     /// damaged meshes. Embree builds on oneTBB's default threads. Answers are bit-identical for
-    /// single rays and packets; they need no flush-to-zero mode of the caller. A placed model wins
-    /// over what is not in it only where it is strictly nearer; inside it has its own ties.
-    /// `embree_options` configures the search, for tests: with "isa=avx2" it does what machines
-    /// without AVX-512 do. `task runner` helps to prepare what is not Embree's.
+    /// single rays and packets; they need no flush-to-zero mode of the caller. A surface of a
+    /// placed model wins over coincident surfaces outside it only where it is strictly nearer; tie
+    /// rules apply among the surfaces of one model. `embree_options` configures the search, for
+    /// tests: "isa=avx2" makes it work as on machines without AVX-512. `task_runner` runs the
+    /// preparations outside Embree.
     explicit Geometry(GeometryInput input, const std::string& embree_options = {},
                       const TaskRunner& task_runner = SerialTaskRunner());
     ~Geometry();
@@ -123,9 +124,9 @@ class Geometry {
     /// Visibility between the origin and t_max; arguments as in ShadowQuery.
     [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target,
                                         Blocker* last = nullptr) const;
-    /// The same for many rays; answers.size() == queries.size(). Faster only where rays are
-    /// coherent: from neighbouring points to the same light (measured on interiors: a third faster;
-    /// from one point to all lights a third slower).
+    /// Visibility of many shadow queries at once; answers.size() == queries.size(). Faster only
+    /// where rays are coherent: from neighbouring points to the same light (measured on interiors:
+    /// a third faster; from one point to all lights a third slower).
     void visibility(std::span<const ShadowQuery> queries, std::span<Visibility> answers) const;
 
     /// Nearest hits of many coherent rays at once (primary rays); out.size() == rays.size().

@@ -29,33 +29,34 @@ struct InnerSpace {
     SurfaceId override_surface = kNoSurface;  ///< see PlacedModel
 };
 
-/// Of what a placement shows in a placed model; in the scene itself, where `around` is null.
+/// The space of the model that `placement` places inside the placed model `around`; `around` null:
+/// inside the scene itself.
 [[nodiscard]] InnerSpace space_in(const InnerSpace* around, const Placement& placement);
 
-/// A placement in a model, of a model that holds something.
+/// A placement inside a model; the placed model is not empty.
 struct PlacedChild {
     const Placement* placement = nullptr;
-    /// Its instance, less that of the placement of the model that it stands in.
+    /// Its instance number relative to the instance of the model that it is placed in.
     std::int32_t first = 0;
 };
 
-/// How often and how large a model stands in the scene.
+/// Whether, and at which sizes, a model occurs in the scene.
 struct ModelUse {
     bool used = false;
     double least_size = 1, most_size = 1;  ///< total scales of its placements
 };
 
-/// Paths that a scene may hold.
+/// Most paths of placements (instances) that a scene may have.
 inline constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 
-/// Placements in one path: each takes a part of the stack while rays are cast.
+/// Most placements in one path: each level takes a part of the stack while rays are cast.
 inline constexpr int kMaxNesting = 32;
 
-/// Total scale of a path of placements.
+/// Limits of the total scale of a path of placements.
 inline constexpr double kSmallestScale = 1e-7, kLargestScale = 1e7;
 
-/// The paths that lead to geometry. A path's instance is followed by those of the paths that go on
-/// from it. Immutable.
+/// The paths of placements that lead to geometry, numbered depth first: an instance is followed by
+/// the instances inside it. Immutable.
 class InstancePaths {
   public:
     /// The input must outlive this. Throws InputError for more than kMaxInstances paths, for models
@@ -63,20 +64,20 @@ class InstancePaths {
     /// limits above.
     explicit InstancePaths(const GeometryInput& input);
 
-    /// Instances in all.
+    /// The number of instances.
     [[nodiscard]] std::size_t count() const { return counts_.empty() ? 0 : counts_[0]; }
-    /// Instances inside a placement of a model, its own not counted.
+    /// The number of instances inside one placement of a model, the placement itself not counted.
     [[nodiscard]] std::size_t count_inside(std::uint32_t model) const { return counts_[model]; }
     /// A model's placements, in the order of their instances.
     [[nodiscard]] std::span<const PlacedChild> children(std::uint32_t model) const {
         return children_[model];
     }
     [[nodiscard]] const ModelUse& use(std::uint32_t model) const { return uses_[model]; }
-    /// Of all models that are used: each before those that stand in it.
+    /// All models that are used, in topological order: each before the models placed in it.
     [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
-    /// @param instance  less than count(), or kWorld
+    /// The placed model of an instance. @param instance  less than count(), or kWorld
     [[nodiscard]] PlacedModel at(InstanceId instance) const;
-    /// Of at(instance), for less; the instance is not kWorld.
+    /// The space of an instance: cheaper than at(). The instance must not be kWorld.
     [[nodiscard]] InnerSpace space_at(InstanceId instance) const;
 
   private:

@@ -13,9 +13,9 @@
 
 namespace lightwalk {
 
-/// What decides between coincident surfaces; the greater one is seen. A material beats none, then
-/// an opaque material a transparent one, the front side the back, the later modifier, the later
-/// surface.
+/// Order of coincident surfaces, of which the greatest is seen. Compared in this order: with a
+/// material over without one, opaque over transparent, front over back side, the later modifier,
+/// the later surface.
 struct Precedence {
     bool has_material = false, opaque = false, front = false;
     std::int32_t modifier = -1, surface = -1;
@@ -39,8 +39,8 @@ class ModelPrimitives {
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool is_triangle(std::uint32_t primitive) const { return primitive >= own_; }
-    /// Whether a ray can hit it: surfaces without a shape, and sources at infinity, are numbered
-    /// among the others.
+    /// Whether a ray can hit the primitive. Surfaces without a shape and sources at infinity have
+    /// numbers, too, but cannot be hit.
     [[nodiscard]] bool is_finite(std::uint32_t primitive) const {
         return is_triangle(primitive) || part_->shapes->is_finite(primitive);
     }
@@ -84,7 +84,7 @@ class ModelPrimitives {
     }
     [[nodiscard]] ModifierId modifier(std::uint32_t primitive) const;
 
-    /// Smoothed normal minus normal [1] and texture coordinates at a triangle's hit.
+    /// The smoothed normal minus the normal, and texture coordinates, at a hit of a mesh triangle.
     struct Smoothing {
         Vec3 perturbation;
         double u = 0, v = 0;
@@ -112,7 +112,7 @@ class ModelPrimitives {
 
     const SurfacePart* part_;
     const ModifierTraits* traits_;
-    // What the search asks of every candidate, straight from the part's columns.
+    // Pointers into the part's columns, for what the search needs of every candidate.
     const ShapeRow* rows_;
     CornerNumbers numbers_;
     std::size_t own_;  ///< surfaces of this model, those without a shape among them

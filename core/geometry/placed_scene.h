@@ -1,7 +1,7 @@
 #pragma once
-// Which of the surfaces on a ray it meets: Radiance's rules in double precision, whatever search
-// proposes the candidates and in whatever order. The search (Embree) must propose at least every
-// true crossing up to `limit`.
+// Decides which surface a ray hits: Radiance's rules in double precision, independent of the order
+// in which a search (Embree) proposes candidates. The search must propose at least every true
+// crossing up to `limit`.
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -40,24 +40,25 @@ struct Candidate {
 /// A ray that is being traced, with the local ray of the placed model that the search is in.
 struct TracedRay {
     Vec3 origin, direction;
-    double limit = kHuge;  ///< candidates beyond cannot matter any more; only ever falls [m]
+    double limit = kHuge;  ///< farther candidates are irrelevant; never increases [m]
     InstanceId local_instance = kWorld;
-    // Of that placed model, where local_instance is not kWorld:
+    // Valid where local_instance is not kWorld: the ray in that instance.
     LocalRay local;
     std::uint32_t local_model = 0;
     SurfaceId local_override = kNoSurface;  ///< see PlacedModel
 };
 
-/// The search for the nearest hit: the nearest crossing, and how near the next one is.
+/// A search for the nearest hit: the nearest crossing, and the distance of the second nearest.
 struct NearestRay : TracedRay {
     std::optional<Candidate> nearest;
     double second =
         std::numeric_limits<double>::infinity();  ///< least t of all other crossings [m]
-    std::vector<Candidate>* all = nullptr;  ///< set: keep every crossing up to `limit` instead
-    bool out_of_memory = false;             ///< `all` could not grow
+    std::vector<Candidate>* all =
+        nullptr;                 ///< not null: collect every crossing up to `limit` instead
+    bool out_of_memory = false;  ///< `all` could not grow
 };
 
-/// The search for what lies between a point and a light.
+/// A shadow search: what lies between a point and a light.
 struct ShadowRay : TracedRay {
     double t_max = kHuge;
     SurfaceId target = kNoSurface;
@@ -92,7 +93,8 @@ class PlacedScene {
     static void begin(NearestRay& ray, const RaySegment& segment);
     /// Propose a primitive. Lowers ray.limit where it was hit; true: `limit` has changed.
     bool propose(NearestRay& ray, PrimitiveRef what) const;
-    /// Whether the search has to be repeated with `begin_gathering`, because surfaces coincide.
+    /// Whether the search has to be repeated with `begin_gathering`, because crossings coincide
+    /// within the tolerance.
     [[nodiscard]] bool is_ambiguous(const NearestRay& ray) const;
     void begin_gathering(NearestRay& ray, const RaySegment& segment, const NearestRay& first,
                          std::vector<Candidate>& all) const;
@@ -126,7 +128,8 @@ class PlacedScene {
     PlacedModel world_;  ///< the scene itself
     std::vector<ModelPrimitives> models_;
     Bounds bounds_;
-    double coincidence_ = kEpsilon;  ///< of the most enlarged placed model [m]
+    double coincidence_ =
+        kEpsilon;  ///< tolerance of coincidence in the most enlarged placed model [m]
 };
 
 }  // namespace lightwalk

@@ -1,6 +1,6 @@
 #pragma once
-// Points that stand in memory as they were read: three numbers each, one after the other or
-// wherever a list of places says.
+// Views of points kept as they were read: three numbers each, side by side or at indices given by a
+// list.
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -33,7 +33,7 @@ class PointList {
             ++i_;
             return before;
         }
-        /// Of iterators of one list.
+        /// Compares iterators of one list.
         friend bool operator==(const Iterator& a, const Iterator& b) { return a.i_ == b.i_; }
 
       private:
@@ -42,7 +42,7 @@ class PointList {
     };
 
     PointList() = default;
-    /// @param coordinates  x, y and z of each point; what is left at the end does not count
+    /// @param coordinates  x, y and z of each point; an incomplete last point is ignored
     explicit PointList(const RealArguments& coordinates)
         : points_(coordinates), count_(coordinates.size() / 3) {}
 

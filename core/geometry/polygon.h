@@ -48,36 +48,36 @@ inline constexpr std::size_t kLargePolygon = 64;
                                                 const Vec3& direction, double t_max,
                                                 const EdgeIndex* index);
 
-/// A polygon as the search reads it. Its corners stay where they were read: rectangles along the
-/// axes look at two of them.
+/// A polygon in the form that the search uses. Its corners stay in the arrays that they were read
+/// into; for rectangles along the axes two of them suffice.
 struct PolygonPlane {
     Vec3 normal;  ///< see PolygonShape
     double offset = 0;
-    std::uint32_t first = 0;    ///< SurfaceList::place of its surface
-    std::uint32_t corners = 0;  ///< how many they are
+    std::uint32_t first = 0;    ///< SurfaceList::place() of its surface
+    std::uint32_t corners = 0;  ///< number of corners
 };
 
-/// How a polygon's corners are found, and what is known of them.
+/// How the corners of a polygon are stored.
 enum class Outline : std::uint8_t {
-    own,        ///< they stand side by side
-    rectangle,  ///< these do, too: four, along the coordinates of the inside test
-    shared,     ///< three, each by its place
+    own,        ///< side by side
+    rectangle,  ///< side by side, four of a rectangle along the coordinates of the inside test
+    shared,     ///< three indices of points shared with other triangles
 };
 
-/// What decides how a plane is searched, kept apart from it: it fits into the surface's row.
+/// How a PolygonPlane is tested; kept apart from it so that it fills a gap of ShapeRow.
 struct PolygonManner {
     std::uint8_t drop_axis = 2;
     Outline outline = Outline::own;
 };
 
-/// The numbers of a model's surfaces.
+/// The arrays that hold the corners of a model's polygons.
 struct CornerNumbers {
     const double* reals = nullptr;
-    const std::uint32_t* corners = nullptr;  ///< places in `reals`
+    const std::uint32_t* corners = nullptr;  ///< indices into `reals`
 };
 
-/// Whether a packed polygon, any but a large one, is hit: the same answer, to the bit, as
-/// `intersect` without an index.
+/// Crossing of a ray with a packed polygon of at most kLargePolygon corners: the same result, to
+/// the bit, as `intersect` of its PolygonShape without an index.
 /// @param numbers  of the polygon's model
 [[nodiscard]] std::optional<ShapeHit> intersect(const PolygonPlane& plane, PolygonManner manner,
                                                 const CornerNumbers& numbers, const Vec3& origin,

@@ -1,8 +1,9 @@
 #pragma once
-// What the search tree of a large model ends in: up to eight bvh primitives side by side, with a
-// box each in eight bytes. Against a tree that goes down to single bvh primitives this weighs a
-// third, and a ray that meets a leaf tests its eight boxes at once. Idea: Ylitie, Karras & Laine,
-// "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017.
+// Leaves of the search tree of a large model: up to eight BVH primitives, each with a box quantized
+// to eight bytes. Such a tree takes a third of the memory of one whose leaves are single BVH
+// primitives, and a ray tests the eight boxes of a leaf at once (SIMD). Source of the idea: Ylitie,
+// Karras & Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG
+// 2017.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -13,7 +14,7 @@ namespace lightwalk {
 
 inline constexpr std::size_t kLeafSize = 8;
 
-/// Primitives that one box holds: one, or it and the next one.
+/// The one or two consecutive primitives of a BVH primitive, packed into 32 bits.
 class PrimitiveRange {
   public:
     PrimitiveRange() = default;
@@ -29,34 +30,34 @@ class PrimitiveRange {
 
 struct alignas(64) QuantizedLeaf {
     std::array<float, 3> lower{}, step{};  ///< in the search coordinates [m]
-    /// Where the bvh primitives' boxes begin and end, in steps from `lower`: ten bits for each
-    /// axis, that of x the lowest.
+    /// Lower and upper corners of the boxes, in steps from `lower`: ten bits for each axis, x in
+    /// the lowest.
     std::array<std::uint32_t, kLeafSize> begin{}, end{};
     std::array<PrimitiveRange, kLeafSize> bvh_primitives{};
 
-    [[nodiscard]] Bounds box() const;  ///< of all; in the search coordinates
+    [[nodiscard]] Bounds box() const;  ///< around all boxes of the leaf, in the search coordinates
 };
 
-/// A ray in single precision, made ready to be tested against many boxes.
+/// A ray in single precision, prepared for tests against many boxes.
 struct LeafRay {
     std::array<float, 3> origin{}, inverse{};  ///< of the direction
     LeafRay(const std::array<float, 3>& from, const std::array<float, 3>& direction);
 };
 
-/// What the end of a ray in single precision is multiplied by before an entry is compared with it:
-/// 16 half units in the last place.
+/// Factor of a ray's end before the entry into a box is compared with it: 1 plus 16 half units in
+/// the last place, so that rounding loses no box.
 inline constexpr float kEndRoundUp = 1 + 0x1p-20F;
 
-/// What a ray meets of a leaf.
+/// The boxes of a leaf that a ray meets.
 struct LeafHits {
     std::uint32_t met = 0;                 ///< a bit for each box that it meets up to its end
     std::array<float, kLeafSize> first{};  ///< where it enters each of those
 };
-/// Boxes are never missed for rounding; places without a bvh primitive may count as met.
+/// Tests a ray against all boxes of a leaf. Conservative: no box is missed for rounding; unused
+/// boxes may be reported as met.
 [[nodiscard]] LeafHits boxes_met(const QuantizedLeaf& leaf, const LeafRay& ray, float end);
 
-/// A leaf of up to kLeafSize bvh primitives; the sides of their boxes are numbers of single
-/// precision.
+/// Make a leaf of up to kLeafSize BVH primitives, whose boxes have coordinates of single precision.
 [[nodiscard]] QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes,
                                            std::span<const PrimitiveRange> bvh_primitives);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Coordinates for a search in single precision that loses no crossing: recentred, and with room for
-// rounding.
+// Coordinates for a search in single precision that loses no crossing: recentred, and with boxes
+// grown by a margin for rounding.
 #include <vector>
 
 #include "core/geometry/placed_scene.h"
@@ -10,16 +10,16 @@ namespace lightwalk {
 /// How the boxes of one model's primitives are handed to the search.
 struct SearchSpace {
     Vec3 center;          ///< subtracted from all coordinates
-    double margin = 0;    ///< that every box is grown by [m]
-    double relative = 0;  ///< and this part of the box's largest coordinate
+    double margin = 0;    ///< by which every box is grown [m]
+    double relative = 0;  ///< and by this share of the largest coordinate of the box
 
-    /// The box in these coordinates.
+    /// A box of the model in the search coordinates, grown by the margins.
     [[nodiscard]] Bounds box(Bounds bounds) const;
 };
 
-/// A space for each model. Boxes grow by what single precision loses for rays that start within
-/// four times the region that holds nine tenths of the scene. Rays from farther away, or at far-off
-/// surfaces, may miss an edge by a ten-millionth of the distance.
+/// The search space of each model. Boxes grow by the rounding error of single precision for rays
+/// that start within four times the region that holds nine tenths of the scene. Rays from farther
+/// away, or at far-off surfaces, may miss an edge by a ten-millionth of the distance.
 [[nodiscard]] std::vector<SearchSpace> search_spaces(const PlacedScene& scene);
 
 }  // namespace lightwalk

@@ -14,7 +14,8 @@ namespace lightwalk {
 /// Coordinates and radii beyond this could overflow in products of eight of them [m].
 inline constexpr double kLargestCoordinate = 1e30;
 
-// Shapes have no gaps, whose bytes would be anything: files of them are the same each time.
+// The structs below have no padding, whose bytes would be undefined: files that hold them are
+// reproducible.
 
 struct SphereShape {
     Vec3 center;
@@ -23,14 +24,14 @@ struct SphereShape {
     char unused[7] = {};
 };
 
-/// A polygon's outline in the two coordinates of the inside test, where it is a rectangle along
-/// them; else not numbers.
+/// The outline of a polygon that is a rectangle along the two coordinates of the inside test; NaN
+/// for other polygons.
 struct OutlineRectangle {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     double low_x = kNone, high_x = kNone, low_y = kNone, high_y = kNone;  ///< [m]
 };
 
-/// A view: the vertices stay where they were read.
+/// A polygon. Its vertices are a view of the arrays that they were read into.
 struct PolygonShape {
     PointList vertices;  ///< closing duplicate dropped
     Vec3 normal;         ///< unit, right-hand rule
@@ -82,8 +83,8 @@ struct ShapeHit {
 /// Validate the arguments of a finite surface or source. Degenerate input follows Radiance: `type`
 /// may change (sphere <-> bubble, cone -> cylinder, ...), a useless surface becomes monostate; both
 /// report by `warning` (left empty otherwise). Throws InputError for wrong argument counts or
-/// numbers that are not finite or beyond kLargestCoordinate. A polygon's shape shows the reals of
-/// the primitive.
+/// numbers that are not finite or beyond kLargestCoordinate. The shape of a polygon refers to the
+/// reals of the primitive.
 struct ValidatedShape {
     Shape shape;
     PrimitiveType type{};
@@ -96,7 +97,7 @@ struct ValidatedShape {
 [[nodiscard]] std::optional<ShapeHit> intersect(const Shape& shape, const Vec3& origin,
                                                 const Vec3& direction, double t_max);
 
-/// The same, for cones.
+/// Nearest crossing with a cone, cup, cylinder or tube; as `intersect` of a Shape.
 [[nodiscard]] std::optional<ShapeHit> intersect(const ConeShape& cone, const Vec3& origin,
                                                 const Vec3& direction, double t_max);
 

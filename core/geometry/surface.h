@@ -10,12 +10,11 @@
 
 namespace lightwalk {
 
-/// What an opaque-or-not shadow query has to know of a surface's modifier chain.
+/// How a surface affects shadow queries, derived from its modifier chain.
 enum class ShadowClass : std::uint8_t {
-    ignored,  ///< no material: the ray passes as if nothing were there
-    blocks,   ///< the first such surface before the light ends the matter, whatever else lies in
-              ///< between
-    needs_shading,  ///< glass, trans, mixtures, illum, ...: has to be shaded to know
+    ignored,        ///< no material: the ray passes as if nothing were there
+    blocks,         ///< opaque: one such surface before the light blocks it
+    needs_shading,  ///< glass, trans, mixtures, illum, ...: its transmission has to be calculated
 };
 
 /// Tie rules of coincident surfaces and shadow queries, derived from the modifier chain.
@@ -40,10 +39,10 @@ class ModifierTraits {
     }
 
   private:
-    std::vector<SurfaceTraits> traits_;  ///< first that of void
+    std::vector<SurfaceTraits> traits_;  ///< those of void first
 };
 
-/// The surfaces of one model, as a scene numbers them. Views: what they show must outlive them.
+/// The surfaces of one model and their numbers in the scene. Refers to lists that must outlive it.
 struct SurfacePart {
     const SurfaceList* list = nullptr;
     const SurfaceShapes* shapes = nullptr;
@@ -70,10 +69,10 @@ class Surface {
     [[nodiscard]] PrimitiveType type() const { return part_->shapes->row(i_).type; }
     [[nodiscard]] ModifierId modifier() const { return part_->modifier(i_); }
     [[nodiscard]] const SurfaceTraits& traits() const { return (*traits_)[modifier()]; }
-    /// What tracers report.
+    /// The name of the surface in the scene file.
     [[nodiscard]] std::string_view name() const { return (*part_->list)[i_].name; }
     [[nodiscard]] SourceLocation where() const { return (*part_->list)[i_].where(); }
-    /// Monostate for instances, meshes and degenerate (ignored) surfaces.
+    /// The shape; monostate for instances, meshes and degenerate (ignored) surfaces.
     [[nodiscard]] Shape shape() const { return part_->shapes->shape(*part_->list, i_); }
     [[nodiscard]] bool has_shape() const { return part_->shapes->row(i_).kind != ShapeKind::none; }
     /// Polygon or ring: what the reference calls a flat object.

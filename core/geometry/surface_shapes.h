@@ -1,6 +1,6 @@
 #pragma once
-// What the surfaces of a model are to a ray, beside the numbers that were read for them: validated,
-// packed, and nothing in it that a file could not keep.
+// The validated shapes of a model's surfaces, packed into columns (structure of arrays) that can be
+// stored in a file and mapped.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,15 +17,15 @@ namespace lightwalk {
 /// Where a surface's shape is kept.
 enum class ShapeKind : std::uint8_t { none, polygon, sphere, cone, ring, source };
 
-/// What the search asks of a surface: of polygons, as most are, nearly all that there is.
+/// What the search needs of a surface: of polygons, which most surfaces are, nearly everything.
 struct ShapeRow {
-    PolygonPlane plane;          ///< of a polygon; of others `first` is their place in a column
+    PolygonPlane plane;  ///< of a polygon; of other shapes `first` is their index in a column
     std::int32_t modifier = -1;  ///< as in the surface's record
     PrimitiveType type{};        ///< validated: a sphere of negative radius is a bubble
     ShapeKind kind = ShapeKind::none;
     PolygonManner manner;
 
-    /// Into the column of its kind; not of polygons.
+    /// Index into the column of its kind; not for polygons.
     [[nodiscard]] std::uint32_t index() const { return plane.first; }
 };
 static_assert(sizeof(ShapeRow) == 48);
@@ -44,26 +44,26 @@ class SurfaceShapes {
 
     SurfaceShapes() = default;
     explicit SurfaceShapes(Columns columns) : columns_(std::move(columns)) {}
-    /// Takes what was stored. Throws InputError where it cannot be what make_shapes has made of
-    /// this list, in so far as a search relies on it.
+    /// Takes columns that were read from a file. Throws InputError where they violate what the
+    /// search relies on, and so cannot be the result of make_shapes for this list.
     SurfaceShapes(Columns columns, const SurfaceList& list);
 
     [[nodiscard]] std::size_t size() const { return columns_.rows.size(); }
     [[nodiscard]] const ShapeRow& row(std::size_t i) const { return columns_.rows[i]; }
     [[nodiscard]] const ConeShape& cone(std::size_t index) const { return columns_.cones[index]; }
     /// The shape of surface i; monostate for placements and degenerate (ignored) surfaces.
-    /// @param list  the one that these shapes were made of
+    /// @param list  the list that these shapes were made of
     [[nodiscard]] Shape shape(const SurfaceList& list, std::size_t i) const;
-    /// Of a polygon.
+    /// The shape of surface i, which must be a polygon.
     [[nodiscard]] PolygonShape polygon(const SurfaceList& list, std::size_t i) const;
     [[nodiscard]] bool is_finite(std::size_t i) const {
         const ShapeKind kind = row(i).kind;
         return kind != ShapeKind::none && kind != ShapeKind::source;
     }
     [[nodiscard]] const Columns& columns() const { return columns_; }
-    /// In the process's own memory.
+    /// Bytes in the process's own memory.
     [[nodiscard]] std::size_t own_bytes() const;
-    /// In a file that is mapped.
+    /// Bytes in a mapped file.
     [[nodiscard]] std::size_t mapped_bytes() const;
 
   private:

@@ -25,16 +25,18 @@ namespace lightwalk {
 /// model for daylight environments with the use of CCD cameras", Energy and Buildings 38 (2006).
 [[nodiscard]] double daylight_glare_probability(double ev, double sum);
 
-/// What DGP is to be multiplied with in dim surroundings, where the formula of 2006 finds too many
-/// people disturbed: e^x / (1 + e^x), x = 0.024 Ev - 4; 0.9997 at 500 lx, 0.018 at 0 lx. Source:
-/// Wienold, "Dynamic daylight glare evaluation", Building Simulation 2009.
+/// Factor that corrects DGP for dim surroundings, in which the formula of 2006 overestimates glare:
+/// e^x / (1 + e^x), x = 0.024 Ev - 4; 0.9997 at 500 lx, 0.018 at 0 lx. Source: Wienold, "Dynamic
+/// daylight glare evaluation", Building Simulation 2009.
 [[nodiscard]] double low_light_correction(double ev);
 
-/// Whether people were asked in such light: the formula rests on assessments with DGP from 0.2 to
-/// 0.8 in at least 380 lx at the eye. Outside it is an extrapolation. Source: as above, both.
+/// Whether DGP is within the range of the assessments by people from which its formula was derived:
+/// DGP from 0.2 to 0.8 in at least 380 lx at the eye; outside it is an extrapolation. Source:
+/// Wienold & Christoffersen 2006, Wienold 2009.
 [[nodiscard]] bool within_assessments(double dgp, double ev);
 
-/// What most people say of a DGP: up to 0.35, 0.40, 0.45 and above. Source: Wienold 2009, as above.
+/// How most people judge the glare of a DGP up to 0.35, 0.40, 0.45, and above. Source: Wienold,
+/// "Dynamic daylight glare evaluation", Building Simulation 2009.
 enum class GlareClass { imperceptible, perceptible, disturbing, intolerable };
 [[nodiscard]] GlareClass glare_class(double dgp);
 

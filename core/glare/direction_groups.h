@@ -1,5 +1,5 @@
 #pragma once
-// Directions that belong together.
+// Clustering of directions.
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -11,16 +11,16 @@ namespace lightwalk {
 /// What counts as a source of glare. The defaults are those of the reference evaluation,
 /// evalglare(1): a fixed threshold, -r 0.2 (the full angle of a search cone) and -y.
 struct GlareParams {
-    double threshold = 2000;          ///< what is brighter glares [cd/m²]
-    double merge_angle = 0.1;         ///< farthest between neighbours of one source [rad]
-    double peak = 50000;              ///< what is brighter forms sources of its own [cd/m²]
+    double threshold = 2000;   ///< brighter pixels are glare [cd/m²]
+    double merge_angle = 0.1;  ///< largest angle between neighbouring pixels of one source [rad]
+    double peak = 50000;       ///< brighter pixels form sources of their own [cd/m²]
     std::size_t outline_points = 64;  ///< at most, at least 4
 };
 
 struct GlareSource {
     double luminance = 0;    ///< mean over its solid angle [cd/m²]
     double solid_angle = 0;  ///< [sr]
-    Vec3 direction;          ///< unit: of the mean place of its light in the picture
+    Vec3 direction;  ///< unit: to the mean image position of its pixels, weighted by their light
     double position_index = 1;
     double glare = 0;  ///< L² ω / P² [cd²/m⁴ sr]: its part of the sum in DGP
     bool peak = false;
@@ -29,9 +29,9 @@ struct GlareSource {
 };
 
 /// The sources of glare in a picture, the worst first. Pixels above the threshold that are at most
-/// the merge angle apart are one source, and so on from pixel to pixel; then those above the peak
-/// value leave it and form sources among themselves. Pixels should be smaller than the merge angle,
-/// or those beside each other are apart.
+/// the merge angle apart belong to one source (single linkage); of these, pixels above the peak
+/// value form separate sources among themselves. Pixels should be smaller than the merge angle:
+/// else neighbouring ones would not be merged.
 /// @param camera  the view of the picture, see visual_field() for which are possible
 /// @param params  positive finite numbers, merge_angle at most π / 2, else InputError
 [[nodiscard]] std::vector<GlareSource> find_glare_sources(const FieldPicture& picture,
@@ -40,8 +40,8 @@ struct GlareSource {
 
 struct GlareReport {
     double dgp = 0;                   ///< daylight_glare_probability(), not corrected for low light
-    double low_light_correction = 1;  ///< times dgp: what is to be expected in dim surroundings
-    bool within_assessments = false;  ///< see there; else dgp is an extrapolation
+    double low_light_correction = 1;  ///< factor of dgp for dim surroundings
+    bool within_assessments = false;  ///< within_assessments(); false: dgp is an extrapolation
     double vertical_illuminance = 0;  ///< Ev, at the eye, by the picture [lx]
     double average_luminance = 0;     ///< over the solid angle [cd/m²]
     std::vector<GlareSource> sources;  ///< the worst first

@@ -1,5 +1,5 @@
 #pragma once
-// Outlines of what pixels show: polygons of directions that any view can draw.
+// Outlines of sets of pixels, as polygons of directions that any view can draw.
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace lightwalk {
 
-/// The outer outline of some pixels, counterclockwise as the eye sees it, closed: the last point is
-/// joined to the first, each to the next by an arc of a great circle. What straight edges bound has
-/// its corners for points, whatever the view.
-/// Pixels that do not touch are drawn together: each is widened by the same number of pixels to all
-/// sides, the smallest with which all are one. Holes are not drawn.
+/// The outer outline of some pixels, counterclockwise as the eye sees it, as a closed polygon:
+/// consecutive points, and the last and the first, are joined by arcs of great circles. Where the
+/// outline has straight edges, its points are their corners, whatever the view. Pixels that do not
+/// touch get one outline: all are widened by the same number of pixels to all sides, the smallest
+/// that connects them. Holes have no outline.
 /// @param places  distinct, inside the picture
 /// @param camera  of a visual_field() of width x height pixels
-/// @param limit   of points, at least 4
+/// @param limit   largest number of points, at least 4
 /// @return        4 to `limit` unit vectors, within two pixels of the pixels' edges, farther
 ///                where that takes more points; nothing for no pixels
 [[nodiscard]] std::vector<Vec3> outline_of(std::span<const PixelPlace> places, const Camera& camera,

@@ -7,9 +7,9 @@
 
 namespace lightwalk {
 
-/// The lines from anywhere in a virtual source's sampling box through its redirecting surface's
-/// outline, beyond the redirecting surface: a pyramid whose sides lean on the outline and on the
-/// far corners of the box.
+/// The set of all lines from a virtual source's sampling box through the outline of its mirror or
+/// prism, beyond that surface: a pyramid whose sides touch the outline and the far corners of the
+/// box.
 struct VirtualSourceBeam {
     Plane surface;               ///< the source is above
     std::array<Plane, 4> sides;  ///< the beam is above

@@ -11,7 +11,7 @@ namespace lightwalk {
 /// the third follows from the length 1. Exact to about 0.006 degrees. The zero vector has code 0,
 /// no direction has.
 [[nodiscard]] std::uint32_t encode_direction(const Vec3& unit);
-/// Every code is legal; damaged ones give finite vectors.
+/// Decode a direction. Every code is legal: damaged ones give some finite vector.
 [[nodiscard]] Vec3 decode_direction(std::uint32_t code);
 
 }  // namespace lightwalk

@@ -1,6 +1,6 @@
 #pragma once
-// Elementary functions of IEEE operations alone: the same bits on every processor, one by one or
-// several side by side, for which they have no branches.
+// Elementary functions made of basic IEEE 754 operations only, so that every processor computes the
+// same bits. They have no branches and can be vectorised (SIMD).
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,8 +10,10 @@ namespace lightwalk {
 namespace elementary {
 
 inline constexpr double kHalfPi = 0x1.921fb54442d18p+0;
-inline constexpr double kHalfPiRest = 0x1.1a62633145c07p-54;  ///< π/2 less the above
-/// Added, it rounds numbers below 2^51 to whole ones, which then are their lowest bits.
+inline constexpr double kHalfPiRest =
+    0x1.1a62633145c07p-54;  ///< π/2 - kHalfPi, the low-order part of π/2
+/// 1.5 * 2^52. Adding it to a number below 2^51 rounds that to an integer, which is then found in
+/// the lowest bits of the sum.
 inline constexpr double kWhole = 0x1.8p+52;
 
 /// c[0] + c[1] x + ...
@@ -22,24 +24,26 @@ template <std::size_t n>
     return sum;
 }
 
-/// 2^n of a whole number from -1022 to 1023.
+/// 2^n for an integer n from -1022 to 1023.
 [[gnu::always_inline]] inline double power_of_two(double n) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(n + 1023 + kWhole) << 52);
 }
 
-/// (e^x - 1 - x) / x²: the series to where it ends in doubles for |x| < log(2) / 2.
+/// Taylor coefficients of (e^x - 1 - x) / x²; later terms are below double precision for |x| <
+/// log(2) / 2.
 inline constexpr std::array<double, 12> kExpSeries{
     1.0 / 2,     1.0 / 6,      1.0 / 24,      1.0 / 120,      1.0 / 720,       1.0 / 5040,
     1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800.0};
 
-/// (asin(s) / s - 1) / s² by s² up to 1/4: through the Chebyshev nodes, off by 5e-18 s² at most.
+/// Polynomial in s² for (asin(s) / s - 1) / s², s² from 0 to 1/4, interpolated at Chebyshev nodes;
+/// its error is at most 5e-18 s².
 inline constexpr std::array<double, 13> kAsin{
     0x1.5555555555556p-3, 0x1.3333333332ecap-4, 0x1.6db6db6e31f13p-5, 0x1.f1c71c1db0623p-6,
     0x1.6e8bb1c8209a2p-6, 0x1.1c4d35cf95421p-6, 0x1.c9cf07674736ap-7, 0x1.782651caa6547p-7,
     0x1.52420b04b37bep-7, 0x1.65a9c4dfcf8b2p-8, 0x1.1d189408314eep-6, -0x1.e6aaa8a0a04ccp-7,
     0x1.d72b2bc8155f8p-6};
 
-/// e^x, off by less than a unit in the last place; infinite and 0 where that overflows.
+/// e^x with an error below one unit in the last place; infinity on overflow, 0 on underflow.
 [[gnu::always_inline]] inline double exp(double x) {
     constexpr double kLog2 = 0x1.62e42feep-1, kLog2Rest = 0x1.a39ef35793c76p-33;
     const double below = x > 710 ? 710 : x;
@@ -51,7 +55,7 @@ inline constexpr std::array<double, 13> kAsin{
     return e * power_of_two(half) * power_of_two(n - half);
 }
 
-/// The angle of 0 to π, off by less than two units in the last place; not a number beyond 1.
+/// Arc cosine, 0 to π, with an error below two units in the last place; NaN for |x| > 1.
 [[gnu::always_inline]] inline double acos(double x) {
     const double size = std::fabs(x);
     const bool steep = size > 0.5;  // there by half the angle: acos(x) = 2 asin(√((1 - x) / 2))

@@ -1,5 +1,5 @@
 #pragma once
-// Memory that is needed soon.
+// Prefetching of memory that will be needed soon.
 
 namespace lightwalk {
 

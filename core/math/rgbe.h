@@ -8,12 +8,12 @@ struct Rgbe {
     unsigned char r = 0, g = 0, b = 0, e = 0;
     friend bool operator==(const Rgbe&, const Rgbe&) = default;
 };
-/// The colour's four bytes: mantissas cut off, what is negative or no number is 0, what is beyond
-/// 2^127 is the largest; all zero for colours up to 1e-32. Source: Ward, "Real Pixels", Graphics
-/// Gems II (1991).
+/// Encode a colour. Mantissas are truncated; negative components and NaN become 0, components
+/// beyond 2^127 the largest value; colours up to 1e-32 become black. Source: Ward, "Real Pixels",
+/// Graphics Gems II (1991).
 [[nodiscard]] Rgbe encode_rgbe(const Rgb& color);
-/// The middle of what the bytes can stand for, (m + 0.5) 2^(e - 136); every pattern is legal, 0 for
-/// e = 0.
+/// Decode to the middle of the interval that the bytes represent, (m + 0.5) 2^(e - 136); 0 for e =
+/// 0. Every byte pattern is legal.
 [[nodiscard]] Rgb decode_rgbe(const Rgbe& pixel);
 
 }  // namespace lightwalk

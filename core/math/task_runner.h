@@ -1,5 +1,5 @@
 #pragma once
-// Who shares out the work of building a scene: core knows no threads of its own.
+// Interface for running independent tasks while a scene is built: core has no threads of its own.
 #include <algorithm>
 #include <cstddef>
 
@@ -7,7 +7,7 @@
 
 namespace lightwalk {
 
-/// Runs independent parts of a task, perhaps side by side.
+/// Runs the independent parts of a task, possibly in parallel.
 class TaskRunner {
   public:
     virtual ~TaskRunner() = default;
@@ -16,7 +16,7 @@ class TaskRunner {
     virtual void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const = 0;
 };
 
-/// One after the other.
+/// Runs the parts one after the other, in the calling thread.
 class SerialTaskRunner final : public TaskRunner {
   public:
     void run(std::size_t count, FunctionRef<void(std::size_t part)> part) const override {
@@ -24,7 +24,7 @@ class SerialTaskRunner final : public TaskRunner {
     }
 };
 
-/// So many things make a part that is worth handing out.
+/// Number of items in one part: enough to be worth scheduling.
 inline constexpr std::size_t kGrain = 8192;
 
 [[nodiscard]] constexpr std::size_t part_count(std::size_t things) {

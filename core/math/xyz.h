@@ -13,7 +13,7 @@ inline constexpr float kEfficacy = 179;
 /// Shakespeare, "Rendering with Radiance", 1998, ch. 10); the matrix follows from them.
 [[nodiscard]] Rgb to_xyz(const Rgb& radiance);
 
-/// And back.
+/// CIE XYZ, Y in cd/m², to radiance [W/(m² sr)]: the inverse of the above matrix.
 [[nodiscard]] Rgb from_xyz(const Rgb& xyz);
 
 }  // namespace lightwalk

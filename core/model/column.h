@@ -1,5 +1,5 @@
 #pragma once
-// A long array of plain values: grown in memory, or part of a file that is mapped.
+// A long array of plain values, either grown in memory or part of a mapped file.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -14,11 +14,11 @@
 
 namespace lightwalk {
 
-/// Values of a trivially copyable type, side by side. Either owns them, and can grow, or shows
-/// those of a mapped file, whose owner keeps it open for as long as the column is used.
+/// A contiguous array of a trivially copyable type. It either owns its values, and can grow, or
+/// views values of a mapped file, which must stay mapped while the column is used.
 ///
-/// Unlike a vector it grows by `realloc`, which moves the pages of a long array and copies none:
-/// tens of millions of surfaces need no second copy of themselves, and are touched once.
+/// Unlike std::vector it grows by `realloc`, which remaps the pages of a long array instead of
+/// copying them: growing needs no second copy of tens of millions of surfaces.
 template <class T>
 class Column {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -26,7 +26,7 @@ class Column {
   public:
     Column() = default;
     explicit Column(const std::vector<T>& values) { append(values); }
-    /// Shows values that lie elsewhere; such a column cannot grow.
+    /// A view of values stored elsewhere; it cannot grow.
     [[nodiscard]] static Column mapped(std::span<const T> values) {
         Column column;
         column.values_ = values;
@@ -54,10 +54,10 @@ class Column {
     [[nodiscard]] auto begin() const { return values_.begin(); }
     [[nodiscard]] auto end() const { return values_.end(); }
     [[nodiscard]] std::span<const T> values() const { return values_; }
-    /// To be changed; not of a mapped column.
+    /// The values for writing; not for a mapped column.
     [[nodiscard]] std::span<T> own_values() { return {own_.get(), own_ ? size() : 0}; }
     [[nodiscard]] bool is_mapped() const { return own_ == nullptr && !values_.empty(); }
-    /// In the process's own memory: nothing for mapped values, which processes share.
+    /// Bytes in the process's own memory; 0 for mapped values, which processes share.
     [[nodiscard]] std::size_t own_bytes() const { return capacity_ * sizeof(T); }
 
     [[nodiscard]] std::size_t mapped_bytes() const {
@@ -78,7 +78,7 @@ class Column {
         std::memcpy(own_.get() + size(), values.data(), values.size_bytes());
         values_ = {own_.get(), count};
     }
-    /// So many values, all bytes zero, to be filled in; those before are gone.
+    /// Replace the contents by `count` values whose bytes are all zero.
     std::span<T> zeros(std::size_t count) {
         if (count > kMost) throw std::bad_alloc();
         own_.reset(count > 0 ? static_cast<T*>(std::calloc(count, sizeof(T))) : nullptr);
@@ -87,11 +87,11 @@ class Column {
         values_ = {own_.get(), count};
         return {own_.get(), count};
     }
-    /// Takes room for so many in advance: it is not touched before they are there.
+    /// Reserve address space for `count` values; its pages are not touched before they are used.
     void reserve(std::size_t count) {
         if (count > capacity_) move_to(count);
     }
-    /// Gives back what growing has taken in advance.
+    /// Release the capacity that is not used.
     void trim() {
         if (own_ == nullptr || size() == capacity_) return;
         if (size() > 0) return move_to(size());
@@ -110,7 +110,7 @@ class Column {
     [[nodiscard]] std::size_t grown(std::size_t least) const {
         return std::max({least, 2 * capacity_, std::size_t{16}});
     }
-    /// Room for `count` values, at least as many as there are; more than none.
+    /// Reallocate to `count` values: positive and at least size().
     void move_to(std::size_t count) {
         if (count > kMost) throw std::bad_alloc();
         void* const moved = std::realloc(own_.get(), count * sizeof(T));  // NOLINT

@@ -1,5 +1,5 @@
 #pragma once
-// Ids into a Scene's tables. They index; they own nothing; they are the same on every rank.
+// Ids: indices into a Scene's tables, the same on every rank.
 #include <cstdint>
 
 namespace lightwalk {
@@ -7,7 +7,7 @@ namespace lightwalk {
 enum class ModifierId : std::int32_t {};  ///< into Scene modifiers; kVoid is the modifier `void`
 enum class SurfaceId : std::int32_t {};   ///< into Scene surfaces
 enum class InstanceId : std::int32_t {
-};  ///< into Geometry frames: the placement of an instance path
+};  ///< of an instance: a path of nested placements (see InstancePaths)
 
 inline constexpr ModifierId kVoid{-1};
 inline constexpr SurfaceId kNoSurface{-1};

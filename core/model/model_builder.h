@@ -30,7 +30,8 @@ class ModelBuilder {
     /// current one of its name is added, but the name keeps its older meaning. An alias goes
     /// through add_alias.
     std::int32_t add(Primitive primitive);
-    /// The same for a surface.
+    /// Add a surface whose `modifier` is an index into this model's modifiers (or void); returns
+    /// its index. Throws InputError for a modifier that is none.
     std::int32_t add(const SurfacePrimitive& surface);
 
     /// Add `modifier alias name`, standing for the modifier with index `target`: its type and
@@ -50,7 +51,7 @@ class ModelBuilder {
 
     [[nodiscard]] const Model& model() const { return *model_; }
 
-    /// The model; the builder is empty afterwards.
+    /// Hand over the model; the builder is empty afterwards.
     [[nodiscard]] std::shared_ptr<Model> release();
 
   private:

@@ -47,11 +47,11 @@ struct Model {
     std::vector<Primitive> modifiers;
     SurfaceList surfaces;
     std::vector<std::string> header;  ///< information header lines of an octree, without FORMAT
-    std::optional<ModelCube> cube;    ///< as an octree states it; nothing for scene files
-    /// What make_shapes makes of `surfaces`, where it is known before; else null.
+    std::optional<ModelCube> cube;    ///< as read from an octree; nothing for scene files
+    /// The result of make_shapes for `surfaces`, where it was read from a file; else null.
     std::shared_ptr<const SurfaceShapes> shapes;
 
-    /// Primitives of all kinds.
+    /// The number of primitives of all kinds.
     [[nodiscard]] std::size_t size() const { return modifiers.size() + surfaces.size(); }
 };
 
@@ -65,7 +65,7 @@ struct MeshModel {
             {};  ///< into `positions` (and `normals`, `uvs` where those are not empty)
         std::int32_t material = kVoidIndex;  ///< into materials.modifiers
         bool has_normals = false, has_uvs = false;
-        std::uint16_t unused = 0;  ///< no gap: files of triangles are the same each time
+        std::uint16_t unused = 0;  ///< explicit padding: files of triangles are reproducible
     };
     Model materials;
     Column<Vertex> positions;
@@ -73,7 +73,7 @@ struct MeshModel {
     Column<double> us, vs;   ///< texture coordinates per vertex, or empty
     Column<Triangle> triangles;
 
-    /// In the process's own memory, without the materials.
+    /// Bytes in the process's own memory, without the materials.
     [[nodiscard]] std::size_t own_bytes() const {
         return positions.own_bytes() + normals.own_bytes() + us.own_bytes() + vs.own_bytes() +
                triangles.own_bytes();

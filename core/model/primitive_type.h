@@ -17,7 +17,7 @@ enum class PrimitiveType : std::uint8_t {
 enum class PrimitiveKind : std::uint8_t {
     surface,
     light,     ///< a material that emits
-    material,  ///< any other
+    material,  ///< a material that does not emit
     texture,
     pattern,
     mixture,
@@ -29,23 +29,23 @@ enum class PrimitiveKind : std::uint8_t {
 [[nodiscard]] std::string_view to_string(PrimitiveType type);
 [[nodiscard]] std::optional<PrimitiveType> primitive_type(std::string_view word);
 [[nodiscard]] PrimitiveKind kind_of(PrimitiveType type);
-/// How many types there are; their numbers count from 0.
+/// Number of types, which are numbered from 0.
 [[nodiscard]] std::size_t primitive_type_count();
 [[nodiscard]] inline bool is_surface(PrimitiveType type) {
     return kind_of(type) == PrimitiveKind::surface;
 }
-/// Materials that emit.
+/// Whether the type is a material that emits light.
 [[nodiscard]] inline bool is_light(PrimitiveType type) {
     return kind_of(type) == PrimitiveKind::light;
 }
-/// Materials of all kinds, lights among them.
+/// Whether the type is a material, emitting or not.
 [[nodiscard]] inline bool is_material(PrimitiveType type) {
     return is_light(type) || kind_of(type) == PrimitiveKind::material;
 }
 [[nodiscard]] inline bool is_mixture(PrimitiveType type) {
     return kind_of(type) == PrimitiveKind::mixture;
 }
-/// Surfaces that place another model.
+/// Whether the type is a surface that places another model.
 [[nodiscard]] inline bool is_placement(PrimitiveType type) {
     return type == PrimitiveType::instance || type == PrimitiveType::mesh;
 }

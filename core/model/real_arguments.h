@@ -1,5 +1,5 @@
 #pragma once
-// Real arguments of a surface, however a list keeps them.
+// Views of the real arguments of a surface, stored directly or by shared corners.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace lightwalk {
 
-/// A view of numbers: side by side, or in threes where they are the corners of a triangle that
-/// shares them with others. It owns nothing.
+/// A view of numbers: either contiguous, or given by the index of each corner (three numbers) of a
+/// triangle that shares corners with others.
 class RealArguments {
   public:
     RealArguments() = default;
@@ -16,8 +16,8 @@ class RealArguments {
         : first_(reals.data()), size_(reals.size()) {}
     RealArguments(const std::vector<double>& reals)  // NOLINT
         : RealArguments(std::span(reals)) {}
-    /// @param reals    that the corners are places in
-    /// @param corners  of each three numbers
+    /// @param reals    the array that `corners` index
+    /// @param corners  index of the first of the three numbers of each corner
     RealArguments(const double* reals, std::span<const std::uint32_t> corners)
         : first_(reals), corners_(corners.data()), size_(3 * corners.size()) {}
 
@@ -25,9 +25,9 @@ class RealArguments {
     [[nodiscard]] double operator[](std::size_t i) const {
         return corners_ == nullptr ? first_[i] : first_[corners_[i / 3] + i % 3];
     }
-    /// The numbers, or what the corners are places in.
+    /// The contiguous numbers, or the array that corners() index.
     [[nodiscard]] const double* data() const { return first_; }
-    /// Null: the numbers are side by side.
+    /// Indices of the corners; null where the numbers are contiguous.
     [[nodiscard]] const std::uint32_t* corners() const { return corners_; }
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// What the core asks of the outside world while a scene is built: named files of the library path.
+// Interface by which core gets named files of the library path while a scene is built.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -66,8 +66,8 @@ class Resources {
     [[nodiscard]] virtual std::vector<std::string> text_lines(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const Model> octree(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const MeshModel> mesh(const std::string& name) = 0;
-    /// Files that will be asked for soon may be decoded side by side. A hint: what is wrong with
-    /// them is told when they are asked for.
+    /// Announce files that will be requested soon, so that they can be decoded in parallel. A hint:
+    /// errors in them are reported when they are requested.
     virtual void prepare(std::span<const NamedFile> files, const TaskRunner& task_runner) {
         (void)files;
         (void)task_runner;

@@ -1,5 +1,5 @@
 #pragma once
-// Corners that neighbouring triangles have in common.
+// Detection of corners that neighbouring triangles share.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,26 +8,26 @@
 
 namespace lightwalk {
 
-/// Finds points, by their bits, among those that were noted lately. Forgets a point when another
-/// takes its place: a surface that was cut into triangles meets its corners again soon.
+/// A hash table, by exact bits, of the points that were noted last. A new point may overwrite an
+/// old one (a cache): triangles that share a corner usually follow each other closely.
 class RecentCorners {
   public:
     static constexpr std::uint32_t kNone = 0xffffffff;
 
-    /// Where in `reals` the point was noted; kNone: it is not known (any more).
+    /// The index in `reals` at which the point was noted; kNone where it is unknown or forgotten.
     /// @param point  three numbers
-    /// @param reals  what it was noted in, which may have grown since
+    /// @param reals  the array that it was noted in, which may have grown since
     [[nodiscard]] std::uint32_t find(const double* point, std::span<const double> reals);
     /// Note that a point stands at `at` in `reals`.
     void note(const double* point, std::uint32_t at);
-    /// Forget all, and give the memory back.
+    /// Forget all points and free the memory.
     void clear() { *this = RecentCorners(); }
 
   private:
-    using Bits = std::array<std::uint64_t, 3>;  ///< of a point's numbers
+    using Bits = std::array<std::uint64_t, 3>;  ///< bits of a point's three numbers
 
-    /// A point that was found or noted last: most corners are those of the triangle before, and the
-    /// table lies too far from the processor to be asked for each.
+    /// One of the points found or noted last. Most corners are those of the preceding triangle;
+    /// looking here first avoids a cache miss in the table.
     struct Last {
         Bits bits{};
         std::uint32_t at = kNone;
@@ -36,10 +36,11 @@ class RecentCorners {
     [[nodiscard]] std::size_t place_of(const Bits& bits) const;
     void remember(const Bits& bits, std::uint32_t at);
 
-    std::vector<std::uint32_t> places_;  ///< by hash, a power of two; empty: nothing is noted
+    std::vector<std::uint32_t>
+        places_;  ///< indices by hash; the size is a power of two, or 0 while nothing is noted
     std::size_t noted_ = 0;
     std::array<Last, 8> last_;
-    std::size_t next_last_ = 0;  ///< of `last_` to be written
+    std::size_t next_last_ = 0;  ///< index of the element of `last_` to be overwritten next
 };
 
 }  // namespace lightwalk

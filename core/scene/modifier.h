@@ -17,31 +17,32 @@ struct TraceContext;
 class FunctionBinding;
 class FunctionEnvironment;
 
-/// How what a material sends to the eye changes when the eye moves.
+/// How the appearance of a material changes when the eye moves.
 enum class Appearance : std::uint8_t {
-    unknown,   ///< nobody knows
-    constant,  ///< not at all
-    glossy,    ///< it has a rough lobe
+    unknown,   ///< cannot be predicted
+    constant,  ///< does not change
+    glossy,    ///< has a rough specular lobe
     polished,  ///< constant, dimmed a little by the mirror-like reflection on top of it
-    mirror,    ///< a mirror-like reflection is all there is
-    pane,      ///< what lies behind, straight on, with a mirror-like reflection on top of it
-    absent,    ///< what lies behind, as if the surface were not there
-    another,   ///< as another modifier looks (MaterialTraits::seen)
+    mirror,    ///< only a mirror-like reflection
+    pane,      ///< shows what lies straight behind it, with a mirror-like reflection on top
+    absent,    ///< invisible: shows what lies behind it
+    another,   ///< that of another modifier (MaterialTraits::seen)
 };
 
-/// What others have to know of a material before they shade it.
+/// Properties of a material that are needed before it is shaded.
 struct MaterialTraits {
-    /// Nominally: light goes through it (trans, glass, ...), however little.
+    /// Nominally transparent: of a type through which light passes (trans, glass, ...), however
+    /// little.
     bool transparent = false;
-    /// No shadow ray gets through, so that none needs to be shaded. A material that is neither has
-    /// to be asked ray by ray.
+    /// Blocks every shadow ray, so that none needs to be shaded. Where false, each shadow ray that
+    /// meets the material has to be shaded.
     bool blocks_shadow_rays = false;
-    /// To primary rays, unless textures turn its normals.
+    /// Appearance to primary rays, unless textures perturb its normals.
     Appearance appearance = Appearance::unknown;
-    /// Specular reflectance; of polished ones and mirrors when seen from straight above.
+    /// Specular reflectance; for polished ones and mirrors at normal incidence.
     double gloss = 0;
-    double roughness = 0;     ///< of glossy ones: rms slope of their facets
-    double diffuse = 0;       ///< of glossy ones: reflectance, where that of the lobe is `gloss`
+    double roughness = 0;     ///< for glossy ones: rms slope of the facets
+    double diffuse = 0;       ///< for glossy ones: diffuse reflectance
     ModifierId seen = kVoid;  ///< what the eye sees instead (Appearance::another)
 };
 
@@ -53,14 +54,14 @@ class Modifier {
   public:
     virtual ~Modifier() = default;
     [[nodiscard]] virtual bool shade(Ray& ray, TraceContext& context) const = 0;
-    /// Of a material, whatever its textures do.
+    /// Traits of a material, without regard to its textures.
     [[nodiscard]] virtual MaterialTraits traits() const { return {}; }
-    /// Of a pattern that does nothing but multiply ray.pattern by a function's value in single
-    /// precision (unless it has an error): that function. Else null.
+    /// For a pattern that only multiplies ray.pattern by the value of one function in single
+    /// precision (unless that has an error): that function. Else null.
     [[nodiscard]] virtual const FunctionBinding* brightness_function() const { return nullptr; }
 };
 
-/// What a factory may use while the scene is built.
+/// Arguments of a modifier factory.
 struct ModifierBuild {
     const Primitive& primitive;  ///< for an alias: the primitive it stands for
     ModifierId self;             ///< the modifier under construction (the alias, if it is one)
@@ -68,11 +69,11 @@ struct ModifierBuild {
     Resources& resources;
     FunctionEnvironment& functions;
     WarningSink& warnings;
-    /// Global id of primitive.references[i]; kVoid for void. `undefined` tells names that nothing
-    /// defines.
+    /// Global id of primitive.references[i]; kVoid for void. `undefined`: whether that name is
+    /// defined nowhere.
     std::function<ModifierId(std::size_t)> reference;
     std::function<bool(std::size_t)> undefined;
-    /// Nominally transparent material at the end of a modifier's chain.
+    /// Whether the material at the end of a modifier's chain is nominally transparent.
     std::function<bool(ModifierId)> is_transparent;
 };
 
@@ -83,7 +84,7 @@ using ModifierFactory = std::unique_ptr<const Modifier> (*)(const ModifierBuild&
 /// The factory for a type; null for types that are no modifiers, or recognised and refused.
 using FindModifierFactory = ModifierFactory (*)(PrimitiveType type);
 
-/// A modifier of a scene, as the tracer walks it.
+/// A modifier of a scene, compiled, with its place in the chain.
 struct ModifierRecord {
     PrimitiveType type{};     ///< what it acts as (an alias: its target's type)
     ModifierId next = kVoid;  ///< its own modifier

@@ -19,20 +19,21 @@ struct SceneCube {
     double size = 0;  ///< edge [m]; 0 when nothing is finite
 };
 
-/// What a scene holds in memory, by kind [bytes]; of modifiers there are few.
+/// Memory of a scene by kind [bytes]. Modifiers are few, and not counted.
 struct SceneMemory {
     std::size_t surfaces = 0;  ///< as they were read: numbers, names, places
     std::size_t shapes = 0;
     std::size_t meshes = 0;
     SearchMemory search;
-    std::size_t mapped = 0;  ///< of a file: memory that processes share
+    std::size_t mapped = 0;  ///< parts of a mapped file, which processes share
     std::size_t surface_count = 0, triangle_count = 0;
 };
 
-/// How much of a scene is made.
+/// Which parts of a scene are built.
 enum class SceneExtent {
     whole,
-    without_search,  ///< no ray can be cast: for what only has to be written down
+    without_search,  ///< no search tree, so that no ray can be cast: for a scene that is only
+                     ///< written to a file
 };
 
 class Scene {
@@ -40,15 +41,16 @@ class Scene {
     /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
     /// others are never reported. `modifier_factory` must know plastic. Throws InputError for bad
     /// surfaces, bad used modifiers, missing octrees and meshes, circular instances. A file that a
-    /// modifier misses is a warning, and an InputError when a ray needs it. `model` and what
-    /// `resources` hands out are kept alive by the scene. `task runner` helps to build it.
+    /// modifier names and that does not exist is a warning here, and an InputError when a ray needs
+    /// it. `model` and what `resources` hands out are kept alive by the scene. `task_runner` runs
+    /// independent parts of the work.
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
           Resources& resources, WarningSink& warnings,
           const TaskRunner& task_runner = SerialTaskRunner(),
           SceneExtent extent = SceneExtent::whole);
     ~Scene();
-    /// Of a scene that cannot be rendered anyway: every used modifier whose type is recognised but
-    /// not supported, which would be refused as well. Throws InputError as the constructor does.
+    /// Lists every used modifier whose type is recognised but not supported: for a scene that has
+    /// other errors, so that all are reported together. Throws InputError as the constructor does.
     [[nodiscard]] static ProblemList unsupported(std::shared_ptr<const Model> model,
                                                  FindModifierFactory modifier_factory,
                                                  Resources& resources, WarningSink& warnings);
@@ -65,7 +67,8 @@ class Scene {
     [[nodiscard]] const Model& model() const;
     [[nodiscard]] SceneCube cube() const;
     [[nodiscard]] SceneMemory memory() const;
-    /// Of the surfaces of one of its models, its own or a placed one; null for any other.
+    /// The shapes of the surfaces of one of the scene's models, the scene's own or a placed one;
+    /// null for any other model.
     [[nodiscard]] std::shared_ptr<const SurfaceShapes> shapes_of(const Model& model) const;
 
     /// The material at the end of a modifier's chain: first material or mixture met; nothing when

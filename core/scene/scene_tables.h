@@ -34,7 +34,7 @@ class ModelLoader {
   private:
     std::uint32_t load(const SurfacePrimitive& placement, std::size_t depth);
     void load_children(std::uint32_t model, std::size_t depth);
-    /// Has the files decoded that a model places and that are not loaded yet.
+    /// Request the decoding of the files that a model places and that are not loaded yet.
     void prepare_children(const SurfaceList& surfaces);
     Resources& resources_;
     const TaskRunner& task_runner_;
@@ -48,7 +48,7 @@ class ModifierTable {
     explicit ModifierTable(const std::vector<LoadedModel>& models);
     /// Compile the modifier, its chain and everything it names, earlier definitions first.
     void use(ModifierId id);
-    /// Every used primitive of a type that has no factory, by its place.
+    /// Every used primitive whose type has no factory, with its place in the file.
     [[nodiscard]] ProblemList unsupported(FindModifierFactory modifier_factory) const;
     /// Compile what `use` marked; throws InputError for a bad modifier, or for all unsupported
     /// ones.
@@ -62,14 +62,14 @@ class ModifierTable {
     [[nodiscard]] std::optional<ModifierId> material_of(ModifierId first) const;
     [[nodiscard]] bool is_transparent(ModifierId first) const;
     [[nodiscard]] SurfaceTraits traits(ModifierId first) const;
-    /// Of surfaces of each modifier that is in use.
+    /// The surface traits of each modifier that is in use.
     [[nodiscard]] ModifierTraits all_traits() const;
     [[nodiscard]] bool has_antimatter() const { return has_antimatter_; }
-    /// Add a modifier that no file holds; returns its id.
+    /// Add a modifier that comes from no file; returns its id.
     ModifierId add(ModifierRecord record);
 
   private:
-    /// Of the modifiers in use, each once.
+    /// The pictures that modifiers in use name, each once.
     [[nodiscard]] std::vector<NamedFile> pictures() const;
     [[nodiscard]] MaterialTraits material_traits(ModifierId material) const;
 

@@ -10,7 +10,8 @@ namespace lightwalk {
 /// "TYPE \"NAME\": PROBLEM" at the primitive's place.
 [[nodiscard]] InputError modifier_error(const Primitive& primitive, const std::string& problem);
 
-/// What `load` returns: a file that the primitive names. Errors get the primitive's place.
+/// Returns load(), which reads a file that the primitive names; adds the primitive's place to its
+/// errors.
 template <class Load>
 auto load_for(const Primitive& primitive, const Load& load) {
     try {

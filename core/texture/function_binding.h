@@ -29,11 +29,11 @@ inline constexpr ChannelMask kNormalChannels =
 inline constexpr ChannelMask kAimChannels =
     channel_bit(Channel::DxA) | channel_bit(Channel::DyA) | channel_bit(Channel::DzA);
 
-/// Define what a function file holds, unless that was done. Throws MissingFile and InputError with
-/// the primitive's place.
+/// Load the definitions of a function file, unless it is loaded already. Throws MissingFile and
+/// InputError with the primitive's place.
 void load_functions(const ModifierBuild& build, const std::string& file);
 
-/// What a function may ask of a ray, but for where it met a surface.
+/// The variables of a ray that a function may read, without those of its hit.
 struct RayWay {
     Vec3 direction;
     double path_length = 0, shadow_length = 0;  ///< see Ray [m]
@@ -61,8 +61,8 @@ class FunctionBinding {
     EvalState& begin(const Ray& ray, TraceContext& context,
                      const MaterialVariables* material = nullptr) const;
 
-    /// Output 0 for up to kSideBySide rays side by side, of a program that has lanes. Those get
-    /// nothing that take an evaluation of their own, see Program::evaluate_all.
+    /// Output 0 for up to kSideBySide rays at once (SIMD), of a program that has lanes. Rays that
+    /// need a scalar evaluation get nothing, see Program::evaluate_all.
     void evaluate_all(std::span<const RayHit> hits, std::span<std::optional<double>> values,
                       TraceContext& context) const;
 
@@ -88,13 +88,13 @@ class FunctionBinding {
               const MaterialVariables* material) const;
 
     Program program_;
-    Transform transform_;  ///< of the primitive's own transform words
+    Transform transform_;  ///< of the transform words among the primitive's arguments
     bool transformed_ = false;
     ChannelMask channels_ = 0;
 };
 
-/// The first three string arguments, as of colorfunc and texfunc, which need four. Throws
-/// InputError for fewer.
+/// The first three string arguments as expressions, as colorfunc and texfunc have them. Throws
+/// InputError for fewer than four string arguments.
 [[nodiscard]] std::vector<ExpressionRequest> three_expressions(const Primitive& primitive);
 
 }  // namespace lightwalk

@@ -1,5 +1,5 @@
 #pragma once
-// Values that a pattern, texture or mixture looks up: expressions, data tables, pictures, text.
+// Lookups of patterns, textures and mixtures in data tables and pictures.
 #include <array>
 #include <memory>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Lines of text laid out on a plane.
+// Layout of lines of text on a plane.
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 
 namespace lightwalk {
 
-/// From a pixel's centre [pixels], x to the right, y up.
+/// Offset from a pixel's centre [pixels], x to the right, y up.
 struct PixelOffset {
     double x = 0, y = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The words for pixels: places, values and rectangles, for all who make or use pictures.
-// Everywhere x counts from the left and y from the bottom of the picture.
+// Types for pixels: places, values and rectangles. In all of them x counts from the left and y from
+// the bottom of the picture.
 #include <cstddef>
 
 #include "core/math/rgb.h"
@@ -22,7 +22,7 @@ struct PixelValue {
     friend bool operator==(const PixelValue&, const PixelValue&) = default;
 };
 
-/// What a pixel's ray met first, for those who carry pixels from frame to frame.
+/// The first hit of a pixel's ray, for reuse of pixels in later frames.
 struct PixelHit {
     bool traced = false;  ///< false: the pixel has no ray of its own, its value is interpolated
     SurfaceId surface = kNoSurface;  ///< a source at infinity, too; kNoSurface: nothing
@@ -30,7 +30,7 @@ struct PixelHit {
     Vec3 position;                   ///< world; where nothing finite was met, the ray's origin [m]
     double reflected_path_length = 0;  ///< along the ray to what is seen in a mirror-like surface;
                                        ///< kHuge: nothing is [m]
-    Rgb mirrored;                      ///< the part of the pixel's radiance that comes from there
+    Rgb mirrored;                      ///< the reflected part of the pixel's radiance
     friend bool operator==(const PixelHit&, const PixelHit&) = default;
 };
 
@@ -40,7 +40,7 @@ struct PixelRectangle {
     [[nodiscard]] int width() const { return x1 - x0; }
     [[nodiscard]] int height() const { return y1 - y0; }
     [[nodiscard]] bool empty() const { return x1 <= x0 || y1 <= y0; }
-    /// 0 where it is empty.
+    /// The number of pixels; 0 for an empty rectangle.
     [[nodiscard]] std::size_t pixels() const {
         return empty() ? 0 : static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
     }

@@ -27,7 +27,8 @@ struct View {
 /// v, l), cylinders (c) or spheres (h, a, s).
 class Camera {
   public:
-    /// The problem, or nothing: ready to use. Texts follow Radiance ("zero view direction", ...).
+    /// What is wrong with a view, in Radiance's words ("zero view direction", ...); nothing for a
+    /// valid one.
     static std::optional<std::string> problem(const View& view);
     explicit Camera(const View& view);  ///< throws InputError with problem()
 
@@ -36,12 +37,13 @@ class Camera {
         Vec3 direction;    ///< unit
         double limit = 0;  ///< aft clipping distance from origin, 0: none [m]
     };
-    /// Nothing outside the view's domain (black pixels).
+    /// The ray of an image position; nothing outside the view's domain, where pixels are black.
     [[nodiscard]] std::optional<ViewRay> ray(double h, double v) const;
-    /// The same of perspective views (type v), which every place has.
+    /// The ray of an image position of a perspective view (type v), in which every position has
+    /// one.
     [[nodiscard]] ViewRay perspective_ray(double h, double v) const;
 
-    /// Where a point appears. A point without an image (the view point itself, a point in a
+    /// The image of a point. A point without an image (the view point itself, a point in a
     /// perspective's view plane, the axis of a cylinder, the pole of a stereographic view) has
     /// in_front false, h = v = -1.
     struct ImagePosition {
@@ -49,12 +51,12 @@ class Camera {
         double distance = 0;      ///< along the ray of (h, v), from its origin [m]
         bool in_front = true;     ///< else before the fore surface, or mirrored at the view point
         bool beyond_aft = false;  ///< clipped by the aft surface
-        /// Whether the picture shows the point, but for what hides it.
+        /// Whether the point lies inside the picture, whether or not something hides it.
         [[nodiscard]] bool visible() const {
             return in_front && !beyond_aft && h > 0 && h < 1 && v > 0 && v < 1;
         }
     };
-    /// The inverse of ray().
+    /// The image position of a point: the inverse of ray().
     [[nodiscard]] ImagePosition locate(const Vec3& point) const;
 
     [[nodiscard]] const View& view() const { return view_; }
@@ -62,7 +64,9 @@ class Camera {
     [[nodiscard]] double aspect() const { return height_ / width_; }
     [[nodiscard]] Vec3 forward() const { return forward_; }  ///< unit
     [[nodiscard]] Vec3 right() const { return right_; }      ///< unit
-    [[nodiscard]] Vec3 upward() const { return upward_; }    ///< unit, perpendicular to both
+    [[nodiscard]] Vec3 upward() const {
+        return upward_;
+    }  ///< unit, perpendicular to forward() and right()
 
   private:
     /// @param q  from the view point to the place at unit distance
@@ -73,7 +77,8 @@ class Camera {
     double width_ = 0, height_ = 0;  ///< of the image at unit distance, on the type's image surface
 };
 
-// Fused, and scaled axes first: to the bit what released builds of Radiance compute.
+// Fused multiply-adds, and the axes scaled first: this gives the bits that released builds of
+// Radiance compute.
 inline Camera::ViewRay Camera::perspective_ray(double h, double v) const {
     const Vec3 q = fused_advance(fused_advance(forward_, right_ * width_, h + (view_.shift - 0.5)),
                                  upward_ * height_, v + (view_.lift - 0.5));
@@ -91,13 +96,14 @@ inline Camera::ViewRay Camera::ray_through(const Vec3& q) const {
 [[nodiscard]] std::optional<View> crop_view(const View& view, double h0, double v0, double h1,
                                             double v1);
 
-/// Width and height so that the picture of aspect `view_aspect` (height / width) has pixels of
-/// `pixel_aspect` (height / width) inside at most x by y; pixel_aspect 0: exactly x by y (then it
-/// is set to what results).
+/// Size of a picture in pixels.
 struct PictureSize {
     int width = 512, height = 512;
     double pixel_aspect = 1;
 };
+/// The largest size of at most x by y pixels for a picture of aspect `view_aspect` (height / width)
+/// with pixels of aspect `pixel_aspect` (height / width). pixel_aspect 0: exactly x by y, and the
+/// resulting pixel aspect is returned.
 [[nodiscard]] PictureSize fit_picture(int x, int y, double view_aspect, double pixel_aspect);
 
 }  // namespace lightwalk

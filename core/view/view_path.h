@@ -1,5 +1,5 @@
 #pragma once
-// Views in motion: through keys, or by the moves of a walk.
+// Moving views: paths through key views, and the moves of a walk.
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +19,8 @@ struct ViewKey {
 /// splines", 1974, for keys at any times).
 class ViewPath {
   public:
-    /// The problem, or nothing: there are keys, of one view type, whose times rise.
+    /// What is wrong with the keys; nothing where there is at least one, all have one view type,
+    /// and their times rise.
     static std::optional<std::string> problem(const std::vector<ViewKey>& keys);
     explicit ViewPath(std::vector<ViewKey> keys);  ///< throws InputError with problem()
 

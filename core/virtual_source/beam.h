@@ -1,5 +1,5 @@
 #pragma once
-// The pyramid that a redirected source's light fills behind its mirror or prism.
+// The beam of a virtual source: the pyramid that its light fills beyond the mirror or prism.
 #include <optional>
 
 #include "core/geometry/shapes.h"
@@ -8,7 +8,7 @@
 namespace lightwalk {
 
 /// The beam of a virtual source through the outline of its redirecting surface. Nothing when the
-/// source's box straddles the redirecting surface's plane, or the redirecting surface is not flat.
+/// source's box straddles the plane of that surface, or when the surface is not flat.
 [[nodiscard]] std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source,
                                                                    const Shape& surface);
 

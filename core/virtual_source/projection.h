@@ -17,8 +17,9 @@ class Projection {
   public:
     /// Reflection in the plane.
     static Projection mirror(const Plane& plane) { return {plane, plane.normal * -2.0}; }
-    /// What makes light that travels along `from` look as if it had always travelled along `to`
-    /// (any lengths). Nothing when either runs along the plane or nothing would change.
+    /// The shear that makes light travelling along `from` look as if it had always travelled along
+    /// `to` (of any lengths). Nothing when either is parallel to the plane, or when they are the
+    /// same direction.
     static std::optional<Projection> bend(const Plane& plane, const Vec3& from, const Vec3& to);
 
     [[nodiscard]] Vec3 point(const Vec3& x) const { return x + shear_ * plane_.height(x); }
@@ -47,17 +48,17 @@ struct RedirectingDisk {
 /// the rest copied.
 [[nodiscard]] LightSource project(const LightSource& source, const Projection& projection);
 
-/// What a redirecting surface's outline leaves of a source that was projected through it.
+/// The cone or beam of a virtual source, limited by the outline of its redirecting surface.
 struct VirtualSpot {
     bool possible = true;           ///< false: no light gets through
     std::optional<SpotShape> spot;  ///< cone or beam; nothing: no bound
     RedirectingDisk disk;  ///< the redirecting surface's disk, smaller when the spot shrank
 };
 
-/// @param parent     the source that is redirected
-/// @param projected  the same seen through the redirecting surface
+/// Limit the spot of a virtual source. @param parent     the source whose light is redirected
+/// @param projected  `parent` as it appears through the redirecting surface
 /// @param projection how it was projected
-/// @param disk       of the redirecting surface
+/// @param disk       around the redirecting surface
 [[nodiscard]] VirtualSpot virtual_spot(const LightSource& parent, const LightSource& projected,
                                        const Projection& projection, const RedirectingDisk& disk);
 

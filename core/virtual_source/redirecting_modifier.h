@@ -16,8 +16,8 @@ struct Redirection {
     Vec3 direction;          ///< world space, as the expressions give it: not normalised
 };
 
-/// A modifier node that also redirections light: the source list makes virtual sources of what it
-/// answers. Implemented by the prisms beside Modifier (found by dynamic_cast); mirrors need no
+/// A material that redirects light by expressions: the list of light sources makes virtual sources
+/// from them. The prisms implement it beside Modifier (found by dynamic_cast); mirrors need no
 /// evaluation.
 class RedirectingModifier {
   public:
@@ -26,9 +26,9 @@ class RedirectingModifier {
     /// How many projections there are (prism1: 1, prism2: 2).
     [[nodiscard]] virtual int branches() const = 0;
 
-    /// Evaluate one projection for a ray that hit the redirecting surface surface, without a source
-    /// to aim at (DxA, DyA and DzA are 0). The transform of the material applies; redirecting
-    /// surface surfaces are never inside an instance. Nothing when an expression failed.
+    /// Evaluate one projection for a ray that hit the surface, without a source to aim at (DxA, DyA
+    /// and DzA are 0). The transform of the material applies; redirecting surfaces are never inside
+    /// an instance. Nothing when an expression failed.
     [[nodiscard]] virtual std::optional<Redirection> redirect(int branch, const Ray& hit_ray,
                                                               TraceContext& context) const = 0;
 };

@@ -11,10 +11,10 @@
 namespace lightwalk {
 
 inline constexpr std::size_t kMaxVirtualSources = std::size_t{1} << 18;
-inline constexpr int kMaxRedirections = 64;  ///< larger values of -dr count as this
+inline constexpr int kMaxRedirections = 64;  ///< upper limit of the option -dr
 
-/// Appends to the list, for every source and every flat redirecting surface, what the redirecting
-/// surface makes of it; redirections of redirections too.
+/// Appends to the list of light sources, for every source and every flat mirror or prism, its
+/// virtual sources; and the virtual sources of those, up to the depth of -dr.
 class VirtualSourceBuilder {
   public:
     VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);

@@ -1,5 +1,5 @@
 #pragma once
-// Fibers of Boost.Context.
+// Fibers implemented by Boost.Context.
 #include <cstddef>
 #include <memory>
 
@@ -7,8 +7,8 @@
 
 namespace lightwalk {
 
-/// Stack of each [bytes]; memory is taken page by page, as it is used. There is room for going
-/// deeper while half of it is left.
+/// Size of a fiber's stack [bytes]; its pages are committed on first use. Recursion may go deeper
+/// while half of it is left.
 inline constexpr std::size_t kFiberStackBytes = std::size_t{2} << 20;
 
 [[nodiscard]] std::unique_ptr<Fibers> make_context_fibers(std::size_t count);

@@ -1,6 +1,6 @@
 #pragma once
-// Tells the sanitizers when a fiber's stack takes over: without it they would take what lies on it
-// for errors. Nothing in other builds.
+// Annotations that tell the sanitizers when execution switches to a fiber's stack, which they would
+// report as errors otherwise. Empty in other builds.
 #include <cstddef>
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -16,13 +16,14 @@ namespace lightwalk {
 
 class AddressNotes {
   public:
-    /// What stood at these addresses before may have been left in the middle of functions: marks
-    /// around their variables would be taken for those of the new ones.
+    /// Clear AddressSanitizer's marks of a stack that is about to be reused: functions that were
+    /// abandoned on it may have left marks around their variables.
     AddressNotes(void* bottom, std::size_t size) : bottom_(bottom), size_(size) {
         freeing(bottom, size);
     }
-    /// A fiber is left in the middle of the functions that it began in. Their marks would stay for
-    /// what is mapped there next, and a thread that finds its errno there does not clear them.
+    /// Clear the marks of a stack that is about to be freed: a fiber ends inside the functions that
+    /// it began in, whose marks would affect whatever is mapped there next, for example the errno
+    /// of a new thread.
     static void freeing(void* bottom, std::size_t size) {
         ASAN_UNPOISON_MEMORY_REGION(bottom, size);
     }
@@ -45,8 +46,9 @@ using StackNotes = AddressNotes;
 
 #elif defined(__SANITIZE_THREAD__)
 
-/// All is told from outside, where the fiber is entered and after it was left: what runs in between
-/// belongs to the fiber, and calls and returns are counted in pairs. Hence inlined, both.
+/// ThreadSanitizer is told from outside the fiber, before it is entered and after it was left,
+/// because it pairs the calls and returns of a fiber. For the same reason both functions are
+/// inlined.
 class ThreadNotes {
   public:
     ThreadNotes(void*, std::size_t) : inner_(__tsan_create_fiber(0)) {}
@@ -70,9 +72,9 @@ using StackNotes = ThreadNotes;
 
 #else
 
-/// Calls in the order in which a fiber is used: entering() before it takes over, entered() on it;
-/// leaving() on it before it gives up, for good or not, left() after that; freeing() once it was
-/// left for good, before its addresses are given back.
+/// Calls, in the order in which a fiber is used: entering() before a switch to it, entered() first
+/// thing on it; leaving() on it before it is suspended or ends, left() after that; freeing() when
+/// it has ended, before its stack is unmapped.
 class NoNotes {
   public:
     NoNotes(void*, std::size_t) {}
