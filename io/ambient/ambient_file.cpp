@@ -14,7 +14,7 @@ constexpr std::int64_t kMagic = 561;
 constexpr int kMagicSize = 2;  ///< bytes
 constexpr const char* kFormat = "Radiance_ambval";
 
-/// Whether the header says three channels, or nothing about them.
+/// Whether the header names three channels, or no number of channels.
 bool has_three_channels(const InfoHeader& header) {
     for (const std::string& line : header.lines) {
         if (const auto value = header_variable(line, "NCOMP")) return *value == "3";

@@ -12,7 +12,7 @@
 namespace lightwalk {
 namespace {
 
-/// What a header's six digits leave of an option's value.
+/// The value of an option after it was written to a header with six digits.
 constexpr double kPrecision = 1e-4;
 /// A radius that stands at the least one: floats, and the file's reals, round it.
 constexpr double kRounding = 1e-5;

@@ -25,7 +25,7 @@ std::string reason(int code) {
     return std::system_category().message(code);
 }
 
-/// What is left of a file that messages call `name`; about `expected` bytes, at most `limit`.
+/// Reads the rest of a file, of about `expected` and at most `limit` bytes; `name` is for messages.
 std::string read_all(std::FILE* file, const std::string& name, std::size_t expected,
                      std::size_t limit) {
     std::string bytes;

@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::string_view kUsage =
     "material name depth width height slats angle [-r radius | +r radius]";
-constexpr double kPieceAngle = 3 * kPi / 180;  ///< of the arc [rad]
+constexpr double kPieceAngle = 3 * kPi / 180;  ///< arc angle of one polygon of a curved slat [rad]
 
 struct Blinds {
     std::string material, name;
     double depth = 0, width = 0, height = 0;
     long slats = 0;
-    double angle = 0;     ///< of the slats above the horizontal [rad]
-    double radius = 0;    ///< of a slat's arc; 0 for a flat one
+    double angle = 0;     ///< angle of the slats above the horizontal [rad]
+    double radius = 0;    ///< radius of curved slats; 0 for flat ones
     bool arched = false;  ///< upward; else sagging
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kUsage =
     "material name xsize ysize zsize [-i] [-b bevel | -r radius [-n segments] [-s]] [-o]";
 constexpr long kDefaultSegments = 32;
-constexpr long kMaxSegments = 256;  ///< of a quarter circle; more would not fit into the output
+constexpr long kMaxSegments = 256;  ///< a quarter circle; more would exceed the largest output
 
 // A vertex code: bits 0-2 choose the high side in x, y, z; bits 3-5 inset that coordinate.
 using Face = std::array<std::uint8_t, 4>;
@@ -66,7 +66,7 @@ struct BoxOptions {
     Vec3 size;
     double inset = 0;  ///< bevel or radius
     bool bevelled = false, round = false, inward = false, smooth = false, obj = false;
-    std::optional<long> segments;  ///< of a quarter circle, as asked for
+    std::optional<long> segments;  ///< a quarter circle, if given
 
     [[nodiscard]] bool is_segmented() const {
         if (!round) return false;

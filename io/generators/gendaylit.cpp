@@ -27,7 +27,7 @@ constexpr double kEfficacy = 179;                 ///< Radiance's lumens per wat
 constexpr double kMaxIrradiance = 1367;           ///< [W/m²]
 constexpr double kMaxIlluminance = 127500;        ///< [lx]
 constexpr double kSunAngle = 0.533;               ///< [deg]
-constexpr double kSunSolidAngle = 6.8e-5;         ///< of the sun's part of the ground's light [sr]
+constexpr double kSunSolidAngle = 6.8e-5;         ///< for its light on the ground [sr]
 constexpr double kDefaultDewPoint = 10.97353115;  ///< [C]; 2 cm of water
 constexpr double kMaxDewPoint = 40;
 constexpr int kIlluminanceSteps = 9;
@@ -47,7 +47,7 @@ struct DaylitOptions {
     SkyMoment moment;
     Site site;
     WeatherInput input = WeatherInput::perez;
-    std::array<double, 2> values{};  ///< of the input
+    std::array<double, 2> values{};  ///< the two numbers after the option
     SkyUnits units = SkyUnits::visible_radiance;
     bool show_sun = true;
     bool limit_altitude = true;
@@ -55,7 +55,7 @@ struct DaylitOptions {
     bool quiet = false;
     double ground_reflectance = 0.2;
     double dew_point = kDefaultDewPoint;
-    double interval = 0;  ///< of the measurement [min]
+    double interval = 0;  ///< interval of the measurement [min]
     DaylightLocus locus = kDefaultLocus;
 };
 
@@ -188,7 +188,7 @@ bool adjust_to_daylight(const DaylitOptions& sky, double& hour) {
     return hour >= sunrise - half_interval && hour <= sunset + half_interval;
 }
 
-/// What the model needs of the weather. `fault` says why there is no sky.
+/// The weather as parameters of the model. `fault` is the reason when there is no sky.
 struct Weather {
     SkyCondition condition;
     PerezDistribution distribution;
@@ -266,9 +266,9 @@ Weather weather_of(const DaylitOptions& sky, double altitude, const PerezSun& su
     return result;
 }
 
-/// What is printed of a sky, in the units that were asked for.
+/// The values of a sky that are printed, in the units of the -O option.
 struct SkyOutput {
-    double scale = 0;  ///< of the relative luminance
+    double scale = 0;  ///< factor of the relative luminance
     double ground = 0;
     double sun = 0;
 };

@@ -219,7 +219,7 @@ class RoundedPrism {
     double r_;                     ///< negative when the prism points down
     std::vector<Vec2> back_;       ///< unit vector from vertex i to vertex i - 1
     std::vector<double> setback_;  ///< how far the rounding's centre is set back along it, in radii
-    std::vector<Vec2> center_;     ///< of the rounding at vertex i
+    std::vector<Vec2> center_;     ///< centre of the rounded corner at each vertex
 };
 
 }  // namespace

@@ -95,7 +95,7 @@ std::string run_genrev(std::span<const std::string> args, GeneratorContext& cont
         points[i] = {profile(0, t), profile(1, t)};
     }
     expressions.report(words.program(), profile);
-    const auto normal = [&](std::size_t i) {  // of segment i, 1 to `segments`; zero outside
+    const auto normal = [&](std::size_t i) {  // normal of segment i, 1 to `segments`; zero outside
         return i < 1 || i > segments ? Profile{} : segment_normal(points[i - 1], points[i]);
     };
     SceneWriter out(args);

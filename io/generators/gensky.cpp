@@ -179,7 +179,7 @@ SkyOptions parse(GeneratorWords& words, WarningSink& warnings) {
     return sky;
 }
 
-/// What is printed of a sky [W/(m² sr)].
+/// The values of a sky that are printed [W/(m² sr)].
 struct SkyRadiances {
     double shape = 0;  ///< the model's value toward the zenith, F2
     double zenith = 0;

@@ -10,7 +10,7 @@ namespace lightwalk {
 namespace {
 
 constexpr double kSolarConstant = 1367;     // [W/m²]
-constexpr double kClearnessWeight = 1.041;  // of the zenith angle's cube [1/rad³]
+constexpr double kClearnessWeight = 1.041;  // weight of the cube of the zenith angle [1/rad³]
 
 using Row = std::array<double, 4>;
 

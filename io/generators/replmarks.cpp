@@ -28,13 +28,13 @@ constexpr double kDegrees = 180 / kPi;
 
 enum class Replacement { none, object, octree, mesh };
 
-/// What takes the place of the markers with one modifier.
+/// The replacement of the markers with one modifier.
 struct MarkerGroup {
     std::string marker_modifier;
     Replacement replacement = Replacement::none;
     std::string file;
-    std::string modifier;  ///< of the replacement; "" for its own
-    double size = 0;       ///< of the replacement, as a marker's x side is 1 long; 0 keeps its size
+    std::string modifier;  ///< new modifier of the replacement; "" to keep its own
+    double size = 0;  ///< scale of the replacement for a marker whose x side is 1; 0 for no scaling
 };
 
 struct ReplmarksOptions {
@@ -95,7 +95,7 @@ ReplmarksOptions parse(GeneratorWords& words) {
 /// A marker's own coordinates.
 struct MarkerFrame {
     Vec3 origin;
-    double length = 0;  ///< of the x side
+    double length = 0;  ///< length of the x side
     Vec3 x, y, z;       ///< unit vectors
 };
 

@@ -91,7 +91,7 @@ class Xform {
         }
     }
 
-    /// What does to a command's output what `step` does to primitives.
+    /// The command that applies `step` to the output of a command.
     static std::string pipe_through(const XformStep& step) {
         std::string text = " | xform -e";
         if (step.invert) text += " -I";

@@ -143,8 +143,9 @@ class StepExpander {
 
     const std::function<std::string(const std::string&)>& read_;
     const std::function<void(const XformStep&)>& apply_;
-    std::vector<std::size_t> indices_;  ///< of the element in each array around it, outermost first
-    char letter_ = 'a';                 ///< what names begin with when there is no -n
+    std::vector<std::size_t>
+        indices_;        ///< the element's index in each nested array, outermost first
+    char letter_ = 'a';  ///< what names begin with when there is no -n
     std::size_t elements_ = 0;
 };
 

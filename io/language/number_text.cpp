@@ -20,7 +20,7 @@ constexpr std::array<double, 23> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  1e4,  1
                                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr int kLargestPower = 22;
 constexpr std::uint64_t kLargestMantissa = std::uint64_t{1} << 53;
-constexpr std::ptrdiff_t kMostDigits = 19;  ///< that a mantissa of 64 bits surely holds
+constexpr std::ptrdiff_t kMostDigits = 19;  ///< any so many digits fit into 64 bits
 constexpr std::ptrdiff_t kMostExponentDigits = 3;
 
 /// Append the digits at `at` to `number`, which may overflow; returns where they end.

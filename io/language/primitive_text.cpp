@@ -64,7 +64,7 @@ void read_reals(SceneTokenizer& tokens, PrimitiveText& primitive) {
     }
 }
 
-/// Whether a word is read back as it stands.
+/// Whether a word needs no quotes to be read back.
 bool is_plain(std::string_view word) {
     return !word.empty() && std::ranges::none_of(word, [](char c) {
         return c == ' ' || (c >= '\t' && c <= '\r') || c == '"' || c == '\'';

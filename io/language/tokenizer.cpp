@@ -69,7 +69,7 @@ std::optional<std::string_view> SceneTokenizer::word() {
         if (text_[end] == '"' || text_[end] == '\'') return quoted_word();
     }
     if (end - begin > kLongestWord) throw InputError(where_, kTooLong);
-    at_ = end;  // of a word without quotes, which holds no end of a line
+    at_ = end;  // the line number stays: a word without quotes has no line end in it
     return text_.substr(begin, end - begin);
 }
 

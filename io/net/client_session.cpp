@@ -11,7 +11,7 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
 
-/// What fits into a close frame: 123 bytes of UTF-8, of which we use the ASCII.
+/// The reason as ASCII, cut to 120 characters, as a close frame has room for 123 bytes.
 std::string short_reason(std::string text) {
     text.resize(std::min<std::size_t>(text.size(), 120));
     std::replace_if(

@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kMostUnderWay = 2;
 constexpr std::size_t kMeasured = 4;  // frames of one measurement: acknowledgements come in pairs
 constexpr std::size_t kRemembered = 16;  // measurements whose best counts
-constexpr double kNewShare = 0.25;       // of a new round trip in the mean
+constexpr double kNewShare = 0.25;       // weight of a new round trip in the smoothed one
 constexpr double kShortest = 1e-6;       // [s]: of a time that is divided by
 constexpr double kLongest = 3600;        // [s]: of a time on the wire
 // Of a frame's time on the wire, until the next is sent. Less than all of it: frames that are sent

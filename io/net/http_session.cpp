@@ -18,7 +18,7 @@ std::string_view view_of(beast::string_view text) {
     return {text.data(), text.size()};
 }
 
-/// What was wrong with a request that could not be read.
+/// The HTTP status for an error in the reading of a request.
 unsigned status_of(beast::error_code error) {
     if (error == http::error::header_limit) return 431;
     if (error == http::error::unexpected_body || error == http::error::body_limit) return 413;

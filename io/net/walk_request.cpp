@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 constexpr int kDeepest = 8;          // a probe's position is at 4
 constexpr double kFarthest = 1e9;    // [m]: beyond it a double resolves no pixels
 constexpr double kBrightest = 1e12;  // [cd/m²]: a thousand times the sun's
-constexpr double kMostStops = 40;    // of exposure, either way
+constexpr double kMostStops = 40;    // limit of the exposure, up and down
 constexpr double kShortestNormal = 1e-6;
 
 [[noreturn]] void refuse(const std::string& name, const char* expected) {

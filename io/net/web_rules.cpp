@@ -97,7 +97,7 @@ bool same_secret(std::string_view given, std::string_view expected) {
 }
 
 std::string make_token() {
-    std::random_device random;  // of the kernel or the processor
+    std::random_device random;  // random numbers of the kernel or the processor
     std::string token;
     for (int word = 0; word < 4; ++word) {
         const unsigned bits = random();

@@ -117,7 +117,8 @@ class WebServer::Core final : public ClientHost,
     tcp::acceptor acceptor_{context_};
     net::steady_timer pause_{context_};
     std::map<ClientId, std::shared_ptr<ClientSession>> clients_;
-    std::map<std::uint64_t, std::shared_ptr<HttpSession>> saves_;  ///< that wait for their answer
+    std::map<std::uint64_t, std::shared_ptr<HttpSession>>
+        saves_;  ///< requests without an answer yet
 };
 
 WebServer::Core::Core(WebServerOptions options, const std::vector<WebAsset>& assets,

@@ -55,7 +55,7 @@ const SrgbTable& srgb_table() {
     return table;
 }
 
-/// What is not a number, or negative, is black.
+/// The value limited to 0 ... kBrightest; NaN becomes 0.
 float shown_part(float value) {
     return value > 0 ? std::min(value, kBrightest) : 0.0f;
 }

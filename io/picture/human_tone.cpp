@@ -39,7 +39,8 @@ double colour_sensitivity(double L) {
 
 HumanTone::HumanTone(const BrightnessHistogram& histogram) {
     const double average = double{kEfficacy} * histogram.log_average();
-    // What is just visible there is just visible on the screen's middle.
+    // A difference that is just visible in the scene is just visible at the middle luminance of the
+    // screen.
     const double middle = std::sqrt(kScreenDark * kScreenWhite);
     factor_ = average > 0 ? visible_difference(middle) / visible_difference(average) / kScreenWhite
                           : 1 / kScreenWhite;

@@ -11,7 +11,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr int kLargestSide = 65535;  // of the format
+constexpr int kLargestSide = 65535;  // limit of the JPEG format [pixels]
 
 [[noreturn]] void fail(const std::string& why) {
     throw InputError("cannot encode jpeg: " + why);

@@ -19,7 +19,7 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-/// What `encode` gives; its errors name the file that it is for.
+/// The result of `encode`; the path is added to the message of its errors.
 template <class Encode>
 std::string encode_for(const std::string& path, const Encode& encode) {
     try {

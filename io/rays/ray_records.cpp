@@ -15,7 +15,7 @@ constexpr std::string_view kLetters = "odvVwWlLcpnNsmMrxRX~";
 constexpr std::string_view kNotShaded = "odpcLNswmM~";
 constexpr std::string_view kColors = "vVrx";
 constexpr std::string_view kVectors = "odpnNW";
-/// What Radiance's rtrace says of X, Y and Z as if they were lamps.
+/// The PRIMARIES line that Radiance's rtrace writes for CIE XYZ.
 constexpr std::string_view kXyzPrimaries =
     "PRIMARIES= 1.0000 0.0000 0.0000 1.0000 0.0000 0.0000 0.3333 0.3333\n";
 
@@ -51,7 +51,7 @@ Vec3 as_vector(const Rgb& c) {
     return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)};
 }
 
-/// What the ray's value counts in its primary ray's, channel by channel.
+/// The ray's contribution coefficient to its primary ray, for each channel.
 Rgb coefficient(const Ray& ray) {
     Rgb product{1, 1, 1};
     for (const Ray* at = &ray; at->parent != nullptr; at = at->parent) product *= at->coef;

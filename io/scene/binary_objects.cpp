@@ -38,7 +38,7 @@ PrimitiveType type_of(BinaryReader& reader, const TypeTable& table, std::int64_t
     return *table.types[at];
 }
 
-/// What the numbers of objects mean in a model, which numbers modifiers apart.
+/// Maps object numbers of the file to the model, which numbers modifiers and surfaces separately.
 class ObjectNumbers {
   public:
     [[nodiscard]] std::size_t size() const { return modifiers_.size(); }
@@ -125,7 +125,7 @@ class ObjectReader {
     ModelBuilder& builder_;
     FileName file_;
     ObjectNumbers numbers_;
-    std::vector<double> reals_;  ///< of one object; reused
+    std::vector<double> reals_;  ///< numbers of one object; the memory is reused
 };
 
 }  // namespace

@@ -142,7 +142,7 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
                                          const std::string& command, const std::string& directory,
                                          const SourceLocation& where, TextSink* sink) {
     const LibraryPath library = library_.relative_to(directory);
-    // What several pipelines write may make one primitive together: that goes whole.
+    // The outputs of several pipelines may form one primitive, so they are passed on together.
     std::optional<Output> pieces;
     if (sink != nullptr && pipelines.size() == 1) pieces.emplace(*this, where, *sink);
     std::string output;

@@ -14,7 +14,7 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kLongestTextLine = 511;
-constexpr std::size_t kBytesTogether = std::size_t{64} << 20;  ///< of files that wait to be decoded
+constexpr std::size_t kBytesTogether = std::size_t{64} << 20;  ///< bytes read ahead of decoding
 
 /// Radiance's pictures are called .hdr or .pic, and scenes are older than their pictures' names:
 /// the same name with the other ending; nothing for other names.

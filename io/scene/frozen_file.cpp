@@ -26,7 +26,7 @@ struct FrozenHeader {
     std::array<char, kVersionLength> software{};  ///< zero bytes fill it up
     std::uint64_t file_size = 0, part_count = 0;
     std::uint64_t table_digest = 0;
-    std::uint64_t digest = 0;  ///< of all before it
+    std::uint64_t digest = 0;  ///< digest of the members above
 };
 static_assert(sizeof(FrozenHeader) == 64);
 
@@ -120,7 +120,7 @@ FrozenEntry entry_at(std::span<const std::byte> bytes, std::uint64_t index) {
     return entry;
 }
 
-/// What is wrong with a header; nothing for a sound one.
+/// The error in a header; nothing for a valid one.
 std::optional<std::string> header_problem(const FrozenHeader& header, std::size_t file_size) {
     if (text_of(std::as_bytes(std::span(header.mark))) != kFrozenMark) return "is no frozen scene";
     if (header.byte_order != kByteOrder)

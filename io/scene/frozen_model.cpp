@@ -17,7 +17,8 @@ namespace {
     throw InputError({file.name(), 0}, std::string("damaged: ") + what);
 }
 
-/// That a member at `offset` of each value is a bool: any other byte in its place would be none.
+/// Checks that the bool at `offset` of each value is 0 or 1, as other bytes are undefined
+/// behaviour.
 template <class T>
 void check_bools(const FrozenFile& file, std::span<const T> values, std::size_t offset) {
     const auto* byte = reinterpret_cast<const unsigned char*>(values.data()) + offset;
@@ -66,7 +67,7 @@ void pack_modifiers(PackedWriter& writer, std::span<const Primitive> modifiers) 
 
 constexpr std::size_t kLeastModifier = 1 + 4 + 4 * 8 + 4 + 4;  ///< packed [bytes]
 
-/// That names mean earlier modifiers, and numbers are such.
+/// Checks that names refer to earlier modifiers, and that modifier numbers exist.
 bool is_sound(const Primitive& modifier, std::size_t number) {
     const auto earlier = static_cast<std::int64_t>(number);
     const auto names_one = [&](std::int32_t reference) {
@@ -150,7 +151,7 @@ bool is_usable(const SourceShape& source) {
     return within_reach(source.direction) && std::isfinite(source.solid_angle);
 }
 
-/// That the shapes that are in use, those of some row, hold numbers that a search can bear.
+/// Checks that the shapes to which rows refer have numbers that the search can handle.
 void check_shapes(const FrozenFile& file, const SurfaceShapes::Columns& columns) {
     for (const ShapeRow& row : columns.rows) {
         const auto usable = [&](const auto& column) {
@@ -191,7 +192,7 @@ auto named(const FrozenFile& file, const Map& map) {
     }
 }
 
-/// That a table of the vertices is whole, or not there where no triangle needs it.
+/// Checks that a table of vertices is complete, or empty if no triangle needs it.
 bool is_sound(const MeshModel& mesh, std::size_t table, bool needed) {
     return table == mesh.positions.size() || (table == 0 && !needed);
 }

@@ -35,7 +35,7 @@ DataArray::Axis unpack_axis(PackedReader& reader, std::uint32_t fewest) {
     return axis;
 }
 
-/// That a table has so many values as its axes say.
+/// Checks that the number of values of a table is the product of its axes.
 void check_size(const PackedReader& reader, std::span<const DataArray::Axis> axes,
                 std::size_t values) {
     std::size_t size = 1;

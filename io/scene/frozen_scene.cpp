@@ -110,7 +110,8 @@ void freeze_manifest(std::span<const ManifestFile> manifest, FrozenParts& parts)
     parts.add(FrozenKind::manifest, 0, writer.bytes());
 }
 
-/// That each file stands there once, as a recorder names them: no file is read again and again.
+/// Checks that the manifest names each file once, as a recorder does, so that none is read
+/// repeatedly.
 bool is_in_order(std::span<const ManifestFile> manifest) {
     const auto proper = [](const ManifestFile& file) {
         return file.path.starts_with('/') &&
@@ -157,7 +158,7 @@ FrozenParts freeze_scene(const Scene& scene, const FreezingResources& library,
     return parts;
 }
 
-/// What was answered then; throws MissingFile where that was so then.
+/// The recorded answer; throws MissingFile if the file was missing when the scene was frozen.
 template <class T>
 const T& frozen_answer(const FrozenFile& file, const ResourceAnswers<T>& answers,
                        const std::string& name) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kMeshMagic = 319;
 constexpr std::uint32_t kPatchSize = 256;
-constexpr std::int64_t kMostPatches = std::int64_t{1} << 24;  ///< that vertex ids of 32 bits tell
+constexpr std::int64_t kMostPatches = std::int64_t{1} << 24;  ///< limit of 32-bit vertex ids
 constexpr std::int64_t kMostLocalTriangles = 512, kMostJoiners = 256;
 constexpr unsigned kHasPositions = 1, kHasNormals = 2, kHasUvs = 4;
 

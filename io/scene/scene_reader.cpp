@@ -47,7 +47,7 @@ class SceneReader {
     }
 
     void read(std::string_view text, const std::string& name) { read(text, name, nullptr); }
-    /// The same for a text that is not needed any more afterwards.
+    /// Parses a text whose memory is given back to the system meanwhile.
     void read(SceneText& text) {
         FadingText fading(text.bytes);
         read(text.bytes, text.name, &fading);
@@ -158,7 +158,8 @@ class SceneReader {
             add_alias(text, inherits, modifier, where);
             return;
         }
-        if (is_surface(text.type) && text.strings.empty()) {  // of these there are millions
+        if (is_surface(text.type) &&
+            text.strings.empty()) {  // the common case: scenes have millions
             builder_.add(SurfacePrimitive{
                 text.type, modifier, text.name, {}, text.reals, &where.file, where.line});
             return;
@@ -222,7 +223,7 @@ class SceneReader {
         text.reals = {};  // whose memory the next primitive would keep
     }
 
-    /// What an error says behind its place.
+    /// The text of an error without its place.
     static std::string message_of(const InputError& error, const SourceLocation& where) {
         const std::string message = error.what();
         const std::string prefix = printable(to_prefix(where));
@@ -230,9 +231,9 @@ class SceneReader {
     }
 
     ProblemList& problems_;
-    PrimitiveText item_;                   ///< that is read: it is one, to use its memory again
+    PrimitiveText item_;                   ///< the primitive being read; its memory is reused
     bool skipped_command_ = false;         ///< it may have defined anything
-    std::set<std::string> skipped_names_;  ///< of primitives that were read over
+    std::set<std::string> skipped_names_;  ///< names of primitives that were skipped
     std::string directory_;
     FileSource& files_;  ///< which the runner's library path keeps
     ModelBuilder builder_;
