@@ -15,11 +15,9 @@ namespace {
 /// What one hit makes of the material.
 struct Shading {
     Rgb color, specular;
-    LobeFrame frame;
-    double cosine = 1;  ///< -v . np
-    double alpha_u = 0, alpha_v = 0;
-    Vec3 through;          ///< direction of specular transmission
-    bool widened = false;  ///< flat and untextured: the light's size widens the lobe
+    WardReflection reflection;
+    WardTransmission transmission;
+    bool widened = false;  ///< flat and untextured: the light's size widens the reflected lobe
 };
 
 class Anisotropic final : public Modifier {
@@ -34,8 +32,7 @@ class Anisotropic final : public Modifier {
     [[nodiscard]] Shading prepare(const Ray& ray, TraceContext& context) const;
     void add_rough(Ray& ray, const Shading& s, bool reflects, bool transmits,
                    TraceContext& context) const;
-    [[nodiscard]] Rgb direct(const Shading& s, const Vec3& v, const Vec3& l, double omega,
-                             double jitter) const;
+    [[nodiscard]] Rgb direct(const Shading& s, const Vec3& wi, double omega, double jitter) const;
 
     PrimitiveType type_;
     ModifierId next_;
@@ -78,6 +75,7 @@ bool Anisotropic::shade(Ray& ray, TraceContext& context) const {
     const Tracer& tracer = context.tracer;
     const RenderOptions& options = tracer.options();
     const Shading s = prepare(ray, context);
+    const Vec3 n = s.reflection.frame.n;
     const bool dim_reflection = options.specular_threshold >= rho_ - kEpsilon;
     const bool dim_transmission = options.specular_threshold >= tau_s_ - kEpsilon;
     add_rough(ray, s, rho_ > kEpsilon && !dim_reflection, tau_s_ > kEpsilon && !dim_transmission,
@@ -85,18 +83,16 @@ bool Anisotropic::shade(Ray& ray, TraceContext& context) const {
     if (rho_d_ > kEpsilon) {
         Rgb coef = s.color * static_cast<float>(rho_d_);
         if (dim_reflection && rho_ > kEpsilon) coef += s.specular;
-        ray.value += tracer.ambient(ray, coef, s.frame.n, context);
+        ray.value += tracer.ambient(ray, coef, n, context);
     }
     if (tau_d_ > kEpsilon) {
         const Rgb coef = s.color * static_cast<float>(dim_transmission ? tau_ : tau_d_);
-        ray.value += tracer.ambient(ray, coef, -s.frame.n, context);
+        ray.value += tracer.ambient(ray, coef, -n, context);
     }
     const double jitter = options.source_jitter;
-    const Vec3 v = ray.direction;
-    tracer.add_direct(ray, one_by_one([&](const Vec3& l, double omega) {
-                          return direct(s, v, l, omega, jitter);
-                      }),
-                      context);
+    tracer.add_direct(
+        ray, one_by_one([&](const Vec3& wi, double omega) { return direct(s, wi, omega, jitter); }),
+        context);
     return true;
 }
 
@@ -108,55 +104,49 @@ Shading Anisotropic::prepare(const Ray& ray, TraceContext& context) const {
     s.color = color_ * ray.pattern;
     s.specular =
         (type_ == PrimitiveType::metal2 ? s.color : Rgb{1, 1, 1}) * static_cast<float>(rho_);
-    s.frame = oriented.frame;
-    s.cosine = std::max(facing.cosine, kMinCosine);
-    s.alpha_u = alpha_u_;
-    s.alpha_v = alpha_v_;
+    double alpha_u = alpha_u_, alpha_v = alpha_v_;
     if (oriented.isotropic) {
         if (std::fabs(alpha_u_ - alpha_v_) > 0.001) {
             context.warnings.warn(std::string(to_string(type_)) + " \"" + name_ +
                                   "\": illegal orientation vector: along the normal");
         }
-        s.alpha_u = s.alpha_v = std::sqrt(0.5 * (alpha_u_ * alpha_u_ + alpha_v_ * alpha_v_));
+        alpha_u = alpha_v = std::sqrt(0.5 * (alpha_u_ * alpha_u_ + alpha_v_ * alpha_v_));
     }
-    s.through = ray.direction;
+    Vec3 straight = ray.direction;
     if (tau_s_ > kEpsilon && perturbed && !is_phong_hit(ray, context)) {
-        s.through = bent_through(ray.direction, ray.hit.perturbation, ray.hit.normal);
+        straight = bent_through(ray.direction, ray.hit.perturbation, ray.hit.normal);
     }
+    const double cos_o = std::max(facing.cosine, kMinCosine);
+    s.reflection = {-ray.direction, oriented.frame, alpha_u, alpha_v};
+    s.transmission = {straight, cos_o, oriented.frame, alpha_u, alpha_v};
     s.widened = !perturbed && is_flat_hit(ray, context);
     return s;
 }
 
 void Anisotropic::add_rough(Ray& ray, const Shading& s, bool reflects, bool transmits,
                             TraceContext& context) const {
-    if (reflects) add_rough_reflection(ray, s.frame, s.alpha_u, s.alpha_v, s.specular, context);
+    if (reflects) add_rough_reflection(ray, s.reflection, s.specular, context);
     if (transmits) {
         const Rgb coef = s.color * static_cast<float>(tau_s_);
-        add_rough_transmission(ray, s.frame, s.alpha_u, s.alpha_v, s.through, coef, context);
+        add_rough_transmission(ray, s.transmission, coef, context);
     }
 }
 
-Rgb Anisotropic::direct(const Shading& s, const Vec3& v, const Vec3& l, double omega,
-                        double jitter) const {
-    const double k = dot(s.frame.n, l);
-    if (k < 0 ? tau_ <= kEpsilon : tau_ >= 1 - kEpsilon) return {};
-    const double alpha2_u = s.alpha_u * s.alpha_u, alpha2_v = s.alpha_v * s.alpha_v;
+Rgb Anisotropic::direct(const Shading& s, const Vec3& wi, double omega, double jitter) const {
+    const double cos_i = dot(s.reflection.frame.n, wi);
+    if (cos_i < 0 ? tau_ <= kEpsilon : tau_ >= 1 - kEpsilon) return {};
     Rgb sum;
-    if (k > kEpsilon) {
-        if (rho_d_ > kEpsilon) sum = s.color * static_cast<float>(rho_d_ * k * omega / kPi);
+    if (cos_i > kEpsilon) {
+        if (rho_d_ > kEpsilon) sum = s.color * static_cast<float>(rho_d_ * cos_i * omega / kPi);
         if (rho_ > kEpsilon) {
-            const double e = s.widened ? light_widening(omega, jitter) : 0;
-            const double lobe = ward_reflection(l - v, s.frame, alpha2_u + e, alpha2_v + e);
-            if (lobe > kEpsilon) sum += s.specular * static_cast<float>(lobe * k * omega);
+            const double f = s.reflection.eval(wi, s.widened ? light_widening(omega, jitter) : 0);
+            if (f > kEpsilon) sum += s.specular * static_cast<float>(f * cos_i * omega);
         }
-    } else if (k < -kEpsilon) {
-        if (tau_d_ > kEpsilon) sum = s.color * static_cast<float>(tau_d_ * -k * omega / kPi);
+    } else if (cos_i < -kEpsilon) {
+        if (tau_d_ > kEpsilon) sum = s.color * static_cast<float>(tau_d_ * -cos_i * omega / kPi);
         if (tau_s_ > kEpsilon) {
-            const double e = omega / kPi;
-            const double lobe =
-                ward_transmission(l - s.through, s.frame, alpha2_u + e, alpha2_v + e) *
-                std::sqrt(-k / s.cosine);
-            if (lobe > kEpsilon) sum += s.color * static_cast<float>(tau_s_ * lobe * omega);
+            const double f_cos = s.transmission.eval(wi, omega / kPi);
+            if (f_cos > kEpsilon) sum += s.color * static_cast<float>(tau_s_ * f_cos * omega);
         }
     }
     return sum;

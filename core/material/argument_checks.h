@@ -1,5 +1,5 @@
 #pragma once
-// Checks of the arguments of materials, and colours among them.
+// Checks of the arguments that a scene file gives to a material.
 #include <cstddef>
 
 #include "core/math/rgb.h"
@@ -7,20 +7,20 @@
 
 namespace lightwalk {
 
-/// Throws `bad number of arguments for TYPE "NAME": N expected, M given` unless there are exactly
-/// `count` reals.
+/// Throws InputError `bad number of arguments for TYPE "NAME": N expected, M given` unless the
+/// primitive has exactly `count` real arguments.
 void require_exact_reals(const Primitive& primitive, std::size_t count);
-/// The same for "at least N".
+/// Throws InputError unless the primitive has at least `count` real arguments.
 void require_least_reals(const Primitive& primitive, std::size_t count);
-/// The same for string arguments.
+/// Throws InputError unless the primitive has at least `count` string arguments.
 void require_least_strings(const Primitive& primitive, std::size_t count);
-/// The same for "at most N".
+/// Throws InputError unless the primitive has at most `count` string arguments.
 void require_most_strings(const Primitive& primitive, std::size_t count);
 
-/// Throws unless an index of refraction is a positive number.
+/// Throws InputError unless `index`, an index of refraction, is a positive number.
 void require_index(const Primitive& primitive, double index);
 
-/// Real arguments first, first + 1, first + 2 as a colour.
+/// The real arguments number first, first + 1 and first + 2 as a colour.
 [[nodiscard]] inline Rgb color_argument(const Primitive& primitive, std::size_t first = 0) {
     return {static_cast<float>(primitive.reals[first]),
             static_cast<float>(primitive.reals[first + 1]),

@@ -11,7 +11,8 @@
 namespace lightwalk {
 namespace {
 
-/// Schlick's (1 - cosθ)⁵.
+/// (1 - cosθ)⁵: Schlick's approximation of what Fresnel's law adds to the reflectance at normal
+/// incidence, as a share of the rest.
 double schlick(double cosine) {
     const double x = 1 - cosine;
     const double x2 = x * x;
@@ -21,9 +22,7 @@ double schlick(double cosine) {
 /// What one hit makes of the material.
 struct Shading {
     Rgb color, specular;
-    LobeFrame frame;
-    double cosine = 1;  ///< -v . np
-    double nu = 0, nv = 0;
+    AshikhminReflection lobe;
 };
 
 class Ashikhmin final : public Modifier {
@@ -34,8 +33,7 @@ class Ashikhmin final : public Modifier {
 
   private:
     [[nodiscard]] Shading prepare(const Ray& ray, TraceContext& context) const;
-    void add_rough(Ray& ray, const Shading& s, TraceContext& context) const;
-    [[nodiscard]] Rgb direct(const Shading& s, const Vec3& v, const Vec3& l, double omega) const;
+    [[nodiscard]] Rgb direct(const Shading& s, const Vec3& wi, double omega) const;
 
     ModifierId next_;
     std::string name_;
@@ -62,14 +60,13 @@ bool Ashikhmin::shade(Ray& ray, TraceContext& context) const {
     const Shading s = prepare(ray, context);
     const bool dim = tracer.options().specular_threshold >=
                      static_cast<double>(brightness(specular_)) - kEpsilon;
-    if (active_ && !dim) add_rough(ray, s, context);
+    if (active_ && !dim) add_rough_reflection(ray, s.lobe, s.specular, context);
     if (max_component(s.color) > static_cast<float>(kEpsilon)) {
         const Rgb coef = active_ && dim ? s.color + s.specular : s.color;
-        ray.value += tracer.ambient(ray, coef, s.frame.n, context);
+        ray.value += tracer.ambient(ray, coef, s.lobe.frame.n, context);
     }
-    const Vec3 v = ray.direction;
     tracer.add_direct(
-        ray, one_by_one([&](const Vec3& l, double omega) { return direct(s, v, l, omega); }),
+        ray, one_by_one([&](const Vec3& wi, double omega) { return direct(s, wi, omega); }),
         context);
     return true;
 }
@@ -79,43 +76,25 @@ Shading Ashikhmin::prepare(const Ray& ray, TraceContext& context) const {
     const OrientedFrame oriented = orientation_.at(ray, facing.normal, context);
     Shading s;
     s.color = color_ * ray.pattern;
-    s.frame = oriented.frame;
-    s.cosine = std::max(facing.cosine, kMinCosine);
-    s.specular = specular_ + (Rgb{1, 1, 1} - specular_) * static_cast<float>(schlick(s.cosine));
-    s.nu = nu_;
-    s.nv = nv_;
+    s.lobe = {-ray.direction, std::max(facing.cosine, kMinCosine), oriented.frame, nu_, nv_};
+    s.specular = specular_ + (Rgb{1, 1, 1} - specular_) * static_cast<float>(schlick(s.lobe.cos_o));
     if (oriented.isotropic) {
         if (std::fabs(nu_ - nv_) > 0.1) {
             context.warnings.warn("ashik2 \"" + name_ +
                                   "\": illegal orientation vector: along the normal");
         }
-        s.nu = s.nv = 2 / (1 / (nu_ + 1e-5) + 1 / (nv_ + 1e-5));
+        s.lobe.nu = s.lobe.nv = 2 / (1 / (nu_ + 1e-5) + 1 / (nv_ + 1e-5));
     }
     return s;
 }
 
-void Ashikhmin::add_rough(Ray& ray, const Shading& s, TraceContext& context) const {
-    const Vec3 true_normal = ray.hit.normal;
-    const auto draw = [&](Ray& from) -> std::optional<Vec3> {
-        const double xi1 = from.random.next();
-        const double xi2 = from.random.next();
-        const std::optional<Vec3> half = sample_ashikhmin_half(s.frame, s.nu, s.nv, xi1, xi2);
-        if (!half) return std::nullopt;
-        const Vec3 l = reflect_off(from.direction, *half, 1);
-        if (dot(l, true_normal) <= kEpsilon) return std::nullopt;
-        return l;
-    };
-    const auto weight = [](const Vec3&, int) { return 1.0; };
-    add_rough_samples(ray, kSpecularReflected, s.specular, context, draw, weight, false);
-}
-
-Rgb Ashikhmin::direct(const Shading& s, const Vec3& v, const Vec3& l, double omega) const {
-    const double k = dot(s.frame.n, l);
-    if (k <= kEpsilon) return {};
-    Rgb sum = s.color * static_cast<float>(k * omega / kPi * (1 - schlick(k)));
+Rgb Ashikhmin::direct(const Shading& s, const Vec3& wi, double omega) const {
+    const double cos_i = dot(s.lobe.frame.n, wi);
+    if (cos_i <= kEpsilon) return {};
+    Rgb sum = s.color * static_cast<float>(cos_i * omega / kPi * (1 - schlick(cos_i)));
     if (active_) {
-        const double lobe = ashikhmin_reflection(l, v, s.cosine, s.frame, s.nu, s.nv);
-        if (lobe > kEpsilon) sum += s.specular * static_cast<float>(lobe * k * omega);
+        const double f = s.lobe.eval(wi);
+        if (f > kEpsilon) sum += s.specular * static_cast<float>(f * cos_i * omega);
     }
     return sum;
 }

@@ -67,9 +67,9 @@ class BrtdFunction final : public Modifier {
                                                  const Shading& s, TraceContext& context) const;
     void add_transmitted(Ray& ray, const Shading& s, TraceContext& context) const;
     void add_reflected(Ray& ray, const Shading& s, TraceContext& context) const;
-    [[nodiscard]] Rgb direct(const Ray& ray, const Shading& s, const Vec3& l, double omega,
+    [[nodiscard]] Rgb direct(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
                              TraceContext& context) const;
-    [[nodiscard]] Rgb directional(const Ray& ray, const Shading& s, const Vec3& l, double omega,
+    [[nodiscard]] Rgb directional(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
                                   TraceContext& context) const;
     void warn(TraceContext& context) const;
 
@@ -113,8 +113,8 @@ bool BrtdFunction::shade(Ray& ray, TraceContext& context) const {
     if (diffuse_reflection) ray.value += tracer.ambient(ray, s.reflected, n, context);
     if (diffuse_transmission) ray.value += tracer.ambient(ray, s.transmitted, -n, context);
     if (!diffuse_reflection && !diffuse_transmission && !directional_first_) return true;
-    tracer.add_direct(ray, one_by_one([&](const Vec3& l, double omega) {
-                          return direct(ray, s, l, omega, context);
+    tracer.add_direct(ray, one_by_one([&](const Vec3& wi, double omega) {
+                          return direct(ray, s, wi, omega, context);
                       }),
                       context);
     return true;
@@ -178,21 +178,21 @@ void BrtdFunction::add_reflected(Ray& ray, const Shading& s, TraceContext& conte
     note_mirrored(ray, child, contribution, s.flat && (!s.perturbed || ray.in(kAmbient)));
 }
 
-Rgb BrtdFunction::direct(const Ray& ray, const Shading& s, const Vec3& l, double omega,
+Rgb BrtdFunction::direct(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
                          TraceContext& context) const {
-    const double k = dot(s.variables.normal, l);
-    if (std::fabs(k) <= kEpsilon) return {};
-    const double projected = std::fabs(k) * omega;
-    Rgb sum = (k > 0 ? s.reflected : s.transmitted) * static_cast<float>(projected / kPi);
+    const double cos_i = dot(s.variables.normal, wi);
+    if (std::fabs(cos_i) <= kEpsilon) return {};
+    const double projected = std::fabs(cos_i) * omega;
+    Rgb sum = (cos_i > 0 ? s.reflected : s.transmitted) * static_cast<float>(projected / kPi);
     if (any(directional_))
-        sum += directional(ray, s, l, omega, context) * static_cast<float>(projected);
+        sum += directional(ray, s, wi, omega, context) * static_cast<float>(projected);
     return sum;
 }
 
 /// The given BRDF or BTDF [1/sr] for a light.
-Rgb BrtdFunction::directional(const Ray& ray, const Shading& s, const Vec3& l, double omega,
+Rgb BrtdFunction::directional(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
                               TraceContext& context) const {
-    const Vec3 local = binding_.to_function(l, ray, context);
+    const Vec3 local = binding_.to_function(wi, ray, context);
     const std::array<double, 4> light{local.x, local.y, local.z, omega};
     EvalState& state = binding_.begin(ray, context, &s.variables);
     Rgb f;

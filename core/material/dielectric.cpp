@@ -22,10 +22,10 @@ Rgb extinction_of(const Rgb& transmission) {
     return extinction;
 }
 
-/// One of the two media.
+/// What one of the two media does with light that crosses it.
 struct Substance {
     Rgb transmission;  ///< per unit length
-    Rgb extinction;    ///< of the same, without a pattern
+    Rgb extinction;    ///< per unit length, without a pattern
     [[nodiscard]] Rgb patterned(const Rgb& pattern) const {
         return pattern == Rgb{1, 1, 1} ? extinction : extinction_of(transmission * pattern);
     }

@@ -12,15 +12,15 @@ namespace lightwalk {
 [[nodiscard]] inline double fresnel_estimate(double cosine) {
     return std::exp(-5.85 * cosine) - 0.00287989916;
 }
-/// Specularities below this are taken for matte paint, without the estimate.
+/// Specularities below this are taken for matte paint, to which fresnel_estimate does not apply.
 inline constexpr double kMinFresnelSpecularity = 0.017999;
 
-/// Reflectances of the two polarisations.
+/// Reflectances of a boundary for the two polarisations of light.
 struct PolarizedReflectance {
     double perpendicular = 1, parallel = 1;
 };
 
-/// Fresnel's equations for a boundary.
+/// Fresnel's equations for a boundary between two transparent media.
 /// @param cos_i  cosine of incidence, >= 0
 /// @param cos_t  cosine of refraction, >= 0
 /// @param eta    index behind the boundary over index before it
@@ -30,16 +30,17 @@ struct PolarizedReflectance {
     return {s * s, p * p};
 }
 
-/// What a boundary between two media does with a ray.
+/// How a boundary between two media divides the radiance of a ray.
 struct Refraction {
     double reflectance = 1;
-    double transmittance = 0;  ///< of radiance: (1 - R) eta², eta = n_before / n_behind
+    double transmittance = 0;  ///< factor of radiance: (1 - R) eta², eta = n_before / n_behind
     double cos_t = 0;          ///< cosine of refraction
 };
 
+/// Reflection and refraction of unpolarised light at a boundary; total reflection when there is no
+/// refracted ray.
 /// @param cos_i  cosine of incidence, >= 0
 /// @param eta    index before the boundary over index behind it
-/// Unpolarised light; total reflection when there is no refracted ray.
 [[nodiscard]] inline Refraction refract(double cos_i, double eta) {
     const double cos2_t = 1 - eta * eta * (1 - cos_i * cos_i);
     if (!(cos2_t >= 1e-6) || !(eta > 0)) return {};
@@ -49,19 +50,22 @@ struct Refraction {
     return {reflectance, (1 - reflectance) * eta * eta, cos_t};
 }
 
-/// Cosine of the angle inside a pane of index `index`.
+/// Cosine to the normal, inside a pane of index `index`, of light that meets it at `cosine`.
 [[nodiscard]] inline double cosine_in_pane(double cosine, double index) {
     return std::sqrt(std::max(0.0, 1 - (1 - cosine * cosine) / (index * index)));
 }
 
-/// Transmittance of a pane with all its internal reflections, one polarisation of boundary
-/// reflectance r; `internal`: what one crossing leaves of the light.
+/// Transmittance of a pane with all its internal reflections, for one polarisation.
+/// @param r         reflectance of either boundary
+/// @param internal  what one crossing of the pane leaves of the light
 [[nodiscard]] inline double pane_transmittance(double r, double internal) {
     const double lost = 1 - r * r * internal * internal;
     return lost > 0 ? (1 - r) * (1 - r) * internal / lost : 0;
 }
 
-/// Reflectance of the same pane, both faces.
+/// Reflectance of a pane, of both boundaries with all internal reflections, for one polarisation.
+/// @param r         reflectance of either boundary
+/// @param internal  what one crossing of the pane leaves of the light
 [[nodiscard]] inline double pane_reflectance(double r, double internal) {
     const double twice = internal * internal;
     const double lost = 1 - r * r * twice;

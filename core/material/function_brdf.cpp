@@ -20,9 +20,9 @@ constexpr std::size_t kLightParameters = 4;  ///< lx, ly, lz, omega
 class LobeFunction {
   public:
     explicit LobeFunction(const ModifierBuild& build) : binding_(bind(build, table_)) {}
-    /// Value for a light in direction l (world); nothing after a numeric error.
+    /// Value for a light in direction wi (world); nothing after a numeric error.
     [[nodiscard]] std::optional<double> value(const Ray& ray, const MaterialVariables& variables,
-                                              const Vec3& l, double omega,
+                                              const Vec3& wi, double omega,
                                               TraceContext& context) const;
 
   private:
@@ -61,9 +61,9 @@ FunctionBinding LobeFunction::bind(const ModifierBuild& build,
 }
 
 std::optional<double> LobeFunction::value(const Ray& ray, const MaterialVariables& variables,
-                                          const Vec3& l, double omega,
+                                          const Vec3& wi, double omega,
                                           TraceContext& context) const {
-    const Vec3 local = binding_.to_function(l, ray, context);
+    const Vec3 local = binding_.to_function(wi, ray, context);
     // The datum comes before the light's parameters; the functions of the direction alone get those
     // only.
     std::array<double, kLightParameters + 1> arguments{0, local.x, local.y, local.z, omega};
@@ -91,7 +91,7 @@ class FunctionBrdf final : public Modifier {
     [[nodiscard]] MaterialTraits traits() const override { return {.blocks_shadow_rays = true}; }
 
   private:
-    [[nodiscard]] Rgb direct(const Ray& ray, const MaterialVariables& variables, const Vec3& l,
+    [[nodiscard]] Rgb direct(const Ray& ray, const MaterialVariables& variables, const Vec3& wi,
                              double omega, TraceContext& context) const;
 
     PrimitiveType type_;
@@ -139,25 +139,25 @@ bool FunctionBrdf::shade(Ray& ray, TraceContext& context) const {
         const Rgb coef = variables.color * static_cast<float>(tau_);
         ray.value += tracer.ambient(ray, coef, -facing.normal, context);
     }
-    tracer.add_direct(ray, one_by_one([&](const Vec3& l, double omega) {
-                          return direct(ray, variables, l, omega, context);
+    tracer.add_direct(ray, one_by_one([&](const Vec3& wi, double omega) {
+                          return direct(ray, variables, wi, omega, context);
                       }),
                       context);
     return true;
 }
 
-Rgb FunctionBrdf::direct(const Ray& ray, const MaterialVariables& variables, const Vec3& l,
+Rgb FunctionBrdf::direct(const Ray& ray, const MaterialVariables& variables, const Vec3& wi,
                          double omega, TraceContext& context) const {
-    const double k = dot(variables.normal, l);
-    if (std::fabs(k) <= kEpsilon) return {};
-    if (k < 0 ? tau_ <= kEpsilon : tau_ >= 1 - kEpsilon) return {};
-    const double diffuse = k > 0 ? rho_d_ : tau_d_;
-    const double specular = k > 0 ? rho_ : tau_s_;
-    const double projected = std::fabs(k) * omega;
+    const double cos_i = dot(variables.normal, wi);
+    if (std::fabs(cos_i) <= kEpsilon) return {};
+    if (cos_i < 0 ? tau_ <= kEpsilon : tau_ >= 1 - kEpsilon) return {};
+    const double diffuse = cos_i > 0 ? rho_d_ : tau_d_;
+    const double specular = cos_i > 0 ? rho_ : tau_s_;
+    const double projected = std::fabs(cos_i) * omega;
     Rgb sum;
     if (diffuse > kEpsilon) sum = variables.color * static_cast<float>(diffuse * projected / kPi);
     if (specular <= kEpsilon) return sum;
-    const std::optional<double> lobe = lobe_.value(ray, variables, l, omega, context);
+    const std::optional<double> lobe = lobe_.value(ray, variables, wi, omega, context);
     if (!lobe) {
         context.warnings.warn(std::string(to_string(type_)) + " \"" + name_ +
                               "\": its distribution cannot be computed here");
@@ -165,7 +165,7 @@ Rgb FunctionBrdf::direct(const Ray& ray, const MaterialVariables& variables, con
     }
     if (*lobe > kEpsilon) {
         const auto share = static_cast<float>(*lobe * specular * projected);
-        const bool colored = k > 0 ? colored_reflection_ : colored_transmission_;
+        const bool colored = cos_i > 0 ? colored_reflection_ : colored_transmission_;
         sum += colored ? variables.color * share : Rgb::grey(share);
     }
     return sum;

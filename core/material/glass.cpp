@@ -12,7 +12,7 @@ namespace lightwalk {
 namespace {
 
 constexpr double kUsualIndex = 1.52;
-constexpr double kNormalReflectance = 0.08;  ///< of a pane of it, both sides together
+constexpr double kNormalReflectance = 0.08;  ///< of a pane of the usual index, both sides
 constexpr double kDarkest = 1e-15;  ///< transmissivity of a channel of a pane that transmits at all
 
 class Glass final : public Modifier {

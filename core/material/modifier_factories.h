@@ -1,12 +1,12 @@
 #pragma once
-// Who compiles which modifier: the textures, patterns, mixtures and materials of
-// core/model/primitive_types.def, handed to a Scene.
+// Which function makes the modifiers of which type: textures, patterns, mixtures and materials, as
+// core/model/primitive_types.def lists them. A Scene is given this function when it is built.
 #include "core/scene/modifier.h"
 
 namespace lightwalk {
 
-/// The factory for a type; null for surfaces, aliases, and types that are recognised and refused
-/// (WGMDfunc, BSDF, aBSDF, spectra).
+/// The factory for modifiers of a type; null for surfaces, aliases, and types that are recognised
+/// and refused (WGMDfunc, BSDF, aBSDF, spectra).
 [[nodiscard]] ModifierFactory modifier_factory(PrimitiveType type);
 
 }  // namespace lightwalk

@@ -17,8 +17,7 @@ FunctionBinding bind(const ModifierBuild& build) {
 OrientedFrame orient(const Vec3& along, const Vec3& n) {
     const Vec3 across = cross(n, along);
     if (!(length_squared(across) > 0)) {
-        const Vec3 u = perpendicular(n);
-        return {{u, cross(n, u), n}, true};
+        return {frame_about(n), true};
     }
     const Vec3 v = normalize(across);
     return {{cross(v, n), v, n}, false};

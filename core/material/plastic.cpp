@@ -22,7 +22,7 @@ struct Shading {
     Rgb color;     ///< material times pattern
     Rgb specular;  ///< colour of the reflected lobe
     PerturbedNormal facing;
-    Vec3 through;                          ///< direction of specular transmission
+    Vec3 straight;                         ///< direction of specular transmission
     double rho = 0, rho_d = 0;             ///< specular and diffuse reflectance
     double tau = 0, tau_s = 0, tau_d = 0;  ///< transmittance, its specular and diffuse parts
     bool perturbed = false, flat = false;
@@ -43,9 +43,9 @@ class Plastic final : public Modifier {
     void add_mirrored(Ray& ray, const Shading& s, TraceContext& context) const;
     void add_rough(Ray& ray, const Shading& s, TraceContext& context) const;
     void add_ambient(Ray& ray, const Shading& s, TraceContext& context) const;
-    void direct(const Shading& s, const Vec3& v, double jitter, const LightSamples& lights,
+    void direct(const Shading& s, const Vec3& wo, double jitter, const LightSamples& lights,
                 std::span<Rgb> k) const;
-    void add_lobes(const Shading& s, const Vec3& v, double jitter, double cosine, const Vec3& l,
+    void add_lobes(const Shading& s, const Vec3& wo, double jitter, double cos_i, const Vec3& wi,
                    double omega, Rgb& sum) const;
 
     PrimitiveType type_;
@@ -102,9 +102,10 @@ bool Plastic::shade(Ray& ray, TraceContext& context) const {
     }
     add_ambient(ray, s, context);
     const double jitter = context.tracer.options().source_jitter;
-    const Vec3 v = ray.direction;
+    const Vec3 wo = -ray.direction;
     context.tracer.add_direct(
-        ray, [&](const LightSamples& lights, std::span<Rgb> k) { direct(s, v, jitter, lights, k); },
+        ray,
+        [&](const LightSamples& lights, std::span<Rgb> k) { direct(s, wo, jitter, lights, k); },
         context, s.tau <= kEpsilon ? &s.facing.normal : nullptr);
     return true;
 }
@@ -117,10 +118,10 @@ Shading Plastic::prepare(const Ray& ray, const TraceContext& context) const {
     s.facing = textured_normal(ray, s.perturbed);
     s.facing.cosine = std::max(s.facing.cosine, kMinCosine);
     set_shares(s, context.tracer.options());
-    s.through = ray.direction;
+    s.straight = ray.direction;
     if (s.tau_s > kEpsilon && s.perturbed && !ray.in(kShadow | kAmbient) &&
         !is_phong_hit(ray, context)) {
-        s.through = bent_through(ray.direction, ray.hit.perturbation, ray.hit.normal);
+        s.straight = bent_through(ray.direction, ray.hit.perturbation, ray.hit.normal);
     }
     return s;
 }
@@ -158,7 +159,7 @@ void Plastic::add_straight(Ray& ray, const Shading& s, TraceContext& context) co
     const Rgb coef = s.color * static_cast<float>(s.tau_s);
     Ray child;
     if (!context.tracer.spawn(child, kTransferred, ray, &coef)) return;
-    child.direction = s.through;
+    child.direction = s.straight;
     context.tracer.trace(child, context);
     Tracer::accumulate(ray, child);
     if (s.tau_s >= 1 - kEpsilon) {  // as if it were not there
@@ -186,12 +187,14 @@ void Plastic::add_rough(Ray& ray, const Shading& s, TraceContext& context) const
     const bool reflects = s.rho > kEpsilon && !s.dim_reflection;
     const bool transmits = s.tau_s > kEpsilon && !s.dim_transmission;
     if (!reflects && !transmits) return;
-    const Vec3 u = perpendicular(s.facing.normal);
-    const LobeFrame frame{u, cross(s.facing.normal, u), s.facing.normal};
-    if (reflects) add_rough_reflection(ray, frame, alpha_, alpha_, s.specular, context);
+    const LobeFrame frame = frame_about(s.facing.normal);
+    if (reflects) {
+        const WardReflection lobe{-ray.direction, frame, alpha_, alpha_};
+        add_rough_reflection(ray, lobe, s.specular, context);
+    }
     if (transmits) {
-        const Rgb coef = s.color * static_cast<float>(s.tau_s);
-        add_rough_transmission(ray, frame, alpha_, alpha_, s.through, coef, context);
+        const WardTransmission lobe{s.straight, s.facing.cosine, frame, alpha_, alpha_};
+        add_rough_transmission(ray, lobe, s.color * static_cast<float>(s.tau_s), context);
     }
 }
 
@@ -207,8 +210,8 @@ void Plastic::add_ambient(Ray& ray, const Shading& s, TraceContext& context) con
     }
 }
 
-/// The diffuse light on both sides, then the lobes where a light meets them.
-void Plastic::direct(const Shading& s, const Vec3& v, double jitter, const LightSamples& lights,
+/// What each light brings, f cosθ ω: diffusely on both sides, then by the rough lobes.
+void Plastic::direct(const Shading& s, const Vec3& wo, double jitter, const LightSamples& lights,
                      std::span<Rgb> k) const {
     constexpr std::size_t kTogether = 16;
     const Vec3 n = s.facing.normal;
@@ -233,23 +236,24 @@ void Plastic::direct(const Shading& s, const Vec3& v, double jitter, const Light
         for (std::size_t i = 0; i < count; ++i) {
             k[first + i] = diffuse[i] > 0 ? s.color * diffuse[i] : Rgb{};
             if (!pure_)
-                add_lobes(s, v, jitter, cosine[i], {x[i], y[i], z[i]}, omega[i], k[first + i]);
+                add_lobes(s, wo, jitter, cosine[i], {x[i], y[i], z[i]}, omega[i], k[first + i]);
         }
     }
 }
 
-/// A light's share of the rough lobes, cos: of its angle.
-void Plastic::add_lobes(const Shading& s, const Vec3& v, double jitter, double cosine,
-                        const Vec3& l, double omega, Rgb& sum) const {
-    if (cosine > kEpsilon && s.tau < 1 - kEpsilon && s.rho > kEpsilon) {
+/// Add what the rough lobe on the light's side brings. Of equal slopes all round, lobes are
+/// evaluated without their tangents.
+void Plastic::add_lobes(const Shading& s, const Vec3& wo, double jitter, double cos_i,
+                        const Vec3& wi, double omega, Rgb& sum) const {
+    if (cos_i > kEpsilon && s.tau < 1 - kEpsilon && s.rho > kEpsilon) {
         const double widening = s.flat && !s.perturbed ? light_widening(omega, jitter) : 0;
-        const double lobe = ward_reflection(l - v, s.facing.normal, alpha2_ + widening);
-        if (lobe > kEpsilon) sum += s.specular * static_cast<float>(lobe * cosine * omega);
-    } else if (cosine < -kEpsilon && s.tau > kEpsilon && s.tau_s > kEpsilon) {
-        const double lobe = ward_transmission(s.through, l, alpha2_ + omega / kPi);
+        const double f = ward_reflection(wi + wo, s.facing.normal, alpha2_ + widening);
+        if (f > kEpsilon) sum += s.specular * static_cast<float>(f * cos_i * omega);
+    } else if (cos_i < -kEpsilon && s.tau > kEpsilon && s.tau_s > kEpsilon) {
+        const double lobe = ward_transmission(s.straight, wi, alpha2_ + omega / kPi);
         if (lobe > kEpsilon) {
-            sum += s.color * static_cast<float>(s.tau_s * lobe * omega *
-                                                std::sqrt(-cosine / s.facing.cosine));
+            sum += s.color *
+                   static_cast<float>(s.tau_s * lobe * omega * std::sqrt(-cos_i / s.facing.cosine));
         }
     }
 }

@@ -12,7 +12,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kExpressions = 4;  ///< of one branch: coefficient and direction
+constexpr std::size_t kExpressions = 4;  ///< in each branch: coefficient and direction
 
 class Prism final : public Modifier, public RedirectingModifier {
   public:

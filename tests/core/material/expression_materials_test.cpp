@@ -126,7 +126,7 @@ TEST_CASE("a brush along the normal is reported and replaced by its mean slope")
 TEST_CASE("ashik2: base and lobe under one lamp") {
     const double s = std::sqrt(0.5), schlick = std::pow(1 - s, 5);
     const LobeFrame frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const double lobe = ashikhmin_reflection({0, 0, 1}, {-s, 0, -s}, s, frame, 4, 9);
+    const double lobe = AshikhminReflection{{s, 0, s}, s, frame, 4, 9}.eval({0, 0, 1});
     const double specular = 0.1 + 0.9 * schlick;
     CHECK(relative_error(floor_value("void ashik2 m 4 1 0 0 . 0 8 .5 .5 .5 .1 .1 .1 4 9\n"),
                          (0.5 / kPi + specular * lobe) * 100 * kOmega) < kFloatRounding);
