@@ -1,6 +1,7 @@
 #pragma once
 // What is seen from a surface point: stratified samples of its hemisphere, and the change of their
 // sum with place and tilt.
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,6 +50,9 @@ struct Hemisphere {
         return cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(divisions) +
                      static_cast<std::size_t>(j)];
     }
+    /// Density over solid angle [1/sr] of a sample of any cell: cosθ / π. That of a given cell has
+    /// n² times as much in its own share of the hemisphere.
+    [[nodiscard]] double pdf(const Vec3& wi) const { return std::max(0.0, dot(normal, wi)) / kPi; }
     [[nodiscard]] bool complete() const { return succeeded == divisions * divisions; }
 };
 

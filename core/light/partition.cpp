@@ -87,7 +87,13 @@ class CylinderPartition {
     SourceParts& parts_;
 };
 
-/// Squeeze a position in the sampling box of a round source to its circle or sphere.
+/// Whether samples of a round source fill its disk or ball; single ones that are jittered less
+/// stay in the sampling box.
+bool is_squeezed(const LightSource& source, int parts, double jitter) {
+    return source.round && (parts > 1 || jitter > kFullJitter);
+}
+
+/// Squeeze a position in the sampling box of a round source to its disk or ball.
 Vec3 squeeze(const LightSource& source, const Vec3& a) {
     if (source.flat || source.distant) {
         return {a.x * kSquareToDisk * std::sqrt(1 - 0.5 * a.y * a.y),
@@ -97,6 +103,35 @@ Vec3 squeeze(const LightSource& source, const Vec3& a) {
     if (squared <= 0) return {};
     const double longest = std::max(std::abs(a.x), std::max(std::abs(a.y), std::abs(a.z)));
     return a * (longest / (kSphereBox * std::sqrt(squared)));
+}
+
+/// A position before it was squeezed, and how much denser squeezing has made the samples there.
+struct Unsqueezed {
+    Vec3 position;
+    double denser = 1;
+};
+
+/// Inverse of the elliptical map of a square to a disk. Source: Fong, "Analytical Methods for
+/// Squaring the Disc", 2015. Its Jacobian: (1 - x²/2 - y²/2) / sqrt((1 - x²/2) (1 - y²/2)).
+Unsqueezed unsqueeze_disk(const Vec3& squeezed) {
+    const double u = squeezed.x / kSquareToDisk, v = squeezed.y / kSquareToDisk;
+    const double twice = 2 * std::sqrt(2.0), difference = u * u - v * v;
+    const auto root = [](double square) { return std::sqrt(std::max(0.0, square)); };
+    const double x = 0.5 * (root(2 + difference + twice * u) - root(2 + difference - twice * u));
+    const double y = 0.5 * (root(2 - difference + twice * v) - root(2 - difference - twice * v));
+    const double less_x = 1 - 0.5 * x * x, less_y = 1 - 0.5 * y * y;
+    return {{x, y, 0},
+            std::sqrt(less_x * less_y) / ((less_x + less_y - 1) * kSquareToDisk * kSquareToDisk)};
+}
+
+/// Cubic shells are squeezed to spherical ones: each direction is scaled by its own factor.
+Unsqueezed unsqueeze_ball(const Vec3& squeezed) {
+    const double size = length(squeezed);
+    if (!(size > 0)) return {};
+    const double longest =
+        std::max(std::abs(squeezed.x), std::max(std::abs(squeezed.y), std::abs(squeezed.z)));
+    const double scale = kSphereBox * size / longest;
+    return {squeezed * scale, scale * scale * scale};
 }
 
 }  // namespace
@@ -129,7 +164,22 @@ Vec3 position_in_box(const LightSource& source, const SourcePart& part, int part
         for (std::size_t i = 0; i < axes; ++i)
             a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
     }
-    return source.round && (parts > 1 || jitter > kFullJitter) ? squeeze(source, a) : a;
+    return is_squeezed(source, parts, jitter) ? squeeze(source, a) : a;
+}
+
+double position_pdf(const LightSource& source, const SourcePart& part, int parts, double jitter,
+                    const Vec3& position) {
+    const bool plane = source.flat || source.distant;
+    Unsqueezed at{position, 1};
+    if (is_squeezed(source, parts, jitter))
+        at = plane ? unsqueeze_disk(position) : unsqueeze_ball(position);
+    double pdf = at.denser;
+    for (std::size_t i = 0; i < (plane ? 2 : 3); ++i) {
+        const double reach = jitter * part.size[i];
+        if (!(std::abs(at.position[i] - part.center[i]) <= reach)) return 0;
+        pdf /= 2 * reach;
+    }
+    return pdf;
 }
 
 Partition::Partition(const LightSource& source)
