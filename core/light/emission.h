@@ -6,9 +6,9 @@
 
 namespace lightwalk {
 
-/// Mean brightness of the radiance that each source sends into a few directions where it has
-/// patterns, else of its material's [W/(m² sr)]. Above 0, but for virtual and unusable sources,
-/// which are not asked.
+/// Brightness of each source [W/(m² sr)]: where it has patterns, the mean of the radiance Le that
+/// it sends into a few directions, else that of its material. Above 0; 0 for virtual and unusable
+/// sources, which are not measured.
 [[nodiscard]] std::vector<float> mean_emissions(const LightSources& lights, const Tracer& tracer);
 
 }  // namespace lightwalk

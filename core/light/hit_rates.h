@@ -8,15 +8,15 @@
 
 namespace lightwalk {
 
-/// One candidate of a measured point.
+/// What one light sample brings to a point where visibility is measured. Both figures are shares of
+/// the direct light that the point would have without shadows.
 struct MeasuredCandidate {
     std::int32_t source = 0;
-    float brightness =
-        0;  ///< of its unshadowed contribution, as a share of the point's unshadowed direct light
-    float arriving = 0;  ///< what shadows and transparent surfaces leave of that
+    float brightness = 0;  ///< contribution without shadows
+    float arriving = 0;    ///< contribution that shadows and transparent surfaces leave
 };
 
-/// All candidates of one point, brightest first.
+/// All light samples of one measured point, brightest first.
 using MeasuredPoint = std::vector<MeasuredCandidate>;
 
 /// The hit rate of each source for which the shares of light that -dt leaves untested come out
@@ -27,9 +27,10 @@ using MeasuredPoint = std::vector<MeasuredCandidate>;
                                                std::size_t sources, double certainty,
                                                double threshold);
 
-/// Points where light arrives, found by following light from the sources over a few diffuse bounces
-/// with seeded random numbers; every source is tested from each. A bounded number of rays, some ten
-/// thousand. Empty when -dt never leaves anything untested: then the rates do not matter.
+/// The hit rate of each source, fitted to points where light arrives: these are found by following
+/// light from the sources over a few diffuse bounces with seeded random numbers, and every source
+/// is tested from each. Traces a bounded number of rays, some ten thousand. Returns nothing when
+/// -dt never leaves anything untested: then the rates do not matter.
 [[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
                                                    WarningSink& warnings,
                                                    const TaskRunner& task_runner);

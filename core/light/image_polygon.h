@@ -10,7 +10,7 @@ struct ImagePoint {
     double x = 0, y = 0;
 };
 
-/// Up to kMax corners in order; x to the right, y up.
+/// A polygon in the picture plane: up to kMax corners in order, x to the right, y up.
 class ImagePolygon {
   public:
     static constexpr std::size_t kMax = 16;
@@ -22,19 +22,20 @@ class ImagePolygon {
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] const ImagePoint& operator[](std::size_t i) const { return corner_[i % count_]; }
     [[nodiscard]] double area() const;
-    /// Average of the corners.
+    /// The average of the corners.
     [[nodiscard]] ImagePoint center() const;
-    /// The least over all edges of the largest distance of a corner from the edge's line.
+    /// The polygon's width where it is narrowest: the largest distance of a corner from the line of
+    /// an edge, for the edge where that is least.
     /// @param y_scale  how much longer a unit of y is than one of x
     [[nodiscard]] double width(double y_scale) const;
-    /// Drop the corners that the others' outline holds already.
+    /// Make the polygon its convex hull: drop the corners that lie inside.
     void make_convex();
     /// The part inside [x0, x0 + 1] x [y0, y0 + 1]. Source: Sutherland & Hodgman, "Reentrant
     /// polygon clipping", CACM 17 (1974).
     [[nodiscard]] ImagePolygon clip_to_cell(int x0, int y0) const;
 
   private:
-    /// Keep what is on the lower (keep_below) or upper side of the coordinate `limit`.
+    /// The part on one side of a line where a coordinate is `limit`: below it, or above.
     [[nodiscard]] ImagePolygon clip(double ImagePoint::*axis, double limit, bool keep_below) const;
 
     std::array<ImagePoint, kMax> corner_;

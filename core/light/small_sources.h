@@ -9,11 +9,11 @@
 
 namespace lightwalk {
 
-/// What a small source brings to one pixel.
+/// What a small light source brings to one pixel.
 struct SourcePixel {
     int x = 0, y = 0;     ///< y from the bottom
     float coverage = 0;   ///< share of the pixel that it covers
-    Rgb radiance;         ///< of the source as seen through the scene [W/(m² sr)]
+    Rgb radiance;         ///< what arrives from the source through the scene [W/(m² sr)]
     double distance = 0;  ///< along the ray [m]
 };
 
@@ -22,14 +22,14 @@ struct SourcePixel {
 /// pixel shows sets the distance. Source: behaviour of Radiance's rpict.
 void blend_source(const SourcePixel& source, Rgb& pixel, float* distance);
 
-/// The sources that a picture has to draw, as rpict selects them: whole inside the picture, facing
-/// the eye, no illums, narrower than the spacing of the traced pixels. Immutable; draw() may be
-/// called from many threads.
+/// The light sources that a picture has to draw because the rays of its pixels may miss them. They
+/// are selected as rpict does it: whole inside the picture, facing the eye, no illums, narrower
+/// than the spacing of the traced pixels. Immutable; draw() may be called from many threads.
 class SmallSources {
   public:
-    /// @param spacing  -ps: distance of the pixels that are traced in any case [pixels]
     /// Selects nothing with -dv-. Not for pictures with a lens (-pd) or motion blur. The arguments
-    /// must outlive this.
+    /// must outlive this object.
+    /// @param spacing  -ps: distance of the pixels that are traced in any case [pixels]
     SmallSources(const Tracer& tracer, const Camera& camera, int width, int height, int spacing);
 
     [[nodiscard]] bool empty() const { return outlines_.empty(); }

@@ -1,6 +1,6 @@
 #pragma once
-// What one point sees of all light sources: an array a number, so that they are looked at side by
-// side.
+// Samples of all light sources from one point. Everything is kept as a structure of arrays, so that
+// SIMD instructions treat several sources at a time.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,16 +10,17 @@
 
 namespace lightwalk {
 
-/// How source boxes lie to a point.
+/// Where the sampling boxes of all sources lie as seen from one point.
 class SourceViews {
   public:
-    /// The way to the centre [m]; to distant ones, the direction.
+    /// The vector from the point to the centre of source i [m]; of a distant source, its direction.
     [[nodiscard]] Vec3 way(std::size_t i) const { return {row(kX)[i], row(kY)[i], row(kZ)[i]}; }
-    /// Whether all of it is behind the front.
+    /// Whether all of source i lies behind the surface of the point.
     [[nodiscard]] bool is_behind(std::size_t i) const { return row(kHeight)[i] < 0; }
-    /// Whether it is flat and turns away.
+    /// Whether source i is flat and turns its back to the point.
     [[nodiscard]] bool turns_away(std::size_t i) const { return !(row(kFacing)[i] > 0); }
-    /// Whether it is so far that it is not divided. May be false though it is.
+    /// Whether source i is so far that Partition does not divide it. Conservative: true implies
+    /// that it is not divided.
     [[nodiscard]] bool is_far(std::size_t i) const { return row(kMargin)[i] > 0; }
 
   private:
@@ -30,7 +31,7 @@ class SourceViews {
     std::vector<double> rows_;
 };
 
-/// Samples of sources from one point.
+/// Samples of light sources from one point: add() all parts, then sample() them together.
 class SourceSamples {
     friend class SourceBoxes;
 
@@ -38,13 +39,13 @@ class SourceSamples {
     void clear() { count_ = 0; }
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Add one of the `parts` parts that a source has from `point`.
-    /// @param index  of the source, for who reads the sample
+    /// @param index  the source's index into the list of sources, which source() returns
     void add(const LightSource& source, std::int32_t index, const SourcePart& part, int parts,
              const Vec3& point, double jitter, RandomStream& random);
-    /// Sample what was added. Parts that turn away, are out of reach, or are seen from outside
-    /// their source's spot go.
-    /// @param sources  all, by index
-    /// @param point    that of add()
+    /// Sample all parts that were added. Parts that turn away, are out of reach, or are seen from
+    /// outside their source's spot are dropped.
+    /// @param sources  the list of sources
+    /// @param point    the point that was given to add()
     void sample(std::span<const LightSource> sources, const Vec3& point);
     /// Drop the samples of which `keep(i)` is false; the others move up.
     template <class Keep>
@@ -64,9 +65,9 @@ class SourceSamples {
     }
 
   private:
-    // What is known of a sample, one row of numbers each: first the way to the place that is
-    // sampled, then the direction there; how far it is; the part's share of the source; what the
-    // solid angle of a flat source depends on.
+    // The rows of numbers that are kept for the samples. kX to kZ are the vector to the sampled
+    // position until sample() makes it a direction; kShare is the part's share of its source; the
+    // rows from kNormalX on are what the solid angle of a flat source depends on.
     enum Row {
         kX,
         kY,
@@ -82,7 +83,7 @@ class SourceSamples {
         kReach,
         kRows
     };
-    /// The number of the next sample, for which there is room.
+    /// Make room for one more sample, and return its number.
     [[nodiscard]] std::size_t next() {
         if (count_ == capacity_) grow();
         return count_++;
@@ -98,26 +99,28 @@ class SourceSamples {
     std::vector<std::int32_t> sources_;
 };
 
-/// The boxes in which sources are sampled, an array a number: what a point needs to know of each
-/// before it is sampled.
+/// The sampling boxes of light sources, as a structure of arrays: what a point needs to know of
+/// each source before it is sampled.
 class SourceBoxes {
   public:
     SourceBoxes() = default;
-    /// Of those of the `sources` that `which` names.
+    /// The boxes of those `sources` whose indices are in `which`.
     SourceBoxes(std::span<const LightSource> sources, std::span<const std::int32_t> which);
 
-    /// Find out how they lie to a point.
-    /// @param front    only what lies on this side counts; null: on both
+    /// Find out where all boxes lie as seen from a point.
+    /// @param front  normal of the point's surface when it sees light on that side only; else null
     /// @param size_over_distance  as Partition takes it
     void look(const Vec3& point, const Vec3* front, double size_over_distance,
               SourceViews& out) const;
-    /// The sources' worth, which is not known when the boxes are made.
+    /// Copy LightSource::worth of all sources, which is not known when the boxes are made.
     void set_worths(std::span<const LightSource> sources, std::span<const std::int32_t> which);
-    /// About what each sends to the point, as `views` shows it: worth times solid angle, times the
-    /// cosine at the point if it is one-sided; rather too much where a source is near. 0: nothing.
-    /// @param sizes  out: one a source
+    /// Estimate what each source sends to the point of `views`: worth times solid angle, times the
+    /// cosine at the point if it is one-sided; rather too much where a source is near, 0 where it
+    /// sends nothing.
+    /// @param sizes  out: one for each source
     void rate(const SourceViews& views, bool one_sided, std::span<float> sizes) const;
-    /// Add the whole of box i, of source `index`, as `views` shows it.
+    /// Add box i, which is that of source `index`, to the samples of the point of `views`,
+    /// undivided and without jitter.
     void add_whole(std::size_t i, std::int32_t index, const SourceViews& views,
                    SourceSamples& samples) const;
 
@@ -129,12 +132,12 @@ class SourceBoxes {
         kW = kV + 3,
         kNormal = kW + 3,
         kLocal = kNormal + 3,  ///< 0 at infinity, else 1
-        kFlat,                 ///< 1: they have to face the point
-        kLongest,              ///< half axis that is divided, squared [m²]
+        kFlat,                 ///< 1 for sources that have to face the point, else 0
+        kLongest,              ///< square of the longer half axis, where it is divided [m²]
         kArea,
         kBehind,
         kReach,
-        kRadius,  ///< the longer half axis of local ones [m]
+        kRadius,  ///< the longer half axis of local sources [m], 0 at infinity
         kWorth,   ///< LightSource::worth
         kRows
     };

@@ -1,5 +1,5 @@
 #pragma once
-// From surfaces with light materials to sampling records.
+// Makes the list of light sources from the surfaces of a scene that have light materials.
 #include <vector>
 
 #include "core/light/light_source.h"

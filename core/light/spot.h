@@ -10,7 +10,7 @@ namespace lightwalk {
 /// outside the cone or beam: then no light comes that way.
 [[nodiscard]] bool outside_spot(const SpotShape& spot, const Vec3& origin, const Vec3& direction);
 
-/// Whether a cone sends anything to the front of a flat source with this normal.
+/// Whether the cone of a flat source with this normal sends anything to the source's front.
 [[nodiscard]] bool spot_faces(const SpotShape& spot, const Vec3& normal);
 
 /// Solid angle of a cone of half angle `theta`, given its cosine: 2π(1 - cos θ) [sr].
@@ -22,6 +22,7 @@ namespace lightwalk {
 /// the focal length). Throws InputError for an angle or a direction that is zero.
 [[nodiscard]] SpotShape spot_cone(const Primitive& spotlight);
 
+/// A disk whose plane is known from elsewhere.
 struct Disk {
     Vec3 center;
     double radius_squared = 0;
