@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/options/option_rows.h"
+
 namespace lightwalk {
 
 class Transport;
@@ -22,7 +24,26 @@ int run_trace(const std::vector<std::string>& words, Transport* ranks);
 int run_freeze(const std::vector<std::string>& words, Transport* ranks);
 int run_info(const std::vector<std::string>& words, Transport* ranks);
 
-/// Help texts: of the program ("") and of each command.
-[[nodiscard]] const char* help_text(const std::string& command);
+/// The commands in With::commands.
+inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFreeze = 16,
+                          kInfo = 32;
+
+/// The options of each, with their defaults.
+[[nodiscard]] OptionTable freeze_option_table();
+[[nodiscard]] OptionTable info_option_table();
+
+struct Command {
+    const char* name;
+    const char* summary;  ///< for the program's help
+    int (*run)(const std::vector<std::string>& words, Transport* ranks);
+    OptionTable (*options)();  ///< with their defaults
+    const char* about;         ///< its help before the options
+    const char* example;       ///< its help behind the options
+};
+[[nodiscard]] std::span<const Command> commands();
+
+/// Help texts: of the program (""), of each command, and of "options": all options of all commands,
+/// as a document in Markdown.
+[[nodiscard]] std::string help_text(const std::string& command);
 
 }  // namespace lightwalk

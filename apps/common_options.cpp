@@ -10,31 +10,45 @@
 namespace lightwalk {
 namespace {
 
-ExecutorKind executor_kind(const std::string& name) {
-    if (name == "serial") return ExecutorKind::serial;
-    if (name == "threads") return ExecutorKind::threads;
-    if (name == "tbb") return ExecutorKind::tbb;
-    throw UsageError("option --executor: expected serial, threads or tbb, found \"" + name + "\"");
+CustomOption error_file(std::string& file) {
+    return {[&file](OptionWords& words) {
+        file = words.text();
+        if (file.find_first_of("=:") != std::string::npos)
+            throw UsageError(
+                "option -e: global definitions are not supported, only the name of a file for "
+                "messages");
+    }};
 }
 
-int worker_count(OptionWords& words) {
-    constexpr int kMost = 4096;
-    const int count = words.integer();
-    if (count < 1 || count > kMost) {
-        throw UsageError("option -n: expected 1 to " + std::to_string(kMost) + " threads, found " +
-                         std::to_string(count));
-    }
-    return count;
-}
-
-std::string error_file(OptionWords& words) {
-    std::string file = words.text();
-    if (file.find_first_of("=:") != std::string::npos) {
-        throw UsageError(
-            "option -e: global definitions are not supported, only the name of a file for "
-            "messages");
-    }
-    return file;
+std::vector<OptionRow> own_rows(CommonOptions& o, RenderOptions& light) {
+    constexpr const char* kThreads = "1 to 4096 threads";
+    return {
+        {"Threads, random numbers, light samples", SectionTitle{"render"}},
+        {"-n N", &o.workers, "threads |",
+         With{.least = 1, .most = 4096, .expected = kThreads, .shown = "all cores"}},
+        {"--seed N", &light.seed,
+         "random seed | other random numbers; the same seed gives the same bytes (with -ab: see "
+         "--deterministic)"},
+        {"--ambient-lights N", &light.ambient_lights,
+         "lights sampled where ambient rays arrive | where the rays of indirect light arrive, N "
+         "light samples, chosen by what they may bring, stand for all: the same mean, little more "
+         "noise; 0: all are tested",
+         With{.least = 0, .expected = "a number, 0 for all"}},
+        {"--executor WHAT",
+         choice(o.executor, {{"serial", ExecutorKind::serial},
+                             {"threads", ExecutorKind::threads},
+                             {"tbb", ExecutorKind::tbb}}),
+         "what runs the work: serial: one thread; threads: the standard library's; tbb: oneTBB"},
+        {"Messages and statistics", SectionTitle{"render"}},
+        {"-e FILE", error_file(o.error_file), "append messages to FILE"},
+        {"--stats FILE.json", &o.stats_file,
+         "seconds to read, build and render, rays by kind, rays per second, memory"},
+        {"--quiet", &o.quiet, "no progress, no warnings; -w- alone: no warnings"},
+        {"Scene", SectionTitle{"render"}},
+        {"--allow-commands", &o.allow_commands,
+         "run commands in scene files that Lightwalk does not replace by its own generators"},
+        {"--stale", &o.stale_allowed,
+         "take a frozen scene whose files have changed since it was frozen"}};
 }
 
 std::string date_line(const char* name, const std::tm& time) {
@@ -45,57 +59,32 @@ std::string date_line(const char* name, const std::tm& time) {
 
 }  // namespace
 
-bool parse_common_option(OptionWords& words, CommonOptions& options, RenderSettings& settings) {
-    const std::string& word = words.option();
-    if (word.empty() || word.front() != '-' || word == "-") {
-        options.scene_positions.push_back(words.position());
-        options.scene_files.push_back(word);
-        words.skip(1);
-    } else if (word == "-n") {
-        options.workers = worker_count(words);
-    } else if (word == "--executor") {
-        options.executor = executor_kind(words.text());
-    } else if (word == "--seed") {
-        settings.light.seed = words.unsigned_integer();
-    } else if (word == "--ambient-lights") {
-        settings.light.ambient_lights = words.integer();
-        if (settings.light.ambient_lights < 0)
-            throw UsageError("option --ambient-lights: expected a number, 0 for all");
-    } else if (word == "-e") {
-        options.error_file = error_file(words);
-    } else if (word == "--stats") {
-        options.stats_file = words.text();
-    } else if (word == "--quiet") {
-        options.quiet = true;
-        words.skip(1);
-    } else if (word == "--allow-commands") {
-        options.allow_commands = true;
-        words.skip(1);
-    } else if (word == "--stale") {
-        options.stale_allowed = true;
-        words.skip(1);
-    } else {
-        return parse_rank_option(words, options.ranks);
-    }
-    return true;
+std::vector<OptionRow> common_option_rows(CommonOptions& options, RenderSettings& settings,
+                                          bool* show_defaults) {
+    std::vector<OptionRow> rows = own_rows(options, settings.light);
+    for (OptionRow& row : rank_option_rows(options.ranks)) rows.push_back(std::move(row));
+    const Action answered{[] {}};  // by main, wherever they stand
+    rows.push_back({"Help", SectionTitle{}});
+    if (show_defaults != nullptr)
+        rows.push_back({"-defaults", show_defaults,
+                        "print all options with their values, as the words before it set them"});
+    rows.push_back({"--help", answered, "this text"});
+    rows.push_back({"--version", answered, "the version of Lightwalk"});
+    return rows;
 }
 
-void refuse_option(const OptionWords& words, std::vector<std::string> names) {
-    for (const std::string& name : common_option_names()) names.push_back(name);
-    std::string message = "unknown option " + words.option();
-    if (const std::optional<std::string> meant = nearest_name(words.option(), names)) {
-        message += ", did you mean " + *meant + "?";
+void parse_options(OptionWords& words, const OptionTable& table, CommonOptions& options,
+                   const bool& stop) {
+    while (!stop && words.at_option()) {
+        const std::string& word = words.option();
+        if (word.empty() || word.front() != '-' || word == "-") {
+            options.scene_positions.push_back(words.position());
+            options.scene_files.push_back(word);
+            words.skip(1);
+        } else if (!table.take(words)) {
+            table.refuse(words);
+        }
     }
-    throw UsageError(message);
-}
-
-std::vector<std::string> common_option_names() {
-    std::vector<std::string> names{
-        "-n",        "-e",       "--executor",       "--seed",  "--ambient-lights",
-        "--stats",   "--quiet",  "--allow-commands", "--stale", "--help",
-        "--version", "-defaults"};
-    for (std::string& name : rank_option_names()) names.push_back(std::move(name));
-    return names;
 }
 
 void resolve_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& input) {

@@ -26,16 +26,18 @@ struct CommonOptions {
     std::vector<std::size_t> scene_positions;  ///< where they stand among the expanded words
 };
 
-/// Take one of these options, or a scene's name; false when the word is something else.
-[[nodiscard]] bool parse_common_option(OptionWords& words, CommonOptions& options,
-                                       RenderSettings& settings);
+/// The rows of these options, and of those on ranks.
+/// @param show_defaults  what -defaults sets; null: the command has none
+/// All that they set must outlive the rows.
+[[nodiscard]] std::vector<OptionRow> common_option_rows(CommonOptions& options,
+                                                        RenderSettings& settings,
+                                                        bool* show_defaults);
 
-/// The word in option position is none that the command knows: throws UsageError with the nearest
-/// of `names`.
-[[noreturn]] void refuse_option(const OptionWords& words, std::vector<std::string> names);
-
-/// Names of the options above, for suggestions.
-[[nodiscard]] std::vector<std::string> common_option_names();
+/// Take the words of a command line: options, and names of scene files, which `options` collects.
+/// Throws UsageError for a word that is no option of the table, with the nearest one.
+/// @param stop  ends it when an option has set it
+void parse_options(OptionWords& words, const OptionTable& table, CommonOptions& options,
+                   const bool& stop);
 
 /// Without a scene on the command line, standard input is the scene, as for Radiance's rpict: adds
 /// "-". `taken_by`: what standard input holds for the command already, "the rays"; "" for nothing.

@@ -15,6 +15,22 @@ namespace {
 
 constexpr const char* kFreezeProgram = "lightwalk freeze";
 
+struct FreezeCommand {
+    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
+    CommonOptions common;
+    std::string output;  ///< -o
+};
+
+OptionTable table_of(FreezeCommand& c) {
+    const std::vector<OptionRow> own{
+        {"Output", SectionTitle{}},
+        {"-o FILE", &c.output,
+         "the frozen scene; a file of that name is replaced when the new one is whole"}};
+    return {{"freeze", kFreeze},
+            {own, common_option_rows(c.common, c.settings, nullptr)},
+            {"-n", "--allow-commands", "--quiet"}};
+}
+
 /// Throws UsageError unless the file may be written.
 void check_frozen_output(const std::string& output, const CommonOptions& options) {
     if (output.empty()) throw UsageError("name the frozen scene's file with -o");
@@ -27,21 +43,20 @@ void check_frozen_output(const std::string& output, const CommonOptions& options
 
 }  // namespace
 
+OptionTable freeze_option_table() {
+    return owning_table(FreezeCommand{}, table_of);
+}
+
 int run_freeze(const std::vector<std::string>& line, Transport* /*ranks*/) {
-    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
-    CommonOptions options;
-    std::string output;
+    FreezeCommand command;
+    const CommonOptions& options = command.common;
+    const std::string& output = command.output;
     OptionWords words(line);
-    while (words.at_option()) {
-        if (words.option() == "-o")
-            output = words.text();
-        else if (!parse_common_option(words, options, settings))
-            refuse_option(words, {"-o"});
-    }
+    parse_options(words, table_of(command), command.common, false);
     check_frozen_output(output, options);
     StderrWarnings warnings(kFreezeProgram);
     warnings.enable(!options.quiet);
-    resolve_scene_files(options, "", *real_files());
+    resolve_scene_files(command.common, "", *real_files());
     const auto manifest = std::make_shared<ManifestRecorder>();
     SceneSession session(options, warnings, std::make_shared<FileRecorder>(manifest));
     if (session.frozen != nullptr)

@@ -142,18 +142,30 @@ void print_ambient_file(const std::string& path) {
     if (!file.damage.empty()) std::printf("damage         %s\n", printable(file.damage).c_str());
 }
 
+struct InfoCommand {
+    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
+    CommonOptions common;
+};
+
+OptionTable table_of(InfoCommand& c) {
+    return {{"info", kInfo},
+            {render_option_rows(c.settings, LibraryPath::from_environment()),
+             common_option_rows(c.common, c.settings, nullptr)},
+            {"-dr", "-n", "-w", "--allow-commands", "--stale", "--quiet"}};
+}
+
 }  // namespace
 
+OptionTable info_option_table() {
+    return owning_table(InfoCommand{}, table_of);
+}
+
 int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
-    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
-    CommonOptions options;
+    InfoCommand command;
+    RenderSettings& settings = command.settings;
+    CommonOptions& options = command.common;
     OptionWords words(line);
-    while (words.at_option()) {
-        if (parse_common_option(words, options, settings)) continue;
-        if (!parse_render_option(words, LibraryPath::from_environment(), settings)) {
-            refuse_option(words, render_option_names());
-        }
-    }
+    parse_options(words, table_of(command), options, false);
     settings.light.shadow_threshold = 0;  // no statistics of shadows: nothing is rendered
     StderrWarnings warnings("lightwalk info");
     warnings.enable(settings.warnings && !options.quiet);

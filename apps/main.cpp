@@ -16,19 +16,11 @@
 namespace lightwalk {
 namespace {
 
-struct Command {
-    const char* name;
-    int (*run)(const std::vector<std::string>&, Transport* ranks);
-};
-constexpr Command kCommands[] = {{"render", run_render}, {"animate", run_animate},
-                                 {"walk", run_walk},     {"trace", run_trace},
-                                 {"freeze", run_freeze}, {"info", run_info}};
-
 /// --help, --version and their Radiance spellings, wherever they stand; nothing: none of them.
 bool answer_questions(const std::string& command, const std::vector<std::string>& words) {
     for (const std::string& word : words) {
         if (word == "--help" || word == "-help") {
-            std::fputs(help_text(command), stdout);
+            std::fputs(help_text(command).c_str(), stdout);
             return true;
         }
         if (word == "--version" || word == "-version") {
@@ -41,29 +33,29 @@ bool answer_questions(const std::string& command, const std::vector<std::string>
 
 int dispatch(const std::vector<std::string>& words, Transport* ranks) {
     if (words.empty()) {
-        std::fputs(help_text(""), stderr);
+        std::fputs(help_text("").c_str(), stderr);
         return kUsageStatus;
     }
     const std::string& name = words.front();
-    for (const Command& command : kCommands) {
+    for (const Command& command : commands()) {
         if (name != command.name) continue;
         const std::vector<std::string> rest(words.begin() + 1, words.end());
         return answer_questions(name, rest) ? kSuccessStatus : command.run(rest, ranks);
     }
     if (name == "help") {
-        std::fputs(help_text(words.size() > 1 ? words[1] : ""), stdout);
+        std::fputs(help_text(words.size() > 1 ? words[1] : "").c_str(), stdout);
         return kSuccessStatus;
     }
     if (answer_questions("", {name})) return kSuccessStatus;
     std::vector<std::string> names{"help"};
-    for (const Command& command : kCommands) names.emplace_back(command.name);
+    for (const Command& command : commands()) names.emplace_back(command.name);
     const std::optional<std::string> meant = nearest_name(name, names);
     throw UsageError("unknown command " + name + (meant ? ", did you mean " + *meant + "?" : ""));
 }
 
 /// How messages name the program: with its command, if there is such a command.
 std::string program_name(const std::vector<std::string>& words) {
-    for (const Command& command : kCommands) {
+    for (const Command& command : commands()) {
         if (!words.empty() && words.front() == command.name) return "lightwalk " + words.front();
     }
     return "lightwalk";

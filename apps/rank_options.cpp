@@ -7,71 +7,41 @@
 #include "parallel/ranks/mpi_module.h"
 
 namespace lightwalk {
-namespace {
-
-Variant variant_named(const std::string& name) {
-    if (name == "threads") return Variant::threads;
-    if (name == "ranks") return Variant::ranks;
-    if (name == "hybrid") return Variant::hybrid;
-    throw UsageError("option --variant: expected threads, ranks or hybrid, found \"" + name + "\"");
-}
-
-SceneFrom scene_from_named(const std::string& name) {
-    if (name == "shared") return SceneFrom::shared;
-    if (name == "each") return SceneFrom::each;
-    if (name == "rank0") return SceneFrom::rank0;
-    throw UsageError("option --scene-from: expected shared, each or rank0, found \"" + name + "\"");
-}
-
-int count_or_auto(OptionWords& words, int most) {
-    const std::string option = words.option();
-    const std::string text = words.text();
-    if (text == "auto") return 0;
-    std::size_t used = 0;
-    int count = 0;
-    try {
-        count = std::stoi(text, &used);
-    } catch (const std::exception&) {
-        used = 0;
-    }
-    if (used == 0 || used != text.size() || count < 1 || count > most) {
-        throw UsageError("option " + option + ": expected auto or a number from 1 to " +
-                         std::to_string(most) + ", found \"" + text + "\"");
-    }
-    return count;
-}
-
-}  // namespace
-
-bool parse_rank_option(OptionWords& words, RankOptions& options) {
-    constexpr int kLargestBlock = 4096, kLargestStride = 1 << 20, kMostMasters = 4096;
-    constexpr int kLargestBatch = 1 << 16;
-    const std::string& word = words.option();
-    if (word == "--variant") {
-        options.variant = variant_named(words.text());
-    } else if (word == "--scene-from") {
-        options.scene_from = scene_from_named(words.text());
-    } else if (word == "--block") {
-        options.block = count_or_auto(words, kLargestBlock);
-    } else if (word == "--stride") {
-        options.stride = count_or_auto(words, kLargestStride);
-    } else if (word == "--masters") {
-        options.masters = count_or_auto(words, kMostMasters);
-    } else if (word == "--timeline") {
-        options.timeline = words.text();
-    } else if (word == "--ambient-batch") {
-        options.ambient_batch = words.integer();
-        if (options.ambient_batch < 0 || options.ambient_batch > kLargestBatch)
-            throw UsageError("option --ambient-batch: expected a number from 0 to 65536");
-    } else {
-        return false;
-    }
-    return true;
-}
-
-std::vector<std::string> rank_option_names() {
-    return {"--variant", "--scene-from",    "--block",   "--stride",
-            "--masters", "--ambient-batch", "--timeline"};
+std::vector<OptionRow> rank_option_rows(RankOptions& o) {
+    return {
+        {"Many processes, on one machine or many: mpirun -n RANKS lightwalk ...",
+         SectionTitle{"render"}},
+        {"--variant WHICH",
+         choice(o.variant, {{"threads", Variant::threads},
+                            {"ranks", Variant::ranks},
+                            {"hybrid", Variant::hybrid}}),
+         "threads: one process, no ranks; ranks: one thread a rank, one rank is the master, with "
+         "-ab another one the ambient master; hybrid: ranks of threads (-n each), rank 0 traces "
+         "beside being the master. Without: hybrid where ranks have several threads (-n, or what "
+         "mpirun binds them to) or are too few to spare any, otherwise ranks"},
+        {"--scene-from WHO",
+         choice(o.scene_from, {{"shared", SceneFrom::shared},
+                               {"each", SceneFrom::each},
+                               {"rank0", SceneFrom::rank0}}),
+         "shared: on one machine rank 0 reads the scene, and all share its memory; on several as "
+         "each: every rank reads its own copy (a frozen scene is in memory once a machine anyway); "
+         "rank0: rank 0 reads it for all, where the others do not see its files"},
+        {"--block auto|N", &o.block,
+         "side of the blocks of pixels that are handed out; auto: follows how long they take",
+         With{.least = 1, .most = 4096, .zero = "auto"}},
+        {"--stride auto|N", &o.stride,
+         "distance of the blocks that are handed out one after the other, in blocks; auto: the "
+         "number of workers",
+         With{.least = 1, .most = 1 << 20, .zero = "auto"}},
+        {"--masters auto|N", &o.masters,
+         "number of masters: each of those below rank 0 serves a group of workers",
+         With{.least = 1, .most = 4096, .zero = "auto"}},
+        {"--ambient-batch N", &o.ambient_batch,
+         "ambient values that a worker collects before it sends them to the other ranks; 0: none "
+         "are exchanged",
+         With{.least = 0, .most = 1 << 16}},
+        {"--timeline FILE.json", &o.timeline,
+         "what every thread did when: opens in ui.perfetto.dev. --stats has the sums, by rank"}};
 }
 
 bool started_by_mpi() {

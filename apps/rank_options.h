@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/options/option_words.h"
+#include "io/options/option_rows.h"
 #include "parallel/ranks/topology.h"
 #include "parallel/ranks/transport.h"
 
@@ -28,9 +28,7 @@ struct RankOptions {
     std::string timeline;  ///< --timeline: file for the spans of all threads; "" is none
 };
 
-/// Take one of these options; false when the word is something else.
-[[nodiscard]] bool parse_rank_option(OptionWords& words, RankOptions& options);
-[[nodiscard]] std::vector<std::string> rank_option_names();
+[[nodiscard]] std::vector<OptionRow> rank_option_rows(RankOptions& options);
 
 /// Whether mpirun or srun started this process.
 [[nodiscard]] bool started_by_mpi();

@@ -1,5 +1,8 @@
 #include "apps/render_command.h"
 
+#include <utility>
+
+#include "apps/commands.h"
 #include "apps/film.h"
 #include "core/model/transform_args.h"
 #include "io/options/frame_name.h"
@@ -8,20 +11,13 @@
 namespace lightwalk {
 namespace {
 
-const std::vector<std::string> kOwnNames{
-    "-x",           "-y",         "-pa",    "-ps",       "-pt",        "-pj",
-    "-pd",          "-pm",        "-pc",    "-pRGB",     "-pXYZ",      "-o",
-    "-z",           "-S",         "-t",     "-vp",       "-vd",        "-vu",
-    "-vh",          "-vv",        "-vo",    "-va",       "-vs",        "-vl",
-    "-vf",          "-vtv",       "-vtl",   "-vtc",      "-vth",       "-vta",
-    "-vts",         "--exposure", "--tone", "--samples", "--overture", "--deterministic",
-    "--checkpoint", "--resume"};
+using Files = std::shared_ptr<FileSource>;
 
 bool parse_view(OptionWords& words, RenderCommand& command, FileSource& files) {
     const std::vector<std::string> rest = words.rest();
     std::size_t used = 0;
     try {
-        // A walk's views know nothing of each other.
+        // Each view of a walk's list is read alone, not as a change of the one before it.
         if (command.serve && words.option() == "-vf") command.view = {};
         used = parse_view_option(rest, command.view, files);
     } catch (const InputError& error) {
@@ -36,134 +32,202 @@ bool parse_view(OptionWords& words, RenderCommand& command, FileSource& files) {
     return used > 0;
 }
 
-void set_exposure(const std::string& word, ToneMapping& tone) {
-    tone.automatic = word == "auto";
-    if (!tone.automatic && !parse_real(word, tone.ev)) {
-        throw UsageError("option --exposure: expected auto or a number of stops (EV), found \"" +
-                         word + "\"");
-    }
+std::vector<OptionRow> view_rows(RenderCommand& c, const Files& files) {
+    View& v = c.view;
+    const auto parse = [&c, files](OptionWords& words) { return parse_view(words, c, *files); };
+    const CustomOption file;  // as all of these, by `parse`
+    std::vector<OptionRow> rows{
+        {"View", SectionTitle{"render"}},
+        {"-vtv|l|c|h|a|s", AttachedOption{"-vt", parse, [&v] { return std::string(1, v.type); }},
+         "view type | perspective, parallel, cylindrical, hemispherical, angular or stereographic "
+         "view"},
+        {"-vp X Y Z", &v.position, "view point [m] |"},
+        {"-vd X Y Z", &v.direction, "view direction |"},
+        {"-vu X Y Z", &v.up, "view up | direction that is up in the picture"},
+        {"-vh H", &v.horizontal,
+         "view horizontal size | horizontal size [degrees; of parallel views m]"},
+        {"-vv V", &v.vertical, "view vertical size | vertical size [degrees; of parallel views m]"},
+        {"-vo D", &v.fore, "view fore clipping [m] | nothing nearer than this is seen [m]"},
+        {"-va D", &v.aft,
+         "view aft clipping [m] | nothing farther than this is seen [m]; 0: no limit"},
+        {"-vs S", &v.shift, "view shift | shift of the picture to the right, in its widths"},
+        {"-vl L", &v.lift, "view lift | lift of the picture, in its heights"},
+        {"-vf FILE", file, "read the view from a view file or a picture",
+         With{.commands = kRender | kAnimate}},
+        {"-vf FILE", file,
+         "a view for the page's list, named as the file; repeatable. The first is where the walk "
+         "begins, and its height above the ground is that of the eyes",
+         With{.commands = kWalk}}};
+    for (OptionRow& row : rows) row.with.take = parse;
+    return rows;
 }
 
-ToneCurve tone_curve(const std::string& word) {
-    if (word != "curve" && word != "linear")
-        throw UsageError("option --tone: expected curve or linear, found \"" + word + "\"");
-    return word == "curve" ? ToneCurve::highlights : ToneCurve::linear;
+std::vector<OptionRow> pixel_rows(RenderCommand& c) {
+    PixelOptions& p = c.pixels;
+    return {
+        {"Pixels", SectionTitle{"render"}},
+        {"-x N", &c.x, "largest width [pixels] |"},
+        {"-y N", &c.y, "largest height [pixels] |"},
+        {"-pa A", &c.pixel_aspect,
+         "pixel aspect (height / width) | height / width of a pixel; 0: the picture is exactly -x "
+         "by -y",
+         With{.least = 0}},
+        {"-pj J", &p.jitter, "pixel jitter | jitter of a ray within its pixel, 0 to 1",
+         With{.least = 0, .most = 1}},
+        {"-pm M", &p.motion,
+         "pixel motion | share of the frame time that the shutter is open, for motion blur (with "
+         "-S)",
+         With{.least = 0}},
+        {"-pd D", &p.aperture,
+         "pixel depth of field (lens diameter) [m] | lens diameter, for depth of field [m]",
+         With{.least = 0}},
+        {"-ps N", &p.spacing,
+         "pixel sample spacing | trace every Nth pixel, and those between where neighbours differ; "
+         "1: every pixel",
+         With{.then = [&c] { c.spacing_given = true; }}},
+        {"-pt T", &p.threshold,
+         "pixel threshold | how much neighbours may differ (see -ps), as a share",
+         With{.least = 0}},
+        {"--samples N", &p.samples,
+         "rays a pixel | N rays in every pixel, drawn from a Gaussian of .6 pixels as of pfilt -r "
+         ".6, and averaged: edges without steps, less noise (-ps is then 1 and -pj does not count; "
+         "-z tells the distance along the ray nearest to the pixel's centre)",
+         With{.least = 1, .most = 65536}},
+        {"-S N", &c.first_frame,
+         "a picture for each view line on standard input, numbered from N; -o f%03d.hdr names them",
+         With{.least = 1,
+              .expected = "a frame number of at least 1",
+              .shown = "",
+              .commands = kRender}},
+        {"-S", RefusedOption{": say --path FILE"}, "", With{.commands = kAnimate}},
+        {"-t SECONDS", &c.report_interval,
+         "time between reports [s] | report progress in lines, so often; on a terminal there is a "
+         "progress bar unless --quiet",
+         With{.least = 0}}};
 }
 
-bool parse_pixel_option(OptionWords& words, RenderCommand& command) {
-    const std::string word = words.option();
-    if (word == "-x")
-        command.x = words.integer();
-    else if (word == "-y")
-        command.y = words.integer();
-    else if (word == "-pa")
-        command.pixel_aspect = words.real();
-    else if (word == "-ps") {
-        command.pixels.spacing = words.integer();
-        command.spacing_given = true;
-    } else if (word == "--samples")
-        command.pixels.samples = words.integer();
-    else if (word == "-pt")
-        command.pixels.threshold = words.real();
-    else if (word == "-pj")
-        command.pixels.jitter = words.real();
-    else if (word == "-pd")
-        command.pixels.aperture = words.real();
-    else if (word == "-pm")
-        command.pixels.motion = words.real();
-    else if (word == "-pRGB" || word == "-pXYZ") {
-        command.primaries.reset();
-        command.xyz = word == "-pXYZ";
-        words.skip(1);
-    } else if (word == "-pc") {
-        command.xyz = false;
-        command.primaries.emplace();
-        for (double& value : *command.primaries) value = words.real();
-    } else {
-        return false;
-    }
-    return true;
+CustomOption exposure(ToneMapping& tone) {
+    const auto take = [&tone](OptionWords& words) {
+        const std::string word = words.text();
+        tone.automatic = word == "auto";
+        if (!tone.automatic && !parse_real(word, tone.ev))
+            refuse_argument("--exposure", "auto or a number of stops (EV)", '"' + word + '"');
+    };
+    return {take, [&tone] { return tone.automatic ? "auto" : std::to_string(tone.ev); }};
 }
 
-bool parse_output_option(OptionWords& words, RenderCommand& command) {
-    const std::string word = words.option();
-    if (word == "-o")
-        command.output = words.text();
-    else if (word == "-z")
-        command.depth = words.text();
-    else if (word == "-t")
-        command.report_interval = words.real();
-    else if (word == "--exposure")
-        set_exposure(words.text(), command.tone);
-    else if (word == "--tone")
-        command.tone.curve = tone_curve(words.text());
-    else if (word == "--checkpoint")
-        command.checkpoint = words.text();
-    else if (word == "--resume") {
-        command.resume = true;
-        words.skip(1);
-    } else if (word == "--deterministic") {
-        command.deterministic = true;
-        words.skip(1);
-    } else if (word == "--overture") {
-        const std::string when = words.text();
-        if (when != "auto" && when != "off")
-            throw UsageError("option --overture: expected auto or off, found \"" + when + "\"");
-        command.prepass = when == "auto";
-    } else if (word == "-S") {
-        command.first_frame = words.integer();
-        if (command.first_frame < 1)
-            throw UsageError("option -S: expected a frame number of at least 1");
-    } else {
-        return false;
-    }
-    return true;
+CustomOption primaries(RenderCommand& c) {
+    return {[&c](OptionWords& words) {
+        c.xyz = false;
+        c.primaries.emplace();
+        for (double& value : *c.primaries) value = words.real();
+    }};
 }
 
-void refuse_foreign(const std::string& word) {
-    if (word == "-r" || word == "-ro") {
-        throw UsageError("option " + word +
-                         ": pictures are written whole or not at all, there is nothing to recover");
-    }
-    if (word == "-P" || word == "-PP")
-        throw UsageError("option " + word + ": persistent processes are not supported");
+/// What the pixels of a Radiance picture hold.
+Action channels(RenderCommand& c, bool xyz) {
+    return {[&c, xyz] {
+        c.primaries.reset();
+        c.xyz = xyz;
+    }};
 }
 
-void parse_option(OptionWords& words, const LibraryPath& library, RenderCommand& command) {
-    const std::string& word = words.option();
-    if (word == "-defaults") {
-        command.show_defaults = true;
-        return;
+std::vector<OptionRow> output_rows(RenderCommand& c) {
+    return {
+        {"Output", SectionTitle{"render"}},
+        {"-o FILE", &c.output,
+         ".hdr .pic: Radiance picture; .exr: float; .png .jpg: for the screen. Without -o a "
+         "Radiance picture goes to standard output. A file of that name is replaced when the new "
+         "one is whole",
+         With{.commands = kRender}},
+        {"-o FILE", &c.output,
+         "name of the frames' files, with %d or %04d for their numbers, from 1: frame%04d.hdr .exr "
+         ".png .jpg. Pictures for the screen are all exposed as the first one (--exposure EV: "
+         "fixed). FILE.mp4: a film, by the program ffmpeg where it is installed",
+         With{.commands = kAnimate}},
+        {"-z FILE", &c.depth,
+         "distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing "
+         "there",
+         With{.commands = kRender | kAnimate}},
+        {"-pRGB", channels(c, false), "a Radiance picture holds radiance (unless -pXYZ)"},
+        {"-pXYZ", channels(c, true), "a Radiance picture holds CIE XYZ, Y in cd/m2"},
+        {"-pc RX RY GX GY BX BY WX WY", primaries(c),
+         "CIE chromaticities of the channels and of white, as a Radiance picture's header has "
+         "them"},
+        {"--exposure auto|EV", exposure(c.tone),
+         "for .png and .jpg: average brightness, or a fixed number of stops"},
+        {"--tone CURVE",
+         choice(c.tone.curve, {{"curve", ToneCurve::highlights}, {"linear", ToneCurve::linear}}),
+         "for .png and .jpg: curve: compress what is brighter than middle grey, so that windows "
+         "and lamps keep their drawing; linear: cut off at white"}};
+}
+
+std::vector<OptionRow> run_rows(RenderCommand& c) {
+    const RefusedOption frames{": a walk's frames are kept as files, one by one"};
+    return {
+        {"Cache of indirect light, beside -af", SectionTitle{"render"}},
+        {"--overture WHEN", choice(c.prepass, {{"auto", true}, {"off", false}}),
+         "auto: with -ab fill the cache by a coarse picture first"},
+        {"--deterministic", &c.deterministic,
+         "the same bytes with any number of threads also with -ab: the cache is filled in rounds"},
+        {"Interrupted runs", SectionTitle{"render"}},
+        {"--checkpoint FILE", &c.checkpoint,
+         "keep finished blocks in FILE, at most two seconds after they are traced; with -ab, "
+         "ambient values in FILE-ambient, unless -af or --deterministic does what that is for",
+         With{.commands = kRender}},
+        {"--resume", &c.resume,
+         "with --checkpoint: a run that was killed goes on, with any number of ranks and threads",
+         With{.commands = kRender}},
+        {"--checkpoint", frames, "", With{.commands = kAnimate}},
+        {"--resume", frames, "", With{.commands = kAnimate}}};
+}
+
+std::vector<OptionRow> refused_rows() {
+    const RefusedOption whole{
+        ": pictures are written whole or not at all, there is nothing to recover"};
+    const RefusedOption file{": it is for pictures in files: say lightwalk render or animate"};
+    std::vector<OptionRow> rows{{"-r", whole}, {"-ro", whole}};
+    for (const char* name :
+         {"-o", "-z", "-S", "--checkpoint", "--resume", "--path", "--rotate", "--walk"})
+        rows.push_back({name, file, "", With{.commands = kWalk}});
+    return rows;
+}
+
+OptionTable table_of(RenderCommand& c, const Files& files) {
+    const std::vector<std::vector<OptionRow>> rows{
+        c.serve ? serve_option_rows(*c.serve, *c.walk) : std::vector<OptionRow>(),
+        c.walk ? walk_option_rows(*c.walk) : std::vector<OptionRow>(),
+        output_rows(c),
+        view_rows(c, files),
+        pixel_rows(c),
+        render_option_rows(c.settings, LibraryPath::from_environment(files)),
+        run_rows(c),
+        refused_rows(),
+        common_option_rows(c.common, c.settings, &c.show_defaults)};
+    if (c.serve) return {{c.name, kWalk}, rows, {"-vf", "--check"}};
+    if (c.walk) return {{c.name, kAnimate}, rows, {"-o"}};
+    return {{c.name, kRender}, rows};
+}
+
+OptionTable own_table(RenderCommand& c) {
+    return table_of(c, real_files());
+}
+
+/// The command before its options are known.
+RenderCommand initial_command(const std::string& name) {
+    RenderCommand command;
+    command.name = name;
+    if (name != "render") command.walk.emplace();
+    if (name == "walk") {
+        command.serve.emplace();
+        command.walk->rate = 30;
+        command.walk->cloud.check = CloudCheck::rotating;  // frames are seen for a moment only
     }
-    refuse_foreign(word);
-    if (command.serve && parse_serve_option(words, *command.serve)) return;
-    if (command.walk && parse_walk_option(words, *command.walk)) return;
-    if (parse_view(words, command, library.files()) || parse_pixel_option(words, command) ||
-        parse_output_option(words, command) ||
-        parse_render_option(words, library, command.settings) ||
-        parse_common_option(words, command.common, command.settings)) {
-        return;
-    }
-    std::vector<std::string> names = render_option_names();
-    names.insert(names.end(), kOwnNames.begin(), kOwnNames.end());
-    if (command.walk)
-        for (std::string& name : walk_option_names()) names.push_back(std::move(name));
-    if (command.serve)
-        for (std::string& name : serve_option_names()) names.push_back(std::move(name));
-    refuse_option(words, std::move(names));
+    command.settings = default_render_settings(OptionDefaults::rpict);
+    return command;
 }
 
 void check(const RenderCommand& command) {
-    const PixelOptions& p = command.pixels;
-    if (!(p.jitter >= 0) || p.jitter > 1)
-        throw UsageError("option -pj: expected a number from 0 to 1");
-    constexpr int kMostSamples = 65536;
-    if (p.samples < 1 || p.samples > kMostSamples)
-        throw UsageError("option --samples: expected a number from 1 to 65536");
-    if (p.threshold < 0 || p.aperture < 0 || p.motion < 0 || command.pixel_aspect < 0 ||
-        command.report_interval < 0) {
-        throw UsageError("options -pt, -pd, -pm, -pa and -t take no negative numbers");
-    }
     if (command.xyz && !command.output.empty() && !is_radiance_picture(command.output))
         throw UsageError("option -pXYZ: only Radiance pictures (.hdr, .pic) hold CIE XYZ");
     if (command.resume && command.checkpoint.empty())
@@ -172,11 +236,8 @@ void check(const RenderCommand& command) {
     (void)frame_name(command.depth, 0);
 }
 
-/// A walk's pictures are many, and what is kept from one to the next are points on surfaces.
-void check_walk(const RenderCommand& command) {
-    if (command.first_frame > 0) throw UsageError("option -S: say --path FILE");
-    if (!command.checkpoint.empty())
-        throw UsageError("option --checkpoint: a walk's frames are kept as files, one by one");
+/// Options of `lightwalk animate` that do not go together.
+void check_animate(const RenderCommand& command) {
     if (command.output.empty() || (!varies_by_frame(command.output) && !is_film(command.output)))
         throw UsageError(
             "name the frames' files with -o, with %d for their numbers: -o f%04d.hdr; or a film: "
@@ -187,14 +248,11 @@ void check_walk(const RenderCommand& command) {
         throw UsageError("options -pd and -pm blur what points show sharp: say --reuse off");
 }
 
-/// What is drawn for somebody who watches has no files and no end.
-void check_serve(const RenderCommand& command) {
-    if (command.first_frame > 0 || !command.checkpoint.empty() || !command.output.empty() ||
-        !command.depth.empty() || command.walk->way != WalkCommand::Way::none)
+/// Options of `lightwalk walk` that do not go together.
+void check_walk(const RenderCommand& command) {
+    if (!command.walk->reuse)
         throw UsageError(
-            "-o, -z, -S, --checkpoint, --path, --rotate and --walk are for pictures in files: say "
-            "lightwalk render or animate");
-    if (!command.walk->reuse) throw UsageError("option --reuse: a walk that is steered reuses");
+            "option --reuse: a walk in a browser cannot do without: off is for animate");
     if (command.pixels.aperture > 0 || command.pixels.motion > 0)
         throw UsageError("options -pd and -pm blur what points show sharp");
     if (command.pixels.samples > 1)
@@ -204,62 +262,28 @@ void check_serve(const RenderCommand& command) {
 }  // namespace
 
 RenderCommand parse_render_command(const std::string& name, const std::vector<std::string>& line,
-                                   const std::shared_ptr<FileSource>& files) {
-    RenderCommand command;
-    command.name = name;
-    if (name != "render") command.walk.emplace();
-    if (name == "walk") {
-        command.serve.emplace();
-        command.walk->rate = 30;
-        command.walk->cloud.check = CloudCheck::rotating;  // frames are seen for a moment only
-    }
-    command.settings = default_render_settings(OptionDefaults::rpict);
-    const LibraryPath library = LibraryPath::from_environment(files);
+                                   const Files& files) {
+    RenderCommand command = initial_command(name);
     OptionWords words(line, files);
-    while (!command.show_defaults && words.at_option()) parse_option(words, library, command);
+    parse_options(words, table_of(command, files), command.common, command.show_defaults);
     check(command);
     if (command.serve) {
-        check_serve(command);
-    } else if (command.walk && !command.show_defaults) {
         check_walk(command);
+    } else if (command.walk && !command.show_defaults) {
+        check_animate(command);
         resolve_walk(*command.walk, command.view, *files);
     }
     command.history = command_history(name, words, command.common);
     return command;
 }
 
-std::string describe(const RenderCommand& c) {
-    const View& v = c.view;
-    const auto vector_text = [](const std::string& name, const Vec3& a) {
-        return option_text(name, a.x) + option_text("", a.y) + option_text("", a.z);
-    };
-    std::string text = option_line(std::string("-vt") + v.type, "view type");
-    text += option_line(vector_text("-vp", v.position), "view point [m]");
-    text += option_line(vector_text("-vd", v.direction), "view direction");
-    text += option_line(vector_text("-vu", v.up), "view up");
-    text += option_line(option_text("-vh", v.horizontal), "view horizontal size");
-    text += option_line(option_text("-vv", v.vertical), "view vertical size");
-    text += option_line(option_text("-vo", v.fore), "view fore clipping [m]");
-    text += option_line(option_text("-va", v.aft), "view aft clipping [m]");
-    text += option_line(option_text("-vs", v.shift), "view shift");
-    text += option_line(option_text("-vl", v.lift), "view lift");
-    text += option_line(option_text("-x", c.x), "largest width [pixels]");
-    text += option_line(option_text("-y", c.y), "largest height [pixels]");
-    text += option_line(option_text("-pa", c.pixel_aspect), "pixel aspect (height / width)");
-    text += option_line(option_text("-pj", c.pixels.jitter), "pixel jitter");
-    text += option_line(option_text("-pm", c.pixels.motion), "pixel motion");
-    text += option_line(option_text("-pd", c.pixels.aperture),
-                        "pixel depth of field (lens diameter) [m]");
-    text += option_line(option_text("-ps", c.pixels.spacing), "pixel sample spacing");
-    text += option_line(option_text("-pt", c.pixels.threshold), "pixel threshold");
-    text += option_line("--samples " + std::to_string(c.pixels.samples), "rays a pixel");
-    text += option_line(option_text("-t", c.report_interval), "time between reports [s]");
-    text += describe_render_settings(c.settings);
-    text += option_line(option_text("-n", c.common.workers), "threads");
-    text += option_line("--seed " + std::to_string(c.settings.light.seed), "random seed");
-    text += option_line("--ambient-lights " + std::to_string(c.settings.light.ambient_lights),
-                        "lights sampled where ambient rays arrive");
-    return text;
+std::string describe(const RenderCommand& command) {
+    RenderCommand shown = command;
+    return own_table(shown).defaults();
+}
+
+OptionTable render_option_table(const std::string& name) {
+    return owning_table(initial_command(name), own_table);
 }
 
 }  // namespace lightwalk

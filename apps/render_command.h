@@ -49,4 +49,7 @@ struct RenderCommand {
 /// What -defaults prints: every option with its value.
 [[nodiscard]] std::string describe(const RenderCommand& command);
 
+/// The options of render, animate or walk, with their defaults.
+[[nodiscard]] OptionTable render_option_table(const std::string& name);
+
 }  // namespace lightwalk

@@ -3,69 +3,96 @@
 #include <optional>
 #include <utility>
 
+#include "apps/commands.h"
+
 namespace lightwalk {
 namespace {
 
-const std::vector<std::string> kOwnNames{"-h",  "-I",  "-ld",  "-x",  "-y",    "-fa",
-                                         "-ff", "-fd", "-fac", "-ov", "-pRGB", "-pXYZ",
-                                         "-pY", "-pA", "-te",  "-ti", "-tE",   "-tI"};
-
-bool parse_switch(OptionWords& words, TraceCommand& command) {
-    for (const auto& [name, place] :
-         {std::pair{"-h", &command.header}, std::pair{"-I", &command.sensor},
-          std::pair{"-ld", &command.limit_by_length}}) {
-        if (const std::optional<bool> value = words.toggle(name, *place)) {
-            *place = *value;
-            return true;
-        }
-    }
-    return false;
+AttachedOption formats_option(RayFormats& formats) {
+    return {"-f", [&formats](OptionWords& words) {
+                const auto named = parse_ray_formats(words.option().substr(2));
+                if (named) words.skip(1);
+                formats = named.value_or(formats);
+                return named.has_value();
+            }};
 }
 
-std::optional<ColorOutput> color_output(const std::string& word) {
-    if (word == "-pRGB") return ColorOutput::rgb;
-    if (word == "-pXYZ") return ColorOutput::xyz;
-    if (word == "-pY") return ColorOutput::luminance;
-    if (word == "-pA") return ColorOutput::mean;
-    if (word == "-pc") {
-        throw UsageError(
-            "option -pc converts to other primaries, which is not supported; the choices are "
-            "-pRGB, -pXYZ, -pY and -pA");
-    }
-    return std::nullopt;
+AttachedOption letters_option(std::string& letters) {
+    const auto take = [&letters](OptionWords& words) {
+        letters = words.option().substr(2);
+        words.skip(1);
+        return true;
+    };
+    return {"-o", take, [&letters] { return letters; }};
 }
 
-bool parse_tree_option(OptionWords& words, const LibraryPath& library, TreeSelection& tree) {
-    const std::string word = words.option();
-    if (word != "-te" && word != "-ti" && word != "-tE" && word != "-tI") return false;
+std::vector<OptionRow> record_rows(TraceCommand& c) {
+    return {{"Records", SectionTitle{}},
+            {"-oLETTERS", letters_option(c.letters),
+             "output fields | fields of a record:\n  o origin   d direction   v radiance   V "
+             "radiance times coefficient\n  w W weights\n  l distance of what is seen   L first "
+             "distance   p first point\n  c mesh coordinates\n  n shading normal   N geometric "
+             "normal   s surface   m modifier\n  M material   r mirrored part   x the rest   R X "
+             "their distances   ~ a tilde\n  t T the fields after it, for every ray that is "
+             "traced: children first, a\n      tab for each generation, -n 1. T also tells shadow "
+             "rays that reach\n      their light source unhindered\n"},
+            {"-h[+-]", &c.header, "output header | write a header before the records"},
+            {"-I[+-]", &c.sensor,
+             "rays are points and normals: irradiance | irradiance: rays are points and the "
+             "normals there"},
+            {"-ld[+-]", &c.limit_by_length, "a direction's length limits its ray |"},
+            {"-x N", &c.x, "flush interval | picture width: flush the output after N rays"},
+            {"-y N", &c.y,
+             "rows | picture height: stop after -x times -y rays; a resolution line goes before "
+             "the records"},
+            {"-fXY", formats_option(c.formats),
+             "formats of input and output: a text, f float, d double, and for output c RGBE; -fX: "
+             "both (default aa)"}};
+}
+
+std::vector<OptionRow> color_rows(TraceCommand& c) {
+    const auto color = [&c](ColorOutput output) {
+        return Action{[&c, output] { c.color = output; }};
+    };
+    return {
+        {"Colours, one of", SectionTitle{}},
+        {"-pRGB", color(ColorOutput::rgb), "radiance, red, green, blue [W/(m2 sr)] (default)"},
+        {"-pXYZ", color(ColorOutput::xyz), "CIE XYZ, Y in cd/m2"},
+        {"-pY", color(ColorOutput::luminance), "luminance [cd/m2]"},
+        {"-pA", color(ColorOutput::mean), "mean of the channels [W/(m2 sr)]"},
+        {"-pc", RefusedOption{" converts to other primaries, which is not supported; the choices "
+                              "are -pRGB, -pXYZ, -pY and -pA"}}};
+}
+
+std::vector<OptionRow> tree_rows(TreeSelection& tree, const LibraryPath& library) {
     using Kind = TreeSelection::Kind;
-    const Kind kind = word[2] == 'e' || word[2] == 'E' ? Kind::exclude : Kind::include;
-    const std::string name = words.text();
-    const bool is_file = word[2] == 'E' || word[2] == 'I';
-    tree.add(kind, is_file ? names_in_file(name, library) : std::vector<std::string>{name});
-    return true;
+    const auto one = [&tree](Kind kind) {
+        return CustomOption{[&tree, kind](OptionWords& words) { tree.add(kind, {words.text()}); }};
+    };
+    const auto file = [&tree, library](Kind kind) {
+        return CustomOption{[&tree, library, kind](OptionWords& words) {
+            tree.add(kind, names_in_file(words.text(), library));
+        }};
+    };
+    return {
+        {"Rays of trees (-ot, -oT)", SectionTitle{}},
+        {"-te MODIFIER", one(Kind::exclude), "leave out rays that meet this modifier; repeatable"},
+        {"-ti MODIFIER", one(Kind::include), "only rays that meet this modifier; repeatable"},
+        {"-tE FILE", file(Kind::exclude), "leave out rays that meet the modifiers that FILE names"},
+        {"-tI FILE", file(Kind::include), "only rays that meet the modifiers that FILE names"}};
 }
 
-bool parse_own_option(OptionWords& words, TraceCommand& command) {
-    const std::string word = words.option();
-    if (word == "-x")
-        command.x = words.integer();
-    else if (word == "-y")
-        command.y = words.integer();
-    else if (const auto formats =
-                 word.starts_with("-f") ? parse_ray_formats(word.substr(2)) : std::nullopt) {
-        command.formats = *formats;
-        words.skip(1);
-    } else if (word.starts_with("-o")) {
-        command.letters = word.substr(2);
-        words.skip(1);
-    } else if (const auto color = color_output(word)) {
-        command.color = *color;
-        words.skip(1);
-    } else {
-        return parse_switch(words, command);
-    }
-    return true;
+OptionTable table_of(TraceCommand& c, const std::shared_ptr<FileSource>& files) {
+    const LibraryPath library = LibraryPath::from_environment(files);
+    return {{"trace", kTrace},
+            {record_rows(c), color_rows(c), tree_rows(c.tree, library),
+             render_option_rows(c.settings, library),
+             common_option_rows(c.common, c.settings, &c.show_defaults)},
+            {"-i", "-n", "--seed"}};
+}
+
+OptionTable own_table(TraceCommand& c) {
+    return table_of(c, real_files());
 }
 
 }  // namespace
@@ -73,44 +100,19 @@ bool parse_own_option(OptionWords& words, TraceCommand& command) {
 TraceCommand parse_trace_command(const std::vector<std::string>& line,
                                  const std::shared_ptr<FileSource>& files) {
     TraceCommand command;
-    const LibraryPath library = LibraryPath::from_environment(files);
     OptionWords words(line, files);
-    while (words.at_option()) {
-        if (words.option() == "-defaults") {
-            command.show_defaults = true;
-            return command;
-        }
-        if (words.option() == "-P" || words.option() == "-PP") {
-            throw UsageError("option " + words.option() +
-                             ": persistent processes are not supported");
-        }
-        if (parse_own_option(words, command) || parse_tree_option(words, library, command.tree) ||
-            parse_render_option(words, library, command.settings) ||
-            parse_common_option(words, command.common, command.settings)) {
-            continue;
-        }
-        std::vector<std::string> names = render_option_names();
-        names.insert(names.end(), kOwnNames.begin(), kOwnNames.end());
-        refuse_option(words, std::move(names));
-    }
+    parse_options(words, table_of(command, files), command.common, command.show_defaults);
     command.history = command_history("trace", words, command.common);
     return command;
 }
 
-std::string describe(const TraceCommand& c) {
-    std::string text = option_line("-o" + c.letters, "output fields");
-    text += option_line(option_text("-h", c.header), "output header");
-    text += option_line(option_text("-I", c.sensor), "rays are points and normals: irradiance");
-    text +=
-        option_line(option_text("-ld", c.limit_by_length), "a direction's length limits its ray");
-    text += option_line(option_text("-x", c.x), "flush interval");
-    text += option_line(option_text("-y", c.y), "rows");
-    text += describe_render_settings(c.settings);
-    text += option_line(option_text("-n", c.common.workers), "threads");
-    text += option_line("--seed " + std::to_string(c.settings.light.seed), "random seed");
-    text += option_line("--ambient-lights " + std::to_string(c.settings.light.ambient_lights),
-                        "lights sampled where ambient rays arrive");
-    return text;
+std::string describe(const TraceCommand& command) {
+    TraceCommand shown = command;
+    return own_table(shown).defaults();
+}
+
+OptionTable trace_option_table() {
+    return owning_table(TraceCommand{}, own_table);
 }
 
 }  // namespace lightwalk

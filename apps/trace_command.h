@@ -32,4 +32,7 @@ struct TraceCommand {
 /// What -defaults prints: every option with its value.
 [[nodiscard]] std::string describe(const TraceCommand& command);
 
+/// The options of trace, with their defaults.
+[[nodiscard]] OptionTable trace_option_table();
+
 }  // namespace lightwalk

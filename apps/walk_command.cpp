@@ -1,52 +1,17 @@
 #include "apps/walk_command.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <utility>
 
+#include "apps/commands.h"
 #include "core/scene/scene.h"
 #include "io/options/view_keys.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;
-constexpr int kMostProjectors = 4096;
-
-template <class Value, std::size_t kCount>
-Value named_value(OptionWords& words,
-                  const std::array<std::pair<const char*, Value>, kCount>& values) {
-    const std::string option = words.option(), word = words.text();
-    std::string expected;
-    for (const auto& [name, value] : values) {
-        if (word == name) return value;
-        if (!expected.empty()) expected += ", ";
-        expected += name;
-    }
-    throw UsageError("option " + option + ": expected one of " + expected + ", found \"" + word +
-                     "\"");
-}
-
-double share(OptionWords& words, double most) {
-    const std::string option = words.option();
-    const double percent = words.real();
-    if (!(percent >= 0) || percent > most)
-        throw UsageError("option " + option + ": expected a percentage from 0 to " +
-                         std::to_string(static_cast<int>(most)));
-    return percent / 100;
-}
-
-double real_between(OptionWords& words, double least, double most) {
-    const std::string option = words.option();
-    const double number = words.real();
-    if (!(number >= least) || number > most) {
-        std::array<char, 64> range{};
-        std::snprintf(range.data(), range.size(), "from %g to %g", least, most);
-        throw UsageError("option " + option + ": expected a number " + range.data());
-    }
-    return number;
-}
+const With kPercentage{.least = 0, .most = 100, .divisor = kPercent};
+/// Only the pixels around a pixel are searched for points.
+const With kAroundPixel{.least = 0, .most = 1.5};
 
 void set_way(WalkCommand& walk, WalkCommand::Way way) {
     if (walk.way != WalkCommand::Way::none && walk.way != way)
@@ -54,132 +19,134 @@ void set_way(WalkCommand& walk, WalkCommand::Way way) {
     walk.way = way;
 }
 
-bool parse_way(OptionWords& words, WalkCommand& walk) {
-    const std::string word = words.option();
-    if (word == "--path") {
-        set_way(walk, WalkCommand::Way::path);
-        walk.path = words.text();
-    } else if (word == "--rotate") {
-        set_way(walk, WalkCommand::Way::rotate);
-        walk.degrees = words.real();
-    } else if (word == "--walk") {
-        set_way(walk, WalkCommand::Way::walk);
-        walk.move = named_value(
-            words,
-            std::array{std::pair{"turn", WalkMove::turn}, std::pair{"forward", WalkMove::forward},
-                       std::pair{"backward", WalkMove::backward}, std::pair{"left", WalkMove::left},
-                       std::pair{"right", WalkMove::right}});
-    } else if (word == "--step") {
-        walk.step = share(words, 100);
-    } else if (word == "--frames") {
-        walk.frames = whole_number(words, 1, kMostFrames);
-    } else if (word == "--fps") {
-        walk.rate = real_between(words, 0.1, 1000);
-    } else {
-        return false;
-    }
-    return true;
+std::vector<OptionRow> way_rows(WalkCommand& walk) {
+    using Way = WalkCommand::Way;
+    const auto chosen = [&walk](Way way) { return [&walk, way] { set_way(walk, way); }; };
+    const Choice move = choice(walk.move, {{"turn", WalkMove::turn},
+                                           {"forward", WalkMove::forward},
+                                           {"backward", WalkMove::backward},
+                                           {"left", WalkMove::left},
+                                           {"right", WalkMove::right}});
+    return {{"The walk, one of --path, --rotate and --walk", SectionTitle{"animate"}},
+            {"--path FILE", &walk.path,
+             "a file of views, one a line: \"VIEW= -vp X Y Z -vd X Y Z ...\"; what a line leaves "
+             "out is as in the line before. A number before it is its time in seconds, otherwise a "
+             "second passes. Each line is a frame; with --frames N, N of them are spread over the "
+             "time, on a smooth path through the views",
+             With{.then = chosen(Way::path), .commands = kAnimate}},
+            {"--rotate DEGREES", &walk.degrees,
+             "a turn to the right, about the view's up vector, by so much in all. Needs --frames",
+             With{.shown = "", .then = chosen(Way::rotate), .commands = kAnimate}},
+            {"--walk MOVE", move,
+             "turn, forward, backward, left or right, from the view of the command line. Needs "
+             "--frames",
+             With{.shown = "", .then = chosen(Way::walk), .commands = kAnimate}},
+            {"--step PERCENT", &walk.step,
+             "length of a step of --walk, as a share of the field of view: a turn's step is that "
+             "share of -vh; a step sideways shifts what the middle of the first picture shows by "
+             "that share of the picture's width; steps forward and backward are as long",
+             kPercentage},
+            {"--frames N", &walk.frames, "number of frames",
+             With{.least = 1, .most = 1'000'000, .shown = ""}},
+            {"--fps N", &walk.rate, "of a film: frames a second",
+             With{.least = .1, .most = 1000, .commands = kAnimate}}};
 }
 
-void set_reuse(OptionWords& words, WalkCommand& walk) {
-    enum class Reuse { off, cloud, supersaturated };
-    const Reuse reuse = named_value(
-        words, std::array{std::pair{"off", Reuse::off}, std::pair{"cloud", Reuse::cloud},
-                          std::pair{"supersaturated", Reuse::supersaturated}});
-    walk.reuse = reuse != Reuse::off;
-    walk.cloud.supersaturated = reuse == Reuse::supersaturated;
+Choice reuse_choice(WalkCommand& walk) {
+    return {{"off", "cloud", "supersaturated"},
+            [&walk](std::size_t i) {
+                walk.reuse = i > 0;
+                walk.cloud.supersaturated = i == 2;
+            },
+            [&walk] { return !walk.reuse                 ? 0U
+                             : walk.cloud.supersaturated ? 2U
+                                                         : 1U; }};
 }
 
-void set_drop(OptionWords& words, ReuseRules& rules) {
-    enum class Drop { both, hidden, lonely, none };
-    const Drop drop = named_value(
-        words, std::array{std::pair{"both", Drop::both}, std::pair{"hidden", Drop::hidden},
-                          std::pair{"lonely", Drop::lonely}, std::pair{"none", Drop::none}});
-    rules.drop_hidden = drop == Drop::both || drop == Drop::hidden;
-    rules.drop_lonely = drop == Drop::both || drop == Drop::lonely;
+Choice drop_choice(ReuseRules& rules) {
+    return {{"both", "hidden", "lonely", "none"},
+            [&rules](std::size_t i) {
+                rules.drop_hidden = i == 0 || i == 1;
+                rules.drop_lonely = i == 0 || i == 2;
+            },
+            [&rules] { return (rules.drop_hidden ? 0U : 2U) + (rules.drop_lonely ? 0U : 1U); }};
 }
 
-/// Which points answer a pixel.
-bool parse_rule(OptionWords& words, ReuseRules& rules) {
-    const std::string word = words.option();
-    constexpr double kFarthest = 1.5;  // of what the pixels beside a pixel hold
-    if (word == "--look")
-        rules.look_back =
-            named_value(words, std::array{std::pair{"back", true}, std::pair{"forward", false}});
-    else if (word == "--near")
-        rules.near = static_cast<float>(real_between(words, 0, kFarthest));
-    else if (word == "--reach")
-        rules.reach = static_cast<float>(real_between(words, 0, kFarthest));
-    else if (word == "--contrast")
-        rules.contrast = static_cast<float>(share(words, 100));
-    else if (word == "--drop")
-        set_drop(words, rules);
-    else
-        return false;
-    return true;
+std::vector<OptionRow> reuse_rows(WalkCommand& walk) {
+    CloudOptions& cloud = walk.cloud;
+    ReuseRules& rules = cloud.rules;
+    return {{"Reuse. Every traced pixel leaves a point: where its light came from, and how much. "
+             "Later\n"
+             "frames take points instead of rays wherever these are true",
+             SectionTitle{"animate"}},
+            {"--reuse WHAT", reuse_choice(walk),
+             "off: every pixel of every frame is traced; cloud: a point lasts while each frame "
+             "uses it; supersaturated: others stay, too, until they leave the view or grow old"},
+            {"--cloud-age N", &cloud.age,
+             "with --reuse supersaturated: number of frames for which an unused point is kept",
+             With{.least = 0, .most = kOldestAge - 1}},
+            {"--cloud-limit N", &cloud.limit, "at most N times as many points as pixels are kept",
+             With{.least = 2, .most = 64}},  // a pixel leaves up to two points
+            {"--check WHICH",
+             choice(cloud.check, {{"all", CloudCheck::all},
+                                  {"rotating", CloudCheck::rotating},
+                                  {"edges", CloudCheck::edges},
+                                  {"none", CloudCheck::none}}),
+             "pixels for which a ray tells what is there, so that no other thing's point shows: "
+             "all; rotating: all but those in the midst of a surface that the last frame has "
+             "shown; of these a third, another one in each frame; edges: where points are missing "
+             "or jump in depth, and the picture's rim; none"},
+            {"--drop WHICH", drop_choice(rules),
+             "which points are dropped where no ray tells what is there: hidden: those far behind "
+             "most of those around them; lonely: those far from all around them; both; none"},
+            {"--look WHERE", choice(rules.look_back, {{"back", true}, {"forward", false}}),
+             "back: a pixel takes the nearest point of what its ray meets; forward: only a point "
+             "that falls onto it"},
+            {"--near PIXELS", &rules.near,
+             "with --look back: a point this near to the pixel answers it", kAroundPixel},
+            {"--reach PIXELS", &rules.reach,
+             "with --look back: where the points around agree, one this near answers the pixel",
+             kAroundPixel},
+            {"--contrast PERCENT", &rules.contrast,
+             "with --look back: points agree when the darkest and the brightest differ by no more",
+             kPercentage},
+            {"--projectors N", &walk.projectors,
+             "number of ranks that keep points, at most; further ranks trace what is missing",
+             With{.least = 1, .most = 4096}}};
 }
 
-/// How the frames watch over themselves and their time.
-bool parse_care(OptionWords& words, CloudOptions& cloud) {
-    const std::string word = words.option();
-    constexpr double kMostMilliseconds = 1e6;
-    if (word == "--audit")
-        cloud.audit = share(words, 100);
-    else if (word == "--audit-limit")
-        cloud.audit_limit = share(words, 1000);
-    else if (word == "--budget")
-        cloud.budget = real_between(words, 0, kMostMilliseconds) / 1000;
-    else if (word == "--refine")
-        cloud.refine = share(words, 100);
-    else
-        return false;
-    return true;
+std::vector<OptionRow> quality_rows(CloudOptions& cloud) {
+    return {{"Errors of reused pixels, and the time of a frame", SectionTitle{"animate"}},
+            {"--specular-tolerance PERCENT", &cloud.tolerance,
+             "error allowed in a reused colour that depends on the view; beyond, it is traced anew",
+             kPercentage},
+            {"--audit PERCENT", &cloud.audit,
+             "share of the reused pixels that is traced all the same, to measure errors, a quarter "
+             "of them twice; --stats has the errors, and how much two rays of a pixel differ",
+             kPercentage},
+            {"--audit-limit PERCENT", &cloud.audit_limit,
+             "when so many more of the audited pixels are off by a tenth than two rays differ by "
+             "as much, reuse is tightened (ages, angles, distances) until it holds, then slowly "
+             "loosened; 0: never",
+             With{.least = 0, .most = 1000, .divisor = kPercent}},
+            {"--budget MS", &cloud.budget,
+             "time for a frame [ms]: the pixels that lack points most are traced first; those that "
+             "do not fit are interpolated, and traced in a later frame; 0: all are traced",
+             With{.least = 0, .most = 1e6, .divisor = 1000}},
+            {"--refine PERCENT", &cloud.refine,
+             "when a frame has the view of the frame before, that share of its pixels is made "
+             "better: those interpolated, then those reused, oldest first, then, with further "
+             "rays, those at steps of brightness",
+             kPercentage}};
 }
 
 }  // namespace
 
-int whole_number(OptionWords& words, int least, int most) {
-    const std::string option = words.option();
-    const int number = words.integer();
-    if (number < least || number > most)
-        throw UsageError("option " + option + ": expected a number from " + std::to_string(least) +
-                         " to " + std::to_string(most));
-    return number;
-}
-
-bool parse_walk_option(OptionWords& words, WalkCommand& walk) {
-    if (parse_way(words, walk) || parse_rule(words, walk.cloud.rules) ||
-        parse_care(words, walk.cloud))
-        return true;
-    const std::string word = words.option();
-    if (word == "--reuse")
-        set_reuse(words, walk);
-    else if (word == "--cloud-age")
-        walk.cloud.age = whole_number(words, 0, kOldestAge - 1);
-    else if (word == "--cloud-limit")
-        walk.cloud.limit = real_between(words, 2, 64);  // a pixel leaves up to two points
-    else if (word == "--check")
-        walk.cloud.check =
-            named_value(words, std::array{std::pair{"all", CloudCheck::all},
-                                          std::pair{"rotating", CloudCheck::rotating},
-                                          std::pair{"edges", CloudCheck::edges},
-                                          std::pair{"none", CloudCheck::none}});
-    else if (word == "--projectors")
-        walk.projectors = whole_number(words, 1, kMostProjectors);
-    else if (word == "--specular-tolerance")
-        walk.cloud.tolerance = share(words, 100);
-    else
-        return false;
-    return true;
-}
-
-std::vector<std::string> walk_option_names() {
-    return {"--path",        "--rotate",      "--walk",     "--step",
-            "--frames",      "--fps",         "--reuse",    "--cloud-age",
-            "--cloud-limit", "--check",       "--drop",     "--look",
-            "--near",        "--reach",       "--contrast", "--specular-tolerance",
-            "--audit",       "--audit-limit", "--budget",   "--refine",
-            "--projectors"};
+std::vector<OptionRow> walk_option_rows(WalkCommand& walk) {
+    std::vector<OptionRow> rows = way_rows(walk);
+    for (const auto& more : {reuse_rows(walk), quality_rows(walk.cloud)})
+        rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
 }
 
 void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {

@@ -6,7 +6,7 @@
 
 #include "core/view/view_path.h"
 #include "io/files/file_source.h"
-#include "io/options/option_words.h"
+#include "io/options/option_rows.h"
 #include "parallel/walk/cloud_frames.h"
 
 namespace lightwalk {
@@ -30,14 +30,8 @@ struct WalkCommand {
     CloudOptions cloud{.audit = 0.01, .audit_limit = 0.1, .refine = 0.1};
 };
 
-/// The whole number after an option. Throws UsageError for one beyond these.
-[[nodiscard]] int whole_number(OptionWords& words, int least, int most);
-
-/// Take an option of animate's own; false when the word is another one. Throws UsageError.
-[[nodiscard]] bool parse_walk_option(OptionWords& words, WalkCommand& walk);
-
-/// Names of these options, for suggestions.
-[[nodiscard]] std::vector<std::string> walk_option_names();
+/// The rows of animate's own options, which walk takes as well but for those on the path.
+[[nodiscard]] std::vector<OptionRow> walk_option_rows(WalkCommand& walk);
 
 /// What can only be told when all options are known; reads the path file.
 /// @param view  of the command line: what the path's first line starts from

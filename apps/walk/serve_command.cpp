@@ -4,56 +4,64 @@
 #include <charconv>
 #include <filesystem>
 
+#include "apps/commands.h"
 #include "apps/walk_command.h"
 
 namespace lightwalk {
 namespace {
 
-WalkSizeLimit size_limit(const std::string& word) {
-    WalkSizeLimit size;
+/// Reads "WIDTHxHEIGHT"; false where it is none within the limits.
+bool read_size(const std::string& word, WalkSizeLimit& size) {
     const std::size_t by = std::min(word.find('x'), word.size());
     const auto read = [&](std::size_t first, std::size_t last, int& side) {
         const auto [end, problem] = std::from_chars(word.data() + first, word.data() + last, side);
         return problem == std::errc{} && end == word.data() + last && side >= 1 &&
                side <= kLargestWalkSize;
     };
-    if (by == word.size() || !read(0, by, size.width) || !read(by + 1, word.size(), size.height))
-        throw UsageError("option --max-size: expected WIDTHxHEIGHT of at most " +
-                         std::to_string(kLargestWalkSize) + " pixels, found \"" + word + "\"");
-    return size;
+    return by < word.size() && read(0, by, size.width) && read(by + 1, word.size(), size.height);
 }
 
-AmbientUse ambient_use(const std::string& word) {
-    if (word == "rest") return AmbientUse::rest;
-    if (word == "always") return AmbientUse::always;
-    if (word == "off") return AmbientUse::off;
-    throw UsageError("option --ambient: expected rest, always or off, found \"" + word + "\"");
+CustomOption size_option(WalkSizeLimit& size) {
+    const auto take = [&size](OptionWords& words) {
+        const std::string word = words.text();
+        if (!read_size(word, size))
+            refuse_argument(
+                "--max-size",
+                "WIDTHxHEIGHT of at most " + std::to_string(kLargestWalkSize) + " pixels",
+                '"' + word + '"');
+    };
+    return {take,
+            [&size] { return std::to_string(size.width) + 'x' + std::to_string(size.height); }};
 }
 
 }  // namespace
 
-bool parse_serve_option(OptionWords& words, ServeCommand& serve) {
-    const std::string word = words.option();
-    constexpr int kLastPort = 65535, kMostClients = 256, kMostSamples = 255;
-    if (word == "--bind")
-        serve.address = words.text();
-    else if (word == "--port")
-        serve.port = whole_number(words, 0, kLastPort);
-    else if (word == "--clients")
-        serve.clients = whole_number(words, 1, kMostClients);
-    else if (word == "--max-size")
-        serve.max_size = size_limit(words.text());
-    else if (word == "--ambient")
-        serve.ambient = ambient_use(words.text());
-    else if (word == "--edge-samples")
-        serve.edge_samples = whole_number(words, 1, kMostSamples);
-    else
-        return false;
-    return true;
-}
-
-std::vector<std::string> serve_option_names() {
-    return {"--bind", "--port", "--clients", "--max-size", "--ambient", "--edge-samples"};
+std::vector<OptionRow> serve_option_rows(ServeCommand& serve, WalkCommand& walk) {
+    return {{"The page, and who may open it", SectionTitle{}},
+            {"--port N", &serve.port, "port of the page; 0: any that is free",
+             With{.least = 0, .most = 65535}},
+            {"--bind ADDRESS", &serve.address,
+             "address that the page is served on. 127.0.0.1: to this machine alone. Anything else "
+             "demands the token in the printed address"},
+            {"--clients N", &serve.clients,
+             "number of browsers at once: the first drives, others watch",
+             With{.least = 1, .most = 256}},
+            {"--fps N", &walk.rate,
+             "frames a second while moving. A frame's time goes to its worst pixels; the others "
+             "are interpolated now, and traced in a later frame",
+             With{.least = .1, .most = 1000}},
+            {"--max-size WxH", size_option(serve.max_size),
+             "largest size of pictures; larger windows show them enlarged"},
+            {"--ambient WHEN",
+             choice(serve.ambient, {{"rest", AmbientUse::rest},
+                                    {"always", AmbientUse::always},
+                                    {"off", AmbientUse::off}}),
+             "when there is indirect light, with -ab: rest: when the view rests; always; off. The "
+             "page may change it"},
+            {"--edge-samples N", &serve.edge_samples,
+             "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
+             "render`",
+             With{.least = 1, .most = 255}}};
 }
 
 std::string view_title(const std::string& path) {

@@ -4,10 +4,12 @@
 #include <vector>
 
 #include "io/net/walk_reply.h"
-#include "io/options/option_words.h"
+#include "io/options/option_rows.h"
 #include "parallel/walk/live_walk.h"
 
 namespace lightwalk {
+
+struct WalkCommand;
 
 struct ServeCommand {
     std::string address = "127.0.0.1";      ///< --bind
@@ -19,11 +21,9 @@ struct ServeCommand {
     std::vector<NamedView> views;  ///< -vf
 };
 
-/// Take an option of walk's own; false when the word is another one. Throws UsageError.
-[[nodiscard]] bool parse_serve_option(OptionWords& words, ServeCommand& serve);
-
-/// Names of these options, for suggestions.
-[[nodiscard]] std::vector<std::string> serve_option_names();
+/// The rows of walk's own options.
+/// @param walk  whose rate --fps sets
+[[nodiscard]] std::vector<OptionRow> serve_option_rows(ServeCommand& serve, WalkCommand& walk);
 
 /// What a view file is called in the page: its name without folders and ending.
 [[nodiscard]] std::string view_title(const std::string& path);

@@ -1,104 +1,15 @@
 #include "io/options/render_options.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdio>
 #include <sstream>
-#include <string_view>
-#include <variant>
 
 namespace lightwalk {
 namespace {
 
-/// Where an option's value lives; its type tells how it is read and printed.
-using Place = std::variant<bool RenderOptions::*, int RenderOptions::*, double RenderOptions::*,
-                           Rgb RenderOptions::*>;
+constexpr std::size_t kMaxModifiers = 512;  // of -ae and -ai together
 
-struct Entry {
-    const char* name;
-    Place place;
-    const char* description;
-    bool scientific = false;  ///< printed as %.2e
-    bool whole = false;       ///< the value is a whole number though its place is real
-};
+using Kind = AmbientSelection::Kind;
 
-constexpr std::size_t kMaxModifiers = 512;  ///< of -ae and -ai together
-
-using O = RenderOptions;
-const std::array kEntries{
-    Entry{"-i", &O::irradiance, "irradiance instead of radiance"},
-    Entry{"-bv", &O::back_faces_visible, "back faces visible"},
-    Entry{"-dt", &O::shadow_threshold, "direct threshold"},
-    Entry{"-dc", &O::shadow_certainty, "direct certainty"},
-    Entry{"-dj", &O::source_jitter, "direct jitter"},
-    Entry{"-ds", &O::source_subdivision, "direct sampling (source size / distance)"},
-    Entry{"-dr", &O::redirections, "relays of virtual light sources"},
-    Entry{"-dp", &O::virtual_source_pretest, "pretest density of virtual sources [1/sr]", false,
-          true},
-    Entry{"-dv", &O::sources_visible, "light sources visible"},
-    Entry{"-ss", &O::specular_samples, "specular samples"},
-    Entry{"-st", &O::specular_threshold, "specular threshold"},
-    Entry{"-av", &O::ambient_value, "ambient value [W/(m2 sr)]"},
-    Entry{"-aw", &O::ambient_weight, "ambient value weight"},
-    Entry{"-ab", &O::ambient_bounces, "ambient bounces"},
-    Entry{"-aa", &O::ambient_accuracy, "ambient accuracy"},
-    Entry{"-ar", &O::ambient_resolution, "ambient resolution"},
-    Entry{"-ad", &O::ambient_divisions, "ambient divisions"},
-    Entry{"-as", &O::ambient_super_samples, "ambient super-samples"},
-    Entry{"-me", &O::extinction, "mist extinction [1/m]", true},
-    Entry{"-ma", &O::albedo, "mist scattering albedo"},
-    Entry{"-mg", &O::eccentricity, "mist scattering eccentricity"},
-    Entry{"-ms", &O::scatter_step, "mist sampling distance [m]"},
-    Entry{"-lr", &O::reflection_limit, "limit of reflections (<= 0: Russian roulette)"},
-    Entry{"-lw", &O::weight_limit, "limit of weight", true},
-};
-
-std::string formatted(const char* format, double value) {
-    std::array<char, 400> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
-
-std::string formatted(const char* format, const Rgb& c) {
-    std::string text;
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (i > 0) text += ' ';
-        text += formatted(format, static_cast<double>(c[i]));
-    }
-    return text;
-}
-
-std::string text_of(const Entry& entry, const RenderOptions& options) {
-    const std::string name = entry.name;
-    if (const auto* flag = std::get_if<bool O::*>(&entry.place))
-        return option_text(name, options.**flag);
-    if (const auto* count = std::get_if<int O::*>(&entry.place))
-        return option_text(name, options.**count);
-    if (const auto* color = std::get_if<Rgb O::*>(&entry.place)) {
-        return name + ' ' + formatted(entry.scientific ? "%.2e" : "%f", options.**color);
-    }
-    const double value = options.*std::get<double O::*>(entry.place);
-    return name + ' ' + formatted(entry.whole ? "%.0f" : entry.scientific ? "%.2e" : "%f", value);
-}
-
-bool parse_entry(const Entry& entry, OptionWords& words, RenderOptions& options) {
-    if (const auto* flag = std::get_if<bool O::*>(&entry.place)) {
-        const std::optional<bool> value = words.toggle(entry.name, options.**flag);
-        if (value) options.** flag = *value;
-        return value.has_value();
-    }
-    if (words.option() != entry.name) return false;
-    if (const auto* count = std::get_if<int O::*>(&entry.place))
-        options.** count = words.integer();
-    else if (const auto* color = std::get_if<Rgb O::*>(&entry.place))
-        options.** color = words.rgb();
-    else
-        options.*std::get<double O::*>(entry.place) = entry.whole ? words.integer() : words.real();
-    return true;
-}
-
-void select(AmbientSelection& selection, AmbientSelection::Kind kind,
-            const std::vector<std::string>& names) {
+void select(AmbientSelection& selection, Kind kind, const std::vector<std::string>& names) {
     if (selection.kind != kind) selection = {kind, {}};
     selection.modifiers.insert(selection.modifiers.end(), names.begin(), names.end());
     if (selection.modifiers.size() > kMaxModifiers) {
@@ -107,54 +18,152 @@ void select(AmbientSelection& selection, AmbientSelection::Kind kind,
     }
 }
 
-bool parse_ambient_selection(OptionWords& words, const LibraryPath& library,
-                             AmbientSelection& selection) {
-    const std::string option = words.option();
-    using Kind = AmbientSelection::Kind;
-    if (option == "-ae" || option == "-ai") {
-        select(selection, option == "-ae" ? Kind::exclude : Kind::include, {words.text()});
-    } else if (option == "-aE" || option == "-aI") {
-        select(selection, option == "-aE" ? Kind::exclude : Kind::include,
-               names_in_file(words.text(), library));
-    } else {
-        return false;
-    }
-    return true;
+/// -ae, -ai, -aE, -aI. They come first: the nearest name of a misspelt "-a?" is one of them.
+std::vector<OptionRow> ambient_lists(AmbientSelection& selection, const LibraryPath& library) {
+    const auto one = [&selection](Kind kind) {
+        return CustomOption{
+            [&selection, kind](OptionWords& words) { select(selection, kind, {words.text()}); }};
+    };
+    const auto file = [&selection, library](Kind kind) {
+        return CustomOption{[&selection, library, kind](OptionWords& words) {
+            select(selection, kind, names_in_file(words.text(), library));
+        }};
+    };
+    return {{"Surfaces with indirect light", SectionTitle{"render"}},
+            {"-ae MODIFIER", one(Kind::exclude),
+             "no indirect light is calculated on surfaces of this modifier; repeatable"},
+            {"-ai MODIFIER", one(Kind::include),
+             "indirect light is calculated on surfaces of this modifier alone; repeatable"},
+            {"-aE FILE", file(Kind::exclude),
+             "no indirect light on surfaces of the modifiers that FILE names"},
+            {"-aI FILE", file(Kind::include),
+             "indirect light on surfaces of the modifiers that FILE names, and no others"}};
 }
 
-/// Options of Radiance that Lightwalk knows and does not offer.
-struct Foreign {
-    const char* name;
-    const char* what;  ///< it is, and why it is not there
-};
-constexpr const char* kPhotonMap = "names a photon map, which Lightwalk does not support";
-constexpr const char* kSpectral =
-    "is about spectral rendering; Lightwalk renders three channels (red, green, blue)";
-constexpr const char* kWeighted =
-    "weights colours by another eye than the photopic one, which Lightwalk does not support; the "
-    "choices are -pRGB, -pXYZ, -pY (photopic) and -pA (mean)";
-constexpr std::array kForeign{
-    Foreign{"-ap", kPhotonMap},
-    Foreign{"-am", "limits the search in photon maps, which Lightwalk does not support"},
-    Foreign{"-ac", "is about photon maps, which Lightwalk does not support"},
-    Foreign{"-aC", "is about photon maps, which Lightwalk does not support"},
-    Foreign{"-cs", kSpectral},
-    Foreign{"-cw", kSpectral},
-    Foreign{"-co", kSpectral},
-    Foreign{"-co+", kSpectral},
-    Foreign{"-co-", kSpectral},
-    Foreign{"-pS", kWeighted},
-    Foreign{"-pM", kWeighted},
-    Foreign{"-f",
-            "reads definitions for all of a scene's functions, which Lightwalk does not "
-            "support; name the file in the scene"},
-    Foreign{"-sj", "is gone since Radiance 4, use -ss"},
-};
+std::vector<OptionRow> direct_light(RenderSettings& s) {
+    RenderOptions& o = s.light;
+    return {
+        {"What is shown", SectionTitle{"render"}},
+        {"-u[+-]", &s.uncorrelated,
+         "uncorrelated sampling | independent samples, as Radiance has them; they always are, so "
+         "it changes nothing"},
+        {"-w[+-]", &s.warnings, "warning messages | print warnings"},
+        {"-i[+-]", &o.irradiance,
+         "irradiance instead of radiance | irradiance of the surfaces seen, instead of their "
+         "radiance"},
+        {"-bv[+-]", &o.back_faces_visible,
+         "back faces visible | surfaces are visible from behind, too"},
+        {"Direct light", SectionTitle{"render"}},
+        {"-dt SHARE", &o.shadow_threshold,
+         "direct threshold | at a point no more shadows are tested when the light sources left "
+         "would add less than this share to the light found; 0: all are tested"},
+        {"-dc CERTAINTY", &o.shadow_certainty,
+         "direct certainty | how surely the error by -dt stays within its share, 0 to 1"},
+        {"-dj SHARE", &o.source_jitter,
+         "direct jitter | part of a light source over which shadow rays are spread, for soft "
+         "shadows; 0: they go to fixed places"},
+        {"-ds RATIO", &o.source_subdivision,
+         "direct sampling (source size / distance) | light sources are divided until a part's size "
+         "/ distance is below this; 0: never"},
+        {"-dr N", &o.redirections,
+         "relays of virtual light sources | mirrors and prisms make virtual light sources, of real "
+         "ones and of virtual ones, at most N deep"},
+        {"-dp DENSITY", &o.virtual_source_pretest,
+         "pretest density of virtual sources [1/sr] | rays per steradian that test beforehand "
+         "whether a virtual light source is hidden; 0: no test",
+         With{.format = "%.0f"}},
+        {"-dv[+-]", &o.sources_visible, "light sources visible | light sources are seen as such"},
+        {"Specular light", SectionTitle{"render"}},
+        {"-ss N", &o.specular_samples,
+         "specular samples | rays that sample a rough reflection or transmission; below 1: how "
+         "much these are blurred, 0: they look sharp"},
+        {"-st SHARE", &o.specular_threshold,
+         "specular threshold | rough surfaces that reflect or transmit no more than this are not "
+         "sampled for it"}};
+}
 
-void refuse_foreign(const OptionWords& words) {
-    const auto found = std::find_if(kForeign.begin(), kForeign.end(),
-                                    [&](const Foreign& f) { return words.option() == f.name; });
-    if (found != kForeign.end()) throw UsageError("option " + words.option() + " " + found->what);
+/// The lines of -defaults for files and lists, which have no value unless one is given.
+std::string lines_if_given(const RenderSettings& settings) {
+    std::string text;
+    if (!settings.ambient_file.empty())
+        text += defaults_line("-af " + settings.ambient_file, "ambient file");
+    const AmbientSelection& selection = settings.light.ambient_surfaces;
+    const bool include = selection.kind == Kind::include;
+    for (const std::string& name : selection.modifiers)
+        text += defaults_line((include ? "-ai " : "-ae ") + name,
+                              include ? "ambient include modifier" : "ambient exclude modifier");
+    return text;
+}
+
+std::vector<OptionRow> indirect_light(RenderSettings& s) {
+    RenderOptions& o = s.light;
+    const With scientific{.format = "%.2e"};
+    return {
+        {"Indirect light", SectionTitle{"render"}},
+        {"-av R G B", &o.ambient_value,
+         "ambient value [W/(m2 sr)] | constant radiance from all around, where indirect light is "
+         "not calculated [W/(m2 sr)]"},
+        {"-aw N", &o.ambient_weight,
+         "ambient value weight | the mean of calculated values replaces -av, which counts as N of "
+         "them; 0: it stays"},
+        {"-ab N", &o.ambient_bounces, "ambient bounces | bounces of indirect light; 0: -av alone"},
+        {"-aa ERROR", &o.ambient_accuracy,
+         "ambient accuracy | error allowed where indirect light is interpolated, as a share; 0: it "
+         "never is"},
+        {"-ar N", &o.ambient_resolution,
+         "ambient resolution | calculated values are no closer than the scene's size times -aa / "
+         "N; 0: no limit"},
+        {"-ad N", &o.ambient_divisions,
+         "ambient divisions | rays over the hemisphere for each value of indirect light"},
+        {"-as N", &o.ambient_super_samples,
+         "ambient super-samples | rays added to those of -ad where neighbours differ most"},
+        {"Mist", SectionTitle{"render"}},
+        {"-me R G B", &o.extinction, "mist extinction [1/m] |", scientific},
+        {"-ma R G B", &o.albedo,
+         "mist scattering albedo | share of its extinction that mist scatters"},
+        {"-mg G", &o.eccentricity,
+         "mist scattering eccentricity | how much mist scatters forward: 0: alike to all sides, 1: "
+         "forward alone"},
+        {"-ms DISTANCE", &o.scatter_step,
+         "mist sampling distance [m] | distance between samples of scattered light along a ray "
+         "[m]; 0: one sample a ray"},
+        {"How far light is followed, and what is kept", SectionTitle{"render"}},
+        {"-lr N", &o.reflection_limit,
+         "limit of reflections (<= 0: Russian roulette) | most reflections along a path; 0: chance "
+         "ends paths (Russian roulette); -N: chance, and at most N"},
+        {"-lw SHARE", &o.weight_limit,
+         "limit of weight | rays that would bring less than this share of their pixel are not "
+         "followed",
+         scientific},
+        {"-af FILE", &s.ambient_file,
+         "keep the values of indirect light in a file; several runs may share it, also Radiance's",
+         With{.lines = [&s] { return lines_if_given(s); }}}};
+}
+
+/// Radiance's options that Lightwalk knows and does not offer.
+std::vector<OptionRow> foreign_options() {
+    struct Foreign {
+        std::vector<const char*> names;
+        const char* why;
+    };
+    const std::vector<Foreign> foreign{
+        {{"-ap"}, " names a photon map, which Lightwalk does not support"},
+        {{"-am"}, " limits the search in photon maps, which Lightwalk does not support"},
+        {{"-ac", "-aC"}, " is about photon maps, which Lightwalk does not support"},
+        {{"-cs", "-cw", "-co", "-co+", "-co-"},
+         " is about spectral rendering; Lightwalk renders three channels (red, green, blue)"},
+        {{"-pS", "-pM"},
+         " weights colours by another eye than the photopic one, which Lightwalk does not support; "
+         "the choices are -pRGB, -pXYZ, -pY (photopic) and -pA (mean)"},
+        {{"-f"},
+         " reads definitions for all of a scene's functions, which Lightwalk does not support; "
+         "name the file in the scene"},
+        {{"-sj"}, " is gone since Radiance 4, use -ss"},
+        {{"-P", "-PP"}, ": persistent processes are not supported"}};
+    std::vector<OptionRow> rows;
+    for (const Foreign& f : foreign)
+        for (const char* name : f.names) rows.push_back({name, RefusedOption{f.why}});
+    return rows;
 }
 
 }  // namespace
@@ -182,25 +191,15 @@ RenderSettings default_render_settings(OptionDefaults program) {
     return settings;
 }
 
+std::vector<OptionRow> render_option_rows(RenderSettings& settings, const LibraryPath& library) {
+    std::vector<OptionRow> rows = ambient_lists(settings.light.ambient_surfaces, library);
+    for (const auto& more : {direct_light(settings), indirect_light(settings), foreign_options()})
+        rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
+}
+
 bool parse_render_option(OptionWords& words, const LibraryPath& library, RenderSettings& settings) {
-    for (const Entry& entry : kEntries) {
-        if (parse_entry(entry, words, settings.light)) return true;
-    }
-    if (parse_ambient_selection(words, library, settings.light.ambient_surfaces)) return true;
-    if (const auto value = words.toggle("-u", settings.uncorrelated)) {
-        settings.uncorrelated = *value;
-        return true;
-    }
-    if (const auto value = words.toggle("-w", settings.warnings)) {
-        settings.warnings = *value;
-        return true;
-    }
-    if (words.option() == "-af") {
-        settings.ambient_file = words.text();
-        return true;
-    }
-    refuse_foreign(words);
-    return false;
+    return OptionTable({"", ~0U}, {render_option_rows(settings, library)}).take(words);
 }
 
 void check_render_settings(const RenderSettings& settings) {
@@ -210,50 +209,10 @@ void check_render_settings(const RenderSettings& settings) {
     }
 }
 
-std::string option_line(const std::string& left, const std::string& description) {
-    constexpr std::size_t kColumn = 32;
-    constexpr std::size_t kTab = 8;
-    std::string line = left;
-    for (std::size_t column = left.size() / kTab * kTab; column < kColumn; column += kTab)
-        line += '\t';
-    if (left.size() >= kColumn) line += '\t';
-    return line + "# " + description + '\n';
-}
-
-std::string option_text(const std::string& name, bool value) {
-    return name + (value ? '+' : '-');
-}
-std::string option_text(const std::string& name, int value) {
-    return name + ' ' + std::to_string(value);
-}
-std::string option_text(const std::string& name, double value) {
-    return name + ' ' + formatted("%f", value);
-}
-std::string option_text(const std::string& name, const Rgb& value) {
-    return name + ' ' + formatted("%f", value);
-}
-
 std::string describe_render_settings(const RenderSettings& settings) {
-    std::string text =
-        option_line(option_text("-u", settings.uncorrelated), "uncorrelated sampling");
-    text += option_line(option_text("-w", settings.warnings), "warning messages");
-    for (const Entry& entry : kEntries)
-        text += option_line(text_of(entry, settings.light), entry.description);
-    if (!settings.ambient_file.empty())
-        text += option_line("-af " + settings.ambient_file, "ambient file");
-    const AmbientSelection& selection = settings.light.ambient_surfaces;
-    for (const std::string& name : selection.modifiers) {
-        const bool include = selection.kind == AmbientSelection::Kind::include;
-        text += option_line((include ? "-ai " : "-ae ") + name,
-                            include ? "ambient include modifier" : "ambient exclude modifier");
-    }
-    return text;
-}
-
-std::vector<std::string> render_option_names() {
-    std::vector<std::string> names{"-ae", "-ai", "-aE", "-aI", "-af", "-u", "-w"};
-    for (const Entry& entry : kEntries) names.emplace_back(entry.name);
-    return names;
+    RenderSettings shown = settings;
+    const LibraryPath none(std::vector<std::string>{});
+    return OptionTable({"", ~0U}, {render_option_rows(shown, none)}).defaults();
 }
 
 }  // namespace lightwalk

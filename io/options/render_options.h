@@ -6,7 +6,7 @@
 
 #include "core/transport/options.h"
 #include "io/files/library_path.h"
-#include "io/options/option_words.h"
+#include "io/options/option_rows.h"
 
 namespace lightwalk {
 
@@ -22,10 +22,16 @@ struct RenderSettings {
 enum class OptionDefaults { rpict, rtrace };
 [[nodiscard]] RenderSettings default_render_settings(OptionDefaults program);
 
+/// The rows of all rendering options, and of Radiance's that Lightwalk refuses by name (photon
+/// maps, spectra, colours weighted by other eyes, global function definitions).
+/// @param settings  what they set; must outlive the rows
+/// @param library   where modifier lists (-aE, -aI) are looked for
+[[nodiscard]] std::vector<OptionRow> render_option_rows(RenderSettings& settings,
+                                                        const LibraryPath& library);
+
 /// Take the option that stands in option position, with its arguments, if it is a rendering option;
-/// false leaves `words` as it is. Throws UsageError for wrong arguments and for options that
-/// Lightwalk does not offer (photon maps, spectra, other eyes' weights, global function
-/// definitions), InputError when a modifier list (-aE, -aI) cannot be read.
+/// false leaves `words` as it is. Throws UsageError for wrong arguments and for refused options,
+/// InputError when a modifier list (-aE, -aI) cannot be read.
 [[nodiscard]] bool parse_render_option(OptionWords& words, const LibraryPath& library,
                                        RenderSettings& settings);
 
@@ -37,19 +43,7 @@ void check_render_settings(const RenderSettings& settings);
 [[nodiscard]] std::vector<std::string> names_in_file(const std::string& name,
                                                      const LibraryPath& library);
 
-/// One line an option, as `-defaults` prints them: option and value, tabs, "# " and a description.
+/// The lines of these options as `-defaults` prints them.
 [[nodiscard]] std::string describe_render_settings(const RenderSettings& settings);
-
-/// A line of `-defaults`: `left`, tabs to a common column, "# ", `description`.
-[[nodiscard]] std::string option_line(const std::string& left, const std::string& description);
-
-/// A switch or a number as `-defaults` prints it.
-[[nodiscard]] std::string option_text(const std::string& name, bool value);
-[[nodiscard]] std::string option_text(const std::string& name, int value);
-[[nodiscard]] std::string option_text(const std::string& name, double value);
-[[nodiscard]] std::string option_text(const std::string& name, const Rgb& value);
-
-/// The names, for suggestions.
-[[nodiscard]] std::vector<std::string> render_option_names();
 
 }  // namespace lightwalk

@@ -1,0 +1,137 @@
+#include "apps/commands.h"
+
+#include <algorithm>
+
+#include "apps/render_command.h"
+#include "apps/trace_command.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr const char* kProgramHelp =
+    R"(
+SCENE is one octree (.oct), one frozen scene (.lwz), or Radiance scene files in order; "-" is standard input, which
+render and info also read when no scene is named. Library files are looked for along RAYPATH, then in the library that
+comes with Lightwalk.
+
+A first picture, of a room with a window:
+  lightwalk render -vp 2 1.6 0.5 -vd 0 0 1 -vu 0 1 0 -vh 60 -vv 45 -o room.png room.rad
+
+Exit status: 0 success, 1 bad input (the message begins with file:line), 2 a command line that was not understood,
+130 ended by Ctrl-C. Nothing is ever half-written.
+)";
+
+constexpr Command kCommands[] = {
+    {"render", "OPTIONS SCENE...   a picture of a view          (like rpict)", run_render,
+     [] { return render_option_table("render"); },
+     R"(Compute a picture. Options are those of Radiance's rpict; a word @FILE or $NAME in place of an option stands for the
+words in the file or environment variable. A switch like -dv toggles; -dv+ and -dv- set it. `-defaults` lists every
+option with its value; rpict(1) tells more of those with one dash.
+)",
+     ""},
+    {"animate", "OPTIONS SCENE...  the frames of a walk", run_animate,
+     [] { return render_option_table("animate"); },
+     R"(Compute the frames of a walk. Options are those of `lightwalk render`, but for -S and the checkpoint; what a frame has
+in common with those before it is not traced again.
+)",
+     ""},
+    {"walk", "OPTIONS SCENE...     walk through a scene in a browser", run_walk,
+     [] { return render_option_table("walk"); },
+     R"(Walk through a scene in a browser: prints the address to open. Options are those of `lightwalk render` and those on
+reuse of `lightwalk animate`, but for what is about files of pictures. When the scene's files change it is read again,
+and the walk goes on from where it stood; what is wrong with them stands in the page.
+)",
+     ""},
+    {"trace", "OPTIONS SCENE...    radiance along single rays   (like rtrace)", run_trace,
+     trace_option_table,
+     R"(Trace rays from standard input, one record a ray on standard output, in order. A ray is six numbers: origin and
+direction. Options are those of Radiance's rtrace, as are the defaults (-defaults lists them); @FILE, $NAME and
+switches work as in `lightwalk render`. Without -ab the output does not depend on the number of threads.
+)",
+     R"(
+A zero direction flushes the output. The input ends at its end, or at a word that is no number.
+
+  echo "0 0 1  0 0 -1" | lightwalk trace -h -ovp -av .1 .1 .1 room.rad
+)"},
+    {"freeze", "SCENE... -o FILE   a scene in one file, for a quick start", run_freeze,
+     freeze_option_table,
+     R"(Write all that a run needs of a scene to one file: surfaces, materials, instances and meshes, and of the library the
+function files, data, pictures and fonts that the scene uses. Every command takes such a file in place of the scene,
+and makes the same pictures of it, bit for bit. It is mapped, not read: a run begins sooner, and processes on one
+machine share its pages. Only the tree that rays search is built anew.
+
+  lightwalk freeze building.rad furniture.rad sky.rad -o building.lwz
+  lightwalk render -vf entrance.vf -o entrance.hdr building.lwz
+
+The file knows what it was made from. Where a file has changed since, is missing, or has come to stand before another
+one in the library, the run ends and names it; --stale takes the scene as it was frozen. Commands that were run
+(--allow-commands) and standard input are not looked at again. Damaged files are refused: each part has a checksum. A
+file belongs to the version of Lightwalk that wrote it.
+)",
+     ""},
+    {"info", "SCENE...             what a scene holds", run_info, info_option_table,
+     R"(Say what a scene holds: primitives by type, bounds, light sources with the virtual ones that mirrors and prisms make,
+instances, memory, and what Lightwalk does not support, with the first place of each. Exit status 1 when the scene
+cannot be rendered; what could be found out is printed all the same.
+)",
+     ""},
+};
+
+/// Text in a cell of a table in Markdown.
+std::string cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find_first_of("|\n<", at)) != std::string::npos; at += 2)
+        text.replace(at, 1, text[at] == '\n' ? "; " : std::string("\\") + text[at]);
+    return text;
+}
+
+/// All options of all commands; one that several take alike, with the same default, stands once.
+std::string option_reference() {
+    std::vector<std::pair<std::string, std::string>> lines;  // of an option, and who takes it
+    for (const Command& command : kCommands) {
+        const OptionTable table = command.options();
+        for (const OptionRow& row : table.rows()) {
+            if (!row.offered()) continue;
+            const std::string line = "| `" + cell(row.words) + "` | " + row.default_text() + " | " +
+                                     cell(row.help()) + " | ";
+            auto found =
+                std::ranges::find(lines, line, &std::pair<std::string, std::string>::first);
+            if (found == lines.end()) found = lines.insert(found, {line, ""});
+            found->second += (found->second.empty() ? "" : ", ") + std::string(command.name);
+        }
+    }
+    std::string text =
+        "# Options\n\nAll options of all commands. After a change of one:\n\n"
+        "    lightwalk help options > apps/OPTIONS.md\n\n"
+        "| option | default | what it does | commands |\n| --- | --- | --- | --- |\n";
+    for (const auto& [line, takers] : lines) text += line + takers + " |\n";
+    return text;
+}
+
+std::string program_help() {
+    std::string text = "lightwalk: physically based pictures of Radiance scenes.\n\n";
+    for (const Command& command : kCommands)
+        text += std::string("  lightwalk ") + command.name + ' ' + command.summary + '\n';
+    text +=
+        "  lightwalk help COMMAND              how to use one of them\n"
+        "  lightwalk help options              all options of all of them, in Markdown\n";
+    return text + kProgramHelp;
+}
+
+}  // namespace
+
+std::span<const Command> commands() {
+    return kCommands;
+}
+
+std::string help_text(const std::string& name) {
+    if (name == "options") return option_reference();
+    for (const Command& command : kCommands) {
+        if (name != command.name) continue;
+        const std::string summary = command.summary;
+        return "lightwalk " + name + ' ' + summary.substr(0, summary.find("  ")) + "\n\n" +
+               command.about + command.options().help() + command.example;
+    }
+    return program_help();
+}
+
+}  // namespace lightwalk
