@@ -1,5 +1,5 @@
 #pragma once
-// A node's cores, shared evenly by the threads that want them.
+// The cores of a node, shared evenly by its threads (processor sharing).
 #include <optional>
 #include <set>
 #include <utility>
@@ -7,38 +7,38 @@
 
 namespace lightwalk {
 
-/// Processor sharing: n busy threads on c cores each go at the speed of one core, or c / n of it.
-/// Times are given in the order in which they pass.
+/// n busy threads on c cores each have the speed of one core, or c / n of it if n > c. Calls must
+/// be in the order of their times.
 class Processors {
   public:
     /// @param cores     at least 1
-    /// @param crowding  time of a piece of work by number of busy cores, one alone = 1
-    /// @param looks     cores that are lost, while all are busy, to threads that look for messages
-    /// @param background  other programs' threads, which always want a core, and get their share
+    /// @param crowding  relative time of work by number of busy cores, 1 for one core
+    /// @param looks     cores that threads polling for messages take while all cores are busy
+    /// @param background  threads of other programs, which are always ready and get their share
     Processors(int cores, std::vector<double> crowding, double looks, double background = 0);
 
-    /// `task` starts to need `work` seconds of a core that it has for itself.
+    /// Start `task`, which needs `work` seconds of a core.
     void add(double now, int task, double work);
-    /// Something else takes a core for `work` seconds: where none is free, all tasks are delayed.
+    /// Account for other work of `work` seconds; if no core is free it delays all tasks.
     void take_away(double now, double work);
-    /// The task that is done next if nothing changes, and when.
+    /// The task that ends next if nothing changes, and the time of its end.
     [[nodiscard]] std::optional<std::pair<double, int>> next(double now);
-    /// It is done.
+    /// Remove the task that next() returned.
     void remove(double now, int task);
 
     [[nodiscard]] double work_done() const { return work_done_; }
 
   private:
     void pass(double now);
-    [[nodiscard]] double speed() const;  ///< of a task
+    [[nodiscard]] double speed() const;  ///< speed of a task, as a share of a core
 
     int cores_;
     std::vector<double> crowding_;
     double looks_, background_;
     double now_ = 0;
-    double each_ = 0;  ///< work that a task which was always there would have had
+    double each_ = 0;  ///< work that a task present from the beginning would have done [s]
     double work_done_ = 0;
-    std::set<std::pair<double, int>> ends_;  ///< `each_` at the end, and the task
+    std::set<std::pair<double, int>> ends_;  ///< the value of each_ at a task's end, and the task
 };
 
 }  // namespace lightwalk
