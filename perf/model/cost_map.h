@@ -24,9 +24,8 @@ struct CostMap {
     CellCosts prepass;         ///< the coarse picture that fills the cache before; width 0: none
     double setup_seconds = 0;  ///< time before the first block of a picture, on every rank
     double block_seconds = 0;  ///< time of a block beside that of its cells
-    double encode_seconds = 0,
-           decode_seconds = 0;  ///< time for each pixel of a part of the picture
-    double packed_bytes = 6;    ///< for each pixel of a part of the picture
+    double encode_seconds = 0, decode_seconds = 0;  ///< time for a pixel of a part
+    double packed_bytes = 6;                        ///< size of a pixel of a part
 };
 
 /// Parse a cost map. Throws InputError for text that perf/cost_map.cpp cannot have written.
@@ -35,15 +34,13 @@ struct CostMap {
 /// The time of any rectangle of the picture, at any resolution [s].
 class BlockCosts {
   public:
-    /// @param width, height  size of the simulated picture, to which the map is scaled; the time a
-    /// pixel
-    ///                       stays the same
+    /// @param width, height  size of the simulated picture; a pixel takes the same time as in the
+    /// map
     BlockCosts(const CellCosts& cells, int width, int height);
     [[nodiscard]] double seconds(const PixelRectangle& block) const;
 
   private:
-    [[nodiscard]] double below(double x,
-                               double y) const;  ///< time of all cells left of and below it
+    [[nodiscard]] double below(double x, double y) const;  ///< time of all cells there
 
     int columns_, rows_;
     double x_scale_, y_scale_;  ///< cells for each pixel
