@@ -8,14 +8,15 @@
 namespace lightwalk {
 namespace {
 
-// A round has so many values at most: more as more are known, so that few are needless. Never as
-// many as there are workers: their number must not tell.
+// Limits of the number of values in a round, which grows with the number of known values, so that
+// few are needless. Independent of the number of workers, for determinism.
 constexpr std::size_t kFewestValues = 64, kMostValues = 1024;
 constexpr std::size_t kKnownPerValue = 4;
 constexpr std::size_t kPointsPerValue = 4;  ///< points looked at, per value that a round may have
 constexpr std::size_t kLookupsPerTask = 64;
 
-/// Random, so that any head of it is spread evenly; whoever found the points.
+/// Sorts points in a pseudo-random order that depends on their contents only: any prefix is spread
+/// evenly.
 void put_in_order(std::vector<AmbientPoint>& points) {
     std::vector<std::pair<std::uint64_t, std::size_t>> order(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) order[i] = {hash_of(points[i]), i};
@@ -26,7 +27,7 @@ void put_in_order(std::vector<AmbientPoint>& points) {
     points.swap(sorted);
 }
 
-/// While it lives the workers' rays note what they miss.
+/// For its lifetime the rays of all workers record missing ambient values.
 class Collecting {
   public:
     explicit Collecting(WorkerContexts& contexts)
@@ -56,7 +57,7 @@ class Collecting {
     std::vector<MissingAmbient> missing_;
 };
 
-/// While it lives the values that a worker computes on the way are kept.
+/// For its lifetime the values that a worker computes on the way are recorded.
 class RecordCollector {
   public:
     explicit RecordCollector(TraceContext& context) : context_(context) {
@@ -76,7 +77,7 @@ class RecordCollector {
 
 }  // namespace
 
-/// Points in their order, of which those at the head are looked at.
+/// The queue of waiting points, in their order.
 class AmbientRounds::Waiting {
   public:
     Waiting(AmbientRounds& rounds, std::vector<AmbientPoint> points)
@@ -84,7 +85,8 @@ class AmbientRounds::Waiting {
         put_in_order(points_);
     }
 
-    /// Drop those that are served from the head, and fill it up to `size` or somewhat more.
+    /// Drop points from the head that have a usable value by now, and refill it to `size` or
+    /// somewhat more.
     void look(std::size_t size) {
         drop_served(0);
         while (head_.size() < size && next_ < points_.size()) {
@@ -97,7 +99,7 @@ class AmbientRounds::Waiting {
         }
     }
 
-    /// Up to `most` from the head, in order, none close to one before it; they wait no longer.
+    /// Remove up to `most` points from the head, in order, none close to an earlier one.
     [[nodiscard]] std::vector<AmbientPoint> choose(std::size_t most) {
         const SpacingGuess& guess = rounds_.guess_;
         ApartSet taken(guess.least(), guess.greatest());
@@ -117,7 +119,7 @@ class AmbientRounds::Waiting {
     [[nodiscard]] std::size_t left() const { return head_.size() + points_.size() - next_; }
 
   private:
-    /// From the head's place `first` on.
+    /// Drop points with a usable value from index `first` of the head on.
     void drop_served(std::size_t first) {
         const std::vector<char> done = rounds_.served(head_.data() + first, head_.size() - first);
         std::size_t kept = first;
@@ -129,7 +131,7 @@ class AmbientRounds::Waiting {
 
     AmbientRounds& rounds_;
     std::vector<AmbientPoint> points_;
-    std::size_t next_ = 0;            ///< those from here on have not been looked at
+    std::size_t next_ = 0;  ///< index of the first point that has not been moved to the head
     std::vector<AmbientPoint> head_;  ///< in the order of points_
 };
 
@@ -151,8 +153,8 @@ AmbientRounds::AmbientRounds(const Tracer& tracer, FreezableCache& cache, Execut
     cache_.freeze(true);
 }
 
-/// Of all processes; with each goes whether it is to stop, so that all stop at the same place, and
-/// whether it left points out.
+/// All-gather of bytes. Each process adds whether it was requested to stop, so that all stop at the
+/// same place, and whether it left points out.
 std::vector<std::string> AmbientRounds::gather(std::string mine) {
     constexpr char kStop = 1, kLeftOut = 2;
     mine.push_back(static_cast<char>((stop_.requested() ? kStop : 0) | (left_out_ ? kLeftOut : 0)));
@@ -183,7 +185,7 @@ std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
     return points;
 }
 
-/// Whether each of some points is served.
+/// Whether the cache has a usable value for each of some points.
 std::vector<char> AmbientRounds::served(const AmbientPoint* points, std::size_t count) {
     std::vector<char> result(count, 0);
     const auto look = [&](std::size_t task, int) {
@@ -216,7 +218,7 @@ void AmbientRounds::compute_in_rounds(std::vector<AmbientPoint> points) {
     }
 }
 
-/// Before values are computed: those of the next level that they will need.
+/// Compute the values of the next level that the values of these points will need.
 void AmbientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
     if (chosen.front().query.level + 1 >= tracer_.options().ambient_bounces) return;
     compute_in_rounds(collect([&] {
@@ -251,7 +253,8 @@ std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& 
     return made;
 }
 
-/// All that were chosen; of those that were found on the way, what is not served by now.
+/// Store the values of all chosen points; of those computed on the way, only the ones that no
+/// stored value replaces.
 void AmbientRounds::store(const std::vector<AmbientPoint>& chosen,
                           const std::vector<RoundValue>& values) {
     Counts& counts = counts_[static_cast<std::size_t>(chosen.front().query.level)];

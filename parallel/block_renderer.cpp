@@ -21,7 +21,7 @@ BlockRenderer::BlockRenderer(const Tracer& tracer, const Camera& camera,
             options.step),
       contexts_(contexts),
       stop_(stop) {
-    // Several samples find small sources in the right measure: drawn in, they would count twice.
+    // With several samples rays find small sources; drawing them as well would count them twice.
     if (rays_.pinhole() && options.step == 1 && options.pixels.samples == 1)
         small_sources_.emplace(tracer, camera, options.width, options.height,
                                options.pixels.spacing);

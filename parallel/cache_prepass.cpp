@@ -14,7 +14,7 @@
 namespace lightwalk {
 namespace {
 
-/// Every how many pixels, in either direction, one is traced: picture by picture.
+/// The step (distance of traced pixels in either direction) of each coarse picture.
 std::vector<int> steps_of(CachePrepass prepass) {
     switch (prepass) {
         case CachePrepass::none:
@@ -27,7 +27,7 @@ std::vector<int> steps_of(CachePrepass prepass) {
     return {};
 }
 
-/// `window` of a picture in pixels of one whose step is `step`: all that it touches.
+/// All pixels of the coarse picture of a step that `window` touches.
 PixelRectangle coarser(const PixelRectangle& window, int step) {
     return {window.x0 / step, window.y0 / step, (window.x1 + step - 1) / step,
             (window.y1 + step - 1) / step};
@@ -48,16 +48,15 @@ FrameOptions coarse_options(const FrameOptions& options, CachePrepass prepass, i
     return coarse;
 }
 
-/// Adds up the coarse pictures of an prepass, and tells how far it is. A finer one has more
-/// pixels, but less of what they miss is still to be computed: its share goes with the root of its
-/// pixels' density.
+/// Progress of a prepass over its coarse pictures. A finer picture has more pixels, but fewer
+/// missing values for each: its share of the work is taken as the root of its pixel density.
 class CachePrepassSum {
   public:
     CachePrepassSum(const std::vector<int>& steps, TakeProgress progress) : progress_(progress) {
         for (const int step : steps) all_ += share_of(step);
     }
 
-    /// Of the picture at hand, which is one of every `step`-th pixel.
+    /// Report progress of the present picture, of every `step`-th pixel.
     void tell(int step, const FrameProgress& now) {
         progress_({std::min(1.0, (before_ + now.done * share_of(step)) / all_),
                    result_.rays.total() + now.rays, result_.ambient.computed + now.ambient_values});
@@ -84,7 +83,7 @@ class CachePrepassSum {
     CachePrepassResult result_;
 };
 
-/// What a rendering of coarse pictures needs.
+/// Arguments of rendering coarse pictures.
 struct Players {
     const Tracer& tracer;
     const Camera& camera;
@@ -95,7 +94,8 @@ struct Players {
     const StopFlag& stop;
 };
 
-/// Finds what the pixels of one coarse picture after another miss, and has it computed in rounds.
+/// For one coarse picture after another, finds the ambient values that its pixels lack, and
+/// computes them in rounds.
 class DeterministicPrepass {
   public:
     DeterministicPrepass(const Players& players, CachePrepassSum& sum)
@@ -113,13 +113,14 @@ class DeterministicPrepass {
         points_ = points.size();
         if (!rounds_.stopped()) tell(points.empty() ? 1 : kLooked);
         rounds_.compute_in_rounds(std::move(points));
-        if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points were served by others
+        if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points got values of others
         sum_.add(step_, players_.contexts.rays(), players_.contexts.ambient());
         return !rounds_.stopped();
     }
 
-    /// Once all pictures are played: values at points that do not stand alone, inside clipped
-    /// matter or a mist that scatters, by one worker; all processes do the same. False: stopped.
+    /// After all pictures: values at points inside clipped matter or a scattering mist, which
+    /// rounds cannot compute. One worker computes them, in each process the same ones. False:
+    /// stopped.
     [[nodiscard]] bool play_left_out(const FrameOptions& options) {
         if (!rounds_.left_out()) return true;
         const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
@@ -137,9 +138,9 @@ class DeterministicPrepass {
     }
 
   private:
-    static constexpr double kLooked = 0.1;  ///< share of the work that finding the points is
+    static constexpr double kLooked = 0.1;  ///< share of the work that is finding the points
 
-    /// Trace this process's share of the pixels, for what they miss.
+    /// Trace this process's share of the pixels, to find missing values.
     void look_at(const FrameOptions& coarse) {
         const BlockRenderer renderer(players_.tracer, players_.camera, coarse, players_.contexts,
                                      players_.stop);
@@ -168,8 +169,8 @@ class DeterministicPrepass {
 
     Players players_;
     CachePrepassSum& sum_;
-    int step_ = 1;            ///< of the picture at hand
-    std::size_t points_ = 0;  ///< that its pixels miss
+    int step_ = 1;            ///< of the present picture
+    std::size_t points_ = 0;  ///< points without a value that its pixels found
     double told_ = 0;
     AmbientRounds rounds_;
 };

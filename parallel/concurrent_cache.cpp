@@ -10,8 +10,8 @@ namespace {
 constexpr double kEnough = 0.05;  ///< weight of small records that keeps larger ones out
 constexpr double kSlack = 0.01;   ///< of the long radius: more than coded axes tilt the ellipse
 
-/// Corners of the box that holds all points which the record may serve: an ellipsoid, cut off below
-/// the surface.
+/// Corners of the bounding box of all points at which a record may be usable: an ellipsoid, cut off
+/// below the surface.
 std::pair<Vec3, Vec3> reach_of(const DecodedRecord& record, const AmbientLimits& limits) {
     const double r0 = limits.accuracy * static_cast<double>(record.radius[0]),
                  r1 = limits.accuracy * static_cast<double>(record.radius[1]);
@@ -34,7 +34,8 @@ ConcurrentCache::ConcurrentCache(const AmbientLimits& limits)
     (void)families_.add();
 }
 
-/// The family below; made where it is missing. Who comes second leaves one unused.
+/// The family of children of a node, created where it is missing. When two threads create it at
+/// once, one of the two stays unused.
 std::uint32_t ConcurrentCache::children_of(Node& node) {
     std::uint32_t children = node.children.load(std::memory_order_acquire);
     if (children != 0) return children;
@@ -77,7 +78,7 @@ AmbientLogMean ConcurrentCache::log_mean() const {
     return all;
 }
 
-/// A lookup on its way through the tree.
+/// The state of a lookup in the tree.
 struct ConcurrentCache::Search {
     const AmbientQuery& query;
     LeakTest leaks;
@@ -91,7 +92,7 @@ AmbientSum ConcurrentCache::lookup(const AmbientQuery& query, LeakTest leaks) co
     return sum;
 }
 
-/// Calls visit(child, cube) for those whose records may reach a point.
+/// Calls visit(child, cube) for the children whose records may be usable at a point.
 template <class Visit>
 void ConcurrentCache::for_reaching(const Family& family, const CachePath& parent, const Vec3& p,
                                    Visit visit) {
@@ -133,8 +134,8 @@ void ConcurrentCache::sum_node(const Node& node, const CachePath& cube, const Se
     for (std::size_t k = 0; k < 3; ++k) sum.sum[k] += own.sum[k];
 }
 
-/// The serial cache sorts by level and weight and stops at the first record that cannot serve; here
-/// each is asked.
+/// The serial cache sorts records by level and weight and stops at the first that is not usable;
+/// here each is tested.
 void ConcurrentCache::sum_records(std::uint32_t first, const Search& search,
                                   AmbientSum& sum) const {
     const AmbientQuery& query = search.query;

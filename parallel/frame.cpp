@@ -9,7 +9,7 @@
 namespace lightwalk {
 namespace {
 
-/// Adds up what the workers did, and tells it.
+/// Sums the progress of all workers and reports it.
 class ProgressSum {
   public:
     ProgressSum(const WorkerContexts& contexts, std::size_t pixels, TakeProgress progress)
@@ -25,7 +25,7 @@ class ProgressSum {
         pixels_done_ += pixels;
         counted = now;
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (!lock) return;  // the next one will tell
+        if (!lock) return;  // the next report includes this one
         progress_({static_cast<double>(pixels_done_) / static_cast<double>(pixels_), rays_done_,
                    values_done_});
     }
@@ -36,7 +36,7 @@ class ProgressSum {
     };
     std::size_t pixels_;
     TakeProgress progress_;
-    std::vector<Counted> counted_;  ///< told so far, by worker
+    std::vector<Counted> counted_;  ///< included so far, by worker
     std::atomic<std::uint64_t> rays_done_{0}, values_done_{0};
     std::atomic<std::size_t> pixels_done_{0};
     std::mutex mutex_;
@@ -69,7 +69,7 @@ void store(const BlockPixels& pixels, const PixelRectangle& area, Frame& frame) 
     }
 }
 
-/// Puts what is known into the frame; returns what is left of the blocks.
+/// Copies blocks known from a checkpoint into the frame; returns the blocks left to render.
 std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Block>& wanted,
                               int alignment, const PixelRectangle& area, Frame& frame) {
     std::vector<PixelRectangle> known;

@@ -5,7 +5,7 @@
 namespace lightwalk {
 namespace {
 
-/// What a ray without direction, or one that meets nothing, reports as its hit.
+/// The hit reported for a ray without direction, or that meets nothing.
 void set_missed(Ray& ray) {
     ray.hit = Hit{};
     ray.hit.position = ray.limit > 0 ? ray.origin + ray.limit * ray.direction : ray.origin;

@@ -142,8 +142,8 @@ class TileRefiner {
         wanted_.clear();
     }
 
-    /// Of the up to eight values around that of line i of columns and j of rows: how many are about
-    /// as bright or brighter, and about as dark or darker?
+    /// Counts, among the up to eight values around that at column line i and row line j, those
+    /// about as bright or brighter, and those about as dark or darker.
     struct Company {
         int all = 0, as_bright = 0, as_dark = 0;
     };
@@ -168,9 +168,9 @@ class TileRefiner {
         return found;
     }
 
-    /// A bright pixel with at most one of its kind among the grid's eight around it shows that
-    /// there may be more between the samples, two cells far; a dark one without its kind, one cell
-    /// far.
+    /// Marks cells around outliers. A bright pixel with at most one similar neighbour among the
+    /// grid's eight suggests further bright ones between the samples, within two cells; a dark one
+    /// without similar neighbours, within one cell.
     void mark_sparkles() {
         std::fill(sparkling_.begin(), sparkling_.end(), false);
         for (int j = 0; j < std::ssize(rows_); ++j) {
@@ -179,7 +179,7 @@ class TileRefiner {
                 const int y = rows_[static_cast<std::size_t>(j)];
                 if (states_[at(x, y)] != State::kTraced) continue;
                 const Company around = company(i, j, columns_, rows_);
-                if (around.all < 3) continue;  // too few to stand out among
+                if (around.all < 3) continue;  // too few for an outlier
                 if (around.as_bright <= 1)
                     mark_cells(i, j, 2);
                 else if (around.as_dark == 0)
@@ -203,7 +203,7 @@ class TileRefiner {
         const std::vector<bool> new_column = new_lines(columns, columns_);
         const std::vector<bool> new_row = new_lines(rows, rows_);
         for (const bool centres : {true, false}) {
-            // A threshold of 0 asks for every pixel.
+            // A threshold of 0 means that every pixel is traced.
             glitters_ = !centres && options_.threshold > 0 && is_nearly_all_traced();
             settled_.clear();
             for (std::size_t j = 0; j < rows.size(); ++j) {
@@ -310,7 +310,7 @@ class TileRefiner {
         return differ(std::array{best->a, best->b}, strict) ? nullptr : best;
     }
 
-    /// Three of five pixels.
+    /// The pattern of pixels left out in a glittering tile: three of five.
     [[nodiscard]] static bool is_left_out(int x, int y) { return (x / 2 + y) % 5 < 3; }
     [[nodiscard]] bool is_nearly_all_traced() const {
         const auto open = std::count(states_.begin(), states_.end(), State::kOpen);
@@ -319,8 +319,8 @@ class TileRefiner {
                kAllTraced * static_cast<double>(std::ssize(states_) - open);
     }
 
-    /// Trace around every traced pixel that has at most two of its kind around it, and around what
-    /// that finds.
+    /// Trace around every traced pixel that has at most two similar neighbours, and repeat that for
+    /// the outliers so found (adaptive cluster sampling).
     void follow_discoveries() {
         std::vector<PixelPlace> found;
         for (int y = 0; y < height_; ++y) {

@@ -48,7 +48,7 @@ void fields(Archive& archive, RoundValue& value) {
     archive(value.new_records, value.record);
 }
 
-/// Hands fields down to the numbers that they are made of, which Derived takes.
+/// Visits fields recursively, down to numbers, which Derived handles (CRTP).
 template <class Derived>
 class Archive {
   public:
@@ -99,7 +99,7 @@ class Reader final : public Archive<Reader> {
     void list(std::vector<T>& values) {
         std::uint64_t count = 0;
         number(count);
-        if (count > bytes_.size() - at_) fail();  // none takes less than a byte
+        if (count > bytes_.size() - at_) fail();  // each element takes at least a byte
         for (std::uint64_t i = 0; i < count; ++i) (*this)(values.emplace_back());
     }
     void end() const {
@@ -128,7 +128,7 @@ class Hasher final : public Archive<Hasher> {
 template <class T>
 std::string encode(const std::vector<T>& values) {
     Writer writer;
-    writer.list(const_cast<std::vector<T>&>(values));  // which only reads
+    writer.list(const_cast<std::vector<T>&>(values));  // the writer only reads them
     return std::move(writer.bytes);
 }
 

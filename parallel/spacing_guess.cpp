@@ -87,7 +87,7 @@ bool ApartSet::reached(const AmbientQuery& query) const {
     return false;
 }
 
-/// In every cell that the reach touches: at most eight.
+/// Registers the point in every cell that its reach touches: at most eight.
 void ApartSet::add(const AmbientQuery& query, double reach) {
     const std::size_t scale = scale_of(reach);
     const double wide = edge(scale);

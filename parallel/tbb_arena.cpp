@@ -1,4 +1,4 @@
-// oneTBB behind the Executor interface.
+// Executor implemented by a oneTBB arena.
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>

@@ -10,14 +10,15 @@ namespace {
 
 // Measured on pictures of two furnished rooms, with one and two bounces and spacings
 // of 1 and 4; the tests replay some of them.
-constexpr double kUsualExponent = 0.85;  ///< of an prepass's work over its share done
-/// Before a phase begins, what was expected of it weighs as much as this share of it will; the less
-/// of it is left, the less.
+constexpr double kUsualExponent = 0.85;  ///< of the work of a prepass as a power of its share done
+/// Weight of the prediction made before a phase begins, as a share of the phase; it decreases with
+/// the share that is left.
 constexpr double kTrust = 0.6;
 
-// Direct light of a pixel, before anything is known; it weighs as much as a small block's report.
+// Prior of the rays for the direct light of a pixel; its weight is that of a report of a small
+// block.
 constexpr double kUsualPixelRays = 10, kUsualPixelWeight = 64 * 64;
-/// Of primary rays to pixels where pixels are interpolated.
+/// Ratio of primary rays to pixels where pixels are interpolated.
 constexpr double kTracedShare = 0.4;
 
 constexpr double kFarther = 1.1;  ///< ratio of the shares of points that are kept
@@ -90,7 +91,8 @@ double TimeEstimator::rays_a_pixel() const {
     return std::max((pr * vv_ - vr_ * pv_) / (pp * vv_ - pv_ * pv_), 0.0);
 }
 
-/// Of rays over share, between a point far back and now; the usual one while there is none.
+/// The exponent of rays as a power of the share done, between an earlier point and now; the usual
+/// one while there is no earlier point.
 double TimeEstimator::exponent() const {
     constexpr double kLeast = 0.3, kMost = 1;
     const auto from = std::find_if(points_.begin(), points_.end(), [&](const Point& point) {
@@ -99,12 +101,12 @@ double TimeEstimator::exponent() const {
     const double ratio = now_.done / from->share;
     if (ratio <= 1 || from->rays <= 0) return kUsualExponent;
     const double measured = std::log(static_cast<double>(now_.rays) / from->rays) / std::log(ratio);
-    // A short range says little.
+    // The shorter the range, the less the measured exponent is trusted.
     const double trust = std::min(1.0, std::log(ratio) / std::log(kFitRange)) / 2;
     return std::clamp(trust * measured + (1 - trust) * kUsualExponent, kLeast, kMost);
 }
 
-/// Of the present phase [s].
+/// Remaining time of the present phase [s].
 double TimeEstimator::present_left() const {
     if (phases_[phase_].kind == WorkPhase::Kind::prepass)
         return elapsed_ * (std::pow(now_.done, -exponent()) - 1);
@@ -112,7 +114,7 @@ double TimeEstimator::present_left() const {
     return (elapsed_ + trust * expected_.value_or(0)) / (now_.done + trust) - elapsed_;
 }
 
-/// Of a phase that is to come, from the present one [s].
+/// Predicted time of a later phase, from the present one [s].
 double TimeEstimator::expected_total(const WorkPhase& phase) const {
     const WorkPhase& present = phases_[phase_];
     const auto rays = static_cast<double>(now_.rays);

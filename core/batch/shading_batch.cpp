@@ -6,7 +6,7 @@
 namespace lightwalk {
 namespace {
 
-/// Says for its lifetime which batch the code that runs may wait in.
+/// Sets, for its lifetime, the batch in which the running code may wait.
 class BatchScope {
   public:
     BatchScope(TraceContext& context, ShadingBatch* batch)
@@ -71,7 +71,8 @@ void ShadingBatch::run_part(std::size_t first, std::size_t count,
     }
     for (std::size_t i = 0; i < begun; ++i)
         if (tasks_[i].failed) std::rethrow_exception(std::exchange(tasks_[i].failed, nullptr));
-    const BatchScope alone(context, around_);  // where there is no memory for stacks
+    const BatchScope alone(
+        context, around_);  // fallback without fibers, where there is no memory for stacks
     for (std::size_t i = begun; i < count; ++i) body(first + i);
 }
 
@@ -80,7 +81,7 @@ void ShadingBatch::calculate_all(Calculate calculate, TraceContext& context) {
     for (const std::size_t i : waiting_) requests_.push_back(*tasks_[i].request);
     const BatchScope outside(context, around_);
     const int depth = context.depth;
-    context.depth = tasks_[waiting_.front()].depth;  // of shadow rays' parents
+    context.depth = tasks_[waiting_.front()].depth;  // the depth of the parents of shadow rays
     try {
         calculate(requests_);
     } catch (...) {

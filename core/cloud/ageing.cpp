@@ -7,8 +7,9 @@ namespace lightwalk {
 
 namespace {
 
-/// Of `all` points so many at least draw lots below it. Their number is spread by the root of what
-/// is expected: seven times that, and some for small numbers, and it never comes out too low.
+/// The limit of lot() below which at least `least` of `all` points lie. Their number is binomial: a
+/// margin of seven standard deviations, and a constant for small numbers, makes too few practically
+/// impossible.
 std::uint32_t share_for(std::size_t least, std::size_t all) {
     constexpr double kSpreads = 7, kFew = 24, kLots = 4294967296.0, kMost = kLots - 1;
     const auto wanted = static_cast<double>(least);

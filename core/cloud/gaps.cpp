@@ -23,7 +23,7 @@ struct GapPicture {
     }
 };
 
-/// One at a fraction of the size: means of what is known below each pixel.
+/// A picture of a fraction of the size: means of the known pixels below each of its pixels.
 struct GapLevel {
     int width = 0, height = 0;
     std::vector<Rgb> radiance;
@@ -36,7 +36,8 @@ struct GapLevel {
     [[nodiscard]] GapPicture picture() { return {width, height, radiance, known}; }
 };
 
-/// The mean of what is known of the four pixels below a coarse one. 0: nothing is.
+/// The mean of the known ones among the four pixels below a coarse one. Returns 0 where none is
+/// known.
 std::uint8_t mean_below(const GapPicture& fine, int x, int y, Rgb& mean) {
     Rgb sum;
     int found = 0;
@@ -64,7 +65,8 @@ GapLevel halved(const GapPicture& fine, ForRows by_rows) {
     return level;
 }
 
-/// The coarse picture between its pixels: 9 : 3 : 3 : 1 of the four around a fine one.
+/// Bilinear interpolation of the coarse picture: weights 9 : 3 : 3 : 1 of the four pixels around a
+/// fine one.
 Rgb between(const GapPicture& coarse, int x, int y) {
     const int x0 = x / 2, y0 = y / 2;
     const int x1 = std::clamp(x0 + (x % 2 == 0 ? -1 : 1), 0, coarse.width - 1);
@@ -92,7 +94,7 @@ void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const s
     std::vector<GapPicture> levels{{width, height, radiance, known}};
     std::deque<GapLevel> coarser;  // levels refer to them
     while (!levels.back().full()) {
-        if (levels.back().known.size() <= 1) return;  // nothing is known at all
+        if (levels.back().known.size() <= 1) return;  // no pixel is known
         coarser.push_back(halved(levels.back(), by_rows));
         levels.push_back(coarser.back().picture());
     }

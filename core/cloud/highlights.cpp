@@ -11,12 +11,12 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kChange = 0.1;       ///< of the colour
-constexpr double kLeastCosine = 0.1;  ///< views nearer to the surface do not count
+constexpr double kChange = 0.1;       ///< relative change of the colour that is allowed
+constexpr double kLeastCosine = 0.1;  ///< more grazing views are not considered
 constexpr double kLeastTurn = 0.003, kFirstTurn = 0.0125, kMostTurn = 0.8;
-constexpr double kFaintShine = 0.1 * kChange;  ///< shares below it hardly count
+constexpr double kFaintShine = 0.1 * kChange;  ///< smaller shares are negligible
 
-/// A part of a light as the surface sees it.
+/// A part of a light source as seen from the surface.
 struct LitPart {
     Vec3 direction;
     double distance = kHuge;  ///< [m]
@@ -24,19 +24,19 @@ struct LitPart {
     double alpha2 = 0;        ///< of the lobe, widened by the part's size
 };
 
-/// A point of a glossy surface, and the eye that sees it.
+/// A point of a glossy surface, and the direction to the eye.
 struct SeenPoint {
     Vec3 position, normal;
-    Vec3 wo;  ///< where the eye is
+    Vec3 wo;  ///< to the eye, unit
 };
 
-/// The lobe's share of what a light brings to a glossy surface.
+/// The contribution of the specular lobe to the light that a source brings to a glossy surface.
 class LightOnSurface {
   public:
     LightOnSurface(const LightSource& light, const SeenPoint& at, const GlossyLobe& lobe,
                    double size_over_distance);
 
-    /// Leave out the parts that opaque surfaces hide.
+    /// Remove the parts that opaque surfaces hide.
     void drop_hidden(const Geometry& geometry);
     /// How far the eye may turn before the colour changes by kChange, if that is less than `most`
     /// [rad].
@@ -85,7 +85,8 @@ void LightOnSurface::drop_hidden(const Geometry& geometry) {
     count_ = static_cast<std::size_t>(std::remove_if(parts_.begin(), end, hidden) - parts_.begin());
 }
 
-/// Of the light's parts together: what the lobe sends to `wo` over what is diffuse.
+/// The ratio of specular to diffuse light that the surface sends to `wo`, over all parts of the
+/// light.
 double LightOnSurface::shine(const Vec3& wo) const {
     double lobe = 0, diffuse = 0;
     for (const LitPart& part : std::span(parts_.data(), count_)) {
@@ -95,7 +96,7 @@ double LightOnSurface::shine(const Vec3& wo) const {
     return diffuse > 0 ? ratio_ * lobe / diffuse : 0;
 }
 
-/// Toward the light's mirrored image, and across.
+/// Two axes of turning: toward the light's mirror image, and perpendicular to that.
 std::array<Vec3, 2> LightOnSurface::axes() const {
     const Vec3& l = parts_[count_ / 2].direction;
     const Vec3 image = at_.normal * (2 * dot(l, at_.normal)) - l;
@@ -105,7 +106,7 @@ std::array<Vec3, 2> LightOnSurface::axes() const {
     return {cross(second, at_.wo), second};
 }
 
-/// The largest change of the lobe's share when the eye turns so far.
+/// The largest change of shine() when the eye turns by an angle.
 double LightOnSurface::change(double turn, double here) const {
     double most = 0;
     for (const Vec3& axis : axes()) {
@@ -118,8 +119,9 @@ double LightOnSurface::change(double turn, double here) const {
     return most;
 }
 
-/// How far the eye may turn with no more than kFaintShine of a part's light in the lobe: until the
-/// half vector, which turns more slowly by the length of h, comes so near to the normal [rad].
+/// How far the eye may turn while the lobe reflects at most kFaintShine of a part's light: until
+/// the half vector, whose turn is the eye's times the length of h, comes too near to the normal
+/// [rad].
 double LightOnSurface::dark_turn(const LitPart& part) const {
     const Vec3 h = part.direction + at_.wo;
     const double hn = dot(h, at_.normal), size = length(h);
@@ -127,7 +129,7 @@ double LightOnSurface::dark_turn(const LitPart& part) const {
     if (peak <= kFaintShine) return kMostTurn;
     const double slope2 = part.alpha2 * std::log(peak / kFaintShine);
     const double sine2 = std::max(1 - hn * hn / (size * size), 0.0);
-    // Most lights are seen where the lobe is, or far beside it: no arc tangent for the former.
+    // Avoids the arc tangent in a frequent case: the view is inside the lobe.
     if (sine2 <= slope2 * (1 - sine2)) return 0;
     const double apart = std::asin(std::sqrt(sine2)) - std::atan(std::sqrt(slope2));
     return apart * std::min(size, 1.0);
@@ -168,7 +170,7 @@ double Highlights::slope(const Hit& hit, const Vec3& direction, const GlossyLobe
     for (const std::int32_t i : lights_.sampled()) {
         LightOnSurface light(lights_[i], at, lobe, part_size);
         if (light.max_view_angle(turn) >= turn) continue;
-        light.drop_hidden(geometry_);  // dear, and most lights do not come so far
+        light.drop_hidden(geometry_);  // expensive, and most lights do not get here
         turn = light.max_view_angle(turn);
     }
     return turn < kMostTurn ? kChange / std::max(turn, kLeastTurn) : 0;

@@ -8,7 +8,7 @@
 namespace lightwalk {
 namespace {
 
-/// All of a point: it has no unused bits.
+/// All bytes of a point, which has no padding.
 using PointBits = std::array<std::uint64_t, sizeof(CloudPoint) / sizeof(std::uint64_t)>;
 static_assert(sizeof(PointBits) == sizeof(CloudPoint));
 

@@ -5,7 +5,7 @@
 namespace lightwalk {
 namespace {
 
-/// The point of one visible thing, unless nothing of it can be reused.
+/// Adds the point of one visible place, unless it can never be reused.
 void add_point(const PrimaryVisibility& primary, const Rgb& radiance, const TracedPixel& pixel,
                double tolerance, PixelPoints& result) {
     if (!primary.seen || primary.slope == kNeverReuse) return;
@@ -17,7 +17,7 @@ void add_point(const PrimaryVisibility& primary, const Rgb& radiance, const Trac
     point.surface = primary.surface;
     point.direction = encode_direction(pixel.visibility.direction);
     point.kind = primary.kind;
-    // What is faint beside the other visible thing may change more.
+    // Where this part is faint beside the other one, larger relative changes are tolerable.
     const double whole = static_cast<double>(brightness(pixel.radiance));
     const double part = static_cast<double>(brightness(radiance));
     const double change = static_cast<double>(primary.slope) * part;
@@ -32,7 +32,7 @@ PixelPoints points_of(const TracedPixel& pixel, double tolerance) {
     PixelPoints result;
     if (!pixel.visibility.ray) return result;
     const PixelVisibility& visibility = pixel.visibility;
-    // A pixel is reused whole: a point without its partner would never be.
+    // Both points of a pixel are needed to reuse it: where one is missing, none is stored.
     if ((visibility.ahead.seen && visibility.ahead.slope == kNeverReuse) ||
         (visibility.mirrored.seen && visibility.mirrored.slope == kNeverReuse))
         return result;

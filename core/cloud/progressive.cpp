@@ -8,7 +8,7 @@
 namespace lightwalk {
 namespace {
 
-/// Neighbours that differ by a larger share of the brighter one show steps.
+/// Neighbours whose difference is a larger share of the brighter one form an edge.
 constexpr float kSteep = 0.1f;
 
 bool is_step(const Rgb& a, const Rgb& b) {
@@ -92,7 +92,7 @@ bool ProgressivePicture::is_steep(int x, int y) const {
            (y + 1 < height_ && is_step(own, radiance_[at(x, y + 1)]));
 }
 
-/// Of the pixels at steps those with the fewest rays.
+/// The pixels at edges that have the fewest rays.
 ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
     ProgressiveWork work;
     work.sample = most_samples_;

@@ -9,7 +9,7 @@
 namespace lightwalk {
 namespace {
 
-/// Points are projected by so many at a time: as many cells of the grids are fetched together.
+/// Number of points projected together, so that the cells of the grids are prefetched.
 constexpr std::size_t kAtOnce = 64;
 
 }  // namespace
@@ -17,7 +17,7 @@ constexpr std::size_t kAtOnce = 64;
 PointProjector::PointProjector(const Camera& camera, int width, int height)
     : camera_(camera), width_(width), height_(height), perspective_(camera.view().type == 'v') {
     if (!perspective_) return;
-    // A point at depth 1 on the right edge's side of the axis tells the scale of the picture.
+    // The scale of the picture follows from the projection of points at depth 1.
     const Vec3 axis = camera.view().position + camera.forward();
     const Camera::ImagePosition centre = camera.locate(axis);
     const Camera::ImagePosition right = camera.locate(axis + camera.right());
@@ -33,7 +33,7 @@ PointProjector::PointProjector(const Camera& camera, int width, int height)
     if (camera.view().aft > kEpsilon) farthest_ = camera.view().aft;
 }
 
-/// Without branches: compilers then take several points at a time.
+/// Without branches, so that compilers vectorise it.
 inline ImagePlace PointProjector::in_perspective(const Vec3& point) const {
     const Vec3 w = point - eye_;
     const double depth = dot(w, forward_), scale = 1 / depth;

@@ -9,33 +9,33 @@
 namespace lightwalk {
 namespace {
 
-/// Points of one surface at more different distances belong to different parts of it: a plane that
-/// is seen at a grazing angle changes its distance by this much within a pixel.
+/// Points of one surface whose distances differ by more belong to different parts of it. A plane
+/// seen at a grazing angle changes its distance by as much within a pixel.
 constexpr float kSameDepth = 0.05f;
 
-/// Depths that differ by more jump.
+/// Larger relative differences of depth are discontinuities.
 constexpr float kDepthJump = 0.1f;
 
 /// Points around a pixel that differ by this share of the brightest belong to lines and edges.
 constexpr float kSteepContrast = 0.6f;
 
-/// A point on the pixel, or no farther from its ray, shows the pixel as it is; of farther ones what
-/// lies between them is truer than any of them [pixels²].
+/// Squared distance from a pixel's ray up to which a single point is shown; of farther points an
+/// interpolated mean is more accurate [pixels²].
 constexpr float kOwnPixel2 = 0.49f;
 
-/// What is mirrored may be anything where it brings no more than this share of the rest.
+/// Reflections that add at most this share of the rest need not be found.
 constexpr float kFaint = 0.05f;
 
-/// So few points do not tell whether a neighbourhood is even.
+/// Up to so many points are too few to judge the contrast of a neighbourhood.
 constexpr int kFewPoints = 3;
 
 bool depths_jump(float a, float b) {
     return std::abs(a - b) > kDepthJump * std::min(a, b);
 }
 
-/// Where no ray tells, of the nine cells around a pixel's middle so many hold points at least,
-/// their depths differ by no more [steps of .4 to .8 %], and the last frame has shown as many of
-/// them.
+/// Conditions of temporal answers, in the 3 x 3 cells around a pixel: least number of points,
+/// largest difference of depths [steps of .4 to .8 %], least number of points that the last frame
+/// has shown.
 constexpr int kWellKnown = 5, kSmooth = 4, kWitnesses = 3;
 
 /// Direction from where the pixel's ray begins to a point beside it.
@@ -47,8 +47,8 @@ Vec3 toward(const CloudPoint& point, const PixelVisibility& visibility,
 
 }  // namespace
 
-/// How far a pixel's points may lie from its ray, squared [pixels²], where those around it differ
-/// by a share `contrast` of their light: the grain of a wall may shift by a pixel, a line may not.
+/// The squared distance up to which points may lie from a pixel's ray [pixels²], by the relative
+/// contrast of the points around: the grain of a wall may shift by a pixel, a line may not.
 float PointFinder::squared_reach(float contrast) const {
     const float steep = std::max(kSteepContrast, rules_.contrast);
     const float share =
@@ -59,15 +59,15 @@ float PointFinder::squared_reach(float contrast) const {
 
 /// The points around a pixel, as far as they show what its ray sees.
 struct PointFinder::Search {
-    float faint = -1;  ///< so little light does not matter, whatever it comes from
+    float faint = -1;  ///< radiance that is negligible, whatever its surface
     std::uint32_t best = kNoPoint;
     float squared = HUGE_VALF;  ///< distance of the best one [pixels²]
-    Rgb sum;                    ///< of those that are not sharp, weighted
+    Rgb sum;                    ///< weighted sum of points farther than kOwnPixel2
     float weight = 0;
     float darkest = HUGE_VALF, brightest = 0;
-    int points = 0;       ///< usable ones
-    bool any = false;     ///< there is a point at all
-    bool turned = false;  ///< some were seen from elsewhere
+    int points = 0;       ///< number of usable points
+    bool any = false;     ///< there is any point
+    bool turned = false;  ///< some points were seen from a too different direction
 };
 
 inline float PointFinder::squared_distance(std::uint32_t index,
@@ -101,7 +101,7 @@ inline void PointFinder::consider(std::uint32_t index, float squared,
         found.sum += point.radiance * weight;
         found.weight += weight;
     }
-    // Of equally near ones always the same: whatever the order, and whoever keeps them.
+    // Ties are broken by content, so that the result is deterministic.
     if (squared > found.squared ||
         (squared == found.squared && !precedes(point, points_[found.best])))
         return;
@@ -109,8 +109,8 @@ inline void PointFinder::consider(std::uint32_t index, float squared,
     found.best = index;
 }
 
-/// Search at the points around a pixel: at those that are not near only where no near one shows
-/// what the ray sees, for else they change nothing.
+/// Considers the points around a pixel. Points that are not near are considered only where no near
+/// one shows what the ray sees, as they would not change the result otherwise.
 /// @param near  squared, at most kOwnPixel2 [pixels²]
 void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, float near,
                                 const PixelVisibility& visibility, const PrimaryVisibility& primary,
@@ -138,9 +138,9 @@ void PointFinder::search_around(const DepthGrid& grid, const PixelPlace& pixel, 
         consider(far[i], far_squared[i], visibility, primary, found);
 }
 
-/// Adds to the answer. What it shows already counts: points may differ by a share of the sum. What
-/// lies between points is their mean by the fourth power of the distance (Shepard, "A
-/// two-dimensional interpolation function for irregularly-spaced data", ACM 1968).
+/// Adds the found points to the answer. Their contrast is judged relative to the sum of both points
+/// of the pixel. Values between points are weighted by the inverse fourth power of the distance
+/// (Shepard, "A two-dimensional interpolation function for irregularly-spaced data", ACM 1968).
 TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
                                const PixelVisibility& visibility, const PrimaryVisibility& primary,
                                std::uint32_t& best, PixelAnswer& answer) const {
@@ -151,7 +151,7 @@ TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
     const std::uint32_t own = grid.winner(pixel.x, pixel.y);
     if (own != kNoPoint)
         consider(own, squared_distance(own, visibility), visibility, primary, found);
-    // What lies on the pixel itself is as good a sample of it as its ray's.
+    // A point projected onto the pixel is as good a sample as its ray.
     const bool inside_pixel = found.points > 0;
     if (rules_.look_back && !inside_pixel)
         search_around(grid, pixel, std::min(near, kOwnPixel2), visibility, primary, found);
@@ -189,13 +189,13 @@ inline void PointFinder::check(const PixelPlace& pixel, const PixelVisibility& v
                               answer.mirrored, answer);
 }
 
-/// Fetch the pixels' points into the cache.
+/// Prefetch the points of the pixels.
 void PointFinder::expect(std::span<const PixelPlace> pixels) const {
     for (const PixelPlace& pixel : pixels) {
         const std::uint32_t index = grids_.ahead.winner(pixel.x, pixel.y);
         if (index == kNoPoint) continue;
         prefetch(&points_[index]);
-        prefetch(&points_[index].paired);  // the last member: it may lie in the next line
+        prefetch(&points_[index].paired);  // the last member, which may lie in the next cache line
         prefetch(&places_[index]);
     }
 }
@@ -213,8 +213,8 @@ PixelAnswer PointFinder::checked(const PixelPlace& pixel, const PixelVisibility&
     return answer;
 }
 
-/// What fell onto the pixel, whatever it is: TraceCause::uncovered where a part of it is missing.
-/// @param mirrors  whether there may be a point of what is mirrored
+/// The points projected onto the pixel, without further tests; TraceCause::uncovered where one of a
+/// pair is missing. @param mirrors  whether there may be a point seen in a mirror
 void PointFinder::find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const {
     const std::uint32_t ahead = grids_.ahead.winner(pixel.x, pixel.y);
     const std::uint32_t mirrored = mirrors ? grids_.mirrored.winner(pixel.x, pixel.y) : kNoPoint;
@@ -247,7 +247,7 @@ PixelAnswer PointFinder::unchecked(const PixelPlace& pixel) const {
     return answer;
 }
 
-/// Whether there is a ray to a point that a pixel shows, and the point looks the same along it.
+/// Whether the pixel has a ray, and the colour of the point holds along it.
 bool PointFinder::holds(const CloudPoint& point, const PixelPlace& pixel) const {
     const Camera& camera = projector_.camera();
     const auto ray =
@@ -255,8 +255,9 @@ bool PointFinder::holds(const CloudPoint& point, const PixelPlace& pixel) const 
     return ray && holds_from(point, normalize(point.place() - ray->origin), rules_.tightness);
 }
 
-/// The answer of a pixel's point, or, where it has none, of those around it, as if a ray had told
-/// that it sees their surface: if that is one, and the last frame has shown some of them.
+/// The answer from the pixel's point, or where it has none from those around it, assuming that the
+/// ray sees their surface: provided that they are of one surface, and that the last frame has shown
+/// some of them.
 PixelAnswer PointFinder::inferred(const PixelPlace& pixel) const {
     PixelVisibility visibility;
     float sum = 0;
@@ -295,7 +296,7 @@ PixelSquare PointFinder::square_of(const PixelPlace& pixel) const {
     return {corner, grids_.ahead.surroundings(corner), !grids_.mirrored.is_empty(corner)};
 }
 
-/// Whether a pixel lies in the midst of a surface that mirrors nothing, for all that depths tell.
+/// Whether a pixel lies in the interior of a surface without reflections, judged by depths.
 bool PointFinder::is_amidst(const PixelSquare& square, const PixelPlace& pixel) const {
     const std::size_t at = square.at(pixel);
     return square.ahead.known[at] >= kWellKnown && square.ahead.spread[at] <= kSmooth &&
@@ -319,7 +320,7 @@ void PointFinder::temporal(const PixelSquare& square, std::span<const PixelPlace
     }
 }
 
-/// The nearest point of those that fell onto the pixels around, whatever it is.
+/// The nearest of the points projected onto the pixels around, without further tests.
 void PointFinder::find_around(const PixelPlace& pixel, PixelAnswer& answer) const {
     const float centre_x = static_cast<float>(pixel.x) + 0.5f;
     const float centre_y = static_cast<float>(pixel.y) + 0.5f;
@@ -361,8 +362,8 @@ void PointFinder::unverified(const PixelSquare& square, std::span<const PixelPla
     for (std::size_t i = 0; i < pixels.size(); ++i) fill_unverified(square, pixels[i], answers[i]);
 }
 
-/// Distances of the points that fell onto the pixel and those around it, from below, left to
-/// right; 0: none.
+/// Distances of the points in the 3 x 3 cells around a pixel, from below, left to right; 0: no
+/// point.
 std::array<float, 9> PointFinder::depths(const PixelPlace& pixel, const DepthGrid& grid) const {
     std::array<float, 9> result{};
     std::size_t i = 0;
@@ -376,7 +377,7 @@ std::array<float, 9> PointFinder::depths(const PixelPlace& pixel, const DepthGri
     return result;
 }
 
-/// Whether the pixel's point is not what is seen there, for all that those around it say.
+/// Whether the points around contradict the pixel's point: it is probably hidden or stale.
 bool PointFinder::contradicts(const PixelPlace& pixel, const DepthGrid& grid) const {
     const std::array<float, 9> around = depths(pixel, grid);
     constexpr std::size_t kOwn = 4;
@@ -408,7 +409,7 @@ bool PointFinder::is_guess(const PixelAnswer& answer) const {
 float PointFinder::distance(const PixelAnswer& answer) const {
     if (answer.ahead == kNoPoint)
         return answer.mirrored != kNoPoint ? places_[answer.mirrored].distance : 0;
-    // As traced rays tell it, see Ray::effective_distance().
+    // The same rule as for traced rays, see Ray::effective_distance().
     const bool mirror =
         answer.mirrored != kNoPoint &&
         brightness(points_[answer.mirrored].radiance) > 0.5f * brightness(answer.radiance);

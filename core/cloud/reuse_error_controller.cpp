@@ -7,15 +7,15 @@
 namespace lightwalk {
 namespace {
 
-// So few tell nothing.
+// Least numbers of measurements for a decision.
 constexpr std::size_t kLeastErrors = 1024, kLeastFloors = 256;
-constexpr float kOff = 0.1f;           ///< errors that count
-constexpr double kStandardErrors = 2;  ///< within which a difference may be chance
+constexpr float kOff = 0.1f;           ///< larger relative errors count as wrong
+constexpr double kStandardErrors = 2;  ///< differences within so many standard errors may be chance
 
-// Quick to distrust, slow to trust again: or the picture would flicker between the two.
+// Tightens quickly and loosens slowly, so that the picture does not oscillate between the two.
 constexpr double kTighten = 0.5, kLoosen = 1.1, kTightest = 1.0 / 1024;
 
-/// Share of values that are off, and the variance of its error.
+/// Share of values that are wrong, and the variance of this estimate.
 struct OffShare {
     double share = 0, variance = 0;
 };
@@ -37,7 +37,7 @@ double quantile(std::vector<float> values, double share) {
 
 ReuseRules tightened(ReuseRules rules, double tightness) {
     const auto share = static_cast<float>(tightness);
-    const float near = rules.near * std::sqrt(share);  // so that area follows
+    const float near = rules.near * std::sqrt(share);  // so that the area is proportional to share
     rules.reach = near + std::max(rules.reach - rules.near, 0.0f) * share;
     rules.near = near;
     rules.contrast *= share;

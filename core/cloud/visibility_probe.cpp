@@ -8,10 +8,10 @@
 namespace lightwalk {
 namespace {
 
-constexpr int kMostSurfaces = 16;   ///< that light is followed through
-constexpr int kMostAlternates = 8;  ///< of alternates
+constexpr int kMostSurfaces = 16;   ///< surfaces that a ray is followed through
+constexpr int kMostAlternates = 8;  ///< length of a chain of alternate materials
 
-/// One more surface on the way; never 0.
+/// Extends the hash of a path by one surface; never 0.
 std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t frame) {
     const std::uint64_t both = std::uint64_t{static_cast<std::uint32_t>(surface)} << 32 |
                                static_cast<std::uint32_t>(frame);
@@ -19,7 +19,7 @@ std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t 
     return static_cast<std::uint32_t>(bits >> 32) | 1;
 }
 
-/// Relative change of a mirror-like reflection, and of what it leaves, as the ray turns, by
+/// Relative changes of a mirror-like reflection and of the transmitted rest as the ray turns, by
 /// Schlick's R = R0 + (1 - R0) (1 - cosθ)^5.
 struct FresnelSlopes {
     double reflected = 0, left = 0;  ///< [1/rad]
@@ -70,7 +70,7 @@ SurfaceAppearance VisibilityProbe::appearance_of(ModifierId modifier) const {
         appearance.textured = appearance.textured || kind == PrimitiveKind::texture;
         appearance.patterned = appearance.patterned || kind == PrimitiveKind::pattern;
     }
-    // Lamps are measured: their patterns are functions of the direction.
+    // Patterns on lights are usually measured distributions, which depend on the direction.
     if (is_light(record.type) && appearance.patterned &&
         appearance.appearance == Appearance::constant)
         appearance.appearance = Appearance::unknown;
@@ -101,7 +101,7 @@ bool VisibilityProbe::reflects_flat(const Hit& hit, const SurfaceAppearance& app
            hit.perturbation == Vec3{};
 }
 
-/// The source at infinity that the walk ends at, as a surface met.
+/// The hash of a path that ends at a source at infinity, or at nothing.
 std::uint32_t VisibilityProbe::background(const Walk& walk) const {
     const Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
     const std::optional<SurfaceId> seen =
@@ -117,7 +117,7 @@ float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
     return static_cast<float>(highlights_.slope(hit, walk.segment.direction, lobe));
 }
 
-/// The walk ends at `hit`, or at infinity.
+/// Ends a walk at `hit`, or at infinity: sets its result.
 void VisibilityProbe::end(const Walk& walk, const Hit& hit,
                           const SurfaceAppearance& appearance) const {
     PrimaryVisibility& primary = *walk.primary;
@@ -140,7 +140,8 @@ void VisibilityProbe::end(const Walk& walk, const Hit& hit,
     if (primary.kind == PointKind::plain && primary.slope > 0) primary.kind = PointKind::glossy;
 }
 
-/// The next surface on the way. False: the light comes from there; true: from farther on.
+/// Processes the next hit of a walk. True: it continues behind that surface; false: it has ended
+/// there.
 bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
     if (!hit.exists() || walk.surfaces++ == kMostSurfaces) {
         end(walk, hit, {});
@@ -163,7 +164,8 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
     return true;
 }
 
-/// The same up to the first surface that counts, which may mirror something: another walk.
+/// Processes the next hit of a walk up to the first surface with a material, whose reflection
+/// begins another walk. True: it continues.
 bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const {
     if (!hit.exists()) return goes_on(walk, hit);
     const SurfaceAppearance appearance = appearance_at(hit);
@@ -195,7 +197,8 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
     return !mirror && goes_on(walk, hit);
 }
 
-/// To the ends of all walks, whose rays are cast together: neighbours go similar ways.
+/// Follows all walks to their ends. Their rays are cast together, as those of neighbouring pixels
+/// are coherent.
 void VisibilityProbe::follow(std::vector<Walk>& walks, Scratch& scratch) const {
     while (!walks.empty()) {
         scratch.segments.clear();

@@ -7,7 +7,8 @@
 namespace lightwalk::function {
 namespace {
 
-/// After so many passes all thunks go out of line: text made to need many passes gets slower code.
+/// After so many passes all remaining thunks go out of line, which bounds compilation for texts
+/// made to need many passes.
 constexpr int kPasses = 6;
 
 }  // namespace
@@ -221,7 +222,7 @@ std::vector<std::size_t> CodeGenerator::undo_available(std::size_t start) {
     return undone;
 }
 
-/// After branches: what each of them has computed.
+/// After branches, keeps as available what every branch has computed.
 void CodeGenerator::keep_common(std::vector<std::vector<std::size_t>> branches) {
     for (auto& branch : branches) std::sort(branch.begin(), branch.end());
     std::vector<std::size_t> common = branches.front();
@@ -239,7 +240,7 @@ void CodeGenerator::clear_error() {
     error_clear_ = true;
 }
 
-/// A thunk is needed here that need not be valid yet: count the place. Returns whether its code is
+/// Counts a place where a thunk is needed that may not be valid yet. Returns whether its code is
 /// out of line.
 bool CodeGenerator::note_first_use(ThunkId id) {
     ++first_uses_[id];

@@ -10,7 +10,7 @@
 namespace lightwalk::function {
 namespace {
 
-/// The function's own instruction; special forms have none.
+/// The function's own instruction; if, select and the like have none.
 Op operation(LibraryFunction f) {
     switch (f) {
 #define SPECIAL_FORM(name, spelling, arguments)
@@ -23,7 +23,7 @@ Op operation(LibraryFunction f) {
     }
 }
 
-/// Of a reduction: the instruction for all pairs but the last, whose result is not checked.
+/// The instruction for the steps of a reduction except the last; its result is not checked.
 Op step_operation(LibraryFunction f) {
     switch (f) {
 #define REDUCTION(name, value)  \

@@ -80,11 +80,11 @@ struct FunctionEnvironment::Impl {
 
     SymbolTable symbols;
     std::unordered_set<std::string> contexts;
-    std::unordered_map<std::string, Program> shared;  ///< by what was asked for
+    std::unordered_map<std::string, Program> shared;  ///< by requests and arguments
 
     void parse(std::string_view text, const SourceLocation& where, std::string_view context,
                bool flat) {
-        shared.clear();  // names may mean something else now
+        shared.clear();  // names may refer to other definitions now
         ConstantFolder folder(symbols);
         const function::Scope scope{symbols, &symbols, context, folder};
         function::parse_definitions(text, where, scope, flat);

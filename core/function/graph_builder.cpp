@@ -9,7 +9,7 @@
 namespace lightwalk::function {
 namespace {
 
-/// Sets a variable for as long as it lives.
+/// Sets a variable for its lifetime (scope guard).
 template <class T>
 class ScopedValue {
   public:

@@ -35,8 +35,8 @@ void push_return(const Program::Code& code, EvalState& state, const Instruction*
         {static_cast<std::uint32_t>(from - code.instructions.data()) + 1, frame, cell});
 }
 
-/// Run the block at `entry` in `frame`, for the value of `cell`. Until it has one the cell is 0:
-/// what a variable that refers to itself finds.
+/// Run the block at `entry` in `frame`, for the value of `cell`. Until then the cell is 0, which is
+/// the value of a variable that refers to itself.
 Position compute_cell(const Program::Code& code, EvalState& state, const Instruction* from,
                       std::uint32_t caller, std::uint32_t frame, std::uint32_t cell,
                       std::uint32_t entry) {
@@ -94,7 +94,7 @@ Position return_to_caller(const Program::Code& code, EvalState& state, double va
 constexpr unsigned kDomain = static_cast<unsigned>(EvalError::domain);
 constexpr unsigned kRange = static_cast<unsigned>(EvalError::range);
 
-/// One evaluation. The loop is the machine's only user, so that its state lives in registers.
+/// One evaluation: an interpreter loop, whose state is kept in registers.
 class Machine {
   public:
     Machine(const Program::Code& code, EvalState& state, std::uint32_t entry)
@@ -178,7 +178,7 @@ class Machine {
     EvalState& state_;
     const Instruction* i_;     ///< the present instruction
     double* cells_;            ///< of the present frame
-    std::uint32_t frame_ = 0;  ///< where that begins
+    std::uint32_t frame_ = 0;  ///< index of its first cell
     std::uint32_t top_;        ///< where the next frame will begin
     unsigned error_;           ///< EvalError
 };

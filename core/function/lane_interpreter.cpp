@@ -1,5 +1,5 @@
-// Evaluation of a program for several rays side by side. Most operations of a program wait for the
-// one before; those of other rays fill the gaps.
+// SIMD evaluation of a program for several rays. It also hides latencies: most operations depend on
+// the preceding one, those of other rays do not.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,7 +24,7 @@ template <class F, class... Operands>
     return result;
 }
 
-/// The lanes for which it holds.
+/// The mask of lanes for which a predicate holds.
 template <class F>
 [[gnu::always_inline]] inline LaneMask which(const F& holds, const Lanes& x) {
     LaneMask mask = 0;
@@ -49,9 +49,9 @@ constexpr auto absolute = [](double x) { return -x > x ? -x : x; };
 constexpr auto reciprocal = [](double x) { return 1 / x; };
 constexpr auto root = [](double x) { return std::sqrt(x); };
 
-/// One evaluation of all lanes. Where they part those go on that go the way of the first; those
-/// with an error stay behind, too: the error flag is always clear. Operations are those of the
-/// interpreter for one ray, to the bit.
+/// One evaluation of all lanes. At a branch only lanes that take the same way as the first
+/// continue; lanes with an error stop, so that the error flag is always clear. Operations are those
+/// of the interpreter for one ray, to the bit.
 class LaneMachine {
   public:
     LaneMachine(const Program::Code& code, EvalState& state, std::uint32_t entry, std::size_t used)
@@ -70,7 +70,7 @@ class LaneMachine {
         cells_[i_->dst] = v;
         ++i_;
     }
-    /// Note what is not finite; halt asks.
+    /// Records lanes whose value is not finite; tested at the end.
     [[nodiscard]] Lanes tested(const Lanes& v) {
         errors_ = each([](double e, double x) { return e + x * 0; }, errors_, v);
         return v;
@@ -79,7 +79,8 @@ class LaneMachine {
     [[nodiscard]] std::size_t first() const {
         return static_cast<std::size_t>(std::countr_zero(going_));
     }
-    /// A function that takes long: of the lanes that go on only; the others are as the first.
+    /// Evaluates an expensive function for active lanes only; the others get the value of the
+    /// first.
     template <class F, class... Operands>
     void call(const F& f, const Operands&... operands) {
         const double at_first = f(operands.value[first()]...);
@@ -220,7 +221,7 @@ void load_constants(const Program::Code& code, EvalState& state) {
     for (const double value : code.constants) (constant++)->value.fill(value);
 }
 
-/// Rays of these numbers, 1 to kLanes; lanes that are left over are as the first.
+/// Evaluates 1 to kLanes rays, given by their numbers; unused lanes repeat the first ray.
 LaneValues run_lanes(const Program::Code& code, std::size_t output,
                      std::span<const ChannelValues> rays, std::span<const std::uint32_t> numbers,
                      EvalState& state) {
@@ -262,7 +263,7 @@ void Program::evaluate_all(std::size_t output, std::span<const ChannelValues> ra
             else if (k == 0)
                 values[group[k]] = std::nullopt;
             else
-                queue.push_back(group[k]);  // with others that went another way
+                queue.push_back(group[k]);  // evaluated again with other rays that took another way
         }
     }
 }

@@ -164,8 +164,8 @@ struct Descent {
     [[nodiscard]] std::uint32_t corner() const {
         return static_cast<std::uint32_t>(kCellUnits * cell);
     }
-    /// Move to the half of size `half` that holds x: all ones if it is the upper one, else 0. Which
-    /// it is nothing can predict, so there is no branch.
+    /// Descend to the half, of size `half`, that contains x. Returns all ones for the upper half,
+    /// else 0. Branchless, as the outcome is unpredictable.
     std::uint32_t step(std::int32_t half) {
         const auto upper = static_cast<std::uint32_t>((half - offset) >> 31);
         offset -= static_cast<std::int32_t>(static_cast<std::uint32_t>(half) & upper);

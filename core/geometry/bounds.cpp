@@ -6,7 +6,7 @@
 namespace lightwalk {
 namespace {
 
-/// Millions of these make the boxes of a large model.
+/// Inlined by force: called millions of times for a large model.
 [[gnu::always_inline]] inline void include(Bounds& bounds, const Vec3& p) {
     bounds.lower = {std::min(bounds.lower.x, p.x), std::min(bounds.lower.y, p.y),
                     std::min(bounds.lower.z, p.z)};

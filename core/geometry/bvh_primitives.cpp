@@ -14,16 +14,21 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kDivisions = 20000;   ///< of all polygons of a model, of all its cones, too;
-                                            ///< and half as many as it has primitives
-constexpr int kMostParts = 64;              ///< of one polygon
-constexpr std::size_t kMostVertices = 128;  ///< of a polygon that is divided
-constexpr double kLeastGain = 1e-5;         ///< of a division, relative to the model's box
-constexpr double kThickness = 1.0 / 16;   ///< of slanted bvh primitives, relative to their polygon
-constexpr double kMargin = 4 * kEpsilon;  ///< that boxes are grown by [m]
-constexpr double kRim = 3 * kEpsilon;     ///< of cells, that the boxes around reach into [m]
-constexpr std::size_t kManyPrimitives = std::size_t{1} << 17;  ///< pairs are made, cones whole
-constexpr double kPairArea = 0.75;  ///< of a pair's box at most, relative to both boxes together
+constexpr std::size_t kDivisions = 20000;   ///< limit for all polygons of a model, and for all its
+                                            ///< cones; half the number of its primitives is another
+constexpr int kMostParts = 64;              ///< parts of one polygon at most
+constexpr std::size_t kMostVertices = 128;  ///< polygons with more are not divided
+constexpr double kLeastGain =
+    1e-5;  ///< gain of a division, relative to the area of the model's box
+constexpr double kThickness =
+    1.0 / 16;  ///< least thickness of the parts of slanted polygons, relative to the polygon
+constexpr double kMargin = 4 * kEpsilon;  ///< by which boxes are grown [m]
+constexpr double kRim =
+    3 * kEpsilon;  ///< width of the rim of a cell that boxes of adjacent cells overlap [m]
+constexpr std::size_t kManyPrimitives =
+    std::size_t{1} << 17;  ///< from here on pairs are made, and cones not divided
+constexpr double kPairArea =
+    0.75;  ///< largest area of a pair's box, relative to the sum of both boxes
 
 struct Point {
     std::array<double, 2> at{};
@@ -58,8 +63,7 @@ void clip(const std::vector<Point>& polygon, std::size_t k, double limit, double
     }
 }
 
-/// A polygon while it is clipped. Kept from one to the next: thousands are clipped while a scene is
-/// built.
+/// Buffers for clipping a polygon, which are reused: thousands are clipped while a scene is built.
 struct Clipping {
     std::vector<Point> part, next;
 };
@@ -92,8 +96,8 @@ class Projection {
     [[nodiscard]] const Cell& whole() const { return whole_; }
     [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 
-    /// Whether no hit can lie in the cell, but those so near its rim that the boxes of the cells
-    /// around hold them.
+    /// Whether no hit can lie in the cell, except so near its rim that boxes of adjacent cells
+    /// contain it.
     [[nodiscard]] bool is_empty(Cell cell) const {
         for (std::size_t k = 0; k < 2; ++k) {
             cell.lower[k] += kRim;
@@ -109,7 +113,8 @@ class Projection {
         return !contains(polygon_, on_plane(x, y), nullptr);
     }
 
-    /// Area of the cell that the polygon leaves free. A guess for polygons that cross themselves.
+    /// The area of the cell that the polygon does not cover. An approximation for polygons that
+    /// cross themselves.
     [[nodiscard]] double waste(const Cell& cell, Clipping& scratch) const {
         scratch.part = points_;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -187,8 +192,8 @@ std::array<Cell, 2> halves(const Cell& cell, const Cut& cut) {
     return parts;
 }
 
-/// The cut at a vertex that settles most (parts without waste, or without any of the polygon);
-/// where none does, the middle.
+/// The cut at a vertex that leaves the largest parts finished (fully covered, or empty); where no
+/// cut does, the middle.
 Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful, Clipping& scratch) {
     Cut best;
     const std::array<double, 2> steep{cell.side(0) * (1 + polygon.slope(0)),
@@ -256,20 +261,20 @@ std::size_t most_divisions(const ModelPrimitives& model) {
     return kDivisions + model.size() / 2;
 }
 
-/// Divides the polygons of a model, always where most is won next.
+/// Divides the polygons of a model greedily, always where the gain is largest.
 class Division {
   public:
     explicit Division(const ModelPrimitives& model)
         : model_(model), least_(least_gain(model)), budget_(most_divisions(model)) {}
 
-    /// A first look, at any number of primitives at once: false for what is never divided.
+    /// A quick test, safe to call in parallel: false for primitives that are never divided.
     [[nodiscard]] bool is_candidate(std::uint32_t primitive) const {
         const std::optional<PolygonShape> shape = model_.polygon(primitive);
         return shape && shape->vertices.size() <= kMostVertices &&
                half_area(hit_bounds(*shape)) > least_;
     }
 
-    /// Takes those of the candidates that are worth dividing; returns them, in their order.
+    /// Adds those candidates that are worth dividing; returns them in their order.
     std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& candidates,
                                    const TaskRunner& task_runner) {
         constexpr std::size_t kTogether = 64;
@@ -313,7 +318,7 @@ class Division {
     struct Divided {
         Projection projection;
         std::uint32_t primitive = 0;
-        int bvh_primitives = 0;  ///< so far
+        int bvh_primitives = 0;  ///< number of parts so far
     };
 
     void divide(const Task& task, Divided& polygon) {
@@ -335,7 +340,7 @@ class Division {
     Clipping scratch_;
 };
 
-/// The primitives that `is_wanted` wants, in their order.
+/// The primitives for which `is_wanted` is true, in their order.
 template <class IsWanted>
 std::vector<std::uint32_t> select_primitives(std::size_t count, const TaskRunner& task_runner,
                                              const IsWanted& is_wanted) {
@@ -356,8 +361,8 @@ struct SlicedCone {
     ConeSlices slices;
 };
 
-/// Those of a model from which most is won, in their order. None of a large one: to look at a
-/// million takes a second, and rays gained nothing (measured).
+/// The cones of a model whose slicing gains most, in their order. None for a large model: examining
+/// a million takes a second, and rays gained nothing (measured).
 std::vector<SlicedCone> slice_cones(const ModelPrimitives& model, const TaskRunner& task_runner) {
     if (model.size() > kManyPrimitives) return {};
     const double least = least_gain(model);
@@ -394,7 +399,7 @@ void append(const std::vector<SlicedCone>& cones, const ModelPrimitives& model,
     }
 }
 
-/// Pairs of primitives, then those that stay alone.
+/// Primitives grouped into pairs and single ones.
 struct Grouping {
     std::vector<std::uint32_t> pairs, alone;
 
@@ -404,7 +409,7 @@ struct Grouping {
     }
 };
 
-/// Pairs what can be paired, from the first one on.
+/// Pairs neighbours greedily, from the first primitive on.
 Grouping pair_neighbours(const ModelPrimitives& model, std::span<const std::uint32_t> primitives) {
     Grouping grouping;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -437,7 +442,7 @@ Grouping pair_neighbours(const ModelPrimitives& model, std::span<const std::uint
     return all;
 }
 
-/// Whether they are all that is between the first of them and the last.
+/// Whether the ascending numbers have no gaps.
 bool are_consecutive(const std::vector<std::uint32_t>& numbers) {
     return numbers.empty() || numbers.back() - numbers.front() + 1 == numbers.size();
 }

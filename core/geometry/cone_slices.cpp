@@ -4,7 +4,8 @@ namespace lightwalk {
 namespace {
 
 constexpr int kMostSlices = 16;
-constexpr double kWorthHalving = 0.75;  ///< what is left of the boxes' area at most
+constexpr double kWorthHalving =
+    0.75;  ///< halving is worth it where at most this share of the boxes' area is left
 
 }  // namespace
 

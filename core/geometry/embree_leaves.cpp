@@ -13,12 +13,13 @@ struct ReleaseBvh {
     void operator()(RTCBVHTy* bvh) const noexcept { rtcReleaseBVH(bvh); }
 };
 
-/// Boxes as Embree's builder takes them, and sorts them: those of a leaf side by side.
+/// The boxes as input of Embree's builder, which sorts them so that those of a leaf are
+/// consecutive.
 class Boxes {
   public:
     Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
           const SearchSpace& space, const TaskRunner& task_runner);
-    /// False where the builder has failed.
+    /// Run the builder; false where it has failed.
     bool divide(RTCDevice device);
 
     [[nodiscard]] std::size_t size() const { return all_.size(); }
@@ -31,11 +32,13 @@ class Boxes {
     }
 
   private:
-    static constexpr unsigned kInside = 0, kEnd = 1;  ///< what the builder leaves as it is
+    static constexpr unsigned kInside = 0,
+                              kEnd = 1;  ///< stored in geomID, which the builder does not change:
+                                         ///< whether a box is the last of its leaf
     void mark(const RTCBuildPrimitive* leaf, std::size_t count);
 
     std::vector<RTCBuildPrimitive> all_;
-    std::atomic<std::size_t> marked_{0};  ///< in leaves: these are made on several threads
+    std::atomic<std::size_t> marked_{0};  ///< number of boxes in leaves, which several threads make
 };
 
 Boxes::Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
@@ -48,14 +51,14 @@ Boxes::Boxes(const BvhPrimitives& bvh_primitives, const ModelPrimitives& model,
                        b.upper_x, b.upper_y, b.upper_z, static_cast<unsigned>(i)};
         }
     });
-    std::erase_if(all_, [](const RTCBuildPrimitive& box) {  // made of no numbers: nothing hits it
+    std::erase_if(all_, [](const RTCBuildPrimitive& box) {  // NaN: no ray can hit it
         return !(box.lower_x <= box.upper_x && box.lower_y <= box.upper_y &&
                  box.lower_z <= box.upper_z);
     });
 }
 
-/// A leaf of up to eight costs the same for any number: its boxes are tested at once. Of the tree
-/// nothing is kept but which boxes make a leaf.
+/// The cost of a leaf does not depend on its number of boxes (up to eight), as all are tested at
+/// once. Of the tree only its leaves are kept.
 bool Boxes::divide(RTCDevice device) {
     const std::unique_ptr<RTCBVHTy, ReleaseBvh> bvh(rtcNewBVH(device));
     RTCBuildArguments build = rtcDefaultBuildArguments();
@@ -79,7 +82,8 @@ bool Boxes::divide(RTCDevice device) {
 }
 
 void Boxes::mark(const RTCBuildPrimitive* leaf, std::size_t count) {
-    const std::less_equal<> no_later;  // also of what lies elsewhere: then none is marked
+    const std::less_equal<>
+        no_later;  // total order, also for pointers outside the array: then no box is marked
     const RTCBuildPrimitive *const begin = all_.data(), *const end = begin + all_.size();
     if (!(no_later(begin, leaf) && no_later(leaf + count, end))) return;
     all_[static_cast<std::size_t>(leaf - begin) + count - 1].geomID = kEnd;

@@ -10,10 +10,11 @@
 namespace lightwalk {
 namespace {
 
-constexpr unsigned kFewRays = 4;  ///< of a packet that reach a instance: up to so many go on singly
+constexpr unsigned kFewRays =
+    4;  ///< up to so many rays of a packet that reach an instance are traced singly
 
-/// Boxes end here [m]: rays reach 1e10, and Embree wants less than 1.8e18 even after an instance's
-/// inverse.
+/// Boxes are clamped to this [m]: rays reach 1e10 m, and Embree needs coordinates below 1.8e18 even
+/// after the inverse of an instance.
 constexpr double kFarthest = 4e10;
 float round_down(double x) {
     const auto f = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
@@ -23,7 +24,8 @@ float round_up(double x) {
     return -round_down(-x);
 }
 
-/// The ray of a lane, in the model's space. The direction keeps its scale: distances stay.
+/// The ray of a lane, in the model's space. The direction is not normalised, so that distances stay
+/// those of the world.
 RTCRay local_ray(const Instance& instance, RTCRayN* rays, unsigned count, unsigned lane) {
     const std::array<float, 12>& m = instance.inverse;
     const float x = RTCRayN_org_x(rays, count, lane), y = RTCRayN_org_y(rays, count, lane),
@@ -63,7 +65,7 @@ void set_lane(RTCRay16& rays, unsigned lane, const RTCRay& ray) {
 
 }  // namespace
 
-/// Says which placed model the callbacks are in while a instance is searched.
+/// Sets, for its lifetime, the instance whose model is searched (Query::within).
 class InstanceScope {
   public:
     InstanceScope(RTCIntersectContext& context, const Instance& instance)
@@ -78,7 +80,7 @@ class InstanceScope {
     InstanceScope& operator=(const InstanceScope&) = delete;
 
     [[nodiscard]] InstanceId id() const { return id_; }
-    /// Found out at the first call: most instances that are searched have nothing on the ray.
+    /// Computed at the first call: in most instances that are searched no primitive is tested.
     [[nodiscard]] const InnerSpace& space() {
         if (!space_)
             space_ = space_in(outside_ ? &outside_->space() : nullptr, *instance_.placement);
@@ -99,7 +101,7 @@ InstanceId instance_of(const Query& query) {
     return query.within ? query.within->id() : kWorld;
 }
 
-/// Before a primitive of the placed model that the search is in is proposed.
+/// Transforms the ray into the present instance, before one of its primitives is proposed.
 void enter(const Query& query, TracedRay& ray, InstanceId id) {
     if (query.within && ray.local_instance != id)
         PlacedScene::enter(ray, id, query.within->space());
@@ -153,7 +155,8 @@ void primitive_bounds(const RTCBoundsFunctionArguments* args) {
         rounded(model.space.box(model.bvh_primitives.box(args->primID, *model.primitives)));
 }
 
-// Calls inside the callbacks cost as much as the tests themselves: flattened, rays are 3 % faster.
+// Flattened, as function calls inside callbacks cost as much as the tests themselves: rays are 3 %
+// faster.
 [[gnu::flatten]] void intersect_primitive(const RTCIntersectFunctionNArguments* args) {
     auto& query = *static_cast<NearestQuery*>(args->context);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);

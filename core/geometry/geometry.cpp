@@ -33,27 +33,28 @@ struct ReleaseGeometry {
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
-/// Above so many a tree ends in leaves of bvh primitives, which weigh less. A mesh's triangles are
-/// as soon found in them where there are few; other surfaces later, by some 3 %.
+/// From so many BVH primitives on a tree has quantized leaves, which need less memory. In small
+/// meshes they are as fast as single primitives; with other surfaces some 3 % slower.
 constexpr std::size_t kMostSinglePrimitives = std::size_t{1} << 17,
                       kMostSingleOfMesh = std::size_t{1} << 13;
-constexpr double kUnreachable = 1e17;  ///< nothing as far away as this is seen [m]
+constexpr double kUnreachable = 1e17;  ///< models farther away than this are left out [m]
 
-/// False for NaN as well.
+/// Whether a point is nearer than kUnreachable along each axis; false for NaN.
 bool is_within_reach(const Vec3& v) {
     return std::abs(v.x) < kUnreachable && std::abs(v.y) < kUnreachable &&
            std::abs(v.z) < kUnreachable;
 }
 
-/// A ray as Embree takes it.
+/// A ray in Embree's coordinates.
 struct EmbreeRay {
     std::array<float, 3> origin, direction;
     float end = 0;
     double start = 0;
 };
 
-/// Extend by a transformed box that is not empty. Of these there are millions where a model stands
-/// thousands of times, so by its centre and half its size; what this rounds is in the margins.
+/// Extend by a transformed box that is not empty. Called millions of times where a model is placed
+/// thousands of times, therefore computed from centre and half size; the margins cover its
+/// rounding.
 void extend_transformed(Bounds& bounds, const Bounds& box, const Matrix& matrix) {
     const Vec3 center = matrix.point((box.lower + box.upper) * 0.5),
                half = (box.upper - box.lower) * 0.5;
@@ -77,7 +78,7 @@ std::vector<Bounds> outline_of_tree(const Hierarchy& model) {
 
 }  // namespace
 
-/// Which lanes of a packet hold a ray: -1.
+/// Embree's mask of valid lanes of a packet: -1 for lanes that hold a ray, else 0.
 using PacketLanes = std::array<int, kPacket>;
 
 struct Geometry::Impl {
@@ -132,7 +133,7 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options,
         rtcSetSceneBuildQuality(built.scene.get(), RTC_BUILD_QUALITY_MEDIUM);
         rtcCommitScene(built.scene.get());
         check("building a search tree");
-        if (*model != 0) built.outline = outline_of_tree(built);  // nothing is around the scene
+        if (*model != 0) built.outline = outline_of_tree(built);  // no model contains the scene
         built.bvh_primitives.boxes = std::vector<Bounds>();       // {} would keep the memory
         built.instances.boxes = std::vector<Bounds>();
     }
@@ -140,7 +141,7 @@ Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options,
     for (Hierarchy& model : models) model.outline = std::vector<Bounds>();
 }
 
-/// Embree's own default for threads: a number would limit oneTBB in the whole process.
+/// No number of threads is set: it would limit oneTBB in the whole process.
 void Geometry::Impl::open_device(const std::string& options) {
     device.reset(rtcNewDevice(options.c_str()));
     if (!device) throw std::runtime_error("Embree does not start on this machine");
@@ -172,7 +173,7 @@ void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runne
     model.bvh_primitives = divide_primitives(*model.primitives, task_runner);
     if (model.bvh_primitives.size() == 0) return;
     const auto last = static_cast<std::uint32_t>(model.primitives->size() - 1);
-    const bool is_mesh = model.primitives->is_triangle(last);  // they are models of their own
+    const bool is_mesh = model.primitives->is_triangle(last);  // meshes are models of their own
     if (model.bvh_primitives.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePrimitives)) {
         model.leaves = make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space,
                                              device.get(), task_runner);
@@ -197,7 +198,8 @@ void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runne
     check("adding the surfaces");
 }
 
-/// From the search coordinates around it to its own; nothing when it is empty or too far away.
+/// The instance of a placed model, with the transform from the enclosing model's search coordinates
+/// to its own; nothing when it is empty or too far away.
 std::optional<Instance> Geometry::Impl::instance_of(const PlacedChild& child,
                                                     const Hierarchy& around) const {
     const Placement& placement = *child.placement;
@@ -218,7 +220,8 @@ std::optional<Instance> Geometry::Impl::instance_of(const PlacedChild& child,
     return instance;
 }
 
-/// In the search coordinates around it: what the model's own search tree can find.
+/// Box of everything that the search tree of a placed model can find, in the search coordinates of
+/// the enclosing model.
 Bounds Geometry::Impl::box_of(const Placement& placement, const Hierarchy& around) const {
     const Hierarchy& model = models[placement.model];
     Matrix matrix = placement.transform.forward;
@@ -285,7 +288,7 @@ void set_ray(RTCRay16& rays, unsigned i, const EmbreeRay& from) {
 }  // namespace
 
 /// A ray from outside starts where it enters the scene, so that a far origin costs no precision.
-/// Nothing when the ray cannot meet the scene, or is not made of numbers.
+/// Nothing when the ray cannot meet the scene, or has NaN coordinates.
 std::optional<EmbreeRay> Geometry::Impl::embree_ray(const TracedRay& ray) const {
     Vec3 origin = ray.origin - models[0].space.center;
     if (!is_within_reach(origin) || !is_within_reach(ray.direction) || !(ray.limit > kEpsilon))

@@ -15,14 +15,14 @@ SourceLocation location(const GeometryInput& input, SurfaceId surface) {
                : (*input.surfaces)[surface].where();
 }
 
-/// Whether a ray can hit anything in a model but what is placed in it.
+/// Whether a model has surfaces of its own that a ray can hit, beside the models placed in it.
 bool holds_anything(const SurfacePart& part) {
     for (std::size_t i = 0; i < part.shapes->size(); ++i)
         if (part.shapes->is_finite(i)) return true;
     return false;
 }
 
-/// Largest magnitude of an element; infinite where one is not a number.
+/// Largest magnitude of an element; infinite where one is NaN.
 double largest(const Matrix& matrix) {
     double most = 0;
     for (const Vec3& row : matrix.row) {
@@ -34,12 +34,12 @@ double largest(const Matrix& matrix) {
     return most;
 }
 
-/// What the elements of matrices along any path to a model are at most.
+/// Bounds of the matrix elements over all paths to a model.
 struct ElementBounds {
     double forward = 1, inverse = 1;
 };
 
-/// Of an element of the product of two matrices.
+/// Bound of an element of the product of two matrices, given bounds of their elements.
 double product_bound(double a, double b) {
     return 3 * a * b + b;
 }
@@ -76,7 +76,7 @@ InstancePaths::InstancePaths(const GeometryInput& input)
     find_uses(input);
 }
 
-/// Models are left in order_ after all that stand in them.
+/// Depth-first search: appends a model to order_ after all models placed in it.
 void InstancePaths::visit(const GeometryInput& input, std::uint32_t model, int depth) {
     int height = 0;
     std::size_t instances = 0;
@@ -129,8 +129,8 @@ void InstancePaths::find_uses(const GeometryInput& input) {
     std::erase_if(order_, [&](std::uint32_t model) { return !uses_[model].used; });
 }
 
-/// Of the placements in `model` that whose instances hold the `left`-th one inside it. Where all
-/// hold as many the first guess is right.
+/// The placement in `model` that contains the `left`-th instance inside it. Interpolation search:
+/// exact at the first step where all placements contain equally many.
 const PlacedChild& InstancePaths::child_with(std::uint32_t model, std::int32_t left) const {
     const std::vector<PlacedChild>& all = children_[model];
     const auto guess = static_cast<std::size_t>(left - 1) * all.size() / counts_[model];

@@ -87,7 +87,7 @@ ModelPrimitives::ModelPrimitives(const SurfaceTable& surfaces, const ModelGeomet
 void ModelPrimitives::find_bounds(const TaskRunner& task_runner) {
     std::vector<Bounds> own(part_count(size_)), hits(own.size());
     for_each_part(task_runner, size_, [&](std::size_t part, std::size_t first, std::size_t last) {
-        Bounds all_hits, all_own;  // not in place: other threads' parts lie beside it
+        Bounds all_hits, all_own;  // local, not in the shared array, to avoid false sharing
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
             extend(all_hits, hit_bounds(i));
             if (is_triangle(i)) continue;
@@ -121,7 +121,7 @@ std::optional<ShapeHit> ModelPrimitives::intersect_other(std::uint32_t primitive
                                                          const Vec3& origin, const Vec3& direction,
                                                          double t_max) const {
     const ShapeRow& row = rows_[primitive];
-    if (row.kind == ShapeKind::cone)  // trees are made of these
+    if (row.kind == ShapeKind::cone)  // a frequent case: vegetation is made of cones
         return lightwalk::intersect(part_->shapes->cone(row.index()), origin, direction, t_max);
     if (row.kind != ShapeKind::polygon)
         return lightwalk::intersect(part_->shapes->shape(*part_->list, primitive), origin,
@@ -139,7 +139,8 @@ std::optional<ShapeHit> ModelPrimitives::intersect_triangle(std::uint32_t primit
     const Vec3 normal = cross(b - a, c - a);
     const double facing = dot(normal, direction);
     const double t = dot(normal, a) / facing;
-    if (!(t > kEpsilon && t <= t_max)) return std::nullopt;  // also NaN: no area, or seen edge-on
+    if (!(t > kEpsilon && t <= t_max))
+        return std::nullopt;  // NaN as well: no area, or seen edge-on
     const double ab = edge_side(direction, a, b), bc = edge_side(direction, b, c),
                  ca = edge_side(direction, c, a);
     const bool inside = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
@@ -156,7 +157,8 @@ std::optional<PolygonShape> ModelPrimitives::polygon(std::uint32_t primitive) co
 
 Bounds ModelPrimitives::hit_bounds(std::uint32_t primitive) const {
     if (!is_triangle(primitive)) {
-        if (rows_[primitive].kind == ShapeKind::polygon)  // no variant for most
+        if (rows_[primitive].kind ==
+            ShapeKind::polygon)  // the most frequent case, without a variant
             return lightwalk::hit_bounds(part_->shapes->polygon(*part_->list, primitive));
         return lightwalk::hit_bounds(part_->shapes->shape(*part_->list, primitive));
     }

@@ -72,7 +72,8 @@ std::optional<Candidate> PlacedScene::cross(TracedRay& ray, PrimitiveRef what) c
         return Candidate{hit->t, what, *hit};
     }
     enter(ray, what.instance);
-    constexpr double kRoundUp = 1 + 1e-12;  // the limit holds in the world, exactly: see below
+    constexpr double kRoundUp =
+        1 + 1e-12;  // the limit is tested exactly in world coordinates afterwards
     const double local_limit = ray.limit / ray.local.size * kRoundUp;
     const auto hit = models_[ray.local_model].intersect(what.primitive, ray.local.origin,
                                                         ray.local.direction, local_limit);
@@ -96,7 +97,7 @@ bool PlacedScene::propose(NearestRay& ray, PrimitiveRef what) const {
     if (ray.all) {
         try {
             ray.all->push_back(*candidate);
-        } catch (const std::bad_alloc&) {  // must not unwind through the search's C instances
+        } catch (const std::bad_alloc&) {  // must not unwind through the C frames of the search
             ray.out_of_memory = true;
         }
         return false;
@@ -119,15 +120,14 @@ bool PlacedScene::is_ambiguous(const NearestRay& ray) const {
     if (ray.second > ray.nearest->t + coincidence_) return false;
     const PlacedModel placed = paths_.at(what.instance);
     if (models_[placed.model].is_triangle(what.primitive))
-        return false;  // in meshes the nearest wins
+        return false;  // tie rules do not apply inside meshes
     return ray.second <= ray.nearest->t + kEpsilon * placed.to_world.size();
 }
 
 void PlacedScene::begin_gathering(NearestRay& ray, const RaySegment& segment,
                                   const NearestRay& first, std::vector<Candidate>& all) const {
     begin(ray, segment);
-    // The winner lies within one tolerance of the nearest; what could take its place, within
-    // another.
+    // The winner lies within one tolerance of the nearest crossing; its rivals lie within one more.
     ray.limit = std::min(ray.limit, first.nearest->t + 2 * coincidence_);
     ray.all = &all;
 }
@@ -242,8 +242,9 @@ bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) cons
 bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (what.instance == kWorld && models_[0].surface(what.primitive) == ray.target) return false;
     if (what.instance != kWorld) enter(ray, what.instance);
-    // First whether it is met: most are not, and what a surface is stands elsewhere in memory.
-    // Behind needs shading surfaces only what blocks matters: of leaves a ray passes many.
+    // The crossing is tested first: most candidates are not met, and their traits lie elsewhere in
+    // memory. After a surface that needs shading only opaque ones matter, which saves tests in
+    // foliage.
     const bool passed_shaded = ray.result == Visibility::needs_shading;
     if (passed_shaded && shadow_class(ray, what) != ShadowClass::blocks) return false;
     const std::optional<Candidate> candidate = cross(ray, what);

@@ -23,8 +23,8 @@ const Axes& remaining_axes(const PolygonShape& polygon) {
 
 enum class EdgeTest { passes, crosses, touches };
 
-/// What the edge a -> b means for the origin: does the positive x axis cross it, or does it touch
-/// the origin?
+/// Tests the edge a -> b: does it cross the positive x axis, or touch the origin (within the
+/// tolerance)?
 [[gnu::always_inline]] inline EdgeTest test_edge(double ax, double ay, double bx, double by) {
     const bool a_right = ax > 0, b_right = bx > 0;
     const bool spans = (ay > 0) != (by > 0);
@@ -57,13 +57,14 @@ template <class Corner>
     return inside;
 }
 
-/// Where a point lies, by how far at least it is within all sides: more than the edges' tolerance,
-/// and the even-odd test would say the same.
+/// The signed distance of a point inside the sides of a rectangle. Beyond the tolerance of edges it
+/// decides like the even-odd test.
 [[gnu::always_inline]] inline double depth_in(const OutlineRectangle& r, double x, double y) {
     return std::min(std::min(x - r.low_x, r.high_x - x), std::min(y - r.low_y, r.high_y - y));
 }
 
-/// Whether a point is inside: its depth says so where it is clear, else the edges.
+/// Whether a point is inside a rectangle: decided by its depth where that is clear, else by the
+/// edges.
 template <class Edges>
 [[gnu::always_inline]] inline bool is_inside(double depth, const Edges& edges) {
     return std::abs(depth) > kEpsilon ? depth > 0 : edges();
@@ -122,7 +123,7 @@ EdgeIndex::EdgeIndex(const PolygonShape& polygon) {
     }
     const double height = highest - lowest_;
     const auto range =
-        [&](std::size_t edge) {  // slabs that the edge reaches, with room for the tolerance
+        [&](std::size_t edge) {  // slabs that the edge reaches, grown by the tolerance
             const double a = vertices[edge == 0 ? vertices.size() - 1 : edge - 1].*y,
                          b = vertices[edge].*y;
             return std::pair(slab(std::min(a, b) - 2 * kEpsilon),
@@ -161,7 +162,7 @@ std::size_t EdgeIndex::slab(double y) const {
     const double position = (y - lowest_) * slabs_per_meter_;
     const auto last = static_cast<double>(first_.size() - 2);
     return static_cast<std::size_t>(position > 0 ? std::min(position, last)
-                                                 : 0.0);  // NaN: the first
+                                                 : 0.0);  // NaN: the first slab
 }
 
 std::pair<const std::uint32_t*, const std::uint32_t*> EdgeIndex::edges(double y) const {

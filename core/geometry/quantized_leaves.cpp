@@ -9,16 +9,18 @@ namespace {
 
 constexpr unsigned kSideBits = 10;
 constexpr std::uint32_t kMostSteps = (1U << kSideBits) - 1;
-constexpr double kRoundUp = 1 + 0x1p-23;  ///< makes up for rounding to single precision
+constexpr double kRoundUp = 1 + 0x1p-23;  ///< compensates for rounding to single precision
 
-// Eight numbers at once, whatever the processor: the compiler makes of them what it has.
+// Vectors of eight numbers (GCC vector extension), which the compiler maps to the SIMD width of the
+// processor.
 using Words = std::uint32_t __attribute__((vector_size(4 * kLeafSize)));
 using Integers = std::int32_t __attribute__((vector_size(4 * kLeafSize)));
 using Floats = float __attribute__((vector_size(4 * kLeafSize)));
 
-// Returned through a reference: how they would be returned otherwise depends on the processor.
+// Results are passed through references: the calling convention of vector return values depends on
+// the instruction set.
 
-/// Of each box, a side along axis k [steps].
+/// Unpacks one side of each box along axis k [steps].
 [[gnu::always_inline]] inline void get_sides(const Words& words, std::size_t k, Floats& sides) {
     const Words along = (words >> (kSideBits * static_cast<unsigned>(k))) & kMostSteps;
     sides = __builtin_convertvector(__builtin_convertvector(along, Integers), Floats);
@@ -33,13 +35,13 @@ QuantizedLeaf quantized_leaf(std::span<const Bounds> boxes,
     for (const Bounds& box : boxes) extend(all, box);
     std::array<double, 3> steps{};
     for (std::size_t k = 0; k < 3; ++k) {
-        // One step more than needed: what its rounding may lose is far less.
+        // The range has one step more than needed, which is far more than rounding can lose.
         const double size = all.upper[k] - all.lower[k];
         leaf.step[k] = static_cast<float>(std::max(size / (kMostSteps - 1) * kRoundUp, 0x1p-100));
         leaf.lower[k] = static_cast<float>(all.lower[k]);
         steps[k] = static_cast<double>(leaf.step[k]);
     }
-    // Where there is no bvh primitive, a box that ends before it begins.
+    // Unused boxes are inverted: they end before they begin.
     leaf.begin.fill(~std::uint32_t{0});
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Bounds& box = boxes[i];

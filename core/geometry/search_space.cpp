@@ -8,17 +8,17 @@
 namespace lightwalk {
 namespace {
 
-/// How far single precision may be off, relative to the numbers involved. Of rays in the world:
+/// Rounding error of single precision, relative to the numbers involved. For rays in the world:
 /// origin, direction and box test (Embree's fast one: four half units), 16 half units in the last
-/// place altogether. By each matrix on the way into a model: five half units of the sum of three
+/// place altogether. For each matrix on the way into a model: five half units of the sum of three
 /// coordinates at most, for origin and direction each.
 constexpr double kRounding = 0x1p-20;
 constexpr double kMatrixRounding = 1.1 * kRounding;
-constexpr double kInstanceRounding = 2 * kRounding;  ///< of boxes in placed models
+constexpr double kInstanceRounding = 2 * kRounding;  ///< of the boxes of placed models
 constexpr double kRegion = 4;    ///< rays start within this many times the scene's reach
-constexpr double kMostOf = 0.9;  ///< part of the scene that the reach holds
+constexpr double kMostOf = 0.9;  ///< share of the scene within its reach
 
-/// A box among others, and how many it stands for.
+/// A box, and the number of boxes that it represents.
 struct WeightedBox {
     Bounds bounds;
     double weight = 1;
@@ -28,7 +28,7 @@ struct WeightedValue {
     double value = 0, weight = 1;
 };
 
-/// The least value that has `part` of the weight up to it.
+/// The weighted quantile: the least value up to which lies `part` of the weight.
 double quantile(std::vector<WeightedValue> values, double part) {
     std::sort(values.begin(), values.end(),
               [](const WeightedValue& a, const WeightedValue& b) { return a.value < b.value; });
@@ -51,7 +51,7 @@ Bounds moved(Bounds bounds, const Vec3& by) {
     return bounds;
 }
 
-/// Where most of the boxes are: an enormous ground plane or one stray surface does not matter.
+/// The weighted median of the boxes: robust against an enormous ground plane or a stray surface.
 Vec3 middle_of(const std::vector<WeightedBox>& boxes) {
     Vec3 middle;
     std::vector<WeightedValue> values(boxes.size());
@@ -66,11 +66,12 @@ Vec3 middle_of(const std::vector<WeightedBox>& boxes) {
 /// Boxes in a model.
 struct BoxesIn {
     std::vector<WeightedBox> all;
-    std::size_t own = 0;  ///< the first are of its own primitives, the others of what is placed
+    std::size_t own =
+        0;  ///< the first so many boxes are of own primitives, the others of placed models
 };
 
-/// Of many primitives an even sample: where most of them are is what is asked.
-/// @param inside  the boxes of the models that stand in it
+/// The boxes in a model; of many primitives an even sample, which suffices for medians. @param
+/// inside  the boxes of the models placed in it
 BoxesIn boxes_in(const PlacedScene& scene, std::uint32_t model, const std::vector<Bounds>& inside) {
     constexpr std::size_t kSample = std::size_t{1} << 16;
     const ModelPrimitives& own = scene.primitives(model);
@@ -109,9 +110,10 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
     const std::size_t count = scene.model_count();
     std::vector<SearchSpace> spaces(count);
     std::vector<Bounds> inside(count);
-    std::vector<std::vector<WeightedValue>> reaches(count);  // from the centre, of all boxes
-    std::vector<std::size_t> own_boxes(count);               // that come first among them
-    std::vector<double> region(count, 0);                    // that rays in a model start within
+    std::vector<std::vector<WeightedValue>> reaches(
+        count);                                 // distances of all boxes from the centre
+    std::vector<std::size_t> own_boxes(count);  // number of own boxes, which come first among them
+    std::vector<double> region(count, 0);       // radius within which rays in a model start
     const std::span<const std::uint32_t> order = paths.order();
     for (auto at = order.rbegin(); at != order.rend(); ++at) {
         const std::uint32_t model = *at;
@@ -128,7 +130,7 @@ std::vector<SearchSpace> search_spaces(const PlacedScene& scene) {
     spaces[0].relative = kRounding;
     for (const std::uint32_t model : order) {
         const Vec3 size = inside[model].upper - inside[model].lower;
-        // Copies that shrink to nothing must not spoil the others.
+        // Instances scaled down to nothing must not affect the others.
         if (model != 0 && !inside[model].empty())
             spaces[model].margin =
                 std::min(spaces[model].margin, 0.01 * std::max({size.x, size.y, size.z}));

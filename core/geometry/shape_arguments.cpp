@@ -1,4 +1,5 @@
-// Shapes from the real arguments of scene primitives, degenerate input as Radiance takes it.
+// Validation of shapes from the real arguments of scene primitives; degenerate input as in
+// Radiance.
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -56,7 +56,7 @@ std::optional<ShapeHit> intersect(const SphereShape& sphere, const Vec3& origin,
 
 Vec3 cone_normal(const ConeShape& cone, const Vec3& from_p0, double height) {
     const Vec3 radial = normalize(from_p0 - cone.axis * height);
-    // An apex has no normal of its own: away from the body.
+    // At the apex the normal is undefined: it points away from the body.
     Vec3 outward = -cone.axis;
     if (radial != Vec3{})
         outward = normalize(radial * cone.length - cone.axis * (cone.r1 - cone.r0));

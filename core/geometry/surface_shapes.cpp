@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kKinds = 6;
 
-/// Before it is validated.
+/// The kind of shape of a primitive type, before its arguments are validated.
 ShapeKind kind_of_type(PrimitiveType type) {
     using enum PrimitiveType;
     switch (type) {
@@ -40,15 +40,15 @@ std::uint32_t& count_of(Counts& counts, ShapeKind kind) {
     return counts[static_cast<std::size_t>(kind)];
 }
 
-/// What is known of a part of the list.
+/// Results for one part of the list, which is validated in parallel.
 struct Part {
-    Counts first{};  ///< where its shapes begin in each column
+    Counts first{};  ///< index of its first shape in each column
     std::vector<std::string> warnings;
     std::exception_ptr error;
 };
 
-/// The columns while they are filled. Each surface has a place in that of its kind, used or not, so
-/// that all parts of the list can be filled side by side.
+/// The columns while they are filled. Each surface has an element in the column of its kind, used
+/// or not, so that parts of the list can be filled in parallel.
 struct OpenColumns {
     std::span<ShapeRow> rows;
     std::span<SphereShape> spheres;
@@ -105,7 +105,7 @@ void fill_part(const SurfaceList& list, std::size_t first, std::size_t last,
     }
 }
 
-/// Counts the shapes before each part; returns those of all.
+/// Counts the shapes before each part (prefix sum); returns the total.
 Counts count_shapes(const SurfaceList& list, const TaskRunner& task_runner,
                     std::vector<Part>& parts) {
     for_each_part(task_runner, list.size(),
@@ -130,7 +130,7 @@ bool is_usable(const Vec3& v) {
            std::abs(v.z) <= kLargestCoordinate;
 }
 
-/// That the search finds no more corners than there are, nor divides by zero.
+/// Checks that the search stays within the corners of a polygon, and does not divide by zero.
 void check_polygon(const ShapeRow& row, const SurfaceList& list, std::size_t i) {
     const PolygonPlane& plane = row.plane;
     if (row.manner.drop_axis > 2) refuse_shapes("an axis that is none");
@@ -232,15 +232,15 @@ SurfaceShapes make_shapes(const SurfaceList& list, const TaskRunner& task_runner
                            columns.cones.zeros(count_of(counts, ShapeKind::cone)),
                            columns.rings.zeros(count_of(counts, ShapeKind::ring)),
                            columns.sources.zeros(count_of(counts, ShapeKind::source))};
-    for_each_part(task_runner, list.size(),
-                  [&](std::size_t part, std::size_t first, std::size_t last) {
-                      try {
-                          fill_part(list, first, last, open, parts[part]);
-                      } catch (...) {
-                          parts[part].error =
-                              std::current_exception();  // the first in the list's order counts
-                      }
-                  });
+    for_each_part(
+        task_runner, list.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+            try {
+                fill_part(list, first, last, open, parts[part]);
+            } catch (...) {
+                parts[part].error = std::current_exception();  // of several errors the first in the
+                                                               // list's order is reported
+            }
+        });
     for (Part& part : parts) {
         for (std::string& warning : part.warnings) columns.warnings.push_back(std::move(warning));
         if (part.error) std::rethrow_exception(part.error);

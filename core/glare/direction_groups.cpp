@@ -9,7 +9,7 @@
 namespace lightwalk {
 namespace {
 
-/// Sets that are joined step by step; a set's name is its smallest member.
+/// A union-find structure; the name of a set is its smallest member.
 class JoinedSets {
   public:
     explicit JoinedSets(std::size_t count) : parents_(count) {
@@ -17,7 +17,7 @@ class JoinedSets {
     }
     std::uint32_t name_of(std::uint32_t member) {
         while (parents_[member] != member)
-            member = parents_[member] = parents_[parents_[member]];  // paths halve as they are used
+            member = parents_[member] = parents_[parents_[member]];  // path halving
         return member;
     }
     void join(std::uint32_t a, std::uint32_t b) {
@@ -94,8 +94,8 @@ void join_neighbours(const GridCell& cell, const std::vector<GridCell>& cells,
 }  // namespace
 
 std::vector<std::uint32_t> group_directions(std::span<const Vec3> directions, double angle) {
-    // Of the straight line between two directions. Not 0: cells must have a size, and directions
-    // that are the same to the last bits are one.
+    // The length of the chord between two directions `angle` apart. Not 0, as cells must have a
+    // size.
     const double distance = std::max(2 * std::sin(angle / 2), kEpsilon);
     const std::vector<GridCell> cells = grid_cells(directions, distance / std::sqrt(3.));
     JoinedSets sets(directions.size());

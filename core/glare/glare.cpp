@@ -13,7 +13,7 @@
 namespace lightwalk {
 namespace {
 
-/// The pixels of a source, as places in VisualField::pixels.
+/// The pixels of a source, as indices into VisualField::pixels.
 using SourcePixels = std::vector<std::uint32_t>;
 
 void check(const GlareParams& params) {
@@ -36,7 +36,7 @@ SourcePixels brighter(const VisualField& field, const Pixels& among, double limi
     return bright;
 }
 
-/// Pixels that hang together by steps of at most an angle.
+/// Groups of pixels connected by steps of at most an angle.
 std::vector<SourcePixels> merged(const VisualField& field, const SourcePixels& pixels,
                                  double angle) {
     std::vector<Vec3> directions;

@@ -11,15 +11,16 @@ namespace lightwalk {
 namespace {
 
 constexpr double kLongestStep = 5 * kPi / 180;  ///< between points of a curved edge [rad]
-constexpr double kBesideEye = 0.02;  ///< cosine beyond which a perspective has no use [1]
+constexpr double kBesideEye =
+    0.02;  ///< directions with a smaller cosine to the view axis are cut off in a perspective [1]
 
 double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// From `p` to the shorter arc from `a` to `b` [rad].
+/// The angle between `p` and the shorter arc from `a` to `b` [rad].
 double angle_to_arc(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 pole = normalize(cross(a, b));  // zero where they are one or antipodes: no arc
+    const Vec3 pole = normalize(cross(a, b));  // zero where the points coincide or are antipodes
     const bool beside = dot(cross(pole, a), p) > 0 && dot(cross(b, pole), p) > 0;
     if (beside) return std::abs(std::asin(std::clamp(dot(pole, p), -1., 1.)));
     return std::min(angle_between(p, a), angle_between(p, b));
@@ -116,7 +117,7 @@ std::vector<Vec3> subdivided(std::span<const Vec3> polygon) {
     return points;
 }
 
-/// The same view of directions only: from the origin, without clipping surfaces.
+/// The view moved to the origin, without clipping surfaces, for projecting directions.
 Camera directions_only(View view) {
     view.position = {};
     view.fore = view.aft = 0;

@@ -51,7 +51,7 @@ void for_each_set(const PixelMask& mask, const Visit& visit) {
     }
 }
 
-/// The same with the eight neighbours of each pixel.
+/// The mask widened by the eight neighbours of each pixel (morphological dilation).
 PixelMask widened(const PixelMask& mask) {
     const PixelRectangle& r = mask.rectangle();
     PixelMask wide({r.x0 - 1, r.y0 - 1, r.x1 + 1, r.y1 + 1});
@@ -61,7 +61,7 @@ PixelMask widened(const PixelMask& mask) {
     return wide;
 }
 
-/// The first pixel of the lowest row. There is one.
+/// The first pixel of the lowest row, which is not empty.
 PixelPlace lowest(const PixelMask& mask) {
     const PixelRectangle& r = mask.rectangle();
     int x = r.x0;  // the lowest row of the rectangle has a pixel, or it would be smaller
@@ -69,7 +69,7 @@ PixelPlace lowest(const PixelMask& mask) {
     return {x, r.y0};
 }
 
-/// Whether all pixels hang together, by edges or corners.
+/// Whether all pixels are connected, by edges or corners.
 bool hangs_together(PixelMask mask) {
     std::vector<PixelPlace> open{lowest(mask)};
     mask.clear(open[0].x, open[0].y);

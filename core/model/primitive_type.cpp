@@ -12,7 +12,7 @@ struct Row {
     PrimitiveKind kind;
 };
 
-/// In the order of PrimitiveType.
+/// The rows of all types, in the order of PrimitiveType.
 constexpr std::array kRows = {
 #define PRIMITIVE(id, word, kind) Row{word, PrimitiveKind::kind},
 #include "core/model/primitive_types.def"

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kCorners = 3;              ///< of a triangle
-constexpr std::size_t kTriangle = 3 * kCorners;  ///< its reals
+constexpr std::size_t kTriangle = 3 * kCorners;  ///< reals of a triangle
 
 [[noreturn]] void refuse(const char* what) {
     throw InputError(std::string("damaged surfaces: ") + what);
 }
 
-/// What can be said of one record without the others.
+/// Checks one record by itself.
 void check_record(const SurfaceRecord& record, const SurfaceList::Columns& columns,
                   std::size_t modifiers, unsigned file_bits) {
     const std::size_t type = record.file_and_type >> file_bits,
@@ -35,7 +35,8 @@ void check_record(const SurfaceRecord& record, const SurfaceList::Columns& colum
         refuse("a modifier that is none");
 }
 
-/// In the order of the surfaces, and of the text: a look at every byte once settles it.
+/// String arguments are in the order of the surfaces and of the text, so that one pass over the
+/// text checks them.
 void check_strings(const SurfaceList::Columns& columns) {
     std::size_t surface = 0, at = 0;
     for (const SurfaceStrings& strings : columns.strings) {
@@ -114,8 +115,8 @@ std::uint32_t SurfaceList::add_reals(const SurfacePrimitive& surface) {
     return SurfaceRecord::kOwnCorners;
 }
 
-/// Of a triangle that has corners of others, its places weigh less than its numbers; those of one
-/// that has none stand side by side, as of all other polygons.
+/// Stores a triangle that shares corners by indices, which take less memory than numbers; one that
+/// shares none is stored directly, as other polygons are.
 std::uint32_t SurfaceList::add_triangle(const RealArguments& reals) {
     std::array<double, kTriangle> numbers{};
     for (std::size_t i = 0; i < kTriangle; ++i) numbers[i] = reals[i];

@@ -135,7 +135,8 @@ bool parse_real(std::string_view word, double& value) {
     double parsed = 0;
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), parsed);
     if (result.ec == std::errc::result_out_of_range) {
-        // Too small is zero, as in C; too large is refused: no coordinate or colour is infinite.
+        // Underflow gives zero, as in C; overflow is refused, as no coordinate or colour may be
+        // infinite.
         const double approximate = std::strtod(std::string(digits).c_str(), nullptr);
         if (!std::isfinite(approximate)) return false;
         parsed = approximate;

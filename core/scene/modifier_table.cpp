@@ -21,7 +21,8 @@ const Primitive& alias_target(const Model& model, const Primitive& primitive) {
     return *p;
 }
 
-/// Stands for a modifier whose file is missing: a scene that never shows it can be rendered.
+/// Replaces a modifier whose file is missing, so that a scene can be rendered in which no ray meets
+/// it.
 class UnavailableModifier final : public Modifier {
   public:
     explicit UnavailableModifier(std::string problem) : problem_(std::move(problem)) {}
@@ -38,7 +39,7 @@ ModifierId global(std::int32_t base, std::int32_t local) {
 }  // namespace
 
 ModifierTable::ModifierTable(const std::vector<LoadedModel>& models) {
-    std::size_t count = 1;  // of the irradiance modes
+    std::size_t count = 1;  // the Lambertian material of the irradiance modes
     for (const LoadedModel& loaded : models) count += loaded.contents().modifiers.size();
     records_.reserve(count);
     for (const LoadedModel& loaded : models) {
@@ -80,7 +81,7 @@ void ModifierTable::use(ModifierId id) {
 ProblemList ModifierTable::unsupported(FindModifierFactory modifier_factory) const {
     constexpr std::size_t kToldOfOneType = 10;
     ProblemList problems;
-    std::set<const Primitive*> known;  // aliases share one
+    std::set<const Primitive*> known;  // aliases share a primitive
     for (std::size_t i = 0; i < records_.size(); ++i) {
         const ModifierRecord& record = records_[i];
         if (!used_[i] || modifier_factory(record.type) || !known.insert(record.primitive).second)
@@ -95,7 +96,7 @@ ProblemList ModifierTable::unsupported(FindModifierFactory modifier_factory) con
 }
 
 std::vector<NamedFile> ModifierTable::pictures() const {
-    constexpr std::size_t kPictureOfColorpict = 3;  // behind three functions
+    constexpr std::size_t kPictureOfColorpict = 3;  // string argument after three functions
     std::vector<NamedFile> files;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < records_.size(); ++i) {

@@ -8,7 +8,7 @@
 namespace lightwalk {
 
 struct Scene::Impl {
-    /// Surfaces that stand in no file: of one name, without shapes.
+    /// Surfaces that come from no file: with a name, but without shapes.
     struct MadeSurfaces {
         MadeSurfaces(PrimitiveType type, const char* name, std::int32_t modifier) {
             list.add({type, modifier, name, {}, {}, nullptr, 0});
@@ -22,12 +22,11 @@ struct Scene::Impl {
 
     std::vector<LoadedModel> models;
     ModifierTable modifiers;
-    SurfaceTable surfaces;  ///< part i: of model i; then the lambertian one
+    SurfaceTable surfaces;  ///< part i is model i; the last part is the Lambertian surface
     std::vector<std::shared_ptr<const SurfaceShapes>> shapes;                ///< of the parts
     const MadeSurfaces triangles{PrimitiveType::mesh, "M-Tri", kVoidIndex};  ///< of each mesh
     const MadeSurfaces lambertian_sphere{PrimitiveType::sphere, "irradiance", 0};
-    std::unique_ptr<Primitive>
-        lambertian;  ///< what irradiance modes put in place of every opaque material
+    std::unique_ptr<Primitive> lambertian;  ///< replaces every opaque material in irradiance modes
     ModifierId lambertian_modifier = kVoid;
     SurfaceId lambertian_surface = kNoSurface;
     std::unique_ptr<Geometry> geometry;
@@ -86,7 +85,8 @@ void Scene::Impl::collect_surfaces(WarningSink& warnings, const TaskRunner& task
 void Scene::Impl::use_modifiers() {
     for (std::size_t m = 0; m < surfaces.part_count(); ++m) {
         const SurfacePart& part = surfaces.part(m);
-        ModifierId last = kVoid;  // of millions of surfaces most have that of the one before
+        ModifierId last =
+            kVoid;  // most of millions of surfaces have the modifier of the preceding one
         for (std::size_t i = 0; i < part.list->size(); ++i) {
             if (part.modifier(i) != last) modifiers.use(last = part.modifier(i));
         }
@@ -156,7 +156,7 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const TaskRunner& t
             {loaded.children[placed.size()], {}, own.id(i), own.modifier(i) != kVoid});
         placed.push_back(i);
     }
-    // A tree has tens of thousands of words that say where its branches are.
+    // Number of placements parsed in one task: a tree has tens of thousands.
     constexpr std::size_t kTogether = 512;
     const auto place = [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < std::min(last, placed.size()); ++i)
@@ -166,7 +166,7 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const TaskRunner& t
         task_runner.run((placed.size() + kTogether - 1) / kTogether,
                         [&](std::size_t part) { place(part * kTogether, (part + 1) * kTogether); });
     } catch (const InputError&) {
-        place(0, placed.size());  // which finds the first that is wrong
+        place(0, placed.size());  // which throws for the first that is wrong
         throw;
     }
     return geometry_of;

@@ -62,7 +62,7 @@ class ToFunction {
         matrix_ = matrix;
         sigma_ = 1 / size;
     }
-    std::optional<Matrix> matrix_;  ///< nothing: the identity, as for most
+    std::optional<Matrix> matrix_;  ///< nothing: the identity, the most frequent case
     double sigma_ = 1;
 };
 

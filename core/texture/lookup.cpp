@@ -8,8 +8,8 @@
 namespace lightwalk {
 namespace {
 
-/// How many values function `k` of a colour is called with: all three, but a function of fewer than
-/// three parameters after the first sees only its own.
+/// Number of values that function `k` of a colour is called with: three; but one for the second and
+/// third function where it has fewer than three parameters.
 int called_with(const ModifierBuild& build, const std::string& file, const std::string& function,
                 std::size_t k) {
     if (k == 0) return 3;

@@ -38,7 +38,7 @@ class ColorFunction final : public Modifier {
     bool shade(Ray& ray, TraceContext& context) const override {
         EvalState& state = binding_.begin(ray, context);
         Rgb color;
-        // Blue first, as the reference: the order shows when an expression fails.
+        // Blue first, as in Radiance: the order is visible when an expression fails.
         for (std::size_t k = 3; k-- > 0;)
             color[k] = static_cast<float>(binding_.evaluate(k, state));
         if (state.error == EvalError::none) ray.pattern *= color;

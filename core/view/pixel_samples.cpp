@@ -9,7 +9,7 @@ namespace lightwalk {
 namespace {
 
 constexpr double kGoldenSection = 0.61803398874989484820;  // (sqrt 5 - 1) / 2
-constexpr std::uint32_t kTurn = 0x7fffffff;  // a stream that no sample of the pixel uses
+constexpr std::uint32_t kTurn = 0x7fffffff;  // number of a random stream that no sample uses
 
 }  // namespace
 

@@ -60,8 +60,8 @@ bool finite(const View& view) {
 /// Unit vector along `a`, also where the squares of its components would overflow or vanish.
 Vec3 unit(const Vec3& a) {
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-    // Twice, as views are set up twice in Radiance: the bits of view rays decide on which side of a
-    // lattice plane a pattern is looked up.
+    // Normalised twice, as Radiance sets up views twice: the last bits of view rays decide on which
+    // side of a lattice plane a pattern is evaluated.
     if (largest > 1e-100 && largest < 1e100) return normalize(normalize(a));
     return largest > 0 ? normalize({a.x / largest, a.y / largest, a.z / largest}) : Vec3{};
 }

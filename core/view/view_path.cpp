@@ -20,7 +20,7 @@ ViewNumbers numbers_of(const View& v) {
 }
 
 View view_of(char type, const ViewNumbers& n) {
-    // Where a clipping distance ends or begins, splines swing beyond zero.
+    // Clamped, as splines overshoot zero where a clipping distance ends or begins.
     return {type,
             {n[0], n[1], n[2]},
             {n[3], n[4], n[5]},

@@ -7,7 +7,8 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kRound = 1.5;  ///< squeezed samples leave the sampling box by less
+constexpr double kRound =
+    1.5;  ///< margin: samples may lie outside the sampling box by less than this factor
 
 /// Corners of a rectangle around the redirecting surface, in order.
 std::array<Vec3, 4> outline(const Shape& shape, const Plane& plane, const RedirectingDisk& disk) {
@@ -45,7 +46,8 @@ std::array<Vec3, 8> box_of(const LightSource& source) {
     return corners;
 }
 
-/// The plane through the edge from a to b that has the beam of all corners above it.
+/// The plane through the edge from a to b that has the lines from all corners of the source above
+/// it.
 std::optional<Plane> side_of_beam(const Vec3& a, const Vec3& b, const Vec3& inside,
                                   const std::array<Vec3, 8>& corners, bool distant) {
     const auto from_edge = [&](const Vec3& corner) { return distant ? corner : corner - a; };

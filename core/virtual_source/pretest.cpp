@@ -1,5 +1,5 @@
-// Which virtual sources can be reached at all, and which never need their redirected path to be
-// followed.
+// Pretest of virtual sources (-dp): which of them light can reach, and which need no test of their
+// redirected path.
 #include <cmath>
 
 #include "core/light/partition.h"
@@ -10,9 +10,10 @@ namespace {
 
 constexpr int kLeastSamples = 16;
 constexpr int kMaxSamples = 1 << 16;
-constexpr int kDrawsPerSample = 32;  ///< before giving up to find points on the redirecting surface
+constexpr int kDrawsPerSample =
+    32;  ///< attempts for each sample to find a point on the redirecting surface
 
-/// Uniform in the disk, in the plane with this normal.
+/// A point uniformly distributed in the disk, in the plane with this normal.
 Vec3 point_in_disk(const RedirectingDisk& disk, const Vec3& normal, RandomStream& random) {
     const Vec3 u = perpendicular(normal), v = cross(normal, u);
     const double radius = disk.radius * std::sqrt(random.next()), angle = 2 * kPi * random.next();
@@ -21,8 +22,8 @@ Vec3 point_in_disk(const RedirectingDisk& disk, const Vec3& normal, RandomStream
 
 }  // namespace
 
-/// Samples per solid angle that the redirecting surface fills as the parent sees it (-dp); for the
-/// sun, of the whole scene.
+/// Number of samples by -dp: per solid angle of the redirecting surface as seen from the parent
+/// source; for distant sources, of the whole scene.
 int VirtualSourceBuilder::pretest_samples(const LightSource& parent,
                                           const RedirectingDisk& disk) const {
     const double density = tracer_.options().virtual_source_pretest,
@@ -41,7 +42,8 @@ int VirtualSourceBuilder::pretest_samples(const LightSource& parent,
                                        static_cast<double>(kMaxSamples)));
 }
 
-/// Brightness that a source sends to a point, through the scene or with nothing else there.
+/// Brightness of the light that a source sends to a point, through the scene or (`alone`) without
+/// other surfaces.
 float VirtualSourceBuilder::light_at(const Vec3& point, const Vec3& direction, std::int32_t source,
                                      bool alone) {
     Ray at_point = tracer_.primary(point, direction, 0, RandomStream(tracer_.options().seed));
@@ -66,7 +68,7 @@ VirtualSourceBuilder::Pretest VirtualSourceBuilder::pretest(std::int32_t parent_
                                  static_cast<std::uint64_t>(index(next.surface))));
     int found = 0, lit = 0, agreed = 0;
     for (int draw = 0; found < wanted; ++draw) {
-        if (draw >= kDrawsPerSample * wanted) return Pretest::follow;  // too small to be judged
+        if (draw >= kDrawsPerSample * wanted) return Pretest::follow;  // too small to be sampled
         // Any ray onto the redirecting surface will do to find out whether the point is within its
         // outline.
         const Vec3 above = point_in_disk(disk, next.plane.normal, random) + next.plane.normal;

@@ -20,7 +20,7 @@ VirtualSpot impossible() {
     return {false, std::nullopt, {}};
 }
 
-/// Sunlight: a beam through the disk, and through the parent's beam.
+/// The beam of a distant source through the disk, and through the parent's beam.
 VirtualSpot spot_of_beam(const LightSource& parent, const LightSource& projected,
                          const Projection& projection, const RedirectingDisk& disk) {
     SpotShape beam;

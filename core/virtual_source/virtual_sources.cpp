@@ -37,7 +37,8 @@ VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& t
 
 void VirtualSourceBuilder::collect_redirecting_surfaces(WarningSink& warnings) {
     const Scene& scene = tracer_.scene();
-    ModifierId without = kVoid;  // redirections nothing: millions of surfaces may have it in turn
+    ModifierId without =
+        kVoid;  // a modifier that redirects nothing: millions of consecutive surfaces may have it
     for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
         const SurfaceId id{static_cast<std::int32_t>(i)};
         const Surface surface = scene.surface(id);
@@ -112,8 +113,8 @@ void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index,
     if (depth > 1) add_virtual_sources(static_cast<std::int32_t>(count), depth - 1);
 }
 
-/// Light of a virtual source exists only beyond its own redirecting surface: whether this
-/// redirecting surface's disk reaches there.
+/// Whether a source lights the disk of a redirecting surface. The light of a virtual source exists
+/// only beyond its own redirecting surface.
 bool VirtualSourceBuilder::lights_disk(const LightSource& source,
                                        const RedirectingSurface& next) const {
     if (!source.is_virtual) return true;

@@ -13,12 +13,12 @@
 namespace lightwalk {
 namespace {
 
-/// Stacks begin at ends of pages: what lies at the same depth of each would share few places in the
-/// processor's cache, and drive out each other's. So they begin at different places.
+/// Offsets of the beginnings of stacks within a page (cache colouring). Without them data at the
+/// same depth of all stacks would map to the same cache sets and evict each other.
 constexpr std::size_t kShift = 192, kShifts = 21;  ///< [bytes], and how many: within a page
 
-/// Boost.Context's, with a guard page, and a note before a stack goes. Copied into the fiber, which
-/// frees its stack by itself.
+/// A stack allocator: Boost.Context's with a guard page, and a notice to sanitizers before a stack
+/// is freed. It is copied into the fiber, which frees its stack itself.
 class Stacks {
   public:
     [[nodiscard]] boost::context::stack_context allocate() { return guarded_.allocate(); }
@@ -62,13 +62,13 @@ class Fiber {
                                         bottom());
     }
 
-    /// From outside: run until it leaves.
+    /// Called outside the fiber: run it until it leaves.
     void go_on() {
         notes_.entering();
         inside_ = std::move(inside_).resume();
         notes_.left();
     }
-    /// From inside.
+    /// Called inside the fiber: return to go_on().
     void leave(bool for_good) {
         notes_.leaving(for_good);
         outside_ = std::move(outside_).resume();
