@@ -205,14 +205,14 @@ class TileRefiner {
         for (const bool centres : {true, false}) {
             // A threshold of 0 means that every pixel is traced.
             glitters_ = !centres && options_.threshold > 0 && is_nearly_all_traced();
-            settled_.clear();
+            decided_.clear();
             for (std::size_t j = 0; j < rows.size(); ++j) {
                 for (std::size_t i = 0; i < columns.size(); ++i) {
                     if (centres ? new_column[i] && new_row[j] : new_column[i] != new_row[j])
                         decide(columns[i], rows[j], pairs(i, j, columns, rows, centres));
                 }
             }
-            for (const Settled& pixel : settled_) {
+            for (const Decided& pixel : decided_) {
                 values_[pixel.index] = pixel.value;
                 states_[pixel.index] = pixel.state;
             }
@@ -258,7 +258,7 @@ class TileRefiner {
         return found;
     }
 
-    struct Settled {
+    struct Decided {
         std::size_t index;
         PixelValue value;
         State state;
@@ -281,7 +281,7 @@ class TileRefiner {
         want(x, y);
     }
     void set_pixel(int x, int y, const PixelValue& value, State state = State::kInterpolated) {
-        settled_.push_back({at(x, y), value, state});
+        decided_.push_back({at(x, y), value, state});
     }
 
     /// At a point between the four corners of two crossing pairs, so far from the sides.
@@ -363,7 +363,7 @@ class TileRefiner {
     bool glitters_ = false;
     std::vector<PixelPlace> wanted_;
     std::vector<PixelValue> traced_;
-    std::vector<Settled> settled_;
+    std::vector<Decided> decided_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // What tracing each part of a picture costs: the input of scaling_model.
 //   cost_map OPTIONS OF lightwalk render > map.json
 // One thread traces the picture cell by cell, three times, and the shortest processor time of each
-// cell counts: what else the machine does hardly disturbs it. With ambient values an prepass and
+// cell counts: what else the machine does hardly disturbs it. With ambient values a prepass and
 // the picture are traced once with an empty cache, which tells what making values takes, and again
 // with the full one.
 #include <time.h>

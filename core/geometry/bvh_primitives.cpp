@@ -203,7 +203,7 @@ Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful, Clippin
         best.axis = cell.side(0) * polygon.slope(0) >= cell.side(1) * polygon.slope(1) ? 0 : 1;
     best.at = 0.5 * (cell.lower[best.axis] + cell.upper[best.axis]);
     if (!wasteful) return best;
-    double settled = 0;
+    double finished = 0;
     const std::vector<Point>& points = polygon.points();
     for (auto p = points.begin(); p != points.end(); ++p) {
         for (std::size_t k = 0; k < 2; ++k) {
@@ -217,8 +217,8 @@ Cut best_cut(const Projection& polygon, const Cell& cell, bool wasteful, Clippin
                 if (polygon.waste(part, scratch) == 0 || polygon.is_empty(part))
                     gain += part.area();
             }
-            if (gain > settled) {
-                settled = gain;
+            if (gain > finished) {
+                finished = gain;
                 best = {k, at};
             }
         }

@@ -39,7 +39,7 @@ void DirectCalculation::test() {
 }
 
 /// What lies between, where a ray that only asks for opaque surfaces can tell; the other candidates
-/// become needs shading.
+/// become ones that need shading.
 void DirectCalculation::test_plainly() {
     const Geometry& geometry = tracer_.scene().geometry();
     if (scratch_.points.size() == 1) {
@@ -84,7 +84,7 @@ bool DirectCalculation::mark_needs_shading(LightCandidate& candidate) const {
 }
 
 /// Order the candidates that are tested by their source. Those that have to be traced in any case
-/// become needs shading.
+/// become ones that need shading.
 void DirectCalculation::sort_by_source() {
     std::vector<std::uint32_t>& ends = scratch_.source_ends;
     ends.assign(lights_.all().size(), 0);

@@ -37,7 +37,7 @@ class ClientSession final : public Connection, public std::enable_shared_from_th
     /// disconnected.
     void send(std::shared_ptr<const std::string> bytes, bool binary);
     /// End the session in order: a `bye` after the texts in the queue, then a close frame. The
-    /// socket is closed when that takes longer than WebLimits::farewell.
+    /// socket is closed when that takes longer than WebLimits::close_timeout.
     void end(boost::beast::websocket::close_code code, const std::string& reason);
     void stop(const std::string& reason) override;
 

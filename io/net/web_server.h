@@ -107,7 +107,7 @@ class WebServer {
 
     // Any thread may call the following at any time. For a client that has disconnected they do
     // nothing.
-    /// Close all connections and let run() return, after WebLimits::farewell at the latest.
+    /// Close all connections and let run() return, after WebLimits::close_timeout at the latest.
     void stop(std::string reason = "the server ends");
     void send_text(ClientId client, std::string text);
     /// The bytes are shared, not copied, as one frame is sent to many clients.

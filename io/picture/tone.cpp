@@ -86,13 +86,13 @@ double HighlightCurve::operator()(double x) const {
 }
 
 DisplayTone choose_tone(const Picture& picture, const ToneMapping& tone) {
-    DisplayTone settled;
-    settled.scale = tone.automatic ? automatic_scale(picture) : std::exp2(tone.ev);
+    DisplayTone chosen;
+    chosen.scale = tone.automatic ? automatic_scale(picture) : std::exp2(tone.ev);
     if (tone.curve == ToneCurve::linear)
-        settled.curve.reset();
+        chosen.curve.reset();
     else if (tone.automatic)
-        settled.curve = HighlightCurve(automatic_white(picture, settled.scale));
-    return settled;
+        chosen.curve = HighlightCurve(automatic_white(picture, chosen.scale));
+    return chosen;
 }
 
 std::array<std::uint8_t, 3> display_pixel(const Rgb& color, const DisplayTone& tone) {

@@ -283,7 +283,7 @@ TEST_CASE("work at a constant rate is predicted exactly, and nothing before it b
     }
 }
 
-TEST_CASE("an prepass whose later pixels cost less is not taken for an even one") {
+TEST_CASE("a prepass whose later pixels cost less is not taken for an even one") {
     // Work grows with the root of the share; linear extrapolation would say ten times too much.
     TimeEstimator estimator({{WorkPhase::Kind::prepass, 1000, 1, 1}});
     for (const double done : {0.0001, 0.001, 0.003, 0.01}) {
@@ -309,7 +309,7 @@ TEST_CASE("one thread's prepass tells of a picture by many, which is sooner done
 }
 
 TEST_CASE(
-    "a plan has an prepass where there is one, which leaves no values where it is deterministic") {
+    "a plan has a prepass where there is one, which leaves no values where it is deterministic") {
     FrameOptions options;
     options.width = 60;
     options.height = 60;

@@ -143,7 +143,7 @@ TEST_CASE("Embree proposes, doubles decide: hits are the same bits whatever inst
 
 TEST_CASE("packets give the same bits as single rays, whatever travels beside them") {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
-        // Machines without AVX-512 cut packets up, those without AVX into bvh primitives of four.
+        // Machines without AVX-512 cut packets up, those without AVX into groups of four.
         constexpr std::array<const char*, 3> kMachines{"", "isa=avx2", "isa=sse4.2"};
         const TestModels scene = random_models(seed, 40);
         const BuiltGeometry geometry = scene.build(kMachines[seed % kMachines.size()]);

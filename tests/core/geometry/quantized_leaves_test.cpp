@@ -1,4 +1,4 @@
-// Clusters of bvh primitives: each bvh primitive is in one, no ray that meets a bvh primitive's box
+// Quantized leaves: each BVH primitive is in one, no ray that meets its box
 // is told that it does not, and a model of leaves is hit where its surfaces are.
 #include "core/geometry/quantized_leaves.h"
 
@@ -21,7 +21,7 @@ struct ReleaseDevice {
     void operator()(RTCDeviceTy* device) const noexcept { rtcReleaseDevice(device); }
 };
 
-/// A model's bvh primitives, and the leaves of them.
+/// A model's BVH primitives, and the quantized leaves made of them.
 struct Leaves {
     explicit Leaves(const test::TestModels& scene)
         : tables(scene), model(tables.surfaces, tables.input.models[0], SerialTaskRunner()) {
@@ -119,7 +119,7 @@ TEST_CASE("a ray that meets a primitive of a quantized leaf meets its box, and f
                     const auto hit = scene.model.intersect(k, from, direction, far);
                     if (!hit) continue;
                     ++hits;
-                    // Of a primitive with several bvh primitives another one may hold the crossing.
+                    // Another BVH primitive of the same primitive may hold the crossing.
                     bool is_held =
                         is_met && static_cast<double>(boxes.first[i]) <= hit->t * (1 + 1e-6) + 1e-6;
                     for (const QuantizedLeaf& other : scene.leaves) {

@@ -1,4 +1,4 @@
-// mirror, prism1, prism2: what the eye sees in them. Relayed light is tested with the light
+// mirror, prism1, prism2: what the eye sees in them. Redirected light is tested with the light
 // sources.
 #include <doctest/doctest.h>
 

@@ -10,7 +10,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-using Pieces = std::vector<std::size_t>;
+using Numbers = std::vector<std::size_t>;
 using Contents = std::vector<std::uint64_t>;
 
 FrameFlow::Time at(int ms) {
@@ -98,17 +98,17 @@ TEST_CASE("frame flow: an acknowledgement covers the frames before it, wrong one
 
 TEST_CASE("frame flow: only pieces that changed since the client's last frame are missing") {
     FrameFlow flow;
-    CHECK(flow.missing(1, Contents{5, 5, 5}) == Pieces{0, 1, 2});
+    CHECK(flow.missing(1, Contents{5, 5, 5}) == Numbers{0, 1, 2});
     flow.sent(1, 1, Contents{5, 5, 5}, 1, at(0));
     CHECK(flow.missing(1, Contents{5, 5, 5}).empty());
-    CHECK(flow.missing(1, Contents{5, 6, 5}) == Pieces{1});
+    CHECK(flow.missing(1, Contents{5, 6, 5}) == Numbers{1});
     // Frames that this client was not sent changed one piece after the other.
-    CHECK(flow.missing(1, Contents{7, 6, 5}) == Pieces{0, 1});
+    CHECK(flow.missing(1, Contents{7, 6, 5}) == Numbers{0, 1});
     flow.sent(2, 1, Contents{7, 6, 5}, 1, at(1));
-    CHECK(flow.missing(1, Contents{7, 6, 8}) == Pieces{2});
+    CHECK(flow.missing(1, Contents{7, 6, 8}) == Numbers{2});
     // Cut otherwise, everything is new, whatever its numbers.
-    CHECK(flow.missing(2, Contents{7, 6, 5}) == Pieces{0, 1, 2});
-    CHECK(flow.missing(1, Contents{7, 6}) == Pieces{0, 1});
+    CHECK(flow.missing(2, Contents{7, 6, 5}) == Numbers{0, 1, 2});
+    CHECK(flow.missing(1, Contents{7, 6}) == Numbers{0, 1});
     CHECK(flow.missing(2, {}).empty());
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("frame flow: whatever is dropped, a client that takes what is missing 
                 ++layout;
             }
             if (random() % 2 == 0) continue;  // not sent
-            const Pieces missing = flow.missing(layout, server);
+            const Numbers missing = flow.missing(layout, server);
             client.resize(server.size());
             for (const std::size_t i : missing) client[i] = server[i];
             flow.sent(frame, layout, server, 1, at(static_cast<int>(frame)));
