@@ -1,5 +1,5 @@
 #pragma once
-// Options and habits that all commands share.
+// What all commands share: options, the scene's files, the header lines of results.
 #include <optional>
 #include <span>
 #include <string>

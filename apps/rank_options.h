@@ -1,5 +1,5 @@
 #pragma once
-// How a run is spread over ranks: options, and how the process was started.
+// Options of runs on many ranks, and whether this process is one of several.
 #include <memory>
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What the command line of `lightwalk render`, `animate` or `walk` says.
+// The options of `lightwalk render`, `animate` and `walk`, read from a command line.
 #include <array>
 #include <optional>
 #include <string>
@@ -30,7 +30,7 @@ struct RenderCommand {
     bool resume = false;                             ///< --resume
     double report_interval = 0;                      ///< -t [s]
     ToneMapping tone;                                ///< --exposure --tone
-    bool prepass = true;                             ///< --prepass auto|off
+    bool prepass = true;                             ///< --overture auto|off
     bool deterministic = false;                      ///< --deterministic
     int first_frame = 0;  ///< -S: number of the first frame of a sequence; 0: one picture
     std::optional<WalkCommand> walk;    ///< of `lightwalk animate`; nothing for `render`

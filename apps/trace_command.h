@@ -1,5 +1,5 @@
 #pragma once
-// What the command line of `lightwalk trace` says.
+// The options of `lightwalk trace`, read from a command line.
 #include <string>
 #include <vector>
 

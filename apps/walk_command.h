@@ -1,6 +1,6 @@
 #pragma once
-// What `lightwalk animate` knows beside the options of `lightwalk render`: the walk, and what is
-// carried on from frame to frame.
+// The options of `lightwalk animate` that `lightwalk render` does not have: the path of the camera,
+// and the reuse of earlier frames.
 #include <string>
 #include <vector>
 

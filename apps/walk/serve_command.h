@@ -1,5 +1,5 @@
 #pragma once
-// What `lightwalk walk` knows beside the options of `lightwalk animate`.
+// The options of `lightwalk walk` that `lightwalk animate` does not have.
 #include <string>
 #include <vector>
 
