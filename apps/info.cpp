@@ -72,7 +72,7 @@ void print_lights(const Scene& scene, const LightSources& lights) {
                 lights.all().size() - lights.virtual_count(), lights.virtual_count());
     int lines = 0;
     for (const LightSource& light : lights.all()) {
-        if (light.is_virtual) continue;
+        if (light.is_virtual()) continue;
         if (++lines > kMostLines) {
             std::puts("  ...");
             return;

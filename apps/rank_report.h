@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/rank_link.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 
 namespace lightwalk {
 

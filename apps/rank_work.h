@@ -1,6 +1,6 @@
 #pragma once
 // What a rank traces for a run that ranks share.
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "parallel/executor.h"
 
 namespace lightwalk {

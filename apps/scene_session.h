@@ -11,7 +11,7 @@
 #include "core/math/task_runner.h"
 #include "core/problem_list.h"
 #include "core/scene/scene.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "io/ambient/ambient_store.h"
 #include "io/scene/frozen_scene.h"
 #include "parallel/concurrent_cache.h"

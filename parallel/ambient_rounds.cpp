@@ -33,10 +33,10 @@ class Collecting {
     explicit Collecting(WorkerContexts& contexts)
         : contexts_(contexts), missing_(static_cast<std::size_t>(contexts.size())) {
         for (int w = 0; w < contexts.size(); ++w)
-            contexts[w].missing = &missing_[static_cast<std::size_t>(w)];
+            contexts[w].ambient.missing = &missing_[static_cast<std::size_t>(w)];
     }
     ~Collecting() {
-        for (int w = 0; w < contexts_.size(); ++w) contexts_[w].missing = nullptr;
+        for (int w = 0; w < contexts_.size(); ++w) contexts_[w].ambient.missing = nullptr;
     }
     Collecting(const Collecting&) = delete;
     Collecting& operator=(const Collecting&) = delete;
@@ -61,9 +61,9 @@ class Collecting {
 class RecordCollector {
   public:
     explicit RecordCollector(TraceContext& context) : context_(context) {
-        context.new_records = &new_records_;
+        context.ambient.new_records = &new_records_;
     }
-    ~RecordCollector() { context_.new_records = nullptr; }
+    ~RecordCollector() { context_.ambient.new_records = nullptr; }
     RecordCollector(const RecordCollector&) = delete;
     RecordCollector& operator=(const RecordCollector&) = delete;
     [[nodiscard]] std::vector<NewAmbientRecord> take() {

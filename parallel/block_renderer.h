@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/light/small_sources.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "core/view/pixels.h"
 #include "parallel/blocks.h"
 #include "parallel/frame_options.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The cache prepass of a picture with indirect light (Radiance's overture): fills the ambient cache
 // evenly over the view.
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "core/view/view.h"
 #include "parallel/executor.h"
 #include "parallel/frame.h"

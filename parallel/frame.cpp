@@ -19,7 +19,7 @@ class ProgressSum {
 
     void add(std::size_t pixels, int worker, const TraceContext& context) {
         Counted& counted = counted_[static_cast<std::size_t>(worker)];
-        const Counted now{context.counters.total(), context.ambient.computed};
+        const Counted now{context.counters.rays.total(), context.counters.ambient.computed};
         rays_done_ += now.rays - counted.rays;
         values_done_ += now.values - counted.values;
         pixels_done_ += pixels;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/math/function_ref.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "core/view/view.h"
 #include "parallel/block_renderer.h"
 #include "parallel/blocks.h"

@@ -19,6 +19,7 @@ class FreezableCache final : public AmbientCache {
     void insert(const AmbientRecord& record) override {
         if (!frozen_) cache_.insert(record);
     }
+    [[nodiscard]] bool takes_values() const override { return !frozen_; }
     [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
 
     [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {

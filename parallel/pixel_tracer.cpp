@@ -28,11 +28,9 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
         if (!hits.empty()) hits[i] = {true, kNoSurface, kVoid, Vec3{}, kHuge, Rgb{}};
         const PixelRay pixel = pixel_rays_(places[i].x, places[i].y, sample);
         if (!pixel.ray) continue;
-        const double limit = pixel.ray->limit;
-        rays_.push_back(
-            tracer_.primary(pixel.ray->origin, pixel.ray->direction, limit, pixel.random));
-        segments_.push_back(
-            {rays_.back().origin, rays_.back().direction, limit > kEpsilon ? limit : kHuge});
+        rays_.push_back(tracer_.primary(pixel.ray->origin, pixel.ray->direction, pixel.ray->limit,
+                                        pixel.random));
+        segments_.push_back(rays_.back().segment());
         targets_.push_back(i);
     }
     hits_.assign(rays_.size(), Hit{});

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "core/view/pixels.h"
 #include "parallel/pixel_rays.h"
 #include "parallel/stop_flag.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/math/distance.h"
+
 namespace lightwalk {
 namespace {
 
@@ -26,13 +28,13 @@ void trace_one(const Tracer& tracer, const RayQuery& query, RandomStream random,
     }
     Ray ray =
         tracer.primary(query.origin, query.direction, options.limit_by_length ? size : 0, random);
-    const double farthest = ray.limit > kEpsilon ? ray.limit : kHuge;
+    const double farthest = farthest_hit(ray.limit);
     const Hit first = tracer.scene().geometry().intersect({ray.origin, ray.direction, farthest});
     if (options.shade) {
         tracer.shade_hit(ray, first, context);
     } else {
         ray.hit = first;
-        ++context.counters.primary;
+        ++context.counters.rays.primary;
     }
     if (!ray.hit.exists()) set_missed(ray);
     take(index, ray, first);

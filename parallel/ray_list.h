@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/math/function_ref.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "parallel/executor.h"
 #include "parallel/worker_contexts.h"
 

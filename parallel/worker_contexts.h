@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "parallel/fibers/context_fibers.h"
 
 namespace lightwalk {
@@ -20,7 +20,7 @@ class WorkerContexts {
         std::unique_ptr<TraceContext>& context = contexts_[static_cast<std::size_t>(worker)];
         if (!context) {
             context = std::make_unique<TraceContext>(tracer_, warnings_);
-            context->make_fibers = make_context_fibers;
+            context->batches.make_fibers = make_context_fibers;
         }
         return *context;
     }
@@ -30,9 +30,7 @@ class WorkerContexts {
     /// Reset the counters to zero. Must not be called while a task runs.
     void reset_counters() {
         for (const auto& context : contexts_) {
-            if (!context) continue;
-            context->counters = {};
-            context->ambient = {};
+            if (context) context->counters = {};
         }
     }
 
@@ -40,7 +38,7 @@ class WorkerContexts {
     [[nodiscard]] RayCounters rays() const {
         RayCounters sum;
         for (const auto& context : contexts_) {
-            if (context) sum += context->counters;
+            if (context) sum += context->counters.rays;
         }
         return sum;
     }
@@ -48,7 +46,7 @@ class WorkerContexts {
     [[nodiscard]] AmbientCounters ambient() const {
         AmbientCounters sum;
         for (const auto& context : contexts_) {
-            if (context) sum += context->ambient;
+            if (context) sum += context->counters.ambient;
         }
         return sum;
     }

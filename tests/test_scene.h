@@ -7,7 +7,7 @@
 
 #include "core/material/modifier_factories.h"
 #include "core/scene/scene.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "io/scene/scene_reader.h"
 
 namespace lightwalk::test {

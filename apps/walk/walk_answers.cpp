@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/distance.h"
 #include "core/math/xyz.h"
 #include "core/scene/scene.h"
 
@@ -56,7 +57,7 @@ PickedReply WalkAnswers::pick(const PickRequest& request, const Camera& camera,
     reply.luminance = rays > 0 ? luminance(sum * (1.0f / static_cast<float>(rays))) : 0;
     const Scene& scene = tracer_.scene();
     const Hit hit = scene.geometry().intersect(
-        {middle->origin, middle->direction, middle->limit > kEpsilon ? middle->limit : kHuge});
+        {middle->origin, middle->direction, farthest_hit(middle->limit)});
     reply.hit = hit.exists();
     if (!reply.hit) return reply;
     reply.distance = hit.t;

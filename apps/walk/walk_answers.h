@@ -1,6 +1,6 @@
 #pragma once
 // What a walk tells of the light where somebody points.
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "core/view/view.h"
 #include "io/net/walk_reply.h"
 #include "io/net/walk_request.h"

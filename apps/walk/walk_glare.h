@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/walk/client_inbox.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "parallel/executor.h"
 #include "parallel/walk/progressive_light.h"
 #include "parallel/worker_contexts.h"

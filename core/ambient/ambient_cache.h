@@ -6,16 +6,17 @@
 
 namespace lightwalk {
 
-/// Of all values stored with a brightness above kEpsilon: what -aw weighs -av against.
+/// Logarithmic mean of the stored values' brightness, which -aw weighs -av against. Values whose
+/// brightness is at most kEpsilon do not count.
 struct AmbientLogMean {
     std::uint64_t count = 0;
-    double sum = 0;  ///< of the logarithms of their brightness
+    double sum = 0;  ///< sum of the logarithms
 };
 
-/// A value that somebody computes.
+/// A lease on a place where a value is being computed, so that no second thread computes it too.
 struct AmbientClaim {
     std::uint64_t number = 0;  ///< 0: none
-    bool waited = false;       ///< for another value, that may serve: look again
+    bool waited = false;       ///< another thread's value was waited for, and may serve: look again
 };
 
 class AmbientCache {
@@ -26,10 +27,13 @@ class AmbientCache {
     AmbientCache& operator=(const AmbientCache&) = delete;
 
     [[nodiscard]] virtual const AmbientLimits& limits() const = 0;
-    /// What the records around a point say; the weight is at most kEpsilon where none does. `leaks`
-    /// is called for records behind something near.
+    /// Weighted sum of the records that serve a point; its weight is at most kEpsilon where none
+    /// does.
+    /// @param leaks  called for records that lie behind something near
     [[nodiscard]] virtual AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const = 0;
     virtual void insert(const AmbientRecord& record) = 0;
+    /// Whether insert() keeps records; else the cache stays as it is.
+    [[nodiscard]] virtual bool takes_values() const { return true; }
     [[nodiscard]] virtual AmbientLogMean log_mean() const = 0;
 
     /// Before a value is computed because a lookup found nothing: tells others, and may wait for a
@@ -42,12 +46,12 @@ class AmbientCache {
 [[nodiscard]] AmbientLimits ambient_limits(const Vec3& origin, double size, double accuracy,
                                            int resolution);
 
-/// The way of a record or a query down the tree: cubes of half the edge at each step.
+/// A node's cube in the octree of records; each step down halves its edge.
 struct CachePath {
     Vec3 corner;
     double edge = 0;
 };
-/// Child of the cube that holds `p`; halves the cube.
+/// Go down to the child of the cube that holds `p`; returns the child's number.
 [[nodiscard]] inline unsigned descend(CachePath& cube, const std::array<float, 3>& p) {
     cube.edge *= 0.5;
     unsigned child = 0;

@@ -73,8 +73,8 @@ Ray ray_to(const AmbientPoint& point) {
 class AtLevel {
   public:
     AtLevel(TraceContext& context, int level)
-        : context_(context), before_(std::exchange(context.ambient_level, level)) {}
-    ~AtLevel() { context_.ambient_level = before_; }
+        : context_(context), before_(std::exchange(context.path.ambient_level, level)) {}
+    ~AtLevel() { context_.path.ambient_level = before_; }
     AtLevel(const AtLevel&) = delete;
     AtLevel& operator=(const AtLevel&) = delete;
 
@@ -88,8 +88,8 @@ class AmbientRays final : public HemisphereRays {
   public:
     /// @param coef   what the rays are weighed by, for their limits
     /// @param share  of each in the sum, beside that
-    AmbientRays(const Tracer& tracer, Ray& parent, RayKind kind, const Rgb& coef, float share,
-                TraceContext& context)
+    AmbientRays(const LightTransport& tracer, Ray& parent, RayKind kind, const Rgb& coef,
+                float share, TraceContext& context)
         : tracer_(tracer),
           parent_(parent),
           kind_(kind),
@@ -114,10 +114,7 @@ class AmbientRays final : public HemisphereRays {
         // One by one: they diverge too much for packets (measured in an interior: a tenth slower).
         const Geometry& geometry = tracer_.scene().geometry();
         hits_.clear();
-        for (const Ray& ray : rays_) {
-            const double limit = ray.limit > kEpsilon ? ray.limit : kHuge;
-            hits_.push_back(geometry.intersect({ray.origin, ray.direction, limit}));
-        }
+        for (const Ray& ray : rays_) hits_.push_back(geometry.intersect(ray.segment()));
         tracer_.shade_hits(rays_, hits_, context_);
         answers_.clear();
         for (const Ray& ray : rays_)
@@ -127,7 +124,7 @@ class AmbientRays final : public HemisphereRays {
     }
 
   private:
-    const Tracer& tracer_;
+    const LightTransport& tracer_;
     Ray& parent_;
     RayKind kind_;
     Rgb coef_;
@@ -149,7 +146,7 @@ struct AmbientCalculation::Request {
     TraceContext& context;
 };
 
-AmbientCalculation::AmbientCalculation(const Tracer& tracer) : tracer_(tracer) {
+AmbientCalculation::AmbientCalculation(const LightTransport& tracer) : tracer_(tracer) {
     const AmbientSelection& selection = tracer.options().ambient_surfaces;
     if (selection.kind == AmbientSelection::Kind::all) return;
     const Scene& scene = tracer.scene();
@@ -188,7 +185,7 @@ Rgb AmbientCalculation::constant(const Rgb& coef) const {
 Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
                             TraceContext& context) const {
     const RenderOptions& options = tracer_.options();
-    if (options.ambient_divisions <= 0 || context.ambient_level >= options.ambient_bounces ||
+    if (options.ambient_divisions <= 0 || context.path.ambient_level >= options.ambient_bounces ||
         !takes_part(ray)) {
         return constant(coef);
     }
@@ -196,11 +193,18 @@ Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
     const Request request{ray,
                           coef,
                           {ray.hit.position, far_side ? -ray.hit.normal : ray.hit.normal, normal,
-                           context.ambient_level, ray.weight},
+                           context.path.ambient_level, ray.weight},
                           far_side,
                           context};
     return cache_ && options.ambient_accuracy > kEpsilon ? with_cache(request)
                                                          : without_cache(request);
+}
+
+bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
+    const RenderOptions& options = tracer_.options();
+    return cache_ && options.ambient_accuracy > kEpsilon && options.ambient_divisions > 0 &&
+           context.path.ambient_level < options.ambient_bounces &&
+           (context.ambient.new_records || cache_->takes_values());
 }
 
 Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, double weight,
@@ -211,7 +215,7 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     const double divisions =
         std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
     sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
-    if (request.context.missing == nullptr) {
+    if (request.context.ambient.missing == nullptr) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
     }
@@ -225,13 +229,13 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     const RandomStream before = ray.random;
     RandomStream stream = cached ? stream_of(request.query, options.seed) : ray.random.child();
     if (cached) ray.random = stream.child();
-    ++request.context.ambient_level;
-    if (request.context.missing == nullptr) ++request.context.ambient.computed;
+    ++request.context.path.ambient_level;
+    if (request.context.ambient.missing == nullptr) ++request.context.counters.ambient.computed;
     Hemisphere hemisphere = sample_hemisphere(request.query.normal, sampling, stream, rays);
-    --request.context.ambient_level;
+    --request.context.path.ambient_level;
     if (cached) ray.random = before;
-    if (!hemisphere.complete() && request.context.missing == nullptr)
-        ++request.context.ambient.incomplete;
+    if (!hemisphere.complete() && request.context.ambient.missing == nullptr)
+        ++request.context.counters.ambient.incomplete;
     return hemisphere;
 }
 
@@ -258,7 +262,7 @@ AmbientSum AmbientCalculation::known(const Request& request) const {
 }
 
 Rgb AmbientCalculation::with_cache(const Request& request) const {
-    AmbientCounters& counters = request.context.ambient;
+    AmbientCounters& counters = request.context.counters.ambient;
     const auto interpolated = [&](const AmbientSum& sum) {
         ++counters.interpolated;
         Rgb value;
@@ -266,7 +270,7 @@ Rgb AmbientCalculation::with_cache(const Request& request) const {
         return request.coef * value;
     };
     if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
-    if (MissingAmbient* missing = request.context.missing) {
+    if (MissingAmbient* missing = request.context.ambient.missing) {
         if (can_stand_alone(request.ray))
             missing->points.push_back(point_of(request));
         else if (request.query.level == 0)
@@ -294,12 +298,12 @@ Rgb AmbientCalculation::new_value(const Request& request) const {
 
 void AmbientCalculation::store(const Request& request, const AmbientRecord& record) const {
     TraceContext& context = request.context;
-    if (context.new_records != nullptr) {
+    if (context.ambient.new_records != nullptr) {
         if (can_stand_alone(request.ray))
-            context.new_records->new_records.push_back({point_of(request), record});
+            context.ambient.new_records->new_records.push_back({point_of(request), record});
         return;
     }
-    if (known(request).weight > kEpsilon) ++context.ambient.duplicates;
+    if (known(request).weight > kEpsilon) ++context.counters.ambient.duplicates;
     cache_->insert(record);
 }
 
@@ -379,7 +383,7 @@ bool AmbientCalculation::is_blocked(const Ray& ray, const Vec3& target) const {
     Vec3 from = ray.hit.position;
     const Vec3 direction = normalize(target - from);
     double left = length(target - from);
-    for (int passed = 0; passed < Tracer::kMaxDepth && left > kEpsilon; ++passed) {
+    for (int passed = 0; passed < LightTransport::kMaxDepth && left > kEpsilon; ++passed) {
         const Hit hit = scene.geometry().intersect({from, direction, left});
         if (!hit.exists()) return false;
         const bool clipped = ray.clip && ray.clip->contains(hit.modifier);

@@ -1,36 +1,42 @@
 #pragma once
 // Indirect diffuse light: from the cache, or from a hemisphere of rays, or the constant -av.
+// Source: Ward, Rubinstein & Clear, "A Ray Tracing Solution for Diffuse Interreflection", SIGGRAPH
+// 1988.
 #include <optional>
 #include <vector>
 
 #include "core/ambient/ambient_cache.h"
 #include "core/ambient/ambient_point.h"
 #include "core/ambient/hemisphere.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 
 class AmbientCalculation {
   public:
     /// Finds the modifiers that -ae and -ai name.
-    explicit AmbientCalculation(const Tracer& tracer);
+    explicit AmbientCalculation(const LightTransport& tracer);
     void use_cache(AmbientCache* cache) { cache_ = cache; }
 
-    /// `coef` times the ambient value at the ray's hit. `normal` is the shading normal, on the side
-    /// that is asked for.
+    /// `coef` times the ambient value at the ray's hit [W/(m² sr)].
+    /// @param normal  shading normal, on the side of the surface whose light is wanted
     [[nodiscard]] Rgb add(Ray& ray, const Rgb& coef, const Vec3& normal,
                           TraceContext& context) const;
 
-    // Values apart from the rays that want them; all need a cache.
+    /// Whether the values that rays at the context's ambient level get depend on what was asked for
+    /// before.
+    [[nodiscard]] bool depends_on_order(const TraceContext& context) const;
+
+    // For filling the cache in rounds. All of these need a cache.
 
     /// Whether the cache has a value for the point.
     [[nodiscard]] bool is_served(const AmbientPoint& point) const;
-    /// The value at a point, which is not stored; nothing where it could not be. What its rays miss
-    /// is treated as the context wants.
+    /// Compute the value at a point, without storing it; nothing where it could not be stored. What
+    /// its rays lack themselves is treated as context.ambient says.
     [[nodiscard]] std::optional<AmbientRecord> record_at(const AmbientPoint& point,
                                                          TraceContext& context) const;
-    /// Traces the rays that record_at would trace, as far as they do not depend on what the others
-    /// see, for what they miss: context.missing must be set.
+    /// Trace those rays of record_at that do not depend on what other rays see, so that the values
+    /// that they lack are noted: context.ambient.missing must be set.
     void prefetch(const AmbientPoint& point, TraceContext& context) const;
 
   private:
@@ -54,9 +60,9 @@ class AmbientCalculation {
                                     bool cached) const;
     [[nodiscard]] bool is_blocked(const Ray& ray, const Vec3& target) const;
 
-    const Tracer& tracer_;
+    const LightTransport& tracer_;
     AmbientCache* cache_ = nullptr;
-    std::vector<bool> listed_;  ///< by modifier; empty without a list
+    std::vector<bool> listed_;  ///< by modifier, whether -ae or -ai names it; empty without these
 };
 
 }  // namespace lightwalk

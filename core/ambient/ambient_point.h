@@ -9,18 +9,18 @@
 
 namespace lightwalk {
 
-/// All that the value at a point depends on, but for the cache: what was asked, and what the rays
-/// of its hemisphere inherit from the one that asked.
+/// All that the value at a point depends on, but for the cache: the query, and what the rays of its
+/// hemisphere inherit from the ray that wanted the value.
 struct AmbientPoint {
     AmbientQuery query;
     Medium medium;           ///< without scattering sources
-    double distance = 0;     ///< length of the ray that asked [m]
-    double path_length = 0;  ///< of its ancestors [m]
-    double limit = 0;        ///< its aft clipping distance; 0: none [m]
-    int ray_level = 0;       ///< its reflections
+    double distance = 0;     ///< length of the ray that wanted the value [m]
+    double path_length = 0;  ///< that ray's RayPath::path_length [m]
+    double limit = 0;        ///< that ray's aft clipping distance; 0: none [m]
+    int ray_level = 0;       ///< that ray's RayPath::level
     std::int32_t target = kNoTarget;
     std::uint16_t history = kPrimary;
-    bool far_side = false;  ///< not the viewer's
+    bool far_side = false;  ///< the value is of the side that the ray did not come from
 };
 
 /// What is wanted and not there. Where a context has one, rays only find points: no value is

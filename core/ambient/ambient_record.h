@@ -20,14 +20,14 @@ struct AmbientRecord {
     std::array<float, 2> translation{};  ///< relative change per metre along u and v [1/m]
     std::array<float, 2> rotation{};     ///< relative change per radian about u and v
     Rgb value;                           ///< [W/(m² sr)]
-    float weight = 1;                    ///< of the evaluation, in (0, 1]
+    float weight = 1;          ///< evaluation weight: values of less are less exact; in (0, 1]
     std::uint32_t corral = 0;  ///< azimuths of 1/32 turn in which something near may hide the point
     std::uint8_t level = 0;    ///< ambient evaluations that were open around this one
 };
 
 /// What a cache needs to know of scene and options.
 struct AmbientLimits {
-    Vec3 origin;              ///< of the scene's cube
+    Vec3 origin;              ///< lower corner of the scene's cube
     double size = 1;          ///< its edge [m]
     double accuracy = 0.1;    ///< -aa
     double least_radius = 0;  ///< from -ar [m]
@@ -37,10 +37,10 @@ struct AmbientLimits {
 /// A point that wants an ambient value.
 struct AmbientQuery {
     Vec3 position;
-    Vec3 normal;          ///< of the surface, on the side that is asked for
-    Vec3 shading_normal;  ///< with textures
+    Vec3 normal;          ///< the surface's, on the side whose light is wanted
+    Vec3 shading_normal;  ///< the normal as textures turn it
     int level = 0;        ///< open ambient evaluations
-    double weight = 1;    ///< of the ray that hit the point
+    double weight = 1;    ///< RayPath::weight of the ray that hit the point
 };
 
 /// Whether something opaque stands on the segment from the query's point to `target`.
@@ -68,7 +68,7 @@ struct DecodedRecord {
     Rgb value;
     float weight = 1;
     std::uint32_t corral = 0;
-    std::uint32_t next = 0;  ///< in the list of its node; for caches
+    std::uint32_t next = 0;  ///< next record in the list of its node; for caches
     std::uint8_t level = 0;
 };
 

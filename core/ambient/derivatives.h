@@ -10,7 +10,7 @@ namespace lightwalk {
 struct RadiusLimits {
     double accuracy = 0.1;       ///< -aa
     double least = 0, most = 0;  ///< [m]
-    double weight = 1;           ///< of the evaluation: radii grow by its inverse root
+    double weight = 1;           ///< evaluation weight: radii grow by its inverse root
 };
 
 /// Everything relative to the value; along the axes u and normal x u.
@@ -22,10 +22,10 @@ struct AmbientDerivatives {
     std::uint32_t corral = 0;             ///< see AmbientRecord
 };
 
-/// Of a complete hemisphere with at least seven divisions. The samples' triangles are the scene
-/// that is seen: how their form factors change gives gradient and Hessian. Source: Schwarzhaupt,
-/// Jensen & Jarosz, "Practical Hessian-Based Error Control for Irradiance Caching", SIGGRAPH Asia
-/// 2012; the rotation gradient: Ward & Heckbert, EGWR 1992.
+/// Derive gradients and radii from a complete hemisphere with at least seven divisions. The
+/// samples' triangles are the scene that is seen: how their form factors change gives gradient and
+/// Hessian. Source: Schwarzhaupt, Jensen & Jarosz, "Practical Hessian-Based Error Control for
+/// Irradiance Caching", SIGGRAPH Asia 2012; the rotation gradient: Ward & Heckbert, EGWR 1992.
 [[nodiscard]] AmbientDerivatives derive(const Hemisphere& hemisphere, const RadiusLimits& limits);
 
 /// The rotation gradient alone, in the sampling frame (u, v).

@@ -21,7 +21,7 @@ struct HemisphereAnswer {
 /// Traces the rays of a hemisphere, some at a time.
 class HemisphereRays {
   public:
-    static constexpr std::size_t kTogether = 64;  ///< at most so many are traced together
+    static constexpr std::size_t kTogether = 64;  ///< most rays between two calls of trace()
     virtual ~HemisphereRays() = default;
     /// Prepare a ray into a direction. False: it may not start.
     virtual bool start(const Vec3& direction) = 0;
@@ -43,7 +43,7 @@ struct Hemisphere {
     Vec3 normal, u, v;
     int divisions = 0;
     std::vector<HemisphereCell> cells;
-    Rgb sum;            ///< of the cells' values: indirect irradiance / pi times the coefficient
+    Rgb sum;  ///< sum of the cells' values: E / π times the coefficient, E indirect irradiance
     int succeeded = 0;  ///< cells with a sample
 
     [[nodiscard]] const HemisphereCell& cell(int i, int j) const {

@@ -10,8 +10,8 @@ namespace {
 class BatchScope {
   public:
     BatchScope(TraceContext& context, ShadingBatch* batch)
-        : context_(context), before_(std::exchange(context.batch, batch)) {}
-    ~BatchScope() { context_.batch = before_; }
+        : context_(context), before_(std::exchange(context.batches.current, batch)) {}
+    ~BatchScope() { context_.batches.current = before_; }
     BatchScope(const BatchScope&) = delete;
     BatchScope& operator=(const BatchScope&) = delete;
 
@@ -23,9 +23,11 @@ class BatchScope {
 }  // namespace
 
 void ShadingBatch::run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
-                       TraceContext& context) {
-    level_ = context.ambient_level;
-    around_ = context.batch;
+                       TraceContext& context, BatchWaits waits) {
+    waits_ = waits;
+    nesting_ = context.path.nesting;
+    level_ = context.path.ambient_level;
+    around_ = context.batches.current;
     for (std::size_t first = 0; first < count; first += tasks_.size())
         run_part(first, std::min(tasks_.size(), count - first), body, calculate, context);
 }
@@ -33,8 +35,7 @@ void ShadingBatch::run(std::size_t count, FunctionRef<void(std::size_t)> body, C
 void ShadingBatch::run_part(std::size_t first, std::size_t count,
                             FunctionRef<void(std::size_t)> body, Calculate calculate,
                             TraceContext& context) {
-    const int depth = context.depth;
-    if (depth == 0) context.start_path();  // one for all
+    if (nesting_.rays == 0) context.path.start();  // one for all
     const auto work = [&] {
         ShadingTask& own = tasks_[running_];
         try {
@@ -47,20 +48,20 @@ void ShadingBatch::run_part(std::size_t first, std::size_t count,
     const auto run_on = [&](std::size_t i, auto&& enter) {
         const BatchScope batch_scope(context, this);
         running_ = i;
-        context.depth = tasks_[i].depth;
+        context.path.nesting = tasks_[i].nesting;
         bool done = enter();
         while (!done && tasks_[i].outside) {
             go_outside(tasks_[i], context);
-            context.depth = tasks_[i].depth;
+            context.path.nesting = tasks_[i].nesting;
             done = fibers_->resume(i);
         }
         if (!done) waiting_.push_back(i);
-        context.depth = depth;
+        context.path.nesting = nesting_;
     };
     waiting_.clear();
     std::size_t begun = 0;
     for (; begun < count && fibers_->prepare(begun); ++begun) {
-        tasks_[begun] = {nullptr, nullptr, depth, nullptr};
+        tasks_[begun] = {nullptr, nullptr, nesting_, nullptr};
         run_on(begun, [&] { return fibers_->start(begun, work_ref); });
     }
     while (!waiting_.empty()) {
@@ -80,19 +81,20 @@ void ShadingBatch::calculate_all(Calculate calculate, TraceContext& context) {
     requests_.clear();
     for (const std::size_t i : waiting_) requests_.push_back(*tasks_[i].request);
     const BatchScope outside(context, around_);
-    const int depth = context.depth;
-    context.depth = tasks_[waiting_.front()].depth;  // the depth of the parents of shadow rays
+    const Nesting nesting = context.path.nesting;
+    context.path.nesting =
+        tasks_[waiting_.front()].nesting;  // the depth of the parents of shadow rays
     try {
         calculate(requests_);
     } catch (...) {
         for (const std::size_t i : waiting_) tasks_[i].failed = std::current_exception();
     }
-    context.depth = depth;
+    context.path.nesting = nesting;
 }
 
 void ShadingBatch::go_outside(ShadingTask& task, TraceContext& context) {
     const BatchScope outside(context, around_);
-    context.depth = task.depth;
+    context.path.nesting = task.nesting;
     try {
         (*task.outside)();
     } catch (...) {
@@ -103,9 +105,15 @@ void ShadingBatch::go_outside(ShadingTask& task, TraceContext& context) {
 
 void ShadingBatch::leave(TraceContext& context) {
     const std::size_t own = running_;
-    tasks_[own].depth = context.depth;
+    tasks_[own].nesting = context.path.nesting;
     fibers_->wait();
     if (tasks_[own].failed) std::rethrow_exception(std::exchange(tasks_[own].failed, nullptr));
+}
+
+bool ShadingBatch::may_wait(const TraceContext& context) const {
+    if (context.path.ambient_level != level_) return false;
+    return waits_ == BatchWaits::anywhere ||
+           context.path.nesting == Nesting{nesting_.rays + 1, nesting_.mixtures};
 }
 
 void ShadingBatch::wait(const DirectRequest& request, TraceContext& context) {

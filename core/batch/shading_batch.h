@@ -10,11 +10,20 @@
 #include <vector>
 
 #include "core/batch/fibers.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 
-/// A batch for one thread. Rays begin in the order of their numbers; how far one has come when the
+/// Where the rays of a batch may wait.
+enum class BatchWaits {
+    anywhere,
+    /// As the last thing that they do, so that a ray asks for all its ambient values before the
+    /// next ray begins: values then depend neither on the size of the batch nor on whether there is
+    /// one.
+    at_their_end,
+};
+
+/// Belongs to one thread. Rays are begun in the order of their numbers; how far one is when the
 /// next begins is not specified.
 class ShadingBatch {
   public:
@@ -29,14 +38,13 @@ class ShadingBatch {
     /// batch. `calculate` runs on the caller's stack. When bodies throw, the run ends after all
     /// bodies have ended, and the exception of the first one is thrown again.
     void run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
-             TraceContext& context);
+             TraceContext& context, BatchWaits waits = BatchWaits::anywhere);
 
-    /// The ambient level (number of diffuse bounces) of the rays of this batch. Requests for direct
-    /// light on another level do not wait in this batch.
-    [[nodiscard]] int level() const { return level_; }
-
-    // Functions to be called in a body:
-    /// Wait until the direct light of `request` has been calculated.
+    // To be called in a body:
+    /// Whether the code that runs may wait. Rays of another ambient level than the batch's own may
+    /// not, nor those that run outside().
+    [[nodiscard]] bool may_wait(const TraceContext& context) const;
+    /// Wait until the direct light has been calculated.
     void wait(const DirectRequest& request, TraceContext& context);
     /// Whether the fiber's stack has room for one more level of recursion (a ray or a mixture);
     /// where it has not, call outside().
@@ -47,10 +55,10 @@ class ShadingBatch {
 
   private:
     struct ShadingTask {
-        const DirectRequest* request = nullptr;        ///< while it waits for direct light
-        const FunctionRef<void()>* outside = nullptr;  ///< while it waits for that
-        int depth = 0;                                 ///< of the context, while it waits
-        std::exception_ptr failed;  ///< what it waited for threw this; at the end, what it threw
+        const DirectRequest* request = nullptr;        ///< direct light that it waits for
+        const FunctionRef<void()>* outside = nullptr;  ///< work for outside() that it waits for
+        Nesting nesting;                               ///< of the context, while it waits
+        std::exception_ptr failed;  ///< thrown by what it waits for; at the end, by its body
     };
     void run_part(std::size_t first, std::size_t count, FunctionRef<void(std::size_t)> body,
                   Calculate calculate, TraceContext& context);
@@ -58,7 +66,9 @@ class ShadingBatch {
     void go_outside(ShadingTask& task, TraceContext& context);
     void calculate_all(Calculate calculate, TraceContext& context);
 
-    int level_ = 0;
+    BatchWaits waits_ = BatchWaits::anywhere;
+    int level_ = 0;                   ///< ambient level of the bodies
+    Nesting nesting_{};               ///< outside of the bodies
     ShadingBatch* around_ = nullptr;  ///< the batch whose fiber runs this one
     std::unique_ptr<Fibers> fibers_;
     std::vector<ShadingTask> tasks_;

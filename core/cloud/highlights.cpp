@@ -78,7 +78,7 @@ LightOnSurface::LightOnSurface(const LightSource& light, const SeenPoint& at,
 void LightOnSurface::drop_hidden(const Geometry& geometry) {
     const auto hidden = [&](const LitPart& part) {
         RaySegment ray{at_.position, part.direction, part.distance};
-        if (light_.is_virtual) ray.t_max = geometry.intersect_surface(light_.object, ray).t;
+        if (light_.is_virtual()) ray.t_max = geometry.intersect_surface(light_.object, ray).t;
         return geometry.visibility(ray, light_.object) == Visibility::blocked;
     };
     const auto end = parts_.begin() + static_cast<std::ptrdiff_t>(count_);

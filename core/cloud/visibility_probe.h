@@ -4,7 +4,7 @@
 
 #include "core/cloud/highlights.h"
 #include "core/cloud/primary_visibility.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 
 namespace lightwalk {
 

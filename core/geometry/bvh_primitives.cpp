@@ -456,13 +456,15 @@ Bounds BvhPrimitives::box(std::size_t bvh_primitive, const ModelPrimitives& mode
     return box;
 }
 
-BvhPrimitives divide_primitives(const ModelPrimitives& model, const TaskRunner& task_runner) {
+BvhPrimitives divide_primitives(const ModelPrimitives& model, const TaskRunner& task_runner,
+                                bool slices) {
     Division division(model);
     std::vector<std::uint32_t> divided =
         division.add(select_primitives(model.size(), task_runner,
                                        [&](std::uint32_t i) { return division.is_candidate(i); }),
                      task_runner);
-    const std::vector<SlicedCone> cones = slice_cones(model, task_runner);
+    std::vector<SlicedCone> cones;
+    if (slices) cones = slice_cones(model, task_runner);
     for (const SlicedCone& cone : cones) divided.push_back(cone.primitive);
     std::sort(divided.begin(), divided.end());
     Grouping whole;

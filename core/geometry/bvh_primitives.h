@@ -41,6 +41,6 @@ struct BvhPrimitives {
 /// Source of the idea: Stich, Friedrich & Dietrich, "Spatial Splits in Bounding Volume
 /// Hierarchies", HPG 2009; here before the tree is built.
 [[nodiscard]] BvhPrimitives divide_primitives(const ModelPrimitives& model,
-                                              const TaskRunner& task_runner);
+                                              const TaskRunner& task_runner, bool slices = true);
 
 }  // namespace lightwalk

@@ -98,6 +98,7 @@ struct Geometry::Impl {
     std::atomic<std::ptrdiff_t> embree_bytes{
         0};  ///< Embree may allocate from several threads while it builds
     std::string embree_message;
+    Ablation ablation;
     PlacedScene placed;
     DevicePtr device;  ///< outlives the scenes below
     std::vector<Hierarchy> models;
@@ -115,7 +116,7 @@ struct Geometry::Impl {
 
 Geometry::Impl::Impl(GeometryInput input, const std::string& embree_options,
                      const TaskRunner& task_runner)
-    : placed(std::move(input), task_runner) {
+    : ablation(input.ablation), placed(std::move(input), task_runner) {
     open_device(embree_options);
     models.resize(placed.model_count());
     const std::vector<SearchSpace> spaces = search_spaces(placed);
@@ -170,11 +171,12 @@ void Geometry::Impl::check(const char* doing) const {
 }
 
 void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runner) {
-    model.bvh_primitives = divide_primitives(*model.primitives, task_runner);
+    model.bvh_primitives = divide_primitives(*model.primitives, task_runner, ablation.slices);
     if (model.bvh_primitives.size() == 0) return;
     const auto last = static_cast<std::uint32_t>(model.primitives->size() - 1);
     const bool is_mesh = model.primitives->is_triangle(last);  // meshes are models of their own
-    if (model.bvh_primitives.size() > (is_mesh ? kMostSingleOfMesh : kMostSinglePrimitives)) {
+    const std::size_t most_single = is_mesh ? kMostSingleOfMesh : kMostSinglePrimitives;
+    if (ablation.leaves && model.bvh_primitives.size() > most_single) {
         model.leaves = make_quantized_leaves(model.bvh_primitives, *model.primitives, model.space,
                                              device.get(), task_runner);
         check("clustering the surfaces");
@@ -428,6 +430,11 @@ Hit Geometry::intersect(const RaySegment& ray) const {
 
 void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) const {
     assert(rays.size() == out.size());
+    if (!impl_->ablation.packets) {
+        std::transform(rays.begin(), rays.end(), out.begin(),
+                       [this](const RaySegment& ray) { return intersect(ray); });
+        return;
+    }
     std::array<NearestRay, kPacket> searches;
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
         const std::size_t count = std::min<std::size_t>(kPacket, rays.size() - first);
@@ -452,6 +459,12 @@ void Geometry::intersect(std::span<const RaySegment> rays, std::span<Hit> out) c
 void Geometry::visibility(std::span<const ShadowQuery> queries,
                           std::span<Visibility> answers) const {
     assert(queries.size() == answers.size());
+    if (!impl_->ablation.packets) {
+        std::transform(
+            queries.begin(), queries.end(), answers.begin(),
+            [this](const ShadowQuery& q) { return visibility(q.ray, q.target, q.last); });
+        return;
+    }
     std::array<ShadowRay, kPacket> rays;
     std::array<std::size_t, kPacket> numbers{};
     std::size_t count = 0;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/ablation.h"
 #include "core/geometry/surface.h"
 #include "core/math/transform.h"
 #include "core/model/ids.h"
@@ -69,6 +70,7 @@ struct ModelGeometry {
 struct GeometryInput {
     const SurfaceTable* surfaces = nullptr;  ///< must outlive the Geometry
     std::vector<ModelGeometry> models;       ///< models[0] is the scene; placements form a DAG
+    Ablation ablation;
 };
 
 struct RaySegment {

@@ -13,7 +13,7 @@ bool contains(const LightSource& source, const Vec3& direction) {
 std::optional<SurfaceId> LightSources::background(const Ray& ray) const {
     if (ray.target != kNoTarget) {
         const LightSource& source = (*this)[ray.target];
-        if (!source.distant || source.is_virtual || !contains(source, ray.direction))
+        if (!source.is_distant() || source.is_virtual() || !contains(source, ray.direction))
             return std::nullopt;
         return source.object;
     }
@@ -35,12 +35,12 @@ std::optional<SurfaceId> LightSources::background(const Ray& ray) const {
     return glow;
 }
 
-bool LightSources::intersect_target(Ray& ray, const Tracer& tracer) const {
+bool LightSources::intersect_target(Ray& ray, const LightTransport& tracer) const {
     ray.hit = Hit{};
     ray.next_clip = ray.clip;
     if (ray.target == kNoTarget) return false;
     const LightSource& source = (*this)[ray.target];
-    if (!source.distant || source.is_virtual) {
+    if (!source.is_distant() || source.is_virtual()) {
         ray.hit = tracer.scene().geometry().intersect_surface(source.object,
                                                               {ray.origin, ray.direction, kHuge});
         return ray.hit.exists();

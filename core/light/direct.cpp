@@ -11,6 +11,11 @@ namespace {
 /// Of points and sources at a time: each may have up to kMaxParts candidates.
 constexpr std::size_t kMostPairs = std::size_t{1} << 14;
 
+LightScratch& scratch_of(TraceContext& context) {
+    if (!context.light) context.light = make_opaque<LightScratch>();
+    return *context.light;
+}
+
 DirectScratch& open_scratch(LightScratch& scratch) {
     if (scratch.open == scratch.nested.size()) scratch.nested.emplace_back();
     return scratch.nested[scratch.open++];
@@ -28,7 +33,7 @@ DirectCalculation::DirectCalculation(const LightSources& lights, TraceContext& c
     : lights_(lights),
       tracer_(context.tracer),
       context_(context),
-      shared_(*context.light),
+      shared_(scratch_of(context)),
       scratch_(open_scratch(shared_)) {
     scratch_.points.clear();
     scratch_.candidates.clear();
@@ -144,7 +149,7 @@ void DirectCalculation::add_untested(ShadingPoint& point) {
 
 void LightSources::add_direct(std::span<const DirectRequest> requests,
                               TraceContext& context) const {
-    if (sampled_.empty() || context.missing != nullptr) return;
+    if (sampled_.empty() || context.ambient.missing != nullptr) return;
     const std::size_t together = std::max<std::size_t>(1, kMostPairs / sampled_.size());
     for (std::size_t first = 0; first < requests.size(); first += together) {
         DirectCalculation direct(*this, context);

@@ -103,7 +103,7 @@ class DirectCalculation {
     }
 
     const LightSources& lights_;
-    const Tracer& tracer_;
+    const LightTransport& tracer_;
     TraceContext& context_;
     LightScratch& shared_;
     DirectScratch& scratch_;

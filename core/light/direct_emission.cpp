@@ -35,7 +35,7 @@ bool DirectCalculation::meet(const LightCandidate& candidate, Hit& hit) const {
     const Vec3& direction = candidate.direction;
     const double t = candidate.distance;
     const auto* polygon =
-        source.distant ? nullptr : std::get_if<PolygonShape>(&lights_.shape(candidate.source));
+        source.is_distant() ? nullptr : std::get_if<PolygonShape>(&lights_.shape(candidate.source));
     if (!polygon || polygon->vertices.size() > kLargePolygon) {  // those have an index of their own
         Ray aimed = aimed_ray(point, candidate.source, direction);
         if (!lights_.intersect_target(aimed, tracer_) || aimed.hit.cos_out < 0) return false;
@@ -83,12 +83,13 @@ DirectCalculation::Emission DirectCalculation::traced_emission(const ShadingPoin
 /// of what an interior sees.
 void DirectCalculation::find_radiances(std::span<const std::uint32_t> candidates,
                                        CandidateState state) {
-    std::vector<std::uint32_t>& lanes = scratch_.side_by_side;
+    std::vector<std::uint32_t>& lanes = scratch_.patterns.candidates;
     lanes.clear();
+    const bool together = tracer_.options().ablation.function_lanes;
     for (const std::uint32_t i : candidates) {
         LightCandidate& candidate = scratch_.candidates[i];
         if (candidate.state != state) continue;
-        if (lights_[candidate.source].side_by_side && point_of(candidate).clear_air)
+        if (together && lights_[candidate.source].has_lanes && point_of(candidate).clear_air)
             lanes.push_back(i);
         else
             find_radiance(candidate);
@@ -114,12 +115,12 @@ void DirectCalculation::find_radiances(std::span<const std::uint32_t> candidates
 /// The same for up to kSideBySide candidates whose sources have the same patterns.
 void DirectCalculation::find_side_by_side(std::span<const std::uint32_t> group,
                                           ModifierId patterns) {
-    PatternGroup& g = scratch_.group;
+    PatternScratch& g = scratch_.patterns;
     std::size_t size = 0;
     for (const std::uint32_t i : group) {
         LightCandidate& candidate = scratch_.candidates[i];
         if (meet(candidate, g.hits[size].hit)) {
-            const Tracer::ShadowStart& start = point_of(candidate).start;
+            const ShadowStart& start = point_of(candidate).start;
             g.hits[size].way = {candidate.direction, start.path_length, start.shadow_length};
             g.pattern[size] = 1.0f;
             g.which[size++] = i;

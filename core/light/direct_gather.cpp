@@ -17,11 +17,11 @@ ShadingPoint::ShadingPoint(const DirectRequest& request)
       one_sided(request.front != nullptr),
       coefficient(request.coefficient),
       ray(request.ray),
-      start(Tracer::start_shadow(*request.ray)) {
+      start(LightTransport::start_shadow(*request.ray)) {
     if (one_sided) front = *request.front;
     clear_air = max_component(ray->medium.extinction) <= 1e-10f;
     clipped = ray->clip || ray->next_clip;
-    limited = ray->limit > kEpsilon && ray->limit - ray->hit.t > kEpsilon;
+    limited = is_limited(ray->limit) && is_limited(ray->limit - ray->hit.t);
 }
 
 void DirectCalculation::gather(std::span<const DirectRequest> requests) {
@@ -50,17 +50,18 @@ void DirectCalculation::gather(std::span<const DirectRequest> requests) {
 /// What a point sees of all sources, as far as these alone can tell.
 void DirectCalculation::find_samples(ShadingPoint& point) {
     lights_.boxes().look(point.position, point.one_sided ? &point.front : nullptr, point.part_size,
-                         scratch_.views);
-    scratch_.samples.clear();
+                         scratch_.gather.views);
+    scratch_.gather.samples.clear();
     for (const std::uint32_t k : point.chosen ? choose_sources(point) : lights_.each())
         add_source(point, k);
-    scratch_.samples.sample(lights_.all(), point.position);
+    scratch_.gather.samples.sample(lights_.all(), point.position,
+                                   tracer_.options().ablation.sample_lanes);
     if (lights_.virtual_count() == 0) return;
-    scratch_.samples.retain([&](std::size_t i) {
-        const LightSource& source = lights_[scratch_.samples.source(i)];
-        return !source.is_virtual ||
+    scratch_.gather.samples.retain([&](std::size_t i) {
+        const LightSource& source = lights_[scratch_.gather.samples.source(i)];
+        return !source.is_virtual() ||
                meets_redirecting_surface(source, point.position,
-                                         scratch_.samples.lights().direction(i));
+                                         scratch_.gather.samples.lights().direction(i));
     });
 }
 
@@ -68,39 +69,45 @@ void DirectCalculation::find_samples(ShadingPoint& point) {
 void DirectCalculation::add_source(ShadingPoint& point, std::size_t k) {
     const double jitter = tracer_.options().source_jitter;
     const bool divided = point.part_size > 0;
-    const SourceViews& views = scratch_.views;
+    const SourceViews& views = scratch_.gather.views;
     if (point.one_sided && views.is_behind(k)) return;
     if (divided && views.turns_away(k)) return;
     const std::int32_t index = lights_.sampled()[k];
     const LightSource& source = lights_[index];
     if (out_of_reach(source, point.position)) return;
     if ((!divided || views.is_far(k)) && !(jitter > 0)) {
-        lights_.boxes().add_whole(k, index, views, scratch_.samples);
+        lights_.boxes().add_whole(k, index, views, scratch_.gather.samples);
         return;
     }
-    Partition{source}(point.position, point.part_size, scratch_.parts);
-    const int parts = scratch_.parts.count;
+    Partition{source}(point.position, point.part_size, scratch_.gather.parts);
+    const int parts = scratch_.gather.parts.count;
     for (int i = 0; i < parts; ++i) {
-        const SourcePart& part = scratch_.parts.part[static_cast<std::size_t>(i)];
-        scratch_.samples.add(source, index, part, parts, point.position, jitter,
-                             point.start.random);
+        const SourcePart& part = scratch_.gather.parts.part[static_cast<std::size_t>(i)];
+        scratch_.gather.samples.add(source, index, part, parts, point.position, jitter,
+                                    point.start.random);
     }
 }
 
 /// Candidates of the samples that the surface sends on.
 void DirectCalculation::consider_samples(std::uint32_t number) {
     const ShadingPoint& point = scratch_.points[number];
-    const LightSamples lights = scratch_.samples.lights();
+    const LightSamples lights = scratch_.gather.samples.lights();
     if (lights.count == 0) return;
-    if (scratch_.coefficients.size() < lights.count) scratch_.coefficients.resize(lights.count);
-    const std::span k = std::span(scratch_.coefficients).first(lights.count);
-    point.coefficient(lights, k);
+    if (scratch_.gather.coefficients.size() < lights.count)
+        scratch_.gather.coefficients.resize(lights.count);
+    const std::span k = std::span(scratch_.gather.coefficients).first(lights.count);
+    if (tracer_.options().ablation.sample_lanes) {
+        point.coefficient(lights, k);
+    } else {
+        for (std::size_t i = 0; i < lights.count; ++i)
+            point.coefficient(lights.single(i), k.subspan(i, 1));
+    }
     std::int32_t last = -1;
     const PolygonShape* polygon = nullptr;
     for (std::size_t i = 0; i < lights.count; ++i) {
         if (!(max_component(k[i]) > 0)) continue;
-        const std::int32_t source = scratch_.samples.source(i);
-        if (point.chosen) k[i] *= scratch_.scales[static_cast<std::size_t>(source)];
+        const std::int32_t source = scratch_.gather.samples.source(i);
+        if (point.chosen) k[i] *= scratch_.choice.scales[static_cast<std::size_t>(source)];
         if (source != last) polygon = polygon_of(source);
         last = source;
         consider(number, source, polygon, lights.direction(i), k[i]);
@@ -109,7 +116,8 @@ void DirectCalculation::consider_samples(std::uint32_t number) {
 
 /// The outline of a local polygon.
 const PolygonShape* DirectCalculation::polygon_of(std::int32_t source) const {
-    return lights_[source].distant ? nullptr : std::get_if<PolygonShape>(&lights_.shape(source));
+    return lights_[source].is_distant() ? nullptr
+                                        : std::get_if<PolygonShape>(&lights_.shape(source));
 }
 
 /// Make a candidate of a sample that can bring light, of which the surface sends on `k`.
@@ -120,7 +128,7 @@ void DirectCalculation::consider(std::uint32_t number, std::int32_t index,
     if (is_constant(source) && point.clear_air) {
         if (const auto distance = front_distance(index, point.position, direction))
             add_candidate(number, index, direction, k, {source.radiance, *distance});
-    } else if (!source.is_virtual && !needs_tracing(source, point)) {
+    } else if (!source.is_virtual() && !needs_tracing(source, point)) {
         const auto distance = polygon ? plane_distance(*polygon, point.position, direction)
                                       : front_distance(index, point.position, direction);
         if (distance) add_unknown(number, index, direction, k, *distance);
@@ -159,14 +167,14 @@ bool DirectCalculation::meets_redirecting_surface(const LightSource& source, con
 /// Whether a source has no patterns: in clear air its radiance is its material's colour where a ray
 /// meets its front.
 bool DirectCalculation::is_constant(const LightSource& source) {
-    return source.uniform && !source.is_virtual;
+    return source.uniform && !source.is_virtual();
 }
 
 /// How far the front of a source is; nothing when the direction misses it or meets its back.
 std::optional<double> DirectCalculation::front_distance(std::int32_t number, const Vec3& origin,
                                                         const Vec3& direction) const {
     const LightSource& source = lights_[number];
-    if (source.distant) {
+    if (source.is_distant()) {
         const bool inside =
             2 * kPi * (1 - dot(source.center, direction)) <= static_cast<double>(source.size);
         return inside ? std::optional(kHuge) : std::nullopt;

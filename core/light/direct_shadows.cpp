@@ -30,7 +30,7 @@ void DirectCalculation::test() {
         for (std::size_t i = point.tested; i < point.block_end; ++i)
             scratch_.tests.push_back(scratch_.ranks[point.first + i]);
     }
-    context_.counters.shadow += scratch_.tests.size();
+    context_.counters.rays.shadow += scratch_.tests.size();
     test_plainly();
     for (const std::uint32_t i : scratch_.tests) {
         if (scratch_.candidates[i].needs_shading) trace_shadow(scratch_.candidates[i]);
@@ -52,18 +52,18 @@ void DirectCalculation::test_plainly() {
         return;
     }
     sort_by_source();
-    scratch_.shadow_queries.clear();
-    for (const std::uint32_t i : scratch_.by_source)
-        scratch_.shadow_queries.push_back(shadow_query(scratch_.candidates[i]));
-    scratch_.answers.resize(scratch_.shadow_queries.size());
+    scratch_.shadows.queries.clear();
+    for (const std::uint32_t i : scratch_.shadows.candidates)
+        scratch_.shadows.queries.push_back(shadow_query(scratch_.candidates[i]));
+    scratch_.shadows.answers.resize(scratch_.shadows.queries.size());
     // Only rays from neighbouring points to the same source are coherent; what ambient rays meet
     // lies anywhere.
     constexpr std::size_t kWorthPackets = 8;
     const bool coherent = !scratch_.points.front().ray->in(kAmbient);
     std::size_t first = 0;
-    for (const std::uint32_t last : scratch_.source_ends) {
-        const auto queries = std::span(scratch_.shadow_queries).subspan(first, last - first);
-        const auto answers = std::span(scratch_.answers).subspan(first, last - first);
+    for (const std::uint32_t last : scratch_.shadows.ends) {
+        const auto queries = std::span(scratch_.shadows.queries).subspan(first, last - first);
+        const auto answers = std::span(scratch_.shadows.answers).subspan(first, last - first);
         if (coherent && queries.size() >= kWorthPackets) {
             geometry.visibility(queries, answers);
         } else {
@@ -73,8 +73,8 @@ void DirectCalculation::test_plainly() {
         }
         first = last;
     }
-    for (std::size_t k = 0; k < scratch_.by_source.size(); ++k)
-        take(scratch_.candidates[scratch_.by_source[k]], scratch_.answers[k]);
+    for (std::size_t k = 0; k < scratch_.shadows.candidates.size(); ++k)
+        take(scratch_.candidates[scratch_.shadows.candidates[k]], scratch_.shadows.answers[k]);
 }
 
 /// Whether the candidate has to be traced in any case.
@@ -86,28 +86,28 @@ bool DirectCalculation::mark_needs_shading(LightCandidate& candidate) const {
 /// Order the candidates that are tested by their source. Those that have to be traced in any case
 /// become ones that need shading.
 void DirectCalculation::sort_by_source() {
-    std::vector<std::uint32_t>& ends = scratch_.source_ends;
+    std::vector<std::uint32_t>& ends = scratch_.shadows.ends;
     ends.assign(lights_.all().size(), 0);
     for (const std::uint32_t i : scratch_.tests) {
         LightCandidate& candidate = scratch_.candidates[i];
         if (!mark_needs_shading(candidate)) ++ends[static_cast<std::size_t>(candidate.source)];
     }
     std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), 0U);
-    scratch_.by_source.resize(scratch_.tests.size());
+    scratch_.shadows.candidates.resize(scratch_.tests.size());
     std::size_t plain = 0;
     for (const std::uint32_t i : scratch_.tests) {
         const LightCandidate& candidate = scratch_.candidates[i];
         if (candidate.needs_shading) continue;
-        scratch_.by_source[ends[static_cast<std::size_t>(candidate.source)]++] = i;
+        scratch_.shadows.candidates[ends[static_cast<std::size_t>(candidate.source)]++] = i;
         ++plain;
     }
-    scratch_.by_source.resize(plain);
+    scratch_.shadows.candidates.resize(plain);
 }
 
 ShadowQuery DirectCalculation::shadow_query(const LightCandidate& candidate) {
     const LightSource& source = lights_[candidate.source];
     const ShadingPoint& point = point_of(candidate);
-    const bool local = !source.distant || source.is_virtual;
+    const bool local = !source.is_distant() || source.is_virtual();
     ShadowQuery query;
     query.ray = {point.position, candidate.direction,
                  local ? candidate.distance - kEpsilon : kHuge};

@@ -38,9 +38,9 @@ float brightness_at(const Vec3& place, const Vec3& direction, std::int32_t sourc
 /// of golden angles: Vogel, "A better way to construct the sunflower head", 1979.
 Vec3 direction_from(const LightSource& source, int i) {
     const double share = (i + 0.5) / kDirections, turn = 2 * kPi * kGoldenTurn * i;
-    const Vec3 z = source.flat ? source.normal : Vec3{0, 0, 1};
+    const Vec3 z = source.is_flat() ? source.normal : Vec3{0, 0, 1};
     const Vec3 x = perpendicular(z), y = cross(z, x);
-    const double height = source.flat ? std::sqrt(1 - share) : 1 - 2 * share;
+    const double height = source.is_flat() ? std::sqrt(1 - share) : 1 - 2 * share;
     const double r = std::sqrt(1 - height * height);
     return x * (r * std::cos(turn)) + y * (r * std::sin(turn)) + z * height;
 }
@@ -49,7 +49,7 @@ float mean_emission(const LightSource& source, std::int32_t index, TraceContext&
     const float plain = brightness(source.radiance);
     if (source.uniform) return plain;
     float mean = 0;
-    if (source.distant) {
+    if (source.is_distant()) {
         const SceneCube& cube = context.tracer.scene().cube();
         const Vec3 middle = cube.origin + Vec3{1, 1, 1} * (0.5 * cube.size);
         mean = brightness_at(middle, source.center, index, context);
@@ -66,13 +66,13 @@ float mean_emission(const LightSource& source, std::int32_t index, TraceContext&
 
 }  // namespace
 
-std::vector<float> mean_emissions(const LightSources& lights, const Tracer& tracer) {
+std::vector<float> mean_emissions(const LightSources& lights, const LightTransport& tracer) {
     NoWarnings warnings;
     TraceContext context(tracer, warnings);
     std::vector<float> emissions(lights.all().size());
     for (std::size_t i = 0; i < emissions.size(); ++i) {
         const LightSource& source = lights.all()[i];
-        if (source.is_virtual || source.unusable) continue;
+        if (source.is_virtual() || source.unusable) continue;
         emissions[i] = mean_emission(source, static_cast<std::int32_t>(i), context);
     }
     return emissions;

@@ -9,6 +9,7 @@ namespace lightwalk {
 /// Brightness of each source [W/(m² sr)]: where it has patterns, the mean of the radiance Le that
 /// it sends into a few directions, else that of its material. Above 0; 0 for virtual and unusable
 /// sources, which are not measured.
-[[nodiscard]] std::vector<float> mean_emissions(const LightSources& lights, const Tracer& tracer);
+[[nodiscard]] std::vector<float> mean_emissions(const LightSources& lights,
+                                                const LightTransport& tracer);
 
 }  // namespace lightwalk

@@ -100,8 +100,8 @@ MeasuredPoint measure(const LightSources& lights, const Hit& hit, const RandomSt
 std::size_t most_candidates(const LightSources& lights, const RenderOptions& options) {
     std::size_t count = 0;
     for (const std::int32_t i : lights.sampled()) {
-        const bool divided =
-            options.source_subdivision > kEpsilon && (lights[i].flat || lights[i].cylinder);
+        const bool divided = options.source_subdivision > kEpsilon &&
+                             (lights[i].is_flat() || lights[i].is_cylinder());
         count += divided ? kMaxParts : 1;
     }
     return count;
@@ -129,7 +129,7 @@ std::vector<float> fit_hit_rates(const std::vector<MeasuredPoint>& points, std::
     return rates;
 }
 
-std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
+std::vector<float> measure_hit_rates(const LightSources& lights, const LightTransport& tracer,
                                      WarningSink& warnings, const TaskRunner& task_runner) {
     const RenderOptions& options = tracer.options();
     if (most_candidates(lights, options) <= kFirstBlock) return {};

@@ -31,7 +31,8 @@ using MeasuredPoint = std::vector<MeasuredCandidate>;
 /// light from the sources over a few diffuse bounces with seeded random numbers, and every source
 /// is tested from each. Traces a bounded number of rays, some ten thousand. Returns nothing when
 /// -dt never leaves anything untested: then the rates do not matter.
-[[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights, const Tracer& tracer,
+[[nodiscard]] std::vector<float> measure_hit_rates(const LightSources& lights,
+                                                   const LightTransport& tracer,
                                                    WarningSink& warnings,
                                                    const TaskRunner& task_runner);
 

@@ -25,10 +25,10 @@ double phase(double g, double cosine) {
 }  // namespace
 
 void LightSources::add_in_scatter(Ray& ray, TraceContext& context) const {
-    if (context.missing != nullptr) return;
+    if (context.ambient.missing != nullptr) return;
     const Medium medium = ray.medium;
     const auto g = static_cast<double>(medium.eccentricity);
-    if (!medium.scatter || ray.hit.t >= 0.99 * kHuge || g >= 1 - kEpsilon) return;
+    if (!medium.scatter || is_infinite(ray.hit.t) || g >= 1 - kEpsilon) return;
     const int steps = steps_along(ray.hit.t, options_.scatter_step);
     const double step = ray.hit.t / steps;
     Ray at_step = ray;
@@ -46,7 +46,7 @@ void LightSources::add_in_scatter(Ray& ray, TraceContext& context) const {
             (void)context.tracer.spawn(to_light, kShadow, at_step, nullptr);
             to_light.direction = sample->direction;
             to_light.target = index;
-            ++context.counters.shadow;
+            ++context.counters.rays.shadow;
             context.tracer.trace(to_light, context);
             const double weight = sample->solid_angle / (4 * kPi) *
                                   phase(g, dot(ray.direction, sample->direction)) * step;

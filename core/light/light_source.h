@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/light/source_box.h"
 #include "core/light/virtual_source_beam.h"
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
@@ -20,39 +21,36 @@ struct SpotShape {
     bool beam = false;
 };
 
-// Half widths of the sampling boxes of round sources over their radius. Radiance's constants, as
-// its values show them.
-inline constexpr double kSphereBox = 0.7236;
-inline constexpr double kCylinderBox = 0.8559;  ///< across the axis
-
-/// One entry of the source list.
-struct LightSource {
-    SurfaceId object = kNoSurface;  ///< the emitting surface, or the redirecting surface surface of
-                                    ///< a virtual source
-    ModifierId material = kVoid;    ///< light, illum, glow or spotlight of the real source
+/// What a source sends out.
+struct SourceEmission {
+    ModifierId material = kVoid;  ///< light, illum, glow or spotlight of the real source
     PrimitiveType material_type = PrimitiveType::light;
-    PrimitiveType shape = PrimitiveType::sphere;  ///< of the real source
-    Vec3 center;                                  ///< or unit direction of a distant source
-    Vec3 u, v, w;                                 ///< half axes of the sampling box
-    Vec3 normal;                                  ///< flat sources
-    float radius = 0;                             ///< effective size
-    float size = 0;                               ///< projected area [m²] or solid angle [sr]
-    float proximity = 0;                          ///< glow: radius of influence [m]
-    std::optional<SpotShape> spot;
-    Rgb radiance;          ///< of the material without its patterns [W/(m² sr)]
+    Rgb radiance;                   ///< Le without the material's patterns [W/(m² sr)]
+    ModifierId patterns = kVoid;    ///< the first of the material's patterns
+    float proximity = 0;            ///< radius of influence of a glow [m]
+    std::optional<SpotShape> spot;  ///< no light goes elsewhere
     bool uniform = false;  ///< no modifier between surface and material, or below it: a constant
     bool plain = false;    ///< not a spotlight, no modifier between surface and material: its front
                            ///< sends the material's radiance times its patterns
-    ModifierId patterns = kVoid;     ///< plain: the first of them
-    bool side_by_side = false;       ///< plain: all patterns are functions of Program::has_lanes
+    bool has_lanes = false;          ///< plain, and Program::has_lanes holds for all patterns
     bool transparent_illum = false;  ///< illum that shows nothing of its own
-    bool distant = false, flat = false, round = false, cylinder = false;
-    bool is_virtual = false, follow = false;
-    bool unusable = false;     ///< visible, but never sampled
-    std::int32_t parent = -1;  ///< virtual: what it redirections
-    int branch = 0;            ///< virtual: projection of the redirecting surface (prism2)
-    std::optional<VirtualSourceBeam>
-        beam;               ///< virtual: where its samples meet the redirecting surface
+};
+
+/// Where the light of a virtual source comes from: a mirror or prism redirects that of another one.
+struct SourceRedirection {
+    std::int32_t parent = -1;  ///< the source that is redirected; -1: this source is real
+    int branch = 0;            ///< which of the images that a prism2 makes
+    bool follow = false;  ///< shadow rays have to be traced to the parent by way of the surface
+    std::optional<VirtualSourceBeam> beam;  ///< where samples meet the redirecting surface
+
+    [[nodiscard]] bool is_virtual() const { return parent >= 0; }
+};
+
+/// One entry of the source list.
+struct LightSource : SourceBox, SourceEmission, SourceRedirection {
+    /// The emitting surface; of a virtual source, the one that redirects.
+    SurfaceId object = kNoSurface;
+    bool unusable = false;  ///< visible, but never sampled
     float worth = 0;        ///< brightness of its radiance, about, times visible_share()
     float hit_rate = 0.5f;  ///< frozen share of shadow tests that get through
 };

@@ -23,16 +23,17 @@ void LightSources::index_sources() {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         const LightSource& source = sources_[i];
         if (!source.unusable) sampled_.push_back(static_cast<std::int32_t>(i));
-        if (source.distant && !source.is_virtual) distant_.push_back(static_cast<std::int32_t>(i));
+        if (source.is_distant() && !source.is_virtual())
+            distant_.push_back(static_cast<std::int32_t>(i));
     }
     each_.resize(sampled_.size());
     std::iota(each_.begin(), each_.end(), 0U);
-    boxes_ = SourceBoxes(sources_, sampled_);
+    boxes_ = SourceBoxes(sources_, sampled_, options_.ablation.sample_lanes);
     virtual_count_ = static_cast<std::size_t>(std::count_if(
-        sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual; }));
+        sources_.begin(), sources_.end(), [](const LightSource& s) { return s.is_virtual(); }));
 }
 
-void LightSources::finalize(const Tracer& tracer, WarningSink& warnings,
+void LightSources::finalize(const LightTransport& tracer, WarningSink& warnings,
                             const TaskRunner& task_runner) {
     index_sources();
     find_scattered(warnings);
@@ -50,7 +51,7 @@ void LightSources::finalize(const Tracer& tracer, WarningSink& warnings,
 
 bool LightSources::shine() const {
     const bool sampled = std::any_of(sources_.begin(), sources_.end(), [](const LightSource& s) {
-        return s.material_type != PrimitiveType::glow || !s.distant;
+        return s.material_type != PrimitiveType::glow || !s.is_distant();
     });
     return sampled || (options_.ambient_bounces > 0 && has_glow(scene_));
 }
@@ -64,7 +65,7 @@ bool LightSources::answers_to(const LightSource& source, std::string_view identi
     const LightSource* at = &source;
     for (;; at = &(*this)[at->parent]) {
         const std::string_view name = scene_.surface(at->object).name();
-        if (!at->is_virtual) return identifier == name;
+        if (!at->is_virtual()) return identifier == name;
         if (!identifier.starts_with(name) || !identifier.substr(name.size()).starts_with('>'))
             return false;
         identifier.remove_prefix(name.size() + 1);

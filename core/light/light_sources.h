@@ -10,9 +10,9 @@
 #include "core/light/light_source.h"
 #include "core/light/source_samples.h"
 #include "core/scene/scene.h"
+#include "core/transport/light_transport.h"
 #include "core/transport/options.h"
 #include "core/transport/ray.h"
-#include "core/transport/tracer.h"
 
 namespace lightwalk {
 
@@ -25,7 +25,7 @@ class LightSources {
     [[nodiscard]] const LightSource& operator[](std::int32_t i) const {
         return sources_[static_cast<std::size_t>(i)];
     }
-    /// Of the surface of a source, which for a virtual one is its redirecting surface.
+    /// The shape of a source's surface; of a virtual source, the redirecting surface's.
     [[nodiscard]] const Shape& shape(std::int32_t source) const {
         return shapes_[static_cast<std::size_t>(source)];
     }
@@ -35,9 +35,9 @@ class LightSources {
     [[nodiscard]] bool shine() const;
     /// Indices of the sources that the direct calculation samples, ascending.
     [[nodiscard]] std::span<const std::int32_t> sampled() const { return sampled_; }
-    /// Their numbers, from 0 on.
+    /// 0, 1, ... for each of sampled().
     [[nodiscard]] std::span<const std::uint32_t> each() const { return each_; }
-    /// The boxes of these.
+    /// The boxes of the sampled sources, in the order of sampled().
     [[nodiscard]] const SourceBoxes& boxes() const { return boxes_; }
 
     /// Add a virtual source; sampled() does not hold it before finalize(). While the tracer is set
@@ -47,14 +47,15 @@ class LightSources {
         shapes_.push_back(scene_.surface(source.object).shape());
     }
     /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
-    /// Called once by Tracer's constructor, with that tracer, before any rendering.
-    void finalize(const Tracer& tracer, WarningSink& warnings, const TaskRunner& task_runner);
+    /// Called once by LightTransport's constructor, with that tracer, before any rendering.
+    void finalize(const LightTransport& tracer, WarningSink& warnings,
+                  const TaskRunner& task_runner);
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;
 
     /// Nearest hit of an aimed ray with its target's own object; false: it misses.
-    [[nodiscard]] bool intersect_target(Ray& ray, const Tracer& tracer) const;
+    [[nodiscard]] bool intersect_target(Ray& ray, const LightTransport& tracer) const;
 
     /// Whether the source sends light to `origin` from `direction` as far as its spotlight cone or
     /// redirected beam goes.
@@ -83,7 +84,7 @@ class LightSources {
     const Scene& scene_;
     RenderOptions options_;
     std::vector<LightSource> sources_;
-    std::vector<Shape> shapes_;  ///< of each source
+    std::vector<Shape> shapes_;  ///< one a source
     std::vector<std::int32_t> sampled_;
     std::vector<std::uint32_t> each_;
     SourceBoxes boxes_;

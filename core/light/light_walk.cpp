@@ -12,7 +12,7 @@ constexpr int kMaxCrossings = 16;  ///< of transparent surfaces, between two bou
 
 class LightWalk {
   public:
-    explicit LightWalk(const Tracer& tracer)
+    explicit LightWalk(const LightTransport& tracer)
         : scene_(tracer.scene()),
           seed_(tracer.options().seed),
           bounds_(scene_.geometry().bounds()) {}
@@ -42,7 +42,7 @@ class LightWalk {
     }
 
     RaySegment emit(const LightSource& source) {
-        if (source.distant) {
+        if (source.is_distant()) {
             // Parallel light through the bounding sphere.
             const Vec3 center = (bounds_.lower + bounds_.upper) * 0.5;
             const double radius = 0.5 * length(bounds_.upper - bounds_.lower);
@@ -51,7 +51,8 @@ class LightWalk {
         }
         const Vec3 start = source.center + source.u * (1 - 2 * random_.next()) +
                            source.v * (1 - 2 * random_.next());
-        if (source.flat) return {start, about(source.normal, std::sqrt(1 - random_.next())), kHuge};
+        if (source.is_flat())
+            return {start, about(source.normal, std::sqrt(1 - random_.next())), kHuge};
         return {start, about({0, 0, 1}, 1 - 2 * random_.next()), kHuge};
     }
 
@@ -78,10 +79,11 @@ class LightWalk {
 
 }  // namespace
 
-std::vector<Hit> walk_light(const LightSources& lights, const Tracer& tracer, std::size_t wanted) {
+std::vector<Hit> walk_light(const LightSources& lights, const LightTransport& tracer,
+                            std::size_t wanted) {
     std::vector<std::int32_t> emitters;
     for (const std::int32_t i : lights.sampled()) {
-        if (!lights[i].is_virtual) emitters.push_back(i);
+        if (!lights[i].is_virtual()) emitters.push_back(i);
     }
     std::vector<Hit> places;
     if (emitters.empty() || tracer.scene().geometry().bounds().empty()) return places;

@@ -14,7 +14,7 @@ namespace lightwalk {
 /// @param wanted  how many places; fewer are returned when light mostly leaves the scene
 /// @return        hits with unit normals turned to the side that the light reached; one path after
 ///                the other, of up to three hits each, from one source after the other
-[[nodiscard]] std::vector<Hit> walk_light(const LightSources& lights, const Tracer& tracer,
+[[nodiscard]] std::vector<Hit> walk_light(const LightSources& lights, const LightTransport& tracer,
                                           std::size_t wanted);
 
 }  // namespace lightwalk

@@ -95,7 +95,7 @@ bool is_squeezed(const LightSource& source, int parts, double jitter) {
 
 /// Squeeze a position in the sampling box of a round source to its disk or ball.
 Vec3 squeeze(const LightSource& source, const Vec3& a) {
-    if (source.flat || source.distant) {
+    if (source.is_flat() || source.is_distant()) {
         return {a.x * kSquareToDisk * std::sqrt(1 - 0.5 * a.y * a.y),
                 a.y * kSquareToDisk * std::sqrt(1 - 0.5 * a.x * a.x), 0};
     }
@@ -138,14 +138,14 @@ Unsqueezed unsqueeze_ball(const Vec3& squeezed) {
 
 bool out_of_reach(const LightSource& source, const Vec3& point) {
     if (source.beam && !source.beam->may_reach(point)) return true;
-    if (source.distant || source.material_type != PrimitiveType::glow) return false;
+    if (source.is_distant() || source.material_type != PrimitiveType::glow) return false;
     const double reach = static_cast<double>(source.proximity) + static_cast<double>(source.radius);
     return length_squared(point - source.center) > reach * reach;
 }
 
 bool is_behind(const LightSource& source, const Vec3& point, const Vec3& normal) {
     const double height =
-        dot(normal, source.distant ? source.center : source.center - point);  // of the centre
+        dot(normal, source.is_distant() ? source.center : source.center - point);  // of the centre
     if (height >= 0) return false;
     const double reach = std::abs(dot(normal, source.u)) + std::abs(dot(normal, source.v)) +
                          std::abs(dot(normal, source.w));
@@ -160,7 +160,7 @@ Vec3 position_in_box(const LightSource& source, const SourcePart& part, int part
                      RandomStream& random) {
     Vec3 a = part.center;
     if (jitter > 0) {
-        const std::size_t axes = source.flat || source.distant ? 2 : 3;
+        const std::size_t axes = source.is_flat() || source.is_distant() ? 2 : 3;
         for (std::size_t i = 0; i < axes; ++i)
             a[i] += jitter * (1 - 2 * random.next()) * part.size[i];
     }
@@ -169,7 +169,7 @@ Vec3 position_in_box(const LightSource& source, const SourcePart& part, int part
 
 double position_pdf(const LightSource& source, const SourcePart& part, int parts, double jitter,
                     const Vec3& position) {
-    const bool plane = source.flat || source.distant;
+    const bool plane = source.is_flat() || source.is_distant();
     Unsqueezed at{position, 1};
     if (is_squeezed(source, parts, jitter))
         at = plane ? unsqueeze_disk(position) : unsqueeze_ball(position);
@@ -196,7 +196,7 @@ bool Partition::is_far(const Vec3& to_center, double size_over_distance) const {
 void Partition::operator()(const Vec3& point, double size_over_distance, SourceParts& parts) const {
     parts.count = 0;
     if (size_over_distance > 0) {
-        if (source_.flat) {
+        if (source_.is_flat()) {
             const Vec3 to_center = point - source_.center;
             if (!(dot(to_center, source_.normal) > 0)) return;
             if (!is_far(to_center, size_over_distance)) {
@@ -205,7 +205,7 @@ void Partition::operator()(const Vec3& point, double size_over_distance, SourceP
                               scale * length(source_.v), parts);
                 return;
             }
-        } else if (source_.cylinder) {
+        } else if (source_.is_cylinder()) {
             CylinderPartition(source_, point, size_over_distance, parts);
             return;
         }

@@ -33,8 +33,8 @@ void blend_source(const SourcePixel& source, Rgb& pixel, float* distance) {
     }
 }
 
-SmallSources::SmallSources(const Tracer& tracer, const Camera& camera, int width, int height,
-                           int spacing)
+SmallSources::SmallSources(const LightTransport& tracer, const Camera& camera, int width,
+                           int height, int spacing)
     : tracer_(tracer), camera_(camera), width_(width), height_(height) {
     if (!tracer.options().sources_visible) return;
     const double y_scale = camera.aspect() * width / height;
@@ -57,11 +57,11 @@ bool SmallSources::add_corner(const Vec3& corner, ImagePolygon& polygon) const {
 }
 
 bool SmallSources::project(const LightSource& source, ImagePolygon& polygon) const {
-    if (source.distant) {
+    if (source.is_distant()) {
         if (camera_.view().type == 'l' || source.radius >= kWidestDistant) return false;
         return project_parallelogram(source, polygon);
     }
-    if (!source.flat) return project_box(source, polygon);
+    if (!source.is_flat()) return project_box(source, polygon);
     if (dot(source.center - camera_.view().position, source.normal) >= 0) return false;
     return project_parallelogram(source, polygon);
 }
@@ -71,7 +71,7 @@ bool SmallSources::project_parallelogram(const LightSource& source, ImagePolygon
     for (const auto& [u, v] :
          {std::pair{-1, -1}, std::pair{1, -1}, std::pair{1, 1}, std::pair{-1, 1}}) {
         Vec3 corner = source.center + source.u * u + source.v * v;
-        if (source.distant) corner = view.position + corner * (1 + view.fore);
+        if (source.is_distant()) corner = view.position + corner * (1 + view.fore);
         if (!add_corner(corner, polygon)) return false;
     }
     return true;
@@ -130,7 +130,7 @@ void SmallSources::draw_pixel(const Outline& outline, int x, int y, TraceContext
     ray.kind = kShadow;
     ray.history = kShadow;
     ray.target = outline.source;
-    ++context.counters.shadow;
+    ++context.counters.rays.shadow;
     tracer_.trace(ray, context);
     if (static_cast<double>(max_component(ray.value)) <= kEpsilon) return;
     pixel({x, y, static_cast<float>(coverage), ray.value, ray.unreflected_path_length});

@@ -28,9 +28,9 @@ void blend_source(const SourcePixel& source, Rgb& pixel, float* distance);
 class SmallSources {
   public:
     /// Selects nothing with -dv-. Not for pictures with a lens (-pd) or motion blur. The arguments
-    /// must outlive this object.
-    /// @param spacing  -ps: distance of the pixels that are traced in any case [pixels]
-    SmallSources(const Tracer& tracer, const Camera& camera, int width, int height, int spacing);
+    /// must outlive this.
+    SmallSources(const LightTransport& tracer, const Camera& camera, int width, int height,
+                 int spacing);
 
     [[nodiscard]] bool empty() const { return outlines_.empty(); }
     [[nodiscard]] std::size_t size() const { return outlines_.size(); }
@@ -54,7 +54,7 @@ class SmallSources {
     void draw_pixel(const Outline& outline, int x, int y, TraceContext& context,
                     FunctionRef<void(const SourcePixel&)> pixel) const;
 
-    const Tracer& tracer_;
+    const LightTransport& tracer_;
     const Camera& camera_;
     int width_, height_;
     std::vector<Outline> outlines_;

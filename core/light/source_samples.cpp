@@ -25,7 +25,7 @@ double reach_of(const LightSource& source) {
 
 /// From the point to a place in the source's box; to distant ones, a direction.
 Vec3 way_to(const LightSource& source, const Vec3& place, const Vec3& point) {
-    const double local = source.distant ? 0 : 1;
+    const double local = source.is_distant() ? 0 : 1;
     const auto along = [&](double center, double u, double v, double w, double from) {
         return center + u * place.x + v * place.y + w * place.z - local * from;
     };
@@ -46,8 +46,8 @@ double local_solid_angle(double share, double distance, double area, double behi
 double round_solid_angle(const LightSource& source, const Vec3& direction, double distance,
                          double share) {
     const auto size = static_cast<double>(source.size);
-    if (source.distant) return distance > 0 ? share * size : kNone;
-    if (source.cylinder) {
+    if (source.is_distant()) return distance > 0 ? share * size : kNone;
+    if (source.is_cylinder()) {
         const double along = dot(direction, normalize(source.u));
         share *= std::sqrt(std::max(0.0, 1 - along * along));
     }
@@ -57,6 +57,12 @@ double round_solid_angle(const LightSource& source, const Vec3& direction, doubl
 /// Of a part of the box: halves of halves, so that the product is exact.
 double share_of(const SourcePart& part) {
     return part.size.x * part.size.y * part.size.z;
+}
+
+/// At the head of a loop's body: without lanes the compiler keeps its rounds apart.
+template <bool kLanes>
+void maybe_alone() {
+    if constexpr (!kLanes) asm volatile("");
 }
 
 }  // namespace
@@ -89,14 +95,14 @@ void SourceSamples::add(const LightSource& source, std::int32_t index, const Sou
     sources_[i] = index;
 }
 
-void SourceSamples::sample(std::span<const LightSource> sources, const Vec3& point) {
-    aim();
+void SourceSamples::sample(std::span<const LightSource> sources, const Vec3& point, bool lanes) {
+    lanes ? aim<true>() : aim<false>();
     double* const distance = row(kDistance);
     retain([&](std::size_t i) {
         const LightSource& source = sources[static_cast<std::size_t>(sources_[i])];
         const Vec3 direction{row(kX)[i], row(kY)[i], row(kZ)[i]};
         double& angle = row(kSolidAngle)[i];
-        if (!source.flat || source.distant)
+        if (!source.is_flat() || source.is_distant())
             angle = round_solid_angle(source, direction, distance[i], row(kShare)[i]);
         return angle >= 0 && !(source.spot && outside_spot(*source.spot, point, direction));
     });
@@ -104,6 +110,7 @@ void SourceSamples::sample(std::span<const LightSource> sources, const Vec3& poi
 
 /// Directions and distances, and what polygons and rings show: their part's share of the projected
 /// area.
+template <bool kLanes>
 void SourceSamples::aim() {
     double* __restrict__ x = row(kX);
     double* __restrict__ y = row(kY);
@@ -113,8 +120,10 @@ void SourceSamples::aim() {
     const double *share = row(kShare), *normal_x = row(kNormalX), *normal_y = row(kNormalY),
                  *normal_z = row(kNormalZ), *area = row(kArea), *behind = row(kBehind),
                  *reach = row(kReach);
+    const std::size_t end = round_up_to_simd_width(count_);
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < round_up_to_simd_width(count_); ++i) {
+    for (std::size_t i = 0; i < end; ++i) {
+        maybe_alone<kLanes>();
         const double length = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
         const double shorter = 1 / length;
         const double to_x = x[i] * shorter, to_y = y[i] * shorter, to_z = z[i] * shorter;
@@ -139,8 +148,8 @@ std::optional<SourceSample> sample_part(const LightSource& source, const SourceP
     SourceSample sample;
     const double distance = length(way);
     sample.direction = way * (1 / distance);
-    sample.distance = source.distant ? kHuge : distance;
-    if (source.flat && !source.distant)
+    sample.distance = source.is_distant() ? kHuge : distance;
+    if (source.is_flat() && !source.is_distant())
         sample.solid_angle = local_solid_angle(
             -dot(source.normal, sample.direction) * share_of(part), distance,
             static_cast<double>(source.size), apex_behind(source), reach_of(source));
@@ -156,8 +165,9 @@ std::optional<SourceSample> sample_whole(const LightSource& source, const Vec3& 
     return sample_part(source, kWholeBox, 1, point, jitter, random);
 }
 
-SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const std::int32_t> which)
-    : count_(round_up_to_simd_width(which.size())), rows_(kRows * count_) {
+SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const std::int32_t> which,
+                         bool lanes)
+    : lanes_(lanes), count_(round_up_to_simd_width(which.size())), rows_(kRows * count_) {
     for (std::size_t i = 0; i < which.size(); ++i) {
         const LightSource& source = sources[static_cast<std::size_t>(which[i])];
         const auto set = [&](int r, double value) {
@@ -171,15 +181,16 @@ SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const s
         set_vector(kV, source.v);
         set_vector(kW, source.w);
         set_vector(kNormal, source.normal);
-        set(kLocal, source.distant ? 0 : 1);
-        set(kFlat, source.flat ? 1 : 0);
-        set(kLongest, source.flat ? std::max(length_squared(source.u), length_squared(source.v))
-                      : source.cylinder ? std::numeric_limits<double>::infinity()
-                                        : -1);
+        set(kLocal, source.is_distant() ? 0 : 1);
+        set(kFlat, source.is_flat() ? 1 : 0);
+        set(kLongest, source.is_flat()
+                          ? std::max(length_squared(source.u), length_squared(source.v))
+                      : source.is_cylinder() ? std::numeric_limits<double>::infinity()
+                                             : -1);
         set(kArea, static_cast<double>(source.size));
         set(kBehind, apex_behind(source));
         set(kReach, reach_of(source));
-        set(kRadius, source.distant
+        set(kRadius, source.is_distant()
                          ? 0
                          : std::sqrt(std::max(length_squared(source.u), length_squared(source.v))));
     }
@@ -187,6 +198,13 @@ SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const s
 
 void SourceBoxes::look(const Vec3& point, const Vec3* front, double size_over_distance,
                        SourceViews& out) const {
+    lanes_ ? look_at_all<true>(point, front, size_over_distance, out)
+           : look_at_all<false>(point, front, size_over_distance, out);
+}
+
+template <bool kLanes>
+void SourceBoxes::look_at_all(const Vec3& point, const Vec3* front, double size_over_distance,
+                              SourceViews& out) const {
     constexpr double kRound = 1 + 1e-12;  // none is taken for far that Partition would divide
     if (out.count_ != count_) {
         out.count_ = count_;
@@ -206,8 +224,10 @@ void SourceBoxes::look(const Vec3& point, const Vec3* front, double size_over_di
     double* __restrict__ height = z + count_;
     double* __restrict__ facing = height + count_;
     double* __restrict__ margin = facing + count_;
+    const std::size_t end = round_up_to_simd_width(count_);
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < round_up_to_simd_width(count_); ++i) {
+    for (std::size_t i = 0; i < end; ++i) {
+        maybe_alone<kLanes>();
         const double to_x = c_x[i] - local[i] * point.x, to_y = c_y[i] - local[i] * point.y,
                      to_z = c_z[i] - local[i] * point.z;
         x[i] = to_x;
@@ -232,6 +252,11 @@ void SourceBoxes::set_worths(std::span<const LightSource> sources,
 }
 
 void SourceBoxes::rate(const SourceViews& views, bool one_sided, std::span<float> sizes) const {
+    lanes_ ? rate_all<true>(views, one_sided, sizes) : rate_all<false>(views, one_sided, sizes);
+}
+
+template <bool kLanes>
+void SourceBoxes::rate_all(const SourceViews& views, bool one_sided, std::span<float> sizes) const {
     using From = SourceViews::Row;
     const double *x = views.row(From::kX), *y = views.row(From::kY), *z = views.row(From::kZ),
                  *height = views.row(From::kHeight), *facing = views.row(From::kFacing),
@@ -239,8 +264,10 @@ void SourceBoxes::rate(const SourceViews& views, bool one_sided, std::span<float
                  *radius = row(kRadius), *worth = row(kWorth);
     const double both = one_sided ? 0 : 1;
     float* __restrict__ out = sizes.data();
+    const std::size_t end = sizes.size();
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
+    for (std::size_t i = 0; i < end; ++i) {
+        maybe_alone<kLanes>();
         const double squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] + kEpsilon * kEpsilon;
         const double nearness = 1 / std::sqrt(squared);
         // Parts of a near source may face the point more than its middle does. No solid angle is

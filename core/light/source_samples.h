@@ -46,7 +46,8 @@ class SourceSamples {
     /// outside their source's spot are dropped.
     /// @param sources  the list of sources
     /// @param point    the point that was given to add()
-    void sample(std::span<const LightSource> sources, const Vec3& point);
+    /// @param lanes    several at once; changes the speed only
+    void sample(std::span<const LightSource> sources, const Vec3& point, bool lanes = true);
     /// Drop the samples of which `keep(i)` is false; the others move up.
     template <class Keep>
     void retain(Keep keep) {
@@ -92,6 +93,7 @@ class SourceSamples {
     [[nodiscard]] const double* row(Row r) const { return rows_.data() + r * capacity_; }
     void grow();
     void move(std::size_t from, std::size_t to);
+    template <bool kLanes>
     void aim();
 
     std::size_t count_ = 0, capacity_ = 0;
@@ -99,13 +101,15 @@ class SourceSamples {
     std::vector<std::int32_t> sources_;
 };
 
-/// The sampling boxes of light sources, as a structure of arrays: what a point needs to know of
-/// each source before it is sampled.
+/// The boxes in which sources are sampled, as a structure of arrays: what a point needs to know of
+/// each before it is sampled.
 class SourceBoxes {
   public:
     SourceBoxes() = default;
-    /// The boxes of those `sources` whose indices are in `which`.
-    SourceBoxes(std::span<const LightSource> sources, std::span<const std::int32_t> which);
+    /// Boxes of those `sources` that `which` names.
+    /// @param lanes  several are looked at at once; changes the speed only
+    SourceBoxes(std::span<const LightSource> sources, std::span<const std::int32_t> which,
+                bool lanes = true);
 
     /// Find out where all boxes lie as seen from a point.
     /// @param front  normal of the point's surface when it sees light on that side only; else null
@@ -144,6 +148,13 @@ class SourceBoxes {
     [[nodiscard]] const double* row(int r) const {
         return rows_.data() + static_cast<std::size_t>(r) * count_;
     }
+    template <bool kLanes>
+    void look_at_all(const Vec3& point, const Vec3* front, double size_over_distance,
+                     SourceViews& out) const;
+    template <bool kLanes>
+    void rate_all(const SourceViews& views, bool one_sided, std::span<float> sizes) const;
+
+    bool lanes_ = true;
     std::size_t count_ = 0;  ///< a multiple of kSimdWidth
     std::vector<double> rows_;
 };

@@ -69,7 +69,6 @@ void set_shape(LightSource& source, const PolygonShape& polygon, const Emitter& 
                WarningSink& warnings) {
     const double area = area_of(polygon);
     if (area <= 0) emitter.fail("zero area");
-    source.flat = true;
     source.center = vertex_average(polygon);
     source.normal = polygon.normal;
     source.size = static_cast<float>(area);
@@ -94,7 +93,6 @@ void set_shape(LightSource& source, const RingShape& ring, const Emitter& emitte
     if (ring.r0 > 0)
         emitter.fail("cannot hit source center: a ring that emits light must not have a hole");
     if (ring.r1 <= 0) emitter.fail("zero size");
-    source.flat = source.round = true;
     source.center = ring.center;
     source.normal = ring.normal;
     source.radius = static_cast<float>(ring.r1);
@@ -106,7 +104,6 @@ void set_shape(LightSource& source, const RingShape& ring, const Emitter& emitte
 void set_shape(LightSource& source, const SphereShape& sphere, const Emitter& emitter,
                WarningSink&) {
     if (sphere.radius <= 0) emitter.fail("zero size");
-    source.round = true;
     source.center = sphere.center;
     source.u = {kSphereBox * sphere.radius, 0, 0};
     source.v = {0, kSphereBox * sphere.radius, 0};
@@ -119,7 +116,6 @@ void set_shape(LightSource& source, const ConeShape& cylinder, const Emitter& em
                WarningSink& warnings) {
     const double radius = cylinder.r0;
     if (radius <= 0 || cylinder.length <= 0) emitter.fail("zero size");
-    source.cylinder = true;
     source.center = (cylinder.p0 + cylinder.p1) * 0.5;
     source.u = (cylinder.p1 - cylinder.p0) * 0.5;
     source.w = perpendicular(cylinder.axis) * (kCylinderBox * radius);
@@ -134,7 +130,6 @@ void set_shape(LightSource& source, const SourceShape& at_infinity, const Emitte
     const auto solid_angle = static_cast<double>(at_infinity.solid_angle);
     if (length_squared(at_infinity.direction) <= 0) emitter.fail("zero direction");
     if (solid_angle <= cone_solid_angle(std::cos(kEpsilon))) emitter.fail("zero size");
-    source.distant = source.round = true;
     source.center = at_infinity.direction;
     source.size = at_infinity.solid_angle;
     source.radius = static_cast<float>(std::sqrt(solid_angle / kPi));
@@ -149,8 +144,8 @@ void set_shape(LightSource&, const std::monostate&, const Emitter& emitter, Warn
 void set_spot(LightSource& source, const Emitter& emitter, WarningSink& warnings) {
     const SpotShape spot = spot_cone(*emitter.material.primitive);
     source.spot = spot;
-    if (source.distant) emitter.warn(warnings, "distant light source is a spotlight");
-    if (source.flat && !spot_faces(spot, source.normal)) {
+    if (source.is_distant()) emitter.warn(warnings, "distant light source is a spotlight");
+    if (source.is_flat() && !spot_faces(spot, source.normal)) {
         emitter.warn(warnings, "invalid spotlight direction: it shines away from the front");
         source.unusable = true;
     }
@@ -213,7 +208,7 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
     source.patterns = emitter.material.next;
     if (source.material_type == PrimitiveType::glow) {
         source.proximity = static_cast<float>(reals[3]);
-        source.unusable = source.distant;
+        source.unusable = source.is_distant();
     } else if (source.material_type == PrimitiveType::spotlight) {
         set_spot(source, emitter, warnings);
     } else if (source.material_type == PrimitiveType::illum) {
@@ -263,7 +258,7 @@ std::vector<LightSource> collect_sources(const Scene& scene, WarningSink& warnin
         const Emitter emitter{surface, scene.modifier(*material)};
         LightSource source = make_source(emitter, *material, warnings);
         source.object = id;
-        source.side_by_side = source.plain && have_lanes(scene, source.patterns);
+        source.has_lanes = source.plain && have_lanes(scene, source.patterns);
         sources.push_back(source);
         return true;
     });

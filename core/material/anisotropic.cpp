@@ -72,7 +72,7 @@ Anisotropic::Anisotropic(const ModifierBuild& build)
 bool Anisotropic::shade(Ray& ray, TraceContext& context) const {
     if (ray.in(kShadow)) return true;  // trans2 included
     if (!turn_to_viewer(ray, next_, context)) return true;
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     const RenderOptions& options = tracer.options();
     const Shading s = prepare(ray, context);
     const Vec3 n = s.reflection.frame.n;

@@ -75,8 +75,8 @@ const ClipSet* Antimatter::clipped_behind(const Ray& ray, TraceContext& context)
     }
     if (set.modifiers.empty()) return nullptr;
     if (set.modifiers.size() == before.size()) return ray.clip;
-    context.clip_sets.push_back(std::move(set));
-    return &context.clip_sets.back();
+    context.path.clip_sets.push_back(std::move(set));
+    return &context.path.clip_sets.back();
 }
 
 /// Whether the path is inside clipped matter here: it has entered more of it than it has left.

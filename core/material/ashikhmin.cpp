@@ -56,7 +56,7 @@ Ashikhmin::Ashikhmin(const ModifierBuild& build)
 bool Ashikhmin::shade(Ray& ray, TraceContext& context) const {
     if (ray.in(kShadow)) return true;
     if (!turn_to_viewer(ray, next_, context)) return true;
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     const Shading s = prepare(ray, context);
     const bool dim = tracer.options().specular_threshold >=
                      static_cast<double>(brightness(specular_)) - kEpsilon;

@@ -100,7 +100,7 @@ void BrtdFunction::warn(TraceContext& context) const {
 }
 
 bool BrtdFunction::shade(Ray& ray, TraceContext& context) const {
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     tracer.apply_textures(ray, next_, context);
     const Shading s = prepare(ray, context);
     if (any(transmitted_)) add_transmitted(ray, s, context);
@@ -162,7 +162,7 @@ void BrtdFunction::add_transmitted(Ray& ray, const Shading& s, TraceContext& con
         child.direction = normalize(ray.direction - s.perturbation);
     }
     context.tracer.trace(child, context);
-    Tracer::accumulate(ray, child);
+    LightTransport::accumulate(ray, child);
     if (straight && brightness(s.transmitted) + brightness(s.reflected) < 1) {
         ray.unreflected_path_length = ray.hit.t + child.effective_distance();
     }
@@ -174,7 +174,7 @@ void BrtdFunction::add_reflected(Ray& ray, const Shading& s, TraceContext& conte
     if (!coef || !context.tracer.spawn(child, kReflected, ray, &*coef)) return;
     child.direction = mirror_direction(ray.direction, s.variables.normal, s.variables.cosine);
     context.tracer.trace(child, context);
-    const Rgb contribution = Tracer::accumulate(ray, child);
+    const Rgb contribution = LightTransport::accumulate(ray, child);
     note_mirrored(ray, child, contribution, s.flat && (!s.perturbed || ray.in(kAmbient)));
 }
 

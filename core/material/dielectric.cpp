@@ -126,7 +126,7 @@ void Dielectric::add_refracted(Ray& ray, const Crossing& at, const Refraction& r
     }
     child.medium = at.behind;
     context.tracer.trace(child, context);
-    Tracer::accumulate(ray, child);
+    LightTransport::accumulate(ray, child);
     if (unfold || std::fabs(index_ - 1) <= kEpsilon) {
         ray.unreflected_path_length = ray.hit.t + child.effective_distance();
     }
@@ -145,7 +145,7 @@ void Dielectric::add_reflected(Ray& ray, const Crossing& at, const Refraction& r
         }
     }
     context.tracer.trace(child, context);
-    const Rgb contribution = Tracer::accumulate(ray, child);
+    const Rgb contribution = LightTransport::accumulate(ray, child);
     note_mirrored(ray, child, contribution, unfold);
 }
 

@@ -128,7 +128,7 @@ FunctionBrdf::FunctionBrdf(const ModifierBuild& build)
 bool FunctionBrdf::shade(Ray& ray, TraceContext& context) const {
     if (ray.in(kShadow)) return true;
     if (!turn_to_viewer(ray, next_, context)) return true;
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     const PerturbedNormal facing = perturb_normal(ray);
     const MaterialVariables variables{facing.normal, facing.cosine, color_ * ray.pattern, {}};
     if (tau_ < 1 - kEpsilon) {

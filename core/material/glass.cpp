@@ -104,7 +104,7 @@ void Glass::add_transmitted(Ray& ray, bool perturbed, const Rgb& coef,
         child.direction = normalize(ray.direction + ray.hit.perturbation * (2 * (1 - index_)));
     }
     context.tracer.trace(child, context);
-    Tracer::accumulate(ray, child);
+    LightTransport::accumulate(ray, child);
     if (straight) ray.unreflected_path_length = ray.hit.t + child.effective_distance();
 }
 
@@ -114,7 +114,7 @@ void Glass::add_reflected(Ray& ray, bool perturbed, const PerturbedNormal& facin
     if (!context.tracer.spawn(child, kReflected, ray, &coef)) return;
     child.direction = mirror_direction(ray.direction, facing.normal, facing.cosine);
     context.tracer.trace(child, context);
-    const Rgb contribution = Tracer::accumulate(ray, child);
+    const Rgb contribution = LightTransport::accumulate(ray, child);
     note_mirrored(ray, child, contribution,
                   (!perturbed || ray.in(kAmbient)) && is_flat_hit(ray, context));
 }

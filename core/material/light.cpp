@@ -60,7 +60,7 @@ bool Light::far_glow(double distance) const {
 bool Light::misses(const Ray& ray, const LightSource* target) const {
     if (!target || target->object == ray.hit.surface) return false;
     if (type_ != PrimitiveType::illum) return true;
-    return !target->is_virtual && ray.hit.cos_out > 0 &&
+    return !target->is_virtual() && ray.hit.cos_out > 0 &&
            (target->material_type == PrimitiveType::illum ||
             target->material_type == PrimitiveType::glow);
 }
@@ -72,7 +72,7 @@ bool Light::shade_alternate(Ray& ray, TraceContext& context) const {
 }
 
 bool Light::shade(Ray& ray, TraceContext& context) const {
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     const LightSource* target = ray.target == kNoTarget ? nullptr : &tracer.lights()[ray.target];
     const bool by_chance = ray.in(kAmbient | kSpecular) && !ray.in(kShadow) && ray.hit.cos_out >= 0;
     if ((by_chance && !far_glow(ray.hit.t)) || misses(ray, target)) {
@@ -80,7 +80,7 @@ bool Light::shade(Ray& ray, TraceContext& context) const {
         return true;
     }
     if (type_ == PrimitiveType::illum &&
-        (!target || target->object != ray.hit.surface || target->is_virtual)) {
+        (!target || target->object != ray.hit.surface || target->is_virtual())) {
         return shade_alternate(ray, context);
     }
     if (!tracer.options().sources_visible && !ray.in(kShadow) &&

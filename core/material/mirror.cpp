@@ -46,11 +46,11 @@ bool Mirror::takes_alternate(const Ray& ray) const {
 }
 
 bool Mirror::shade(Ray& ray, TraceContext& context) const {
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     const LightSource* redirected = nullptr;  // the virtual source of this very mirror
     if (ray.target != kNoTarget) {
         const LightSource& target = tracer.lights()[ray.target];
-        if (target.is_virtual && target.object == ray.hit.surface) redirected = &target;
+        if (target.is_virtual() && target.object == ray.hit.surface) redirected = &target;
     }
     if (has_alternate_ && !redirected && takes_alternate(ray)) {
         if (alternate_ != kVoid) return tracer.shade_chain(ray, alternate_, context);
@@ -81,7 +81,7 @@ void Mirror::reflect(Ray& ray, const LightSource* redirected, TraceContext& cont
         child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.cos_out);
     if (redirected) child.target = redirected->parent;
     context.tracer.trace(child, context);
-    const Rgb contribution = Tracer::accumulate(ray, child);
+    const Rgb contribution = LightTransport::accumulate(ray, child);
     note_mirrored(ray, child, contribution, !textured && is_flat_hit(ray, context));
 }
 

@@ -33,8 +33,8 @@ class Mist final : public Modifier {
 };
 
 const ScatterList* keep(ScatterList list, TraceContext& context) {
-    context.scatter_lists.push_back(std::move(list));
-    return &context.scatter_lists.back();
+    context.path.scatter_lists.push_back(std::move(list));
+    return &context.path.scatter_lists.back();
 }
 
 /// Whether one list holds all sources of another; null lists are empty.

@@ -1,7 +1,7 @@
 #include "core/material/orientation.h"
 
 #include "core/material/argument_checks.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {

@@ -161,7 +161,7 @@ void Plastic::add_straight(Ray& ray, const Shading& s, TraceContext& context) co
     if (!context.tracer.spawn(child, kTransferred, ray, &coef)) return;
     child.direction = s.straight;
     context.tracer.trace(child, context);
-    Tracer::accumulate(ray, child);
+    LightTransport::accumulate(ray, child);
     if (s.tau_s >= 1 - kEpsilon) {  // as if it were not there
         ray.mirrored = child.mirrored * child.coef;
         ray.reflected_path_length = ray.hit.t + child.reflected_path_length;
@@ -179,7 +179,7 @@ void Plastic::add_mirrored(Ray& ray, const Shading& s, TraceContext& context) co
         child.direction = mirror_direction(ray.direction, ray.hit.normal, ray.hit.cos_out);
     }
     context.tracer.trace(child, context);
-    const Rgb contribution = Tracer::accumulate(ray, child);
+    const Rgb contribution = LightTransport::accumulate(ray, child);
     note_mirrored(ray, child, contribution, s.flat && !s.perturbed && ray.in(kAmbient));
 }
 

@@ -51,7 +51,7 @@ Prism::Prism(const ModifierBuild& build)
 
 /// Unit direction from a point to a light source.
 Vec3 direction_to(const LightSource& source, const Vec3& point) {
-    return normalize(source.distant ? source.center : source.center - point);
+    return normalize(source.is_distant() ? source.center : source.center - point);
 }
 
 bool Prism::shade(Ray& ray, TraceContext& context) const {
@@ -62,7 +62,7 @@ bool Prism::shade(Ray& ray, TraceContext& context) const {
     }
     const LightSources& lights = context.tracer.lights();
     const LightSource& target = lights[ray.target];
-    if (!target.is_virtual || target.object != ray.hit.surface)
+    if (!target.is_virtual() || target.object != ray.hit.surface)
         return true;  // blocks light of others
     send(ray, target.branch, direction_to(lights[target.parent], ray.hit.position), target.parent,
          context);
@@ -101,7 +101,7 @@ void Prism::send(Ray& ray, int branch, const Vec3& aim, std::int32_t target,
     if (child.direction == Vec3{}) return;
     child.target = target;
     context.tracer.trace(child, context);
-    Tracer::accumulate(ray, child);
+    LightTransport::accumulate(ray, child);
     if (is_flat_hit(ray, context))
         ray.unreflected_path_length = ray.hit.t + child.effective_distance();
 }

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/material/lobes.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 
@@ -32,7 +32,7 @@ namespace lightwalk {
 template <class Draw, class Weight>
 void add_rough_samples(Ray& ray, RayKind kind, const Rgb& coef, TraceContext& context,
                        const Draw& draw, const Weight& weight, bool share_of_trials) {
-    const Tracer& tracer = context.tracer;
+    const LightTransport& tracer = context.tracer;
     Ray prototype;
     if (!tracer.spawn(prototype, kind, ray, &coef)) return;
     const int count = rough_sample_count(tracer.options(), ray.weight, prototype.weight);

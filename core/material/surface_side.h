@@ -1,7 +1,7 @@
 #pragma once
 // The surface that a material shades: turned to the viewer, its normal perturbed by textures.
 #include "core/scene/scene.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 

@@ -41,7 +41,7 @@ struct Scene::Impl {
                         WarningSink& warnings);
     [[nodiscard]] ModelGeometry model_geometry(std::size_t model,
                                                const TaskRunner& task_runner) const;
-    void build_geometry(const TaskRunner& task_runner);
+    void build_geometry(const TaskRunner& task_runner, const Ablation& ablation);
 };
 
 namespace {
@@ -172,9 +172,10 @@ ModelGeometry Scene::Impl::model_geometry(std::size_t model, const TaskRunner& t
     return geometry_of;
 }
 
-void Scene::Impl::build_geometry(const TaskRunner& task_runner) {
+void Scene::Impl::build_geometry(const TaskRunner& task_runner, const Ablation& ablation) {
     GeometryInput input;
     input.surfaces = &surfaces;
+    input.ablation = ablation;
     for (std::size_t i = 0; i < models.size(); ++i)
         input.models.push_back(model_geometry(i, task_runner));
     geometry = std::make_unique<Geometry>(std::move(input), std::string(), task_runner);
@@ -182,14 +183,14 @@ void Scene::Impl::build_geometry(const TaskRunner& task_runner) {
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
              Resources& resources, WarningSink& warnings, const TaskRunner& task_runner,
-             SceneExtent extent)
+             SceneExtent extent, const Ablation& ablation)
     : impl_(std::make_unique<Impl>(std::move(model), resources, task_runner)) {
     impl_->collect_surfaces(warnings, task_runner);
     impl_->use_modifiers();
     impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings, task_runner);
     impl_->add_lambertian(modifier_factory, resources, warnings);
     impl_->surfaces.set_traits(impl_->modifiers.all_traits());
-    if (extent == SceneExtent::whole) impl_->build_geometry(task_runner);
+    if (extent == SceneExtent::whole) impl_->build_geometry(task_runner, ablation);
 }
 
 ProblemList Scene::unsupported(std::shared_ptr<const Model> model,

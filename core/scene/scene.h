@@ -47,7 +47,7 @@ class Scene {
     Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
           Resources& resources, WarningSink& warnings,
           const TaskRunner& task_runner = SerialTaskRunner(),
-          SceneExtent extent = SceneExtent::whole);
+          SceneExtent extent = SceneExtent::whole, const Ablation& ablation = {});
     ~Scene();
     /// Lists every used modifier whose type is recognised but not supported: for a scene that has
     /// other errors, so that all are reported together. Throws InputError as the constructor does.

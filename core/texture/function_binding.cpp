@@ -3,7 +3,7 @@
 #include "core/function/environment.h"
 #include "core/model/transform_args.h"
 #include "core/texture/arguments.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {
@@ -124,7 +124,7 @@ FunctionBinding::FunctionBinding(const ModifierBuild& build, std::size_t file,
 
 /// The channels that the program reads.
 void FunctionBinding::fill(ChannelValues& out, const RayWay& way, const Hit& hit,
-                           const Tracer& tracer, const MaterialVariables* material) const {
+                           const LightTransport& tracer, const MaterialVariables* material) const {
     const ToFunction space(transform_, transformed_, hit.instance, tracer.scene().geometry());
     if (channels_ & kDirection) set(out, Channel::Dx, space.direction(way.direction));
     if (channels_ & kNormal) set(out, Channel::Nx, space.direction(hit.normal));
@@ -136,21 +136,21 @@ void FunctionBinding::fill(ChannelValues& out, const RayWay& way, const Hit& hit
 
 EvalState& FunctionBinding::begin(const Ray& ray, TraceContext& context,
                                   const MaterialVariables* material) const {
-    ChannelValues& out = context.channels;
+    ChannelValues& out = context.functions.channels;
     fill(out, {ray.direction, ray.path_length, ray.shadow_length}, ray.hit, context.tracer,
          material);
-    program_.begin(context.eval, out);
-    context.eval.clear_error();
-    return context.eval;
+    program_.begin(context.functions.eval, out);
+    context.functions.eval.clear_error();
+    return context.functions.eval;
 }
 
 void FunctionBinding::evaluate_all(std::span<const RayHit> hits,
                                    std::span<std::optional<double>> values,
                                    TraceContext& context) const {
     for (std::size_t k = 0; k < hits.size(); ++k)
-        fill(context.lane_channels[k], hits[k].way, hits[k].hit, context.tracer, nullptr);
-    const auto channels = std::span(context.lane_channels).first(hits.size());
-    program_.evaluate_all(0, channels, values, context.eval);
+        fill(context.functions.lane_channels[k], hits[k].way, hits[k].hit, context.tracer, nullptr);
+    const auto channels = std::span(context.functions.lane_channels).first(hits.size());
+    program_.evaluate_all(0, channels, values, context.functions.eval);
 }
 
 Vec3 FunctionBinding::to_world(const Vec3& d, const Ray& ray, const TraceContext& context) const {

@@ -12,7 +12,7 @@
 
 namespace lightwalk {
 
-class Tracer;
+class LightTransport;
 
 /// Values that only some materials provide to their functions (NxP..CbP, DxA..DzA); world space
 /// where they are directions; the binding takes them to function space.
@@ -84,7 +84,7 @@ class FunctionBinding {
     [[nodiscard]] const Transform& transform() const { return transform_; }
 
   private:
-    void fill(ChannelValues& out, const RayWay& way, const Hit& hit, const Tracer& tracer,
+    void fill(ChannelValues& out, const RayWay& way, const Hit& hit, const LightTransport& tracer,
               const MaterialVariables* material) const;
 
     Program program_;

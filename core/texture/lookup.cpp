@@ -3,7 +3,7 @@
 #include "core/function/environment.h"
 #include "core/texture/arguments.h"
 #include "core/texture/interpolate.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {

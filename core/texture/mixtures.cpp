@@ -7,7 +7,7 @@
 #include "core/texture/arguments.h"
 #include "core/texture/lookup.h"
 #include "core/texture/text_pattern.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {
@@ -73,13 +73,13 @@ bool shade_mixed(const MixedPair& pair, double coefficient, Ray& ray, TraceConte
     if (run_fore) {
         fore.weight *= c;
         fore.coef *= static_cast<float>(c);
-        Tracer::go_deeper(
+        context.tracer.enter_mixture(
             context, [&] { fore_material = context.tracer.shade_chain(fore, pair.fore, context); });
     }
     if (run_back) {
         back.weight *= 1 - c;
         back.coef *= static_cast<float>(1 - c);
-        Tracer::go_deeper(
+        context.tracer.enter_mixture(
             context, [&] { back_material = context.tracer.shade_chain(back, pair.back, context); });
     }
     if (fore_material != back_material) {
@@ -152,8 +152,8 @@ class TextMixture final : public Modifier {
     bool shade(Ray& ray, TraceContext& context) const override {
         const ModifierId chosen = inside_text(layout_, ray, context) ? pair_.fore : pair_.back;
         bool has_material = false;
-        Tracer::go_deeper(context,
-                          [&] { has_material = context.tracer.shade_chain(ray, chosen, context); });
+        context.tracer.enter_mixture(
+            context, [&] { has_material = context.tracer.shade_chain(ray, chosen, context); });
         if (!has_material) return false;
         pair_.require_void_modifier();
         return true;

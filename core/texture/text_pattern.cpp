@@ -6,7 +6,7 @@
 
 #include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {

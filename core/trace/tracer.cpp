@@ -1,12 +1,13 @@
-// Rays traced: nearest hit, shading, sources, indirect light and medium brought together.
+#include "core/trace/tracer.h"
+
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/ambient/ambient_calculation.h"
 #include "core/batch/shading_batch.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
-#include "core/transport/tracer.h"
 #include "core/virtual_source/virtual_sources.h"
 
 namespace lightwalk {
@@ -32,9 +33,9 @@ bool is_finite(const Rgb& c) {
 class OpenRay {
   public:
     explicit OpenRay(TraceContext& context) : context_(context) {
-        if (context_.depth++ == 0 && !context_.batch) context_.start_path();
+        if (context_.path.nesting.rays++ == 0 && !context_.batches.current) context_.path.start();
     }
-    ~OpenRay() { --context_.depth; }
+    ~OpenRay() { --context_.path.nesting.rays; }
     OpenRay(const OpenRay&) = delete;
     OpenRay& operator=(const OpenRay&) = delete;
 
@@ -50,40 +51,50 @@ constexpr std::size_t kPixelRays = 64, kAmbientRays = 16;
 /// Candidates a point from which batches are faster (measured on seven models).
 constexpr std::size_t kWorthWaiting = 2;
 
+/// One more batch, inside those that are open.
 class OpenBatch {
   public:
-    explicit OpenBatch(TraceContext& context) : context_(context) {
-        if (context.open_batches == context.batches.size())
-            context.batches.push_back(std::make_unique<ShadingBatch>(
-                context.make_fibers(context.batches.empty() ? kPixelRays : kAmbientRays)));
-        ++context.open_batches;
+    explicit OpenBatch(BatchState& batches) : batches_(batches) {
+        if (batches.open == batches.all.size())
+            batches.all.push_back(make_opaque<ShadingBatch>(
+                batches.make_fibers(batches.all.empty() ? kPixelRays : kAmbientRays)));
+        ++batches.open;
     }
-    ~OpenBatch() { --context_.open_batches; }
+    ~OpenBatch() { --batches_.open; }
     OpenBatch(const OpenBatch&) = delete;
     OpenBatch& operator=(const OpenBatch&) = delete;
-    ShadingBatch* operator->() const { return context_.batches[context_.open_batches - 1].get(); }
+    ShadingBatch* operator->() const { return batches_.all[batches_.open - 1].get(); }
 
   private:
-    TraceContext& context_;
+    BatchState& batches_;
 };
+
+/// While it lives a branch of a mixture is being evaluated.
+class OpenMixture {
+  public:
+    explicit OpenMixture(PathState& path) : path_(path) { ++path_.nesting.mixtures; }
+    ~OpenMixture() { --path_.nesting.mixtures; }
+    OpenMixture(const OpenMixture&) = delete;
+    OpenMixture& operator=(const OpenMixture&) = delete;
+
+  private:
+    PathState& path_;
+};
+
+/// Whether points had so few light candidates of late that batches are not worth their while: to
+/// wait and go on costs a ray as much as some candidates gain by being calculated together.
+bool has_few_candidates(const TraceContext& context) {
+    const LightScratch* light = context.light.get();
+    return light && light->candidates < kWorthWaiting * light->points;
+}
 
 }  // namespace
 
-TraceContext::TraceContext(const Tracer& for_tracer, WarningSink& to_warnings)
-    : tracer(for_tracer), warnings(to_warnings), light(std::make_unique<LightScratch>()) {}
-TraceContext::~TraceContext() = default;
-
-void TraceContext::start_path() {
-    clip_sets.clear();
-    scatter_lists.clear();
-}
-
 Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
                const TaskRunner& task_runner)
-    : scene_(scene),
-      options_(options),
-      lights_(std::make_unique<LightSources>(scene, options_, warnings)) {
-    if (options_.reflection_limit <= 0 && options_.weight_limit <= 0) {
+    : LightTransport(scene, options),
+      lights_(std::make_unique<LightSources>(scene, options, warnings)) {
+    if (options.reflection_limit <= 0 && options.weight_limit <= 0) {
         throw InputError("-lw must be positive when -lr is zero or negative (Russian roulette)");
     }
     ambient_ = std::make_unique<AmbientCalculation>(*this);
@@ -93,81 +104,75 @@ Tracer::Tracer(const Scene& scene, const RenderOptions& options, WarningSink& wa
 Tracer::~Tracer() = default;
 
 void Tracer::trace(Ray& ray, TraceContext& context) const {
-    if (context.depth >= kMaxDepth) return;
-    if (ray.aimed) {
-        const OpenRay open(context);
-        count(ray, context.counters);
-        if (lights_->intersect_target(ray, *this)) {
-            ray.unreflected_path_length = ray.hit.t;
-            if (!shade_chain(ray, ray.hit.modifier, context)) {
-                const Surface surface = scene_.surface(ray.hit.surface);
-                throw InputError(surface.where(), "light source \"" + std::string(surface.name()) +
-                                                      "\" has no material");
-            }
-            apply_medium(ray, context);
-        }
-        return;
-    }
-    const double limit = ray.limit > kEpsilon ? ray.limit : kHuge;
-    shade_hit(ray, scene_.geometry().intersect({ray.origin, ray.direction, limit}), context);
+    if (context.path.nesting.rays >= kMaxDepth) return;
+    if (ray.aimed)
+        shade_target(ray, context);
+    else
+        shade_hit(ray, scene().geometry().intersect(ray.segment()), context);
 }
 
-void Tracer::go_deeper(TraceContext& context, FunctionRef<void()> deeper) {
-    if (context.batch && !context.batch->has_room())
-        context.batch->outside(deeper, context);
+/// Evaluate a ray for which nothing but its target exists.
+void Tracer::shade_target(Ray& ray, TraceContext& context) const {
+    const OpenRay open(context);
+    count(ray, context.counters.rays);
+    if (!lights_->intersect_target(ray, *this)) return;
+    ray.unreflected_path_length = ray.hit.t;
+    if (!shade_chain(ray, ray.hit.modifier, context)) {
+        const Surface surface = scene().surface(ray.hit.surface);
+        throw InputError(surface.where(),
+                         "light source \"" + std::string(surface.name()) + "\" has no material");
+    }
+    apply_medium(ray, context);
+}
+
+void Tracer::enter_mixture(TraceContext& context, FunctionRef<void()> branch) const {
+    const OpenMixture open(context.path);
+    ShadingBatch* batch = context.batches.current;
+    if (batch && !batch->has_room())
+        batch->outside(branch, context);
     else
-        deeper();
+        branch();
 }
 
 void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
                         TraceContext& context) const {
     const auto shade = [&](std::size_t i) { shade_hit(rays[i], hits[i], context); };
-    // To wait and go on costs a ray as much as some candidates gain by going side by side.
-    const bool few = context.light->candidates < kWorthWaiting * context.light->points;
-    const bool alone = few || !context.make_fibers || rays.size() == 1 ||
-                       context.open_batches == kMostBatches || context.observer ||
-                       context.missing || lights_->sampled().empty();
+    const BatchState& batches = context.batches;
+    const bool alone = has_few_candidates(context) || !batches.make_fibers || rays.size() == 1 ||
+                       batches.open == kMostBatches || context.observer ||
+                       !options().ablation.batches || context.ambient.missing ||
+                       lights_->sampled().empty();
     if (alone) {
         for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
         return;
     }
-    const OpenBatch batch(context);
+    const OpenBatch batch(context.batches);
     const auto calculate = [&](std::span<const DirectRequest> requests) {
         lights_->add_direct(requests, context);
     };
-    batch->run(rays.size(), shade, calculate, context);
+    const bool in_order = ambient_->depends_on_order(context);
+    batch->run(rays.size(), shade, calculate, context,
+               in_order ? BatchWaits::at_their_end : BatchWaits::anywhere);
 }
 
 void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
-    if (context.depth >= kMaxDepth) return;
-    if (context.batch && !context.batch->has_room()) {
-        context.batch->outside([&] { shade_hit(ray, hit, context); }, context);
+    if (context.path.nesting.rays >= kMaxDepth) return;
+    if (ShadingBatch* batch = context.batches.current; batch && !batch->has_room()) {
+        batch->outside([&] { shade_hit(ray, hit, context); }, context);
         return;
     }
     const OpenRay open(context);
-    count(ray, context.counters);
+    count(ray, context.counters.rays);
     ray.hit = hit;
     ray.next_clip = ray.clip;
-    if (hit.exists()) {
-        ray.unreflected_path_length = hit.t;
-        if (ray.clip && ray.clip->contains(hit.modifier)) {
-            pass_through(ray, context);
-        } else {
-            shade_or_pass(ray, hit.modifier, context);
-        }
+    if (!hit.exists()) {
+        shade_background(ray, context);
     } else {
-        ray.hit.t = kHuge;
-        ray.hit.position = ray.origin;
-        ray.hit.normal = -ray.direction;
-        ray.hit.cos_out = 1;
-        // At the aft clipping plane there is nothing, not even the background.
-        if (ray.limit <= kEpsilon) {
-            if (const std::optional<SurfaceId> seen = lights_->background(ray)) {
-                ray.hit.surface = *seen;
-                ray.hit.modifier = scene_.surface(*seen).modifier();
-                (void)shade_chain(ray, ray.hit.modifier, context);
-            }
-        }
+        ray.unreflected_path_length = hit.t;
+        if (ray.clip && ray.clip->contains(hit.modifier))
+            pass_through(ray, context);
+        else
+            shade_or_pass(ray, hit.modifier, context);
     }
     apply_medium(ray, context);
     if (!is_finite(ray.value)) {
@@ -175,6 +180,20 @@ void Tracer::shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const {
         ray.value = ray.mirrored = Rgb{};
     }
     if (context.observer) context.observer->finished(ray, hit);
+}
+
+void Tracer::shade_background(Ray& ray, TraceContext& context) const {
+    ray.hit.t = kHuge;
+    ray.hit.position = ray.origin;
+    ray.hit.normal = -ray.direction;
+    ray.hit.cos_out = 1;
+    // At the aft clipping plane there is nothing, not even the background.
+    if (is_limited(ray.limit)) return;
+    if (const std::optional<SurfaceId> seen = lights_->background(ray)) {
+        ray.hit.surface = *seen;
+        ray.hit.modifier = scene().surface(*seen).modifier();
+        (void)shade_chain(ray, ray.hit.modifier, context);
+    }
 }
 
 Ray Tracer::irradiance(const Vec3& point, const Vec3& normal, RandomStream random,
@@ -187,8 +206,8 @@ Ray Tracer::irradiance(const Vec3& point, const Vec3& normal, RandomStream rando
     hit.position = ray.origin + ray.direction * kDistance;
     hit.normal = facing;
     hit.cos_out = 1;
-    hit.surface = scene_.lambertian_surface();
-    hit.modifier = scene_.lambertian();
+    hit.surface = scene().lambertian_surface();
+    hit.modifier = scene().lambertian();
     shade_hit(ray, hit, context);
     return ray;
 }
@@ -203,14 +222,16 @@ void Tracer::use_ambient_cache(AmbientCache* cache) {
 
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                         const Vec3* front) const {
-    if (context.missing != nullptr || lights_->sampled().empty()) return;
+    if (context.ambient.missing != nullptr || lights_->sampled().empty()) return;
     const DirectRequest request{&ray, coefficient, front};
-    if (context.batch && context.batch->level() == context.ambient_level)
-        context.batch->wait(request, context);
+    ShadingBatch* batch = context.batches.current;
+    if (batch && batch->may_wait(context))
+        batch->wait(request, context);
     else
         lights_->add_direct({&request, 1}, context);
 }
 
+/// What the medium takes from and adds to the radiance along the ray's segment.
 void Tracer::apply_medium(Ray& ray, TraceContext& context) const {
     const Medium& medium = ray.medium;
     if (max_component(medium.extinction) <= 1e-10f) return;
@@ -225,7 +246,7 @@ void Tracer::apply_medium(Ray& ray, TraceContext& context) const {
     }
     ray.value *= left;
     if (shadow || max_component(medium.albedo) <= static_cast<float>(kEpsilon)) return;
-    ray.value += medium.albedo * options_.ambient_value * (Rgb{1, 1, 1} - left);
+    ray.value += medium.albedo * options().ambient_value * (Rgb{1, 1, 1} - left);
     lights_->add_in_scatter(ray, context);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/ablation.h"
 #include "core/math/rgb.h"
 
 namespace lightwalk {
@@ -49,6 +50,7 @@ struct RenderOptions {
     // irradiance
     bool irradiance = false;  ///< -i
     std::uint64_t seed = 0;   ///< --seed
+    Ablation ablation;        ///< changes the speed only
 };
 
 }  // namespace lightwalk

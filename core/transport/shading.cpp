@@ -1,5 +1,5 @@
 // Walking modifier chains.
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {
@@ -11,7 +11,7 @@ bool wants_irradiance(const Ray& ray, const RenderOptions& options) {
 
 }  // namespace
 
-bool Tracer::shade_chain(Ray& ray, ModifierId first, TraceContext& context) const {
+bool LightTransport::shade_chain(Ray& ray, ModifierId first, TraceContext& context) const {
     const bool irradiance = wants_irradiance(ray, options_);
     for (ModifierId m = first; m != kVoid;) {
         const ModifierRecord& record = scene_.modifier(m);
@@ -32,11 +32,12 @@ bool Tracer::shade_chain(Ray& ray, ModifierId first, TraceContext& context) cons
     return false;
 }
 
-void Tracer::shade_or_pass(Ray& ray, ModifierId first, TraceContext& context) const {
+void LightTransport::shade_or_pass(Ray& ray, ModifierId first, TraceContext& context) const {
     if (!shade_chain(ray, first, context)) pass_through(ray, context);
 }
 
-void Tracer::apply_textures(Ray& ray, ModifierId material_next, TraceContext& context) const {
+void LightTransport::apply_textures(Ray& ray, ModifierId material_next,
+                                    TraceContext& context) const {
     for (ModifierId m = material_next; m != kVoid;) {
         const ModifierRecord& record = scene_.modifier(m);
         if (record.node && record.node->shade(ray, context)) {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/transport/tracer.h"
+#include "core/transport/light_transport.h"
 
 namespace lightwalk {
 namespace {
-
-constexpr double kFar = 0.99 * kHuge;  ///< beyond: nothing was hit
 
 /// Weight left after a segment of length `t` in a medium, for judging whether a child is worth
 /// tracing.
@@ -34,34 +32,8 @@ bool within_limits(Ray& ray, bool has_coef, const RenderOptions& options) {
 
 }  // namespace
 
-RayCounters& RayCounters::operator+=(const RayCounters& o) {
-    primary += o.primary;
-    shadow += o.shadow;
-    specular += o.specular;
-    transmitted += o.transmitted;
-    ambient += o.ambient;
-    return *this;
-}
-
-AmbientCounters& AmbientCounters::operator+=(const AmbientCounters& o) {
-    interpolated += o.interpolated;
-    computed += o.computed;
-    incomplete += o.incomplete;
-    waits += o.waits;
-    duplicates += o.duplicates;
-    return *this;
-}
-
-bool ScatterList::contains(std::int32_t source) const {
-    return std::find(sources.begin(), sources.end(), source) != sources.end();
-}
-
-bool ClipSet::contains(ModifierId m) const {
-    return std::binary_search(modifiers.begin(), modifiers.end(), m);
-}
-
-Ray Tracer::primary(const Vec3& origin, const Vec3& direction, double limit,
-                    RandomStream random) const {
+Ray LightTransport::primary(const Vec3& origin, const Vec3& direction, double limit,
+                            RandomStream random) const {
     Ray ray;
     ray.origin = origin;
     const double squared = fused_dot(direction, direction);
@@ -74,13 +46,13 @@ Ray Tracer::primary(const Vec3& origin, const Vec3& direction, double limit,
     return ray;
 }
 
-bool Tracer::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const {
+bool LightTransport::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const {
     const double share = coef ? std::min(1.0, static_cast<double>(max_component(*coef))) : 1.0;
     child.coef = coef ? *coef : Rgb{1, 1, 1};
     child.parent = &parent;
     child.kind = kind;
     child.history = static_cast<std::uint16_t>(parent.history | kind);
-    if (parent.hit.t >= kFar) return false;
+    if (is_infinite(parent.hit.t)) return false;
     child.origin = parent.hit.position;
     child.level = parent.level;
     child.target = parent.target;
@@ -96,36 +68,35 @@ bool Tracer::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const
         child.limit = 0;
     } else {
         child.clip = parent.next_clip;
-        child.limit = parent.limit > kEpsilon ? parent.limit - parent.hit.t : 0;
+        child.limit = limit_beyond(parent.limit, parent.hit.t);
     }
     child.weight = parent.weight * share * medium_estimate(parent.medium, parent.hit.t);
     child.hit = Hit{};
     child.pattern = {1, 1, 1};
-    child.value = child.mirrored = Rgb{};
-    child.reflected_path_length = child.unreflected_path_length = kHuge;
+    static_cast<RayRadiance&>(child) = {};
     child.next_clip = child.clip;
     if (child.weight <= 0) return false;
     if (child.in(kShadow)) return true;
     return within_limits(child, coef != nullptr, options_);
 }
 
-Tracer::ShadowStart Tracer::start_shadow(Ray& parent) {
-    if (parent.hit.t >= kFar) return {};
+ShadowStart LightTransport::start_shadow(Ray& parent) {
+    if (is_infinite(parent.hit.t)) return {};
     return {parent.weight * medium_estimate(parent.medium, parent.hit.t),
             parent.path_length + parent.hit.t,
             parent.in(kShadow) ? parent.shadow_length + parent.hit.t : 0, parent.random.child()};
 }
 
-Rgb Tracer::accumulate(Ray& parent, const Ray& child) {
+Rgb LightTransport::accumulate(Ray& parent, const Ray& child) {
     const Rgb contribution = child.value * child.coef;
     parent.value += contribution;
     return contribution;
 }
 
-void Tracer::pass_through(Ray& ray, TraceContext& context) const {
+void LightTransport::pass_through(Ray& ray, TraceContext& context) const {
     Ray child;
     (void)spawn(child, kTransferred, ray, nullptr);
-    if (ray.hit.t >= kFar) return;
+    if (is_infinite(ray.hit.t)) return;
     child.direction = ray.direction;
     trace(child, context);
     ray.value = child.value;

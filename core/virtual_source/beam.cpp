@@ -73,7 +73,8 @@ std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source,
     const std::array<Vec3, 8> corners = box_of(source);
     int above = 0, below = 0;
     for (const Vec3& corner : corners) {
-        const double height = source.distant ? dot(plane->normal, corner) : plane->height(corner);
+        const double height =
+            source.is_distant() ? dot(plane->normal, corner) : plane->height(corner);
         above += height > kEpsilon ? 1 : 0;
         below += height < -kEpsilon ? 1 : 0;
     }
@@ -83,7 +84,8 @@ std::optional<VirtualSourceBeam> virtual_source_beam(const LightSource& source,
     const std::array<Vec3, 4> edge = outline(surface, *plane, *disk);
     const Vec3 inside = (edge[0] + edge[2]) * 0.5;
     for (std::size_t i = 0; i < 4; ++i) {
-        const auto side = side_of_beam(edge[i], edge[(i + 1) % 4], inside, corners, source.distant);
+        const auto side =
+            side_of_beam(edge[i], edge[(i + 1) % 4], inside, corners, source.is_distant());
         if (!side) return std::nullopt;
         beam.sides[i] = *side;
     }

@@ -29,7 +29,7 @@ int VirtualSourceBuilder::pretest_samples(const LightSource& parent,
     const double density = tracer_.options().virtual_source_pretest,
                  radius_squared = disk.radius * disk.radius;
     double samples = 0;
-    if (parent.distant) {
+    if (parent.is_distant()) {
         const double size = tracer_.scene().cube().size;
         samples = size > 0 ? 32 * radius_squared / (size * size) * density : 0;
     } else {

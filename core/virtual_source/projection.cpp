@@ -12,8 +12,8 @@ constexpr double kSquareToDisk =
 
 /// How far a round source reaches beyond its sampling box.
 double overhang(const LightSource& source) {
-    if (!source.round) return 1;
-    return source.flat || source.distant ? kSquareToDisk : 1 / kSphereBox;
+    if (!source.is_round()) return 1;
+    return source.is_flat() || source.is_distant() ? kSquareToDisk : 1 / kSphereBox;
 }
 
 VirtualSpot impossible() {
@@ -75,7 +75,7 @@ VirtualSpot spot_of_cone(const LightSource& parent, const LightSource& projected
             redirected.spot = before;
         }
     }
-    if (projected.flat && redirected.spot && !spot_faces(*redirected.spot, projected.normal))
+    if (projected.is_flat() && redirected.spot && !spot_faces(*redirected.spot, projected.normal))
         return impossible();
     return redirected;
 }
@@ -128,7 +128,7 @@ bool is_before_mirror(const LightSource& source, const Plane& plane) {
     // Radiance steps along each half axis by comparing its projection with the plane's offset, not
     // with zero. The point that is reached is not always the foremost one: a lamp that is sunk into
     // a mirror's plane may get no image. Its pictures show that, so ours do.
-    const double offset = source.distant ? 0 : plane.offset;
+    const double offset = source.is_distant() ? 0 : plane.offset;
     double reached = dot(plane.normal, source.center);
     const auto step = [&](const Vec3& axis) {
         const double along = dot(plane.normal, axis);
@@ -136,25 +136,25 @@ bool is_before_mirror(const LightSource& source, const Plane& plane) {
     };
     step(source.u);
     step(source.v);
-    if (!source.flat) step(source.w);
+    if (!source.is_flat()) step(source.w);
     return reached > offset + kEpsilon;
 }
 
 LightSource project(const LightSource& source, const Projection& projection) {
     LightSource projected = source;
-    projected.center = source.distant ? normalize(projection.vector(source.center))
-                                      : projection.point(source.center);
+    projected.center = source.is_distant() ? normalize(projection.vector(source.center))
+                                           : projection.point(source.center);
     projected.u = projection.vector(source.u);
     projected.v = projection.vector(source.v);
     projected.w = projection.vector(source.w);
-    if (source.flat) projected.normal = normalize(projection.vector(source.normal));
+    if (source.is_flat()) projected.normal = normalize(projection.vector(source.normal));
     return projected;
 }
 
 VirtualSpot virtual_spot(const LightSource& parent, const LightSource& projected,
                          const Projection& projection, const RedirectingDisk& disk) {
-    return projected.distant ? spot_of_beam(parent, projected, projection, disk)
-                             : spot_of_cone(parent, projected, projection, disk);
+    return projected.is_distant() ? spot_of_beam(parent, projected, projection, disk)
+                                  : spot_of_cone(parent, projected, projection, disk);
 }
 
 }  // namespace lightwalk

@@ -28,7 +28,7 @@ std::optional<ModifierId> redirecting_material(const Scene& scene, ModifierId mo
 
 }  // namespace
 
-VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const Tracer& tracer,
+VirtualSourceBuilder::VirtualSourceBuilder(LightSources& lights, const LightTransport& tracer,
                                            WarningSink& warnings)
     : lights_(lights), tracer_(tracer), context_(tracer, warnings) {
     if (tracer.options().redirections > 0 && !lights.all().empty())
@@ -95,7 +95,7 @@ void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index,
     if (!redirected.possible) return;
     made.spot = redirected.spot;
     made.object = next.surface;
-    made.is_virtual = made.follow = true;
+    made.follow = true;
     made.parent = parent_index;
     made.branch = branch;
     made.beam = virtual_source_beam(made, tracer_.scene().surface(next.surface).shape());
@@ -117,11 +117,11 @@ void VirtualSourceBuilder::try_virtual_source(std::int32_t parent_index,
 /// only beyond its own redirecting surface.
 bool VirtualSourceBuilder::lights_disk(const LightSource& source,
                                        const RedirectingSurface& next) const {
-    if (!source.is_virtual) return true;
+    if (!source.is_virtual()) return true;
     const auto plane = plane_of(tracer_.scene().surface(source.object).shape());
     if (!plane) return true;
     const double source_height =
-        source.distant ? dot(plane->normal, source.center) : plane->height(source.center);
+        source.is_distant() ? dot(plane->normal, source.center) : plane->height(source.center);
     const double disk_height = plane->height(next.disk.center);
     if ((source_height > 0) != (disk_height > 0)) return true;
     const double cosine = dot(plane->normal, next.plane.normal);
@@ -136,7 +136,7 @@ std::optional<Projection> VirtualSourceBuilder::projection(const LightSource& so
         if (!is_before_mirror(source, next.plane)) return std::nullopt;
         return Projection::mirror(next.plane);
     }
-    const Vec3 origin = source.distant ? next.disk.center + source.center : source.center;
+    const Vec3 origin = source.is_distant() ? next.disk.center + source.center : source.center;
     Ray test =
         tracer_.primary(origin, next.disk.center - origin, 0, RandomStream(tracer_.options().seed));
     test.hit = tracer_.scene().geometry().intersect_surface(next.surface,

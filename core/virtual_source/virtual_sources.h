@@ -17,7 +17,7 @@ inline constexpr int kMaxRedirections = 64;  ///< upper limit of the option -dr
 /// virtual sources; and the virtual sources of those, up to the depth of -dr.
 class VirtualSourceBuilder {
   public:
-    VirtualSourceBuilder(LightSources& lights, const Tracer& tracer, WarningSink& warnings);
+    VirtualSourceBuilder(LightSources& lights, const LightTransport& tracer, WarningSink& warnings);
 
     /// Throws InputError when more than kMaxVirtualSources would be made.
     void build();
@@ -49,7 +49,7 @@ class VirtualSourceBuilder {
                                  bool alone);
 
     LightSources& lights_;
-    const Tracer& tracer_;
+    const LightTransport& tracer_;
     TraceContext context_;
     std::vector<RedirectingSurface> redirecting_surfaces_;
 };

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "io/rays/ray_records.h"
 
 namespace lightwalk {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/cloud/visibility_probe.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "parallel/executor.h"
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"

@@ -1,5 +1,6 @@
 #include "parallel/walk/scene_caster.h"
 
+#include "core/math/distance.h"
 #include "core/math/random.h"
 
 namespace lightwalk {
@@ -38,7 +39,7 @@ void set_out(const Camera::ViewRay& ray, double x, double y, RaySegment& segment
              PixelVisibility& visibility) {
     segment.origin = ray.origin;
     segment.direction = ray.direction;
-    segment.t_max = ray.limit > kEpsilon ? ray.limit : kHuge;
+    segment.t_max = farthest_hit(ray.limit);
     visibility.ray = true;
     visibility.x = static_cast<float>(x);
     visibility.y = static_cast<float>(y);

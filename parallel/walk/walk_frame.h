@@ -1,7 +1,7 @@
 #pragma once
 // A frame of a walk through a scene.
 #include "core/cloud/visibility_probe.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "parallel/frame.h"
 #include "parallel/walk/cloud_frames.h"
 

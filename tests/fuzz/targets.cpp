@@ -10,7 +10,7 @@
 #include "core/function/environment.h"
 #include "core/scene/scene.h"
 #include "core/texture/interpolate.h"
-#include "core/transport/tracer.h"
+#include "core/trace/tracer.h"
 #include "io/formats/decode.h"
 #include "io/net/walk_request.h"
 #include "io/picture/picture.h"

@@ -26,13 +26,13 @@ struct Asking {
     Asking() : scene(kLamp) {}
     void run(std::size_t count, FunctionRef<void(std::size_t)> body) {
         const auto calculate = [&](std::span<const DirectRequest> requests) {
-            CHECK(scene.context.batch == nullptr);
+            CHECK(scene.context.batches.current == nullptr);
             served.push_back(requests.size());
             for (const DirectRequest& request : requests) request.ray->value += Rgb{1, 1, 1};
         };
         batch.run(count, body, calculate, scene.context);
-        CHECK(scene.context.batch == nullptr);
-        CHECK(scene.context.depth == 0);
+        CHECK(scene.context.batches.current == nullptr);
+        CHECK(scene.context.path.nesting.rays == 0);
     }
     void ask(Ray& ray) {
         const auto none = one_by_one([](const Vec3&, double) { return Rgb{}; });
@@ -158,10 +158,10 @@ TEST_CASE("shading batches: work on the outer stack may not wait, and may throw"
     int done = 0;
     asking.run(5, [&](std::size_t i) {
         TraceContext& context = asking.scene.context;
-        context.depth += static_cast<int>(i);
+        context.path.nesting.rays += static_cast<int>(i);
         const auto work = [&] {
-            CHECK(context.batch == nullptr);
-            CHECK(context.depth == static_cast<int>(i));
+            CHECK(context.batches.current == nullptr);
+            CHECK(context.path.nesting.rays == static_cast<int>(i));
             if (i == 2) throw 2;
             ++done;
         };
@@ -170,8 +170,8 @@ TEST_CASE("shading batches: work on the outer stack may not wait, and may throw"
         } catch (int thrown) {
             done += 10 * thrown;
         }
-        CHECK(context.batch == &asking.batch);
-        CHECK(context.depth == static_cast<int>(i));
+        CHECK(context.batches.current == &asking.batch);
+        CHECK(context.path.nesting.rays == static_cast<int>(i));
     });
     CHECK(done == 24);
 }
@@ -182,15 +182,15 @@ TEST_CASE("shading batches: rays that go side by side bring back the bits that t
         RenderOptions options = usual();
         if (every_shadow) options.shadow_threshold = 0;
         TestScene scene(room(), options);
-        scene.context.make_fibers = make_context_fibers;
+        scene.context.batches.make_fibers = make_context_fibers;
         std::vector<Ray> together = looking_down(scene, 20), alone = together;
         const std::vector<Hit> hits = hits_of(scene, together);
         for (std::size_t i = 0; i < alone.size(); ++i)
             scene.tracer.shade_hit(alone[i], hits[i], scene.context);
-        const std::uint64_t shadow_rays = scene.context.counters.shadow;
+        const std::uint64_t shadow_rays = scene.context.counters.rays.shadow;
         scene.tracer.shade_hits(together, hits, scene.context);
-        CHECK(scene.context.counters.shadow == 2 * shadow_rays);
-        CHECK(scene.context.counters.specular > 100);
+        CHECK(scene.context.counters.rays.shadow == 2 * shadow_rays);
+        CHECK(scene.context.counters.rays.specular > 100);
         int lit = 0;
         for (std::size_t i = 0; i < alone.size(); ++i) {
             CAPTURE(i);
@@ -211,7 +211,7 @@ TEST_CASE("shading batches: the same with so many lights that a batch is calcula
                 " 4.5 .01\n";
     }
     TestScene scene(text, usual());
-    scene.context.make_fibers = make_context_fibers;
+    scene.context.batches.make_fibers = make_context_fibers;
     std::vector<Ray> together = looking_down(scene, 6), alone = together;
     const std::vector<Hit> hits = hits_of(scene, together);
     for (std::size_t i = 0; i < alone.size(); ++i)
@@ -227,16 +227,16 @@ TEST_CASE("shading batches: ambient rays go side by side, too, within those that
     options.ambient_divisions = 64;
     options.ambient_accuracy = 0;  // every value is computed anew
     TestScene scene(room(), options);
-    scene.context.make_fibers = make_context_fibers;
+    scene.context.batches.make_fibers = make_context_fibers;
     std::vector<Ray> together = looking_down(scene, 3), alone = together;
     const std::vector<Hit> hits = hits_of(scene, together);
     for (std::size_t i = 0; i < alone.size(); ++i)
         scene.tracer.shade_hit(alone[i], hits[i], scene.context);
-    const std::size_t of_ambient_rays = scene.context.batches.size();
+    const std::size_t of_ambient_rays = scene.context.batches.all.size();
     CHECK(of_ambient_rays >= 1);
     scene.tracer.shade_hits(together, hits, scene.context);
-    CHECK(scene.context.batches.size() == of_ambient_rays + 1);
-    CHECK(scene.context.open_batches == 0);
+    CHECK(scene.context.batches.all.size() == of_ambient_rays + 1);
+    CHECK(scene.context.batches.open == 0);
     for (std::size_t i = 0; i < alone.size(); ++i)
         CHECK(same_bits(together[i].value, alone[i].value));
 }
@@ -258,7 +258,7 @@ TEST_CASE("shading batches: rays and mixtures may be nested as deep as elsewhere
     }
     text += modifier + " ring mixed 0 0 8 20 0 0 0 0 1 0 9\n";
     TestScene scene(text);
-    scene.context.make_fibers = make_context_fibers;
+    scene.context.batches.make_fibers = make_context_fibers;
     std::vector<Ray> together;
     for (const double x : {0.0, 0.1, 20.0, 20.1})
         together.push_back(scene.tracer.primary({x, 0, 1}, {0, 0, -1}, 0, RandomStream(1)));

@@ -60,9 +60,9 @@ Rgb arriving(TestScene& scene, double x, double y, std::uint32_t sample) {
                                    RandomStream::of_pixel(7, sample, 0, 0));
     ray.kind = kAmbientSame;
     ray.history = kAmbientSame;
-    scene.context.ambient_level = 1;
+    scene.context.path.ambient_level = 1;
     scene.tracer.trace(ray, scene.context);
-    scene.context.ambient_level = 0;
+    scene.context.path.ambient_level = 0;
     return ray.value;
 }
 
@@ -122,9 +122,9 @@ TEST_CASE("where ambient rays arrive mirrored lights count as well") {
 TEST_CASE("a few lights cost a few shadow rays, and few sources or eye rays nothing else") {
     TestScene all(many_lights(), options(0), stripes()), few(many_lights(), options(2), stripes());
     const auto shadow_rays = [](TestScene& scene) {
-        const std::uint64_t before = scene.context.counters.shadow;
+        const std::uint64_t before = scene.context.counters.rays.shadow;
         for (std::uint32_t i = 0; i < 100; ++i) (void)arriving(scene, -1.5, 0.02 * i, i);
-        return scene.context.counters.shadow - before;
+        return scene.context.counters.rays.shadow - before;
     };
     CHECK(shadow_rays(all) > 1000);
     CHECK(shadow_rays(few) <= 100 * 3);

@@ -155,7 +155,7 @@ TEST_CASE(
     options.shadow_certainty = 0.5;
     TestScene exact(many_lamps(40)), quick(many_lamps(40), options), again(many_lamps(40), options);
     const double exact_sum = floor_sum(exact, 60, 0.1), quick_sum = floor_sum(quick, 60, 0.1);
-    CHECK(quick.context.counters.shadow < exact.context.counters.shadow);
+    CHECK(quick.context.counters.rays.shadow < exact.context.counters.rays.shadow);
     // Half a percent is what -dt may cost in the mean, by our own promise: untested lamps count by
     // their measured hit rates.
     CHECK(quick_sum / exact_sum == within(0.005, 1));
@@ -202,8 +202,8 @@ TEST_CASE("-dt: lamps with patterns bring half of what they bring without, few o
             patterned.replace(at, 4, "half");
         TestScene exact(plain), quick(patterned, options, files);
         const double exact_sum = floor_sum(exact, 40, 0.15), quick_sum = floor_sum(quick, 40, 0.15);
-        const std::uint64_t tested = quick.context.counters.shadow,
-                            all = exact.context.counters.shadow;
+        const std::uint64_t tested = quick.context.counters.rays.shadow,
+                            all = exact.context.counters.rays.shadow;
         CHECK((count < 20 ? tested == all : tested < all));
         // Where all are tested but for rounding, else as above.
         CHECK(quick_sum / exact_sum == within(count < 20 ? kFloatRounding : 0.005, 0.5));
@@ -277,7 +277,7 @@ TEST_CASE("many sources with patterns give what single ones give: alike or not, 
 TEST_CASE("shadow rays are counted") {
     TestScene scene(many_lamps(10));
     (void)floor_at(scene, 0, 0);
-    CHECK(scene.context.counters.shadow == 10);
+    CHECK(scene.context.counters.rays.shadow == 10);
 }
 
 TEST_CASE("-dj 1: in the mean over many samples a half hidden panel gives half its light") {

@@ -102,7 +102,6 @@ TEST_CASE("a partitioned panel gives the form factor of the rectangle") {
 
 TEST_CASE("inverse square: a lamp's solid angle falls with the square of its distance") {
     LightSource lamp;
-    lamp.round = true;
     lamp.size = static_cast<float>(kPi * 0.01);
     RandomStream random(1);
     for (const double d : {1.0, 2.0, 10.0}) {
@@ -152,9 +151,8 @@ TEST_CASE("a spotlight: nothing outside the cone, the focal length adds to the d
 TEST_CASE("jitter: samples fill a panel's part, a disk and a sphere, and nothing beyond") {
     RandomStream random(3);
     LightSource disk = panel(0.5 * std::sqrt(kPi));
-    disk.round = true;
+    disk.shape = PrimitiveType::ring;
     LightSource ball;
-    ball.round = true;
     ball.u = {kSphereBox, 0, 0};
     ball.v = {0, kSphereBox, 0};
     ball.w = {0, 0, kSphereBox};

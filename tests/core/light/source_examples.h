@@ -8,7 +8,6 @@ namespace lightwalk::test {
 inline LightSource panel(double half) {
     LightSource source;
     source.shape = PrimitiveType::polygon;
-    source.flat = true;
     source.center = {0, 0, 1};
     source.normal = {0, 0, -1};
     source.u = {half, 0, 0};
@@ -20,7 +19,6 @@ inline LightSource panel(double half) {
 inline LightSource tube(double half_length, double radius) {
     LightSource source;
     source.shape = PrimitiveType::cylinder;
-    source.cylinder = true;
     source.center = {0, 0, 1};
     source.u = {half_length, 0, 0};
     source.v = {0, kCylinderBox * radius, 0};

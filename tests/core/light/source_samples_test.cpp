@@ -19,13 +19,11 @@ namespace {
 std::vector<LightSource> all_kinds() {
     LightSource spot = panel(0.4), sun = panel(0.1), glow = panel(0.7), ball = panel(0.2);
     spot.spot = SpotShape{{0, 0, -1}, 2.0f, 0.3f, false};
-    sun.distant = true;
-    sun.flat = false;
+    sun.shape = PrimitiveType::source;
     sun.center = normalize(Vec3{0.1, 0.2, 1});
     glow.material_type = PrimitiveType::glow;
     glow.proximity = 1.3f;
-    ball.flat = false;
-    ball.round = true;
+    ball.shape = PrimitiveType::sphere;
     ball.w = {0, 0, 0.2};
     return {panel(0.5), tube(0.8, 0.1), spot, sun, glow, ball};
 }

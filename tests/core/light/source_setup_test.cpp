@@ -52,8 +52,8 @@ void check_near(const Vec3& a, const Vec3& b) {
 TEST_CASE(
     "light source of a quadrilateral: half edges from the first vertex, area, farthest vertex") {
     const LightSource s = only_source("lamp polygon p\n0\n0\n12 0 0 2  4 0 2  4 2 2  0 2 2\n");
-    CHECK(s.flat);
-    CHECK_FALSE(s.round);
+    CHECK(s.is_flat());
+    CHECK_FALSE(s.is_round());
     check_near(s.center, {2, 1, 2});
     check_near(s.u, {2, 0, 0});
     check_near(s.v, {0, 1, 0});
@@ -84,7 +84,7 @@ TEST_CASE("light source of another polygon or a ring: a square of its area about
     CHECK(4 * length(p.u) * length(p.v) == rounded(static_cast<double>(p.size)));
     CHECK(dot(p.u, p.v) == rounded(0));
     const LightSource r = only_source("lamp ring r\n0\n0\n8 1 2 3  0 0 -1  0 .5\n");
-    CHECK(r.round);
+    CHECK(r.is_round());
     check_near(r.normal, {0, 0, -1});
     CHECK(r.size == rounded(kPi * 0.25));
     CHECK(4 * length(r.u) * length(r.v) == rounded(kPi * 0.25));
@@ -99,8 +99,8 @@ TEST_CASE("light source of a sphere, a cylinder and a cone of directions") {
     check_near(s.w, {0, 0, kSphereBox * 0.5});
     CHECK(s.size == rounded(kPi * 0.25));
     const LightSource c = only_source("lamp cylinder c\n0\n0\n7 0 0 1  4 0 1  .1\n");
-    CHECK(c.cylinder);
-    CHECK_FALSE(c.round);
+    CHECK(c.is_cylinder());
+    CHECK_FALSE(c.is_round());
     check_near(c.center, {2, 0, 1});
     check_near(c.u, {2, 0, 0});
     CHECK(length(c.v) == printed(4, 0.08559));
@@ -108,7 +108,7 @@ TEST_CASE("light source of a sphere, a cylinder and a cone of directions") {
     CHECK(c.size == rounded(2 * 0.1 * 4));
     CHECK(c.radius == rounded(2));
     const LightSource d = only_source("lamp source sun\n0\n0\n4 0 0 5 30\n");
-    CHECK(d.distant);
+    CHECK(d.is_distant());
     check_near(d.center, {0, 0, 1});
     const double omega = 2 * kPi * (1 - std::cos(15 * kPi / 180));
     CHECK(d.size == rounded(omega));

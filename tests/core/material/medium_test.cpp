@@ -95,13 +95,13 @@ TEST_CASE("sets made on a path are forgotten when the next one starts, however i
         Ray ray = scene.tracer.primary({0, -3, 0}, {0, 1, 0}, 0, RandomStream());
         ray.kind = kind;  // small light sources start with a shadow ray
         scene.tracer.trace(ray, scene.context);
-        return scene.context.clip_sets.size();
+        return scene.context.path.clip_sets.size();
     };
     const std::size_t one = bite(kPrimary);
     CHECK(one > 0);
     CHECK(bite(kPrimary) == one);
     CHECK(bite(kShadow) <= one);
     (void)scene.tracer.irradiance({0, 0, 50}, {0, 0, 1}, RandomStream(), scene.context);
-    CHECK(scene.context.clip_sets.empty());
-    CHECK(scene.context.depth == 0);
+    CHECK(scene.context.path.clip_sets.empty());
+    CHECK(scene.context.path.nesting.rays == 0);
 }

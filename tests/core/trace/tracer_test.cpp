@@ -79,7 +79,7 @@ TEST_CASE("tracer: -lr bounds the reflections between two mirrors to that many")
                             "silver ring high 0 0 8 0 0 4 0 0 -1 0 9\n",
                         options);
         (void)scene.trace({0, 0, 1}, {0, 0, -1});
-        CHECK(scene.context.counters.specular == static_cast<std::uint64_t>(limit));
+        CHECK(scene.context.counters.rays.specular == static_cast<std::uint64_t>(limit));
     }
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("tracer: -lw ends a path when what it can still bring is smaller") {
                         options.redirections = 0;
                     }));
     (void)scene.trace({0, 0, 1}, {0, 0, -1});
-    CHECK(scene.context.counters.specular == 3);  // 1/2, 1/4, 1/8 are above a tenth
+    CHECK(scene.context.counters.rays.specular == 3);  // 1/2, 1/4, 1/8 are above a tenth
 }
 
 TEST_CASE("tracer: Russian roulette brings the same mean as tracing every path") {
@@ -150,7 +150,7 @@ TEST_CASE("tracer: nesting ends at kMaxDepth, black and in finite time") {
         TestScene scene(text);
         const bool reached = surfaces < Tracer::kMaxDepth;
         CHECK(scene.trace({0, 0, 0}, {0, 0, 1}).value == (reached ? Rgb{2, 3, 4} : Rgb{}));
-        CHECK(scene.context.depth == 0);
+        CHECK(scene.context.path.nesting.rays == 0);
     }
 }
 
@@ -204,10 +204,11 @@ TEST_CASE("tracer: counters tell rays by purpose") {
                         options.reflection_limit = 1;
                     }));
     (void)scene.trace({0, 0, 2}, {0, 0, -1});
-    CHECK(scene.context.counters.primary == 1);
-    CHECK(scene.context.counters.specular == 1);     // from the mirror; the pane's is one too many
-    CHECK(scene.context.counters.transmitted == 1);  // through the pane
-    CHECK(scene.context.counters.shadow == 0);
+    CHECK(scene.context.counters.rays.primary == 1);
+    CHECK(scene.context.counters.rays.specular ==
+          1);  // from the mirror; the pane's is one too many
+    CHECK(scene.context.counters.rays.transmitted == 1);  // through the pane
+    CHECK(scene.context.counters.rays.shadow == 0);
 }
 
 TEST_CASE("tracer: one context gives the same rays again, whatever it traced before") {

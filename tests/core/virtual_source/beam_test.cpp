@@ -33,7 +33,7 @@ Shape random_surface(RandomStream& random, int kind) {
 
 LightSource random_source(RandomStream& random, bool distant) {
     LightSource source;
-    source.distant = distant;
+    if (distant) source.shape = PrimitiveType::source;
     source.center = distant ? normalize(random_place(random, 1)) : random_place(random, 6);
     const double size = distant ? 0.02 : 0.4;
     source.u = random_place(random, size);
@@ -57,7 +57,7 @@ TEST_CASE(
         for (int j = 0; j < 300; ++j) {
             const Vec3 point = random_place(random, 4), a = random_place(random, 1.13);
             const Vec3 target = source.center + source.u * a.x + source.v * a.y + source.w * a.z;
-            const Vec3 direction = normalize(source.distant ? target : target - point);
+            const Vec3 direction = normalize(source.is_distant() ? target : target - point);
             if (intersect(surface, point, direction, kHuge)) {
                 REQUIRE(beam->may_reach(point));
                 ++lit;

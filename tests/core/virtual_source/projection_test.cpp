@@ -13,7 +13,6 @@ namespace {
 
 LightSource lamp(const Vec3& center, double radius) {
     LightSource source;
-    source.round = true;
     source.center = center;
     source.u = {kSphereBox * radius, 0, 0};
     source.v = {0, kSphereBox * radius, 0};
@@ -25,7 +24,7 @@ LightSource lamp(const Vec3& center, double radius) {
 
 LightSource sun(const Vec3& direction, double angle_degrees) {
     LightSource source;
-    source.distant = source.round = true;
+    source.shape = PrimitiveType::source;
     source.center = normalize(direction);
     source.size = static_cast<float>(2 * kPi * (1 - std::cos(angle_degrees * kPi / 360)));
     source.radius = std::sqrt(source.size / static_cast<float>(kPi));
@@ -148,7 +147,7 @@ TEST_CASE("redirected sunlight is a beam, a second surface cuts it") {
     CHECK(first.spot->beam);
     CHECK(first.spot->size == rounded(kPi));
     LightSource redirected = made;
-    redirected.is_virtual = true;
+    redirected.parent = 0;
     redirected.spot = first.spot;
     const Plane opposite{{1, 0, 0}, -4};
     const Projection second = Projection::mirror(opposite);
