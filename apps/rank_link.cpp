@@ -135,18 +135,19 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst, told};
 }
 
-AmbientCache& RankLink::exchange(AmbientCache& cache, const std::vector<AmbientRecord>& known) {
-    if (batch_ == 0) return cache;
+void RankLink::exchange(PublishedCache& cache, const std::vector<AmbientRecord>& known) {
+    if (batch_ == 0) return;
     const auto send = [this, scene = scene_](AmbientValues values) {
         values.scene = scene;
         loop_.post(Role::cache, {rank(), Role::ambient_client}, std::move(values));
     };
     if (!known.empty()) send({known, scene_});
     const std::lock_guard lock(mutex_);
-    cache_ = std::make_unique<ExchangingCache>(cache, batch_, send);
-    cache_->take(early_values_);
+    cache_ = &cache;
+    sender_ = std::make_unique<AmbientSender>(batch_, send);
+    cache.add(*sender_);
+    for (const AmbientRecord& record : early_values_) cache.take_over(record, *sender_);
     early_values_.clear();
-    return *cache_;
 }
 
 void RankLink::spread(const std::vector<AmbientRecord>& known, AmbientCache& cache) {
@@ -283,7 +284,8 @@ void RankLink::dismiss() {
 
 void RankLink::forget_cache() {
     const std::lock_guard lock(mutex_);
-    cache_.reset();
+    cache_ = nullptr;
+    sender_.reset();
     early_values_.clear();
 }
 
@@ -318,11 +320,11 @@ void RankLink::take(Envelope envelope) {
     const std::lock_guard lock(mutex_);
     if (auto* values = std::get_if<AmbientValues>(&message)) {
         if (values->scene != scene_) return;
-        if (cache_)
-            cache_->take(values->records);
-        else
+        if (!cache_)
             early_values_.insert(early_values_.end(), values->records.begin(),
                                  values->records.end());
+        else
+            for (const AmbientRecord& record : values->records) cache_->take_over(record, *sender_);
     } else if (auto* picture = std::get_if<FinishedPicture>(&message)) {
         pictures_[picture->job] = std::move(*picture);
     } else if (const auto* progress = std::get_if<Progress>(&message)) {

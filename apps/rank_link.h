@@ -11,9 +11,10 @@
 
 #include "core/math/function_ref.h"
 #include "parallel/checkpoint_sink.h"
+#include "parallel/published_cache.h"
+#include "parallel/ranks/ambient_sender.h"
 #include "parallel/ranks/chunk_tracer.h"
 #include "parallel/ranks/cloud_tracer.h"
-#include "parallel/ranks/exchanging_cache.h"
 #include "parallel/ranks/rank_loop.h"
 #include "parallel/ranks/rank_tracer.h"
 #include "parallel/round_exchange.h"
@@ -62,10 +63,11 @@ class RankLink final : private LocalEnd {
         return loop_.broadcast(std::move(bytes));
     }
 
-    /// The cache whose new values go to the other ranks, and which gets theirs; `known` are values
-    /// of this rank that the others do not have. `cache` itself where none are exchanged.
-    [[nodiscard]] AmbientCache& exchange(AmbientCache& cache,
-                                         const std::vector<AmbientRecord>& known);
+    /// From now on new values of the cache go to the other ranks, and it gets theirs, unless none
+    /// are exchanged.
+    /// @param cache  must outlive this, or the next call
+    /// @param known  values of this rank that the others do not have
+    void exchange(PublishedCache& cache, const std::vector<AmbientRecord>& known);
 
     /// Rank 0's values, for the caches of all others. By all ranks, after agree().
     void spread(const std::vector<AmbientRecord>& known, AmbientCache& cache);
@@ -130,7 +132,7 @@ class RankLink final : private LocalEnd {
     void take(Envelope envelope) override;
     [[nodiscard]] AmbientValues unsent_values() override {
         const std::lock_guard lock(mutex_);
-        return {cache_ ? cache_->unsent().records : std::vector<AmbientRecord>{}, scene_};
+        return {sender_ ? sender_->unsent().records : std::vector<AmbientRecord>{}, scene_};
     }
     /// From here on `take` gets what the tracer is to have.
     void open_tracer(std::function<void(Message)> take);
@@ -160,7 +162,8 @@ class RankLink final : private LocalEnd {
         RankLink& link_;
     };
     Rounds rounds_{*this};
-    std::unique_ptr<ExchangingCache> cache_;
+    PublishedCache* cache_ = nullptr;  ///< null: none is there yet
+    std::unique_ptr<AmbientSender> sender_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::function<void(Message)> tracer_;

@@ -13,7 +13,7 @@
 #include "parallel/cache_prepass.h"
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"
-#include "parallel/freezable_cache.h"
+#include "parallel/published_cache.h"
 
 namespace lightwalk {
 
@@ -71,7 +71,7 @@ class RankPictures final : public RankWork {
     /// @param options  of all pictures, but for what an order says
     /// @param cache     null without ambient values
     RankPictures(RankLink& link, const Tracer& tracer, const FrameOptions& options,
-                 FreezableCache* cache, WorkerContexts& contexts, WarningSink& warnings,
+                 PublishedCache* cache, WorkerContexts& contexts, WarningSink& warnings,
                  const StopFlag& stop)
         : link_(link),
           tracer_(tracer),
@@ -92,7 +92,7 @@ class RankPictures final : public RankWork {
     RankLink& link_;
     const Tracer& tracer_;
     FrameOptions options_;
-    FreezableCache* cache_;
+    PublishedCache* cache_;
     WorkerContexts& contexts_;
     WarningSink& warnings_;
     const StopFlag& stop_;

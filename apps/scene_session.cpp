@@ -154,16 +154,14 @@ void SceneSession::make_cache(const RenderSettings& settings, RankLink* link) {
     const SceneCube cube = built->cube();
     ambient = std::make_unique<ConcurrentCache>(ambient_limits(
         cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
-    AmbientCache* cache = ambient.get();
+    freezable = std::make_unique<PublishedCache>(*ambient);
     if (!settings.ambient_file.empty() && (link == nullptr || link->leads())) {
-        recorder = std::make_unique<RecordingCache>(*ambient);
         ambient_store =
-            std::make_unique<AmbientStore>(settings.ambient_file, options, *recorder, warnings);
-        known = recorder->stop();
-        cache = ambient_store.get();
+            std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings);
+        known = ambient_store->take_loaded();
+        freezable->add(*ambient_store);
     }
-    if (link != nullptr) cache = &link->exchange(*cache, known);
-    freezable = std::make_unique<FreezableCache>(*cache);
+    if (link != nullptr) link->exchange(*freezable, known);
 }
 
 void SceneSession::warn_of_darkness() const {

@@ -15,8 +15,7 @@
 #include "io/ambient/ambient_store.h"
 #include "io/scene/frozen_scene.h"
 #include "parallel/concurrent_cache.h"
-#include "parallel/freezable_cache.h"
-#include "parallel/recording_cache.h"
+#include "parallel/published_cache.h"
 #include "parallel/walk/cloud_frames.h"
 
 namespace lightwalk {
@@ -79,9 +78,8 @@ struct SceneSession {
     std::unique_ptr<const Scene> built;
     // With -ab and -aa; they outlive the tracer.
     std::unique_ptr<ConcurrentCache> ambient;
-    std::unique_ptr<RecordingCache> recorder;     ///< with -af
     std::unique_ptr<AmbientStore> ambient_store;  ///< with -af
-    std::unique_ptr<FreezableCache> freezable;
+    std::unique_ptr<PublishedCache> freezable;
     std::vector<AmbientRecord> known;  ///< values that were in the ambient file
     std::unique_ptr<const Tracer> made;
     SceneCost cost;

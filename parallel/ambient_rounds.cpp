@@ -135,7 +135,7 @@ class AmbientRounds::Waiting {
     std::vector<AmbientPoint> head_;  ///< in the order of points_
 };
 
-AmbientRounds::AmbientRounds(const Tracer& tracer, FreezableCache& cache, Executor& executor,
+AmbientRounds::AmbientRounds(const Tracer& tracer, PublishedCache& cache, Executor& executor,
                              WorkerContexts& contexts, RoundExchange& exchange,
                              const StopFlag& stop,
                              std::function<void(std::size_t left)> after_round)

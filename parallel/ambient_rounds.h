@@ -9,7 +9,7 @@
 #include "core/ambient/ambient_point.h"
 #include "core/math/function_ref.h"
 #include "parallel/executor.h"
-#include "parallel/freezable_cache.h"
+#include "parallel/published_cache.h"
 #include "parallel/round_bytes.h"
 #include "parallel/round_exchange.h"
 #include "parallel/spacing_guess.h"
@@ -41,7 +41,7 @@ class AmbientRounds {
     /// no values but those of the rounds.
     /// @param after_round  called after each round, in the calling thread, with the number of
     /// points of level 0 that remain
-    AmbientRounds(const Tracer& tracer, FreezableCache& cache, Executor& executor,
+    AmbientRounds(const Tracer& tracer, PublishedCache& cache, Executor& executor,
                   WorkerContexts& contexts, RoundExchange& exchange, const StopFlag& stop,
                   std::function<void(std::size_t left)> after_round);
 
@@ -70,7 +70,7 @@ class AmbientRounds {
     void store(const AmbientRecord& record);
 
     const Tracer& tracer_;
-    FreezableCache& cache_;
+    PublishedCache& cache_;
     Executor& executor_;
     WorkerContexts& contexts_;
     RoundExchange& exchange_;

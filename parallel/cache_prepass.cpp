@@ -87,7 +87,7 @@ class CachePrepassSum {
 struct Players {
     const Tracer& tracer;
     const Camera& camera;
-    FreezableCache& cache;
+    PublishedCache& cache;
     Executor& executor;
     WorkerContexts& contexts;
     RoundExchange& exchange;
@@ -190,7 +190,7 @@ std::size_t prepass_pixels(const FrameOptions& options, CachePrepass prepass) {
 
 CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
                                       const FrameOptions& options, CachePrepass prepass,
-                                      FreezableCache& cache, Executor& executor,
+                                      PublishedCache& cache, Executor& executor,
                                       WorkerContexts& contexts, const StopFlag& stop,
                                       TakeProgress progress, RoundExchange* exchange) {
     const std::vector<int> steps = steps_of(prepass);

@@ -5,7 +5,7 @@
 #include "core/view/view.h"
 #include "parallel/executor.h"
 #include "parallel/frame.h"
-#include "parallel/freezable_cache.h"
+#include "parallel/published_cache.h"
 #include "parallel/round_exchange.h"
 
 namespace lightwalk {
@@ -46,7 +46,7 @@ inline constexpr int kQuickStep = 6;
 ///                  Counters tell of this process alone
 [[nodiscard]] CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera,
                                                     const FrameOptions& options,
-                                                    CachePrepass prepass, FreezableCache& cache,
+                                                    CachePrepass prepass, PublishedCache& cache,
                                                     Executor& executor, WorkerContexts& contexts,
                                                     const StopFlag& stop, TakeProgress progress,
                                                     RoundExchange* exchange = nullptr);

@@ -90,7 +90,7 @@ class CylinderPartition {
 /// Whether samples of a round source fill its disk or ball; single ones that are jittered less
 /// stay in the sampling box.
 bool is_squeezed(const LightSource& source, int parts, double jitter) {
-    return source.round && (parts > 1 || jitter > kFullJitter);
+    return source.is_round() && (parts > 1 || jitter > kFullJitter);
 }
 
 /// Squeeze a position in the sampling box of a round source to its disk or ball.

@@ -105,12 +105,12 @@ void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
     }
     const AmbientFile contents = decode_ambient_file(bytes, path_);
     fit_.emplace(contents.header, options, cache_.limits());
-    const std::size_t used = use(contents.records);
+    loaded_ = use(contents.records);
     known_ = contents.size;
     if (!fit_->difference().empty()) {
         std::string text = path_ + ": the ambient file was made with " + fit_->difference() + ": ";
-        text += std::to_string(used) + " of its " + std::to_string(contents.records.size()) +
-                " values are used";
+        text += std::to_string(loaded_.size()) + " of its " +
+                std::to_string(contents.records.size()) + " values are used";
         if (fit_->loses_values() && writable_)
             text += ", and values of more bounces than its own are not stored in it";
         warnings.warn(text);
@@ -123,14 +123,14 @@ void AmbientStore::load(const RenderOptions& options, WarningSink& warnings) {
         fail(path_, "cannot cut off the damaged end");
 }
 
-/// Take over those that serve; returns how many do.
-std::size_t AmbientStore::use(const std::vector<AmbientRecord>& records) {
-    std::size_t used = 0;
+/// Take over those that serve; returns them as they are used.
+std::vector<AmbientRecord> AmbientStore::use(const std::vector<AmbientRecord>& records) {
+    std::vector<AmbientRecord> used;
     for (const AmbientRecord& record : records) {
         const std::optional<AmbientRecord> fitted = fit_->for_run(record);
         if (!fitted) continue;
         cache_.insert(*fitted);
-        ++used;
+        used.push_back(*fitted);
     }
     return used;
 }
@@ -146,8 +146,7 @@ void AmbientStore::take_over_appended() {
     known_ += contents.records.size() * kAmbientRecordSize;
 }
 
-void AmbientStore::insert(const AmbientRecord& record) {
-    cache_.insert(record);
+void AmbientStore::stored(const AmbientRecord& record) {
     if (!writable_) return;
     const std::optional<AmbientRecord> kept = fit_->for_file(record);
     if (!kept) return;

@@ -5,46 +5,44 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/ambient/ambient_cache.h"
+#include "core/ambient/ambient_listener.h"
 #include "core/error.h"
 #include "core/transport/options.h"
 #include "io/ambient/ambient_fit.h"
 
 namespace lightwalk {
 
-/// A decorator of another cache: each value that is inserted is also appended to the file at once,
-/// as a whole record, and values that other processes append are inserted into the cache. The file
-/// is locked (fcntl) while it is read or written, as by Radiance's programs.
-class AmbientStore final : public AmbientCache {
+/// Listens to a cache: each value that is stored there is also appended to the file at once, as a
+/// whole record, and values that other processes append are inserted into the cache. The file is
+/// locked (fcntl) while it is read or written, as by Radiance's programs.
+class AmbientStore final : public AmbientListener {
   public:
     /// Opens or creates the file, and inserts into `cache` those of its values that a run with
     /// `options` can use (see AmbientFit). If the file was made with other options, one warning
     /// names them. A damaged end is reported and cut off. If the file cannot be written, its values
     /// are used, with a warning, and it stays unchanged. Throws InputError for a file that is no
     /// ambient file, is of another version of the format, or cannot be read.
+    /// @param cache  must outlive this
     AmbientStore(const std::string& path, const RenderOptions& options, AmbientCache& cache,
                  WarningSink& warnings);
     ~AmbientStore() override;
+    AmbientStore(const AmbientStore&) = delete;
+    AmbientStore& operator=(const AmbientStore&) = delete;
 
-    [[nodiscard]] const AmbientLimits& limits() const override { return cache_.limits(); }
-    [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override {
-        return cache_.lookup(query, leaks);
-    }
-    /// Throws InputError when the file cannot be written.
-    void insert(const AmbientRecord& record) override;
-    [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }
-    /// Claims hold within this process only, not among those that share the file.
-    [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {
-        return cache_.claim(query);
-    }
-    void release(const AmbientClaim& claim) override { cache_.release(claim); }
+    /// The values that were in the file when it was opened, as the cache has them.
+    [[nodiscard]] std::vector<AmbientRecord> take_loaded() { return std::exchange(loaded_, {}); }
+
+    /// Append a value. Throws InputError when the file cannot be written.
+    void stored(const AmbientRecord& record) override;
 
   private:
     class Lock;
     void load(const RenderOptions& options, WarningSink& warnings);
-    [[nodiscard]] std::size_t use(const std::vector<AmbientRecord>& records);
+    [[nodiscard]] std::vector<AmbientRecord> use(const std::vector<AmbientRecord>& records);
     void take_over_appended();
 
     std::string path_;
@@ -54,6 +52,7 @@ class AmbientStore final : public AmbientCache {
     std::optional<AmbientFit> fit_;  ///< set once the header has been read
     std::mutex mutex_;               ///< guards the file
     std::size_t known_ = 0;          ///< the cache has the records of so many bytes of the file
+    std::vector<AmbientRecord> loaded_;
 };
 
 }  // namespace lightwalk

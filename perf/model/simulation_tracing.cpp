@@ -98,7 +98,7 @@ void Simulation::end_step(int task) {
     look_ahead(node);
 }
 
-/// As ExchangingCache::insert().
+/// Batches as AmbientSender makes them.
 void Simulation::keep(std::size_t number, std::uint32_t value) {
     Rank& rank = ranks_[number];
     if (!rank.ambient_client) return;

@@ -157,7 +157,7 @@ struct Process {
     TestScene scene;
     ConcurrentCache shared;
     WatchedCache watched;
-    FreezableCache cache;
+    PublishedCache cache;
     std::unique_ptr<Executor> pool;
     WatchedExecutor executor;
     WorkerContexts contexts;

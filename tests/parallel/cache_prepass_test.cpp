@@ -77,7 +77,7 @@ struct Played {
 
     TestScene scene;
     ConcurrentCache shared;
-    FreezableCache cache;
+    PublishedCache cache;
     std::unique_ptr<Executor> executor;
     WorkerContexts contexts;
     FrameOptions options;

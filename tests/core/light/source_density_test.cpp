@@ -21,13 +21,11 @@ constexpr double kDiskRadius = 1.12837917;  ///< of a ring, in half axes of the 
 LightSource ring(double radius) {
     LightSource source = panel(0.5 * std::sqrt(kPi) * radius);
     source.shape = PrimitiveType::ring;
-    source.round = true;
     return source;
 }
 
 LightSource ball(double radius) {
     LightSource source;
-    source.round = true;
     source.center = {0, 0, 1};
     source.u = {kSphereBox * radius, 0, 0};
     source.v = {0, kSphereBox * radius, 0};
@@ -41,7 +39,6 @@ LightSource ball(double radius) {
 LightSource distant(double solid_angle) {
     LightSource source;
     source.shape = PrimitiveType::source;
-    source.distant = source.round = true;
     source.center = normalize(Vec3{0.3, -0.4, 0.8});
     source.u = perpendicular(source.center) * (0.5 * std::sqrt(solid_angle));
     source.v = cross(source.center, source.u);
@@ -193,24 +190,24 @@ TEST_CASE("sources: samples look at these positions, with the solid angle of the
             const std::optional<SourceSample> sample = sample_whole(source, point, 1, random);
             REQUIRE(sample);
             const Vec3 way = source.center + source.u * a.x + source.v * a.y + source.w * a.z -
-                             (source.distant ? Vec3{} : point);
+                             (source.is_distant() ? Vec3{} : point);
             const double d = length(way), size = static_cast<double>(source.size);
             CHECK(length(sample->direction - way / d) == within(1e-12, 0));
-            if (source.distant) CHECK(sample->solid_angle == rounded(size));
-            if (source.flat) {
+            if (source.is_distant()) CHECK(sample->solid_angle == rounded(size));
+            if (source.is_flat()) {
                 const double cosine = -dot(source.normal, way) / d;
                 CHECK(sample->solid_angle == rounded(size * cosine / (d * d)));
                 // Over solid angle, the density of positions is larger by d² / cosθ.
                 const double pdf = position_pdf(source, kWholeBox, 1, 1, a) /
                                    length(cross(source.u, source.v)) * d * d / cosine;
-                if (!source.round) CHECK(pdf == float_rounded(1 / sample->solid_angle));
+                if (!source.is_round()) CHECK(pdf == float_rounded(1 / sample->solid_angle));
             }
-            if (source.cylinder) {
+            if (source.is_cylinder()) {
                 const double along = dot(way, normalize(source.u)) / d;
                 CHECK(sample->solid_angle ==
                       rounded(size * std::sqrt(1 - along * along) / (d * d)));
             }
-            if (source.round && !source.flat && !source.distant)
+            if (source.is_round() && !source.is_flat() && !source.is_distant())
                 CHECK(sample->solid_angle == rounded(size / (d * d)));
         }
     }

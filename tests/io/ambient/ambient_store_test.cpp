@@ -42,6 +42,10 @@ struct Run {
         : cache(ambient_limits({}, 1, options.ambient_accuracy, options.ambient_resolution)),
           store(path, options, cache, warnings) {}
     [[nodiscard]] std::uint64_t values() const { return cache.log_mean().count; }
+    void insert(const AmbientRecord& record) {
+        cache.insert(record);
+        store.stored(record);
+    }
     Warnings warnings;
     SerialCache cache;
     AmbientStore store;
@@ -52,8 +56,8 @@ TEST_CASE("ambient files of other options: values that serve are used, one warni
     const std::string path = folder.path("a.amb");
     {
         Run coarse(path, options_of(2, 0.2));
-        coarse.store.insert(record(0, 0.125f));
-        coarse.store.insert(record(1, 0.5f));
+        coarse.insert(record(0, 0.125f));
+        coarse.insert(record(1, 0.5f));
         CHECK(coarse.warnings.all.empty());
     }
     const std::string before = read_file(path);
@@ -79,13 +83,13 @@ TEST_CASE("ambient files of other options: what a run adds means the same under 
     { Run first(path, options_of(2, 0.2)); }
     {
         Run shorter(path, options_of(1, 0.2));
-        shorter.store.insert(record(0, 0.5f));  // one bounce: level 1 of two
+        shorter.insert(record(0, 0.5f));  // one bounce: level 1 of two
         Run longer(path, options_of(3, 0.2));
         CHECK(
             longer.warnings.all.at(0).ends_with("1 of its 1 values are used, and values of more "
                                                 "bounces than its own are not stored in it"));
-        longer.store.insert(record(0, 0.25f));  // three bounces: the file cannot say that
-        longer.store.insert(record(1, 0.75f));  // two
+        longer.insert(record(0, 0.25f));  // three bounces: the file cannot say that
+        longer.insert(record(1, 0.75f));  // two
         CHECK(longer.values() == 3);
     }
     const AmbientFile file = decode_ambient_file(read_file(path), path);

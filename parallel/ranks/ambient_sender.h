@@ -1,0 +1,45 @@
+#pragma once
+// New ambient values on their way to other ranks, in batches.
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+#include "core/ambient/ambient_listener.h"
+#include "parallel/ranks/message.h"
+
+namespace lightwalk {
+
+/// Any number of threads may tell it of values.
+class AmbientSender final : public AmbientListener {
+  public:
+    /// @param batch  values that `send` is called with at once, at least 1; it is called by
+    ///               whichever thread made the last of them
+    AmbientSender(std::size_t batch, std::function<void(AmbientValues)> send)
+        : batch_(batch), send_(std::move(send)) {}
+
+    void stored(const AmbientRecord& record) override {
+        AmbientValues full;
+        {
+            const std::lock_guard lock(mutex_);
+            own_.records.push_back(record);
+            if (own_.records.size() < batch_) return;
+            full.records.swap(own_.records);
+        }
+        send_(std::move(full));
+    }
+
+    /// Values that do not make a batch yet; they are not sent any more.
+    [[nodiscard]] AmbientValues unsent() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(own_, {});
+    }
+
+  private:
+    std::size_t batch_;
+    std::function<void(AmbientValues)> send_;
+    std::mutex mutex_;  ///< guards own_
+    AmbientValues own_;
+};
+
+}  // namespace lightwalk

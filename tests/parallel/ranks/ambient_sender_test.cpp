@@ -1,0 +1,31 @@
+#include "parallel/ranks/ambient_sender.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using namespace lightwalk;
+
+namespace {
+
+AmbientRecord record_at(float x) {
+    AmbientRecord record;
+    record.position = {x, 0, 0};
+    record.radius = {.1F, .1F};
+    record.value = {1, 1, 1};
+    return record;
+}
+
+}  // namespace
+
+TEST_CASE("new ambient values go out by the batch, and what makes no batch is handed over") {
+    std::vector<std::size_t> batches;
+    AmbientSender sender(
+        3, [&](const AmbientValues& values) { batches.push_back(values.records.size()); });
+    for (int i = 0; i < 7; ++i) sender.stored(record_at(static_cast<float>(i)));
+    CHECK(batches == std::vector<std::size_t>{3, 3});
+    const AmbientValues rest = sender.unsent();
+    REQUIRE(rest.records.size() == 1);
+    CHECK(rest.records[0].position[0] == 6);
+    CHECK(sender.unsent().records.empty());
+}
