@@ -70,7 +70,7 @@ struct ModelGeometry {
 struct GeometryInput {
     const SurfaceTable* surfaces = nullptr;  ///< must outlive the Geometry
     std::vector<ModelGeometry> models;       ///< models[0] is the scene; placements form a DAG
-    Ablation ablation;
+    Ablation ablation = {};
 };
 
 struct RaySegment {
