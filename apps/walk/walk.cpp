@@ -47,9 +47,9 @@ View view_of(const Scene& scene) {
     View view;
     if (bounds.empty()) return view;
     const Vec3 size = bounds.upper - bounds.lower;
-    constexpr double kUsualEyeHeight = 1.6, kHalf = 0.5;
+    constexpr double kEyeHeight = 1.6, kHalf = 0.5;
     view.position = kHalf * (bounds.lower + bounds.upper);
-    view.position.z = bounds.lower.z + std::min(kUsualEyeHeight, kHalf * size.z);
+    view.position.z = bounds.lower.z + std::min(kEyeHeight, kHalf * size.z);
     view.direction = size.x > size.y ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     view.horizontal = 60;
     view.vertical = 45;
