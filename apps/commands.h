@@ -8,7 +8,7 @@
 
 namespace lightwalk {
 
-class Transport;
+class Communicator;
 
 inline constexpr int kSuccessStatus = 0;
 inline constexpr int kFailureStatus = 1;  ///< bad input, or output that could not be written
@@ -17,12 +17,12 @@ inline constexpr int kUsageStatus = 2;    ///< a command line that was not under
 /// Each takes the words after its name and returns the exit status. They throw UsageError and
 /// InputError.
 /// @param ranks  the wire to the other ranks; null: this process is alone
-int run_render(const std::vector<std::string>& words, Transport* ranks);
-int run_animate(const std::vector<std::string>& words, Transport* ranks);
-int run_walk(const std::vector<std::string>& words, Transport* ranks);
-int run_trace(const std::vector<std::string>& words, Transport* ranks);
-int run_freeze(const std::vector<std::string>& words, Transport* ranks);
-int run_info(const std::vector<std::string>& words, Transport* ranks);
+int run_render(const std::vector<std::string>& words, Communicator* ranks);
+int run_animate(const std::vector<std::string>& words, Communicator* ranks);
+int run_walk(const std::vector<std::string>& words, Communicator* ranks);
+int run_trace(const std::vector<std::string>& words, Communicator* ranks);
+int run_freeze(const std::vector<std::string>& words, Communicator* ranks);
+int run_info(const std::vector<std::string>& words, Communicator* ranks);
 
 /// The commands in With::commands.
 inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFreeze = 16,
@@ -35,7 +35,7 @@ inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFre
 struct Command {
     const char* name;
     const char* summary;  ///< for the program's help
-    int (*run)(const std::vector<std::string>& words, Transport* ranks);
+    int (*run)(const std::vector<std::string>& words, Communicator* ranks);
     OptionTable (*options)();  ///< with their defaults
     const char* about;         ///< its help before the options
     const char* example;       ///< its help behind the options

@@ -47,7 +47,7 @@ OptionTable freeze_option_table() {
     return owning_table(FreezeCommand{}, table_of);
 }
 
-int run_freeze(const std::vector<std::string>& line, Transport* /*ranks*/) {
+int run_freeze(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     FreezeCommand command;
     const CommonOptions& options = command.common;
     const std::string& output = command.output;

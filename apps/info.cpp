@@ -160,7 +160,7 @@ OptionTable info_option_table() {
     return owning_table(InfoCommand{}, table_of);
 }
 
-int run_info(const std::vector<std::string>& line, Transport* /*ranks*/) {
+int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     InfoCommand command;
     RenderSettings& settings = command.settings;
     CommonOptions& options = command.common;

@@ -31,7 +31,7 @@ bool answer_questions(const std::string& command, const std::vector<std::string>
     return false;
 }
 
-int dispatch(const std::vector<std::string>& words, Transport* ranks) {
+int dispatch(const std::vector<std::string>& words, Communicator* ranks) {
     if (words.empty()) {
         std::fputs(help_text("").c_str(), stderr);
         return kUsageStatus;
@@ -65,7 +65,7 @@ std::string program_name(const std::vector<std::string>& words) {
 /// it.
 int run(const std::vector<std::string>& words) {
     const std::string program = program_name(words);
-    std::unique_ptr<Transport> ranks;
+    std::unique_ptr<Communicator> ranks;
     const auto say = [&](const std::string& text) {
         if (!ranks || ranks->rank() == 0) std::fprintf(stderr, "%s\n", text.c_str());
     };

@@ -8,7 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
-#include "parallel/ranks/piece_codec.h"
+#include "parallel/comm/core_fields.h"
 
 namespace lightwalk {
 namespace {
@@ -32,15 +32,17 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 }  // namespace
 
-RankLink::RankLink(Transport& transport, Topology topology, const RankSettings& settings,
+RankLink::RankLink(Communicator& communicator, Topology topology, const RankSettings& settings,
                    std::string program, bool timeline)
-    : transport_(transport),
+    : communicator_(communicator),
       topology_(std::move(topology)),
       program_(std::move(program)),
-      host_(transport.host()),
+      host_(communicator.host()),
       timeline_(settings.slots + 1, timeline),
       batch_(topology_.ambient_master ? settings.ambient_batch : 0),
-      loop_(transport, topology_, settings, *this, &timeline_) {}
+      loop_(communicator, topology_, settings, *this, &timeline_),
+      workers_(loop_, topology_, communicator.rank()),
+      encode_(settings.encode) {}
 
 std::string RankLink::named(int rank, const std::string& host) const {
     return program_ + ": rank " + std::to_string(rank) + " (" + host + "): ";
@@ -67,12 +69,12 @@ int RankLink::run(FunctionRef<int()> body, const StopFlag& stop) {
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s%s\n", named(rank(), host_).c_str(),
                      printable(error.what()).c_str());
-        transport_.abort(kFailureStatus);
+        communicator_.abort(kFailureStatus);
     }
     if (!whole) {  // the thread may be deep in one pixel; nothing has been written
         std::fflush(nullptr);
         thread.detach();
-        transport_.abort(kInterruptedStatus);
+        communicator_.abort(kInterruptedStatus);
     }
     thread.join();
     return status;
@@ -80,7 +82,7 @@ int RankLink::run(FunctionRef<int()> body, const StopFlag& stop) {
 
 /// The run is over. Rank 0 ends it; the others tell it, and wait for that.
 void RankLink::fail(const std::string& text) {
-    loop_.post(Role::program, {0, Role::program}, Failure{host_, text});
+    loop_.post(0, Notice{Failure{host_, text}});
     std::this_thread::sleep_for(std::chrono::seconds(1));
     std::fprintf(stderr, "%s%s\n", named(rank(), host_).c_str(), printable(text).c_str());
     std::_Exit(kFailureStatus);
@@ -93,7 +95,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     own.insert(own.end(), facts.begin(), facts.end());
     const std::string separator = "--\n";
     const std::vector<std::string> all =
-        loop_.all_gather(joined(own) + separator + printable(problem));
+        loop_.all_gather(Collective::Group::all, joined(own) + separator + printable(problem));
     std::vector<std::string> first;
     std::map<std::string, int> problems;  // text -> rank that has it
     int worst = kSuccessStatus, others = 0;
@@ -121,8 +123,7 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     agreed_ = Timeline::Clock::now();  // all ranks have just heard the same
     if (problems.empty() && others == 0) {
         // Rank 0 may have brought values of a file.
-        if (batch_ > 0)
-            loop_.post(Role::cache, {rank(), Role::ambient_client}, AmbientValues{{}, scene_});
+        if (batch_ > 0) offer({{}, scene_});
         return;
     }
     if (leads()) {
@@ -135,13 +136,19 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
     throw AgreedProblem{worst == kSuccessStatus ? kFailureStatus : worst, told};
 }
 
+void RankLink::offer(AmbientValues values) {
+    loop_.post(Activity::exchange,
+               [carried = std::move(values)](RankRoles& roles, Outbox& out) mutable {
+                   roles.ambient_client()->offer(std::move(carried), out);
+               });
+}
+
 void RankLink::exchange(PublishedCache& cache, const std::vector<AmbientRecord>& known) {
     if (batch_ == 0) return;
-    const auto send = [this, scene = scene_](AmbientValues values) {
-        values.scene = scene;
-        loop_.post(Role::cache, {rank(), Role::ambient_client}, std::move(values));
+    const auto send = [this, scene = scene_](std::vector<AmbientRecord> records) {
+        offer({std::move(records), scene});
     };
-    if (!known.empty()) send({known, scene_});
+    if (!known.empty()) send(known);
     const std::lock_guard lock(mutex_);
     cache_ = &cache;
     sender_ = std::make_unique<AmbientSender>(batch_, send);
@@ -151,69 +158,64 @@ void RankLink::exchange(PublishedCache& cache, const std::vector<AmbientRecord>&
 }
 
 void RankLink::spread(const std::vector<AmbientRecord>& known, AmbientCache& cache) {
-    std::string mine;
-    if (leads())
-        mine = encode_message({{0, Role::program}, {0, Role::program}, AmbientValues{known, 0}});
-    const std::vector<std::string> all = loop_.all_gather(std::move(mine));
+    const std::vector<std::string> all =
+        loop_.all_gather(Collective::Group::all, leads() ? wire::encode(known) : std::string());
     if (leads()) return;
-    const Envelope envelope = decode_message(all.front(), 0, rank());
-    const auto* values = std::get_if<AmbientValues>(&envelope.message);
-    if (values == nullptr) throw InputError("rank 0's ambient values cannot be read");
-    for (const AmbientRecord& record : values->records) cache.insert(record);
+    for (const AmbientRecord& record : wire::decode<std::vector<AmbientRecord>>(all.front()))
+        cache.insert(record);
+}
+
+TraceFunctions RankLink::trace_functions() {
+    return {{}, {}, [this](const FinishedWork& finished, TracedWork traced) {
+                loop_.post(Activity::send, [finished, carried = std::move(traced)](
+                                               RankRoles& roles, Outbox& out) mutable {
+                    roles.worker().finish(finished, std::move(carried), out);
+                });
+            }};
 }
 
 void RankLink::trace(Executor& executor, MakeRenderer make, const StopFlag& stop) {
-    const auto tell = [this](Message message) {
-        loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));
-    };
-    const auto tracer = std::make_shared<RankTracer>(std::move(make), tell, &timeline_);
-    open_tracer([tracer](Message message) { tracer->take(std::move(message)); });
-    tracer->run(executor, stop);
+    TraceFunctions functions = trace_functions();
+    functions.make_renderer = std::move(make);
+    trace_work(inbox_, functions, executor, stop, &timeline_);
 }
 
 void RankLink::trace_rays(Executor& executor, AnswerChunk answer, const StopFlag& stop) {
-    const auto tell = [this](Message message) {
-        loop_.post(Role::tracer, {rank(), Role::worker}, std::move(message));
-    };
-    const auto tracer = std::make_shared<ChunkTracer>(std::move(answer), tell, &timeline_);
-    open_tracer([tracer](Message message) { tracer->take(std::move(message)); });
-    tracer->run(executor, stop);
+    TraceFunctions functions = trace_functions();
+    functions.answer_chunk = std::move(answer);
+    trace_work(inbox_, functions, executor, stop, &timeline_);
 }
 
 void RankLink::draw_walk(Executor& executor, const CloudOptions& cloud, int projectors,
                          MakeWalkRays make, const StopFlag& stop) {
-    CloudTracerOptions options;
+    WalkPartOptions options;
     options.index = topology_.worker_index(rank()).value_or(0);
     for (const Topology::Worker& worker : topology_.workers) options.workers.push_back(worker.rank);
     options.owners = owners_of(options.workers.size(), projectors);
     options.cloud = cloud;
-    options.encode = encode_piece;
-    const auto post = [this](Address to, Message message) {
-        loop_.post(Role::tracer, to, std::move(message));
-    };
-    const auto tracer =
-        std::make_shared<CloudTracer>(std::move(options), std::move(make), post, &timeline_);
-    open_tracer([tracer](Message message) { tracer->take(std::move(message)); });
-    tracer->run(executor, stop);
-}
-
-void RankLink::open_tracer(std::function<void(Message)> take) {
-    const std::lock_guard lock(mutex_);
-    tracer_ = std::move(take);
-    for (Message& message : untaken_) tracer_(std::move(message));
-    untaken_.clear();
+    options.encode = encode_;
+    draw_frames(loop_, inbox_, options, make, executor, stop, &timeline_);
 }
 
 void RankLink::wait_for_end(const StopFlag& stop) {
-    std::unique_lock lock(mutex_);
-    while (!finished_ && !stop.requested()) changed_.wait_for(lock, kPatience);
+    inbox_.wait_for_end(stop);
 }
 
 void RankLink::report(std::string text) {
-    loop_.post(Role::program, {0, Role::program}, Report{std::move(text)});
+    loop_.post(0, Notice{Report{std::move(text)}});
 }
 
-void RankLink::submit(JobStart job, const std::shared_ptr<CheckpointSink>& checkpoint) {
+template <class Found>
+auto RankLink::wait_until(const StopFlag& stop, Found found) -> decltype(found()) {
+    std::unique_lock lock(mutex_);
+    while (!stop.requested()) {
+        if (auto result = found()) return result;
+        changed_.wait_for(lock, kPatience);
+    }
+    return std::nullopt;
+}
+
+void RankLink::submit(PictureJob job, const std::shared_ptr<CheckpointSink>& checkpoint) {
     std::vector<BlockPixels> known;
     if (checkpoint) {
         known = checkpoint->known();
@@ -224,62 +226,61 @@ void RankLink::submit(JobStart job, const std::shared_ptr<CheckpointSink>& check
     }
     const JobId id = job.job;
     const SubImages parts(job.area, topology_.workers.size());
-    loop_.post(Role::program, {0, Role::master}, std::move(job));
+    loop_.post(Activity::serve, [carried = std::move(job)](RankRoles& roles, Outbox& out) {
+        roles.queue().start(carried, out);
+    });
     for (BlockPixels& block : known) {
         const Pixels pixels{{id, block.block}, std::move(block.values)};
-        for (const std::size_t i : parts.overlapping(block.block)) {
-            loop_.post(Role::program, {topology_.workers[i].rank, Role::worker},
-                       cut_pixels(pixels, parts[i]));
-        }
+        for (const std::size_t i : parts.overlapping(block.block))
+            loop_.post(topology_.workers[i].rank, WorkResult{cut_pixels(pixels, parts[i])});
     }
 }
 
 std::optional<FinishedPicture> RankLink::wait_for(JobId job, const StopFlag& stop,
                                                   FunctionRef<void(double)> progress) {
-    std::unique_lock lock(mutex_);
     double told = -1;
-    while (!stop.requested()) {
-        if (const auto found = pictures_.find(job); found != pictures_.end()) {
-            FinishedPicture picture = std::move(found->second);
-            pictures_.erase(found);
-            shares_.erase(job);
-            checkpoints_.erase(job);
-            return picture;
-        }
+    return wait_until(stop, [&]() -> std::optional<FinishedPicture> {
         if (const auto share = shares_.find(job); share != shares_.end() && share->second > told) {
             told = share->second;
             progress(told);
         }
-        changed_.wait_for(lock, kPatience);
-    }
-    return std::nullopt;
+        const auto found = pictures_.find(job);
+        if (found == pictures_.end()) return std::nullopt;
+        FinishedPicture picture = std::move(found->second);
+        pictures_.erase(found);
+        shares_.erase(job);
+        checkpoints_.erase(job);
+        return picture;
+    });
 }
 
 void RankLink::submit(RayChunk chunk) {
-    loop_.post(Role::program, {0, Role::master}, std::move(chunk));
+    loop_.post(Activity::serve,
+               [carried = std::move(chunk)](RankRoles& roles, Outbox& out) mutable {
+                   roles.queue().add(std::move(carried), out);
+               });
 }
 
 RankLink::RayNews RankLink::ray_news(bool wait, const StopFlag& stop) {
-    std::unique_lock lock(mutex_);
-    while (wait && ray_news_.chunks == 0 && ray_news_.answers.empty() && !stop.requested())
-        changed_.wait_for(lock, kPatience);
-    return std::exchange(ray_news_, {});
+    const auto some = [&]() -> std::optional<RayNews> {
+        if (wait && ray_news_.chunks == 0 && ray_news_.answers.empty()) return std::nullopt;
+        return std::exchange(ray_news_, {});
+    };
+    return wait_until(stop, some).value_or(RayNews{});
 }
 
-void RankLink::submit(CloudOrder order) {
-    loop_.post(Role::program, {0, Role::master}, std::move(order));
+void RankLink::submit(FrameOrder& order) {
+    order.number = ++last_order_;
+    loop_.post(Activity::serve,
+               [order](RankRoles& roles, Outbox& out) { roles.queue().start(order, out); });
 }
 
 std::optional<FinishedFrame> RankLink::wait_for_frame(const StopFlag& stop) {
-    std::unique_lock lock(mutex_);
-    while (!frame_ && !stop.requested()) changed_.wait_for(lock, kPatience);
-    if (stop.requested()) return std::nullopt;
-    return std::exchange(frame_, std::nullopt);
+    return wait_until(stop, [&] { return std::exchange(frame_, std::nullopt); });
 }
 
 void RankLink::dismiss() {
-    for (int rank = 0; rank < ranks(); ++rank)
-        loop_.post(Role::program, {rank, Role::program}, Finish{});
+    for (int rank = 0; rank < ranks(); ++rank) loop_.post(rank, Notice{Finish{}});
 }
 
 void RankLink::forget_cache() {
@@ -290,66 +291,75 @@ void RankLink::forget_cache() {
 }
 
 std::string RankLink::hear(std::string said) {
+    inbox_.reopen();
     {
         const std::lock_guard lock(mutex_);
-        finished_ = false;
-        tracer_ = nullptr;
         frame_.reset();
         early_values_.clear();
         ++scene_;
     }
-    return loop_.all_gather(std::move(said)).front();
+    return loop_.all_gather(Collective::Group::all, std::move(said)).front();
 }
 
 std::map<int, std::string> RankLink::finish(const StopFlag& stop) {
     dismiss();
-    std::unique_lock lock(mutex_);
-    while (static_cast<int>(reports_.size()) < ranks() - 1 && !stop.requested())
-        changed_.wait_for(lock, kPatience);
+    (void)wait_until(stop, [&] {
+        const bool all = static_cast<int>(reports_.size()) >= ranks() - 1;
+        return all ? std::optional(true) : std::nullopt;
+    });
+    const std::lock_guard lock(mutex_);
     return std::move(reports_);
 }
 
-/// Called by the thread that serves the messages.
-void RankLink::take(Envelope envelope) {
-    Message& message = envelope.message;
-    if (const auto* failure = std::get_if<Failure>(&message)) {
-        std::fprintf(stderr, "%s%s\n", named(envelope.from.rank, failure->host).c_str(),
-                     printable(failure->text).c_str());
-        transport_.abort(kFailureStatus);
-    }
+void RankLink::take(AmbientValues news) {
     const std::lock_guard lock(mutex_);
-    if (auto* values = std::get_if<AmbientValues>(&message)) {
-        if (values->scene != scene_) return;
-        if (!cache_)
-            early_values_.insert(early_values_.end(), values->records.begin(),
-                                 values->records.end());
-        else
-            for (const AmbientRecord& record : values->records) cache_->take_over(record, *sender_);
-    } else if (auto* picture = std::get_if<FinishedPicture>(&message)) {
-        pictures_[picture->job] = std::move(*picture);
-    } else if (const auto* progress = std::get_if<Progress>(&message)) {
-        shares_[progress->job] = progress->done;
-    } else if (auto* pixels = std::get_if<Pixels>(&message)) {
-        if (const auto checkpoint = checkpoints_.find(pixels->work.job);
-            checkpoint != checkpoints_.end())
-            checkpoint->second->keep({pixels->work.block, std::move(pixels->values), {}});
-    } else if (const auto* ask = std::get_if<AskChunks>(&message)) {
-        ray_news_.chunks += ask->chunks;
-        ray_news_.rays = ask->rays;
-    } else if (auto* answer = std::get_if<ChunkAnswer>(&message)) {
-        ray_news_.answers.push_back(std::move(*answer));
-    } else if (auto* frame = std::get_if<FinishedFrame>(&message)) {
-        frame_ = std::move(*frame);
-    } else if (auto* report = std::get_if<Report>(&message)) {
-        reports_[envelope.from.rank] = std::move(report->payload);
-    } else {
-        if (std::holds_alternative<Finish>(message)) finished_ = true;
-        if (tracer_)
-            tracer_(std::move(message));
-        else
-            untaken_.push_back(std::move(message));
+    if (news.scene != scene_) return;
+    if (cache_ == nullptr)
+        early_values_.insert(early_values_.end(), news.records.begin(), news.records.end());
+    else
+        for (const AmbientRecord& record : news.records) cache_->take_over(record, *sender_);
+}
+
+AmbientValues RankLink::unsent_values() {
+    const std::lock_guard lock(mutex_);
+    return {sender_ ? sender_->unsent() : std::vector<AmbientRecord>{}, scene_};
+}
+
+void RankLink::take(ProgramNews news) {
+    {
+        const std::lock_guard lock(mutex_);
+        std::visit(
+            Overloaded{
+                [&](FinishedPicture& picture) { pictures_[picture.job] = std::move(picture); },
+                [&](const Progress& progress) { shares_[progress.job] = progress.done; },
+                [&](LoggedPixels& logged) {
+                    const JobBlock& work = logged.pixels.work;
+                    const auto checkpoint = checkpoints_.find(work.job);
+                    if (checkpoint != checkpoints_.end())
+                        checkpoint->second->keep({work.block, std::move(logged.pixels.values), {}});
+                },
+                [&](const ChunksWanted& wanted) {
+                    ray_news_.chunks += wanted.chunks;
+                    ray_news_.rays = wanted.rays;
+                },
+                [&](RayAnswer& answer) { ray_news_.answers.push_back(std::move(answer)); },
+                [&](FinishedFrame& frame) { frame_ = std::move(frame); },
+                [&](const RankNotice& notice) { take(notice); }},
+            news);
     }
     changed_.notify_all();
+}
+
+void RankLink::take(const RankNotice& notice) {
+    std::visit(Overloaded{[&](const Failure& failure) {
+                              std::fprintf(stderr, "%s%s\n",
+                                           named(notice.from, failure.host).c_str(),
+                                           printable(failure.text).c_str());
+                              communicator_.abort(kFailureStatus);
+                          },
+                          [&](const Finish&) { inbox_.close(); },
+                          [&](const Report& report) { reports_[notice.from] = report.payload; }},
+               notice.notice.notice);
 }
 
 }  // namespace lightwalk

@@ -1,11 +1,10 @@
 #pragma once
 // This process as one of several ranks: its messages, and what the commands want of them.
 #include <condition_variable>
-#include <deque>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +12,9 @@
 #include "parallel/checkpoint_sink.h"
 #include "parallel/published_cache.h"
 #include "parallel/ranks/ambient_sender.h"
-#include "parallel/ranks/chunk_tracer.h"
-#include "parallel/ranks/cloud_tracer.h"
+#include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/ranks/rank_loop.h"
-#include "parallel/ranks/rank_tracer.h"
-#include "parallel/round_exchange.h"
+#include "parallel/ranks/trace_work.h"
 
 namespace lightwalk {
 
@@ -31,20 +28,20 @@ class RankLink final : private LocalEnd {
   public:
     /// @param program   how messages name the program
     /// @param timeline  whether every span of the timeline is kept
-    RankLink(Transport& transport, Topology topology, const RankSettings& settings,
+    RankLink(Communicator& communicator, Topology topology, const RankSettings& settings,
              std::string program, bool timeline = false);
 
-    [[nodiscard]] int rank() const { return transport_.rank(); }
-    [[nodiscard]] int ranks() const { return transport_.size(); }
+    [[nodiscard]] int rank() const { return communicator_.rank(); }
+    [[nodiscard]] int ranks() const { return communicator_.size(); }
     [[nodiscard]] bool leads() const { return rank() == 0; }
     [[nodiscard]] bool traces() const { return topology_.traces(rank()); }
     [[nodiscard]] const Topology& topology() const { return topology_; }
     [[nodiscard]] const std::string& host() const { return host_; }
-    [[nodiscard]] bool on_one_machine() const { return transport_.on_one_machine(); }
+    [[nodiscard]] bool on_one_machine() const { return communicator_.on_one_machine(); }
 
     /// Runs `body` on a thread of its own, while this thread, which must be the one that opened the
-    /// transport, serves the messages until every rank's body has returned. An exception that body
-    /// throws ends the whole run: rank 0 says which rank, its host and the message.
+    /// communicator, serves the messages until every rank's body has returned. An exception that
+    /// body throws ends the whole run: rank 0 says which rank, its host and the message.
     /// @return  what body returned; kInterruptedStatus when `stop` was requested
     int run(FunctionRef<int()> body, const StopFlag& stop);
 
@@ -85,12 +82,12 @@ class RankLink final : private LocalEnd {
     /// What this rank did, for rank 0.
     void report(std::string text);
 
-    /// Among the ranks that trace, for one of their tracing threads. Once used, no more agree().
-    [[nodiscard]] RoundExchange& rounds() { return rounds_; }
+    /// The ranks that trace, for one of their tracing threads.
+    [[nodiscard]] Group& workers() { return workers_; }
 
     // On rank 0:
     /// @param checkpoint  what it knows is not traced again; it gets what is. Null: none
-    void submit(JobStart job, const std::shared_ptr<CheckpointSink>& checkpoint = nullptr);
+    void submit(PictureJob job, const std::shared_ptr<CheckpointSink>& checkpoint = nullptr);
     /// The picture of a job, when it is whole; nothing: stopped. `progress` is called with the
     /// share of the job's pixels that are done.
     [[nodiscard]] std::optional<FinishedPicture> wait_for(JobId job, const StopFlag& stop,
@@ -98,13 +95,14 @@ class RankLink final : private LocalEnd {
     void submit(RayChunk chunk);
     /// What came since the last call.
     struct RayNews {
-        std::uint32_t chunks = 0;          ///< that are wanted more
-        std::uint32_t rays = 0;            ///< in each, about; 0: as before
-        std::vector<ChunkAnswer> answers;  ///< in the order of the chunks
+        std::uint32_t chunks = 0;        ///< that are wanted more
+        std::uint32_t rays = 0;          ///< in each, about; 0: as before
+        std::vector<RayAnswer> answers;  ///< in the order of the chunks
     };
     /// @param wait  until there is some, or `stop` is requested
     [[nodiscard]] RayNews ray_news(bool wait, const StopFlag& stop);
-    void submit(CloudOrder order);
+    /// Gives the order its number.
+    void submit(FrameOrder& order);
     /// The frame that was submitted, when all its parts are there; nothing: stopped.
     [[nodiscard]] std::optional<FinishedFrame> wait_for_frame(const StopFlag& stop);
     /// No more work comes: what the other ranks report, by rank.
@@ -129,45 +127,33 @@ class RankLink final : private LocalEnd {
     [[nodiscard]] Timeline::Clock::time_point agreed() const { return agreed_; }
 
   private:
-    void take(Envelope envelope) override;
-    [[nodiscard]] AmbientValues unsent_values() override {
-        const std::lock_guard lock(mutex_);
-        return {sender_ ? sender_->unsent().records : std::vector<AmbientRecord>{}, scene_};
-    }
-    /// From here on `take` gets what the tracer is to have.
-    void open_tracer(std::function<void(Message)> take);
+    void take(TracerNews news) override { inbox_.push(std::move(news)); }
+    void take(ProgramNews news) override;
+    void take(AmbientValues news) override;
+    [[nodiscard]] AmbientValues unsent_values() override;
+    void take(const RankNotice& notice);
+    [[nodiscard]] TraceFunctions trace_functions();
+    void offer(AmbientValues values);
     [[nodiscard]] std::string named(int rank, const std::string& host) const;
+    /// Calls `found()` until it gives something, or `stop` is requested.
+    template <class Found>
+    auto wait_until(const StopFlag& stop, Found found) -> decltype(found());
 
-    Transport& transport_;
+    Communicator& communicator_;
     Topology topology_;
     std::string program_, host_;
     Timeline::Clock::time_point agreed_;
     Timeline timeline_;  ///< a row for each tracing thread, the last one for messages
     std::size_t batch_;  ///< 0: no ambient values are exchanged
+    TracerInbox inbox_;  ///< what comes for the tracing threads
     RankLoop loop_;
-    class Rounds final : public RoundExchange {
-      public:
-        explicit Rounds(RankLink& link) : link_(link) {}
-        [[nodiscard]] int index() const override {
-            return static_cast<int>(link_.topology_.worker_index(link_.rank()).value_or(0));
-        }
-        [[nodiscard]] int count() const override {
-            return static_cast<int>(link_.topology_.workers.size());
-        }
-        [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
-            return link_.loop_.gather_among_tracers(std::move(mine));
-        }
-
-      private:
-        RankLink& link_;
-    };
-    Rounds rounds_{*this};
+    LoopGroup workers_;
+    EncodePiece encode_;
     PublishedCache* cache_ = nullptr;  ///< null: none is there yet
     std::unique_ptr<AmbientSender> sender_;
+    FrameNumber last_order_ = 0;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
-    std::function<void(Message)> tracer_;
-    std::deque<Message> untaken_;  ///< for the tracer, before it was there
     std::vector<AmbientRecord> early_values_;
     std::uint32_t scene_ = 0;  ///< see AmbientValues
     std::map<JobId, FinishedPicture> pictures_;
@@ -176,7 +162,6 @@ class RankLink final : private LocalEnd {
     std::map<int, std::string> reports_;
     RayNews ray_news_;
     std::optional<FinishedFrame> frame_;
-    bool finished_ = false;
 };
 
 }  // namespace lightwalk

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "io/files/module.h"
-#include "parallel/ranks/mpi_module.h"
+#include "parallel/comm/mpi_module.h"
 
 namespace lightwalk {
 std::vector<OptionRow> rank_option_rows(RankOptions& o) {
@@ -53,14 +53,14 @@ bool started_by_mpi() {
     return false;
 }
 
-std::unique_ptr<Transport> open_mpi() {
+std::unique_ptr<Communicator> open_mpi() {
     std::string error;
     const auto open =
         reinterpret_cast<OpenMpi>(load_from_module(kMpiModule, kOpenMpiSymbol, error));
-    std::unique_ptr<Transport> transport;
-    if (open != nullptr) transport.reset(open(nullptr, nullptr, error = {}));
-    if (!transport) throw InputError("cannot start MPI: " + error);
-    return transport;
+    std::unique_ptr<Communicator> communicator;
+    if (open != nullptr) communicator.reset(open(nullptr, nullptr, error = {}));
+    if (!communicator) throw InputError("cannot start MPI: " + error);
+    return communicator;
 }
 
 void check_launch(const RankOptions& options, bool by_mpi) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/options/option_rows.h"
+#include "parallel/comm/communicator.h"
 #include "parallel/ranks/topology.h"
-#include "parallel/ranks/transport.h"
 
 namespace lightwalk {
 
@@ -33,7 +33,7 @@ struct RankOptions {
 /// Whether mpirun or srun started this process.
 [[nodiscard]] bool started_by_mpi();
 /// The wire to the other ranks. Throws InputError when MPI cannot be loaded or started.
-[[nodiscard]] std::unique_ptr<Transport> open_mpi();
+[[nodiscard]] std::unique_ptr<Communicator> open_mpi();
 
 /// Throws UsageError for --variant ranks or hybrid in a process that nothing but a shell started.
 void check_launch(const RankOptions& options, bool by_mpi);

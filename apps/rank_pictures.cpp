@@ -1,36 +1,13 @@
 #include "apps/rank_pictures.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "apps/interrupt.h"
+#include "parallel/comm/core_fields.h"
 #include "parallel/ranks/piece_codec.h"
 
 namespace lightwalk {
 namespace {
-
-using Json = nlohmann::json;
-
-Json to_json(const View& v) {
-    return {v.type,        v.position.x, v.position.y, v.position.z, v.direction.x, v.direction.y,
-            v.direction.z, v.up.x,       v.up.y,       v.up.z,       v.horizontal,  v.vertical,
-            v.fore,        v.aft,        v.shift,      v.lift};
-}
-
-View view_from(const Json& j) {
-    View v;
-    v.type = static_cast<char>(j.at(0).get<int>());
-    v.position = {j.at(1), j.at(2), j.at(3)};
-    v.direction = {j.at(4), j.at(5), j.at(6)};
-    v.up = {j.at(7), j.at(8), j.at(9)};
-    v.horizontal = j.at(10);
-    v.vertical = j.at(11);
-    v.fore = j.at(12);
-    v.aft = j.at(13);
-    v.shift = j.at(14);
-    v.lift = j.at(15);
-    return v;
-}
 
 /// A renderer and what it refers to.
 struct OrderedPicture {
@@ -44,32 +21,18 @@ struct OrderedPicture {
 
 }  // namespace
 
-std::string encode_order(const PictureOrder& order) {
-    Json json{{"view", to_json(order.view)},
-              {"width", order.width},
-              {"height", order.height},
-              {"step", order.step},
-              {"deterministic", order.deterministic},
-              {"indirect", order.indirect}};
-    if (order.previous) json["previous"] = to_json(*order.previous);
-    return json.dump();
+template <class Wire>
+void visit_fields(Wire& wire, PictureOrder& order) {
+    wire(order.view, order.previous, order.width, order.height, order.step, order.deterministic,
+         order.indirect);
 }
 
-PictureOrder decode_order(const std::string& text) {
-    try {
-        const Json json = Json::parse(text);
-        PictureOrder order;
-        order.view = view_from(json.at("view"));
-        if (json.contains("previous")) order.previous = view_from(json["previous"]);
-        order.width = json.at("width");
-        order.height = json.at("height");
-        order.step = json.at("step");
-        order.deterministic = json.at("deterministic");
-        order.indirect = json.at("indirect");
-        return order;
-    } catch (const Json::exception& error) {
-        throw InputError(std::string("a picture's order cannot be read: ") + error.what());
-    }
+std::string encode_order(const PictureOrder& order) {
+    return wire::encode(order);
+}
+
+PictureOrder decode_order(const std::string& bytes) {
+    return wire::decode<PictureOrder>(bytes);
 }
 
 void LeadPictures::order(std::shared_ptr<const PictureRequest> request) {
@@ -111,10 +74,10 @@ std::optional<Frame> LeadPictures::take() {
 
 void RankPictures::serve(Executor& executor) {
     link_.trace(
-        executor, [&](const JobStart& job) { return make(job); }, stop_);
+        executor, [&](const PictureJob& job) { return make(job); }, stop_);
 }
 
-std::shared_ptr<const BlockRenderer> RankPictures::make(const JobStart& job) {
+std::shared_ptr<const BlockRenderer> RankPictures::make(const PictureJob& job) {
     const PictureOrder order = decode_order(job.payload);
     FrameOptions options = options_;
     options.width = order.width;
@@ -134,7 +97,7 @@ void RankPictures::fill(const Camera& camera, const FrameOptions& options) {
     const auto executor = make_executor(ExecutorKind::threads, contexts.size());
     const CachePrepassResult played = fill_ambient_cache(
         tracer_, camera, options, CachePrepass::deterministic, *cache_, *executor, contexts, stop_,
-        [](const FrameProgress&) {}, &link_.rounds());
+        [](const FrameProgress&) {}, &link_.workers());
     prepass_rays_ += played.rays;
     prepass_ambient_ += played.ambient;
 }
@@ -159,11 +122,11 @@ Frame assemble(const FinishedPicture& picture, int width, int height) {
     frame.radiance.resize(whole.pixels());
     frame.distance.resize(whole.pixels());
     std::size_t pixels = 0;
-    for (const PicturePiece& piece : picture.pieces) {
-        const PixelRectangle& block = piece.work.block;
+    for (const PicturePart& part : picture.parts) {
+        const PixelRectangle& block = part.work.block;
         if (block.x0 < 0 || block.y0 < 0 || block.x1 > width || block.y1 > height)
             throw InputError("a part of a picture lies outside it");
-        const std::vector<PixelValue> values = decode_piece(block, piece.bytes);
+        const std::vector<PixelValue> values = decode_piece(block, part.bytes);
         std::size_t from = 0;
         for (int y = block.y0; y < block.y1; ++y) {
             std::size_t to =

@@ -28,8 +28,8 @@ struct PictureOrder {
     bool indirect = true;        ///< false: by direct light alone
 };
 [[nodiscard]] std::string encode_order(const PictureOrder& order);
-/// Throws InputError for text that encode_order did not make.
-[[nodiscard]] PictureOrder decode_order(const std::string& text);
+/// Throws InputError for bytes that encode_order did not make.
+[[nodiscard]] PictureOrder decode_order(const std::string& bytes);
 
 /// Rank 0's pictures, which all ranks make.
 class LeadPictures final : public PictureMaker {
@@ -86,7 +86,7 @@ class RankPictures final : public RankWork {
     [[nodiscard]] AmbientCounters ambient() const override;
 
   private:
-    [[nodiscard]] std::shared_ptr<const BlockRenderer> make(const JobStart& job);
+    [[nodiscard]] std::shared_ptr<const BlockRenderer> make(const PictureJob& job);
     void fill(const Camera& camera, const FrameOptions& options);
 
     RankLink& link_;

@@ -14,13 +14,13 @@ bool caches_ambient_values(const RenderOptions& light) {
     return light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon;
 }
 
-std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& options,
+std::unique_ptr<RankLink> link_ranks(Communicator* communicator, CommonOptions& options,
                                      const SharedWork& work) {
     const RankOptions& wanted = options.ranks;
-    check_launch(wanted, transport != nullptr);
-    if (transport == nullptr) return nullptr;
+    check_launch(wanted, communicator != nullptr);
+    if (communicator == nullptr) return nullptr;
     const bool ambient = work.ambient_values && wanted.ambient_batch > 0;
-    const Variant variant = resolve_variant(wanted, transport->size(), options.workers, ambient);
+    const Variant variant = resolve_variant(wanted, communicator->size(), options.workers, ambient);
     if (variant == Variant::threads) return nullptr;
     if (variant == Variant::ranks) options.workers = 1;
     RankSettings settings;
@@ -35,19 +35,19 @@ std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& option
     // Chunks of rays are few, and so are the uncached pixels of a walk's frames: one master deals
     // them out.
     const int masters = work.rays || work.projectors > 0 ? 1 : wanted.masters;
-    return std::make_unique<RankLink>(*transport,
-                                      make_topology(variant, transport->size(), ambient, masters),
-                                      settings, work.program, !wanted.timeline.empty());
+    return std::make_unique<RankLink>(
+        *communicator, make_topology(variant, communicator->size(), ambient, masters), settings,
+        work.program, !wanted.timeline.empty());
 }
 
-void parse_on_ranks(Transport* transport, const std::string& program,
+void parse_on_ranks(Communicator* communicator, const std::string& program,
                     FunctionRef<void(const std::shared_ptr<FileSource>&)> parse) {
-    if (transport == nullptr || transport->size() == 1) return parse(real_files());
+    if (communicator == nullptr || communicator->size() == 1) return parse(real_files());
     // What goes round: an exit status, and where that is 0 what rank 0 has read.
     const auto tell = [&](int status, const std::string& recording) {
-        (void)transport->broadcast(std::to_string(status) + recording);
+        (void)communicator->broadcast(std::to_string(status) + recording);
     };
-    if (transport->rank() == 0) {
+    if (communicator->rank() == 0) {
         const auto recorder = std::make_shared<FileRecorder>(real_files(), true);
         try {
             parse(recorder);
@@ -60,16 +60,16 @@ void parse_on_ranks(Transport* transport, const std::string& program,
         }
         return tell(kSuccessStatus, recorder->take());
     }
-    const std::string told = transport->broadcast({});
+    const std::string told = communicator->broadcast({});
     if (told.front() == '0' + kUsageStatus) throw UsageError("");
     if (told.front() != '0' + kSuccessStatus) throw InputError("");
     try {
         parse(std::make_shared<FileReplay>(std::string_view(told).substr(1)));
     } catch (const std::exception& error) {
         const bool usage = dynamic_cast<const UsageError*>(&error) != nullptr;
-        std::fprintf(stderr, "%s: rank %d (%s): %s\n", program.c_str(), transport->rank(),
-                     transport->host().c_str(), printable(error.what()).c_str());
-        transport->abort(usage ? kUsageStatus : kFailureStatus);
+        std::fprintf(stderr, "%s: rank %d (%s): %s\n", program.c_str(), communicator->rank(),
+                     communicator->host().c_str(), printable(error.what()).c_str());
+        communicator->abort(usage ? kUsageStatus : kFailureStatus);
     }
 }
 

@@ -22,14 +22,14 @@ struct SharedWork {
 /// then the others, by what rank 0 has read of these. `parse` throws UsageError or InputError for
 /// what is wrong; when that is so on rank 0, the others throw the same without a text, and when on
 /// another, it says so and ends the run.
-/// @param transport  null: this process is alone
-void parse_on_ranks(Transport* transport, const std::string& program,
+/// @param communicator  null: this process is alone
+void parse_on_ranks(Communicator* communicator, const std::string& program,
                     FunctionRef<void(const std::shared_ptr<FileSource>&)> parse);
 
 /// The link to the other ranks; null where there are none to share with. In variant `ranks` each
 /// has one thread: options.workers.
-[[nodiscard]] std::unique_ptr<RankLink> link_ranks(Transport* transport, CommonOptions& options,
-                                                   const SharedWork& work);
+[[nodiscard]] std::unique_ptr<RankLink> link_ranks(Communicator* communicator,
+                                                   CommonOptions& options, const SharedWork& work);
 
 /// Whether light is computed with cached ambient values.
 [[nodiscard]] bool caches_ambient_values(const RenderOptions& light);

@@ -33,13 +33,13 @@ namespace {
 class RenderRun {
   public:
     /// @param files  where standard input comes from
-    RenderRun(RenderCommand command, Transport* transport, FileSource& files)
+    RenderRun(RenderCommand command, Communicator* communicator, FileSource& files)
         : command_(std::move(command)),
           program_("lightwalk " + command_.name),
-          transport_(transport),
+          communicator_(communicator),
           warnings_(program_) {
         redirect_messages(command_.common, command_.history);
-        const bool speaks = transport_ == nullptr || transport_->rank() == 0;
+        const bool speaks = communicator_ == nullptr || communicator_->rank() == 0;
         warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
         check_render_settings(command_.settings);
         choose_spacing();
@@ -49,7 +49,7 @@ class RenderRun {
                             command_.first_frame > 0 ? "the views of the sequence (-S)" : "",
                             files);
         // mpirun shows its processes a terminal, whatever becomes of their output.
-        if (transport_ == nullptr && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
+        if (communicator_ == nullptr && command_.output.empty() && isatty(STDOUT_FILENO) != 0) {
             throw UsageError("standard output is a terminal: name the picture's file with -o");
         }
         keep_ambient_values(speaks);
@@ -151,7 +151,7 @@ class RenderRun {
         const bool ambient =
             caches_ambient_values(command_.settings.light) && !command_.deterministic;
         const int projectors = reuses() ? command_.walk->projectors : 0;
-        link_ = link_ranks(transport_, command_.common, {program_, ambient, false, projectors});
+        link_ = link_ranks(communicator_, command_.common, {program_, ambient, false, projectors});
         if (link_) statistics_.ranks = link_->ranks();
         return link_ != nullptr;
     }
@@ -288,8 +288,8 @@ class RenderRun {
     }
 
     RenderCommand command_;
-    std::string program_;   ///< how messages name it
-    Transport* transport_;  ///< to the other ranks; null: there are none
+    std::string program_;         ///< how messages name it
+    Communicator* communicator_;  ///< to the other ranks; null: there are none
     StderrWarnings warnings_;
     std::unique_ptr<RankLink> link_;
     std::unique_ptr<Checkpoint> checkpoint_;
@@ -300,7 +300,8 @@ class RenderRun {
     RunStatistics statistics_;
 };
 
-int run_pictures(const std::string& name, const std::vector<std::string>& words, Transport* ranks) {
+int run_pictures(const std::string& name, const std::vector<std::string>& words,
+                 Communicator* ranks) {
     std::unique_ptr<RenderRun> run;
     parse_on_ranks(ranks, "lightwalk " + name, [&](const std::shared_ptr<FileSource>& files) {
         RenderCommand command = parse_render_command(name, words, files);
@@ -317,11 +318,11 @@ int run_pictures(const std::string& name, const std::vector<std::string>& words,
 
 }  // namespace
 
-int run_render(const std::vector<std::string>& words, Transport* ranks) {
+int run_render(const std::vector<std::string>& words, Communicator* ranks) {
     return run_pictures("render", words, ranks);
 }
 
-int run_animate(const std::vector<std::string>& words, Transport* ranks) {
+int run_animate(const std::vector<std::string>& words, Communicator* ranks) {
     return run_pictures("animate", words, ranks);
 }
 

@@ -24,14 +24,14 @@ constexpr std::size_t kEnough = 1 << 16;  ///< bytes of output that are worth wr
 
 class TraceRun {
   public:
-    TraceRun(TraceCommand command, Transport* transport, FileSource& files)
+    TraceRun(TraceCommand command, Communicator* communicator, FileSource& files)
         : command_(std::move(command)),
-          transport_(transport),
+          communicator_(communicator),
           warnings_(kProgram),
           reader_(STDIN_FILENO, command_.formats.input) {
         prepare_output();
         redirect_messages(command_.common, command_.history);
-        const bool speaks = transport_ == nullptr || transport_->rank() == 0;
+        const bool speaks = communicator_ == nullptr || communicator_->rank() == 0;
         warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
         check_render_settings(command_.settings);
         check(files);
@@ -48,7 +48,7 @@ class TraceRun {
         // 0 has all the work, the others wait.
         const bool ambient =
             options_.shade && caches_ambient_values(command_.settings.light) && !tree_;
-        link_ = link_ranks(transport_, command_.common, {kProgram, ambient, true, 0});
+        link_ = link_ranks(communicator_, command_.common, {kProgram, ambient, true, 0});
         if (!link_) return trace_alone();
         const auto body = [this] {
             if (tree_) return link_->leads() ? lead_trees() : wait();
@@ -174,7 +174,7 @@ class TraceRun {
         const RankLink::RayNews news = link_->ray_news(wait, interrupt_flag());
         chunks_wanted_ += news.chunks;
         if (news.rays > 0) chunk_rays_ = news.rays;
-        for (const ChunkAnswer& answer : news.answers) {
+        for (const RayAnswer& answer : news.answers) {
             output_ += answer.bytes;
             --chunks_out_;
             if (output_.size() >= kEnough) flush();
@@ -326,7 +326,7 @@ class TraceRun {
     }
 
     TraceCommand command_;
-    Transport* transport_;  ///< to the other ranks; null: there are none
+    Communicator* communicator_;  ///< to the other ranks; null: there are none
     StderrWarnings warnings_;
     std::optional<RayRecords> records_;  ///< not with trees alone
     std::optional<RayTree> tree_;        ///< -ot -oT
@@ -350,7 +350,7 @@ class TraceRun {
 
 }  // namespace
 
-int run_trace(const std::vector<std::string>& words, Transport* ranks) {
+int run_trace(const std::vector<std::string>& words, Communicator* ranks) {
     std::unique_ptr<TraceRun> run;
     parse_on_ranks(ranks, kProgram, [&](const std::shared_ptr<FileSource>& files) {
         TraceCommand command = parse_trace_command(words, files);

@@ -136,8 +136,7 @@ class AmbientRounds::Waiting {
 };
 
 AmbientRounds::AmbientRounds(const Tracer& tracer, PublishedCache& cache, Executor& executor,
-                             WorkerContexts& contexts, RoundExchange& exchange,
-                             const StopFlag& stop,
+                             WorkerContexts& contexts, Group& exchange, const StopFlag& stop,
                              std::function<void(std::size_t left)> after_round)
     : tracer_(tracer),
       cache_(cache),
@@ -176,7 +175,7 @@ std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
         points = collecting.points();
         left_out_ = left_out_ || collecting.left_out();
     }
-    const bool alone = exchange_.count() == 1;
+    const bool alone = exchange_.size() == 1;
     const std::vector<std::string> all = gather(alone ? std::string() : encode_points(points));
     if (stopped_) return {};
     if (alone) return points;
@@ -240,7 +239,7 @@ std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& 
         made[task].new_records = collector.take();
     };
     executor_.for_each(chosen.size(), make, stop_);
-    const bool alone = exchange_.count() == 1;
+    const bool alone = exchange_.size() == 1;
     const std::vector<std::string> all = gather(alone ? std::string() : encode_values(made));
     if (stopped_) return {};
     for (std::size_t other = 0; !alone && other < all.size(); ++other) {

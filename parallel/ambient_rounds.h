@@ -8,10 +8,10 @@
 #include "core/ambient/ambient_calculation.h"
 #include "core/ambient/ambient_point.h"
 #include "core/math/function_ref.h"
+#include "parallel/comm/group.h"
 #include "parallel/executor.h"
 #include "parallel/published_cache.h"
 #include "parallel/round_bytes.h"
-#include "parallel/round_exchange.h"
 #include "parallel/spacing_guess.h"
 #include "parallel/stop_flag.h"
 #include "parallel/worker_contexts.h"
@@ -42,7 +42,7 @@ class AmbientRounds {
     /// @param after_round  called after each round, in the calling thread, with the number of
     /// points of level 0 that remain
     AmbientRounds(const Tracer& tracer, PublishedCache& cache, Executor& executor,
-                  WorkerContexts& contexts, RoundExchange& exchange, const StopFlag& stop,
+                  WorkerContexts& contexts, Group& exchange, const StopFlag& stop,
                   std::function<void(std::size_t left)> after_round);
 
     /// Runs `trace`, which may trace rays by all workers, and returns the points for which it found
@@ -73,7 +73,7 @@ class AmbientRounds {
     PublishedCache& cache_;
     Executor& executor_;
     WorkerContexts& contexts_;
-    RoundExchange& exchange_;
+    Group& exchange_;
     const StopFlag& stop_;
     std::function<void(std::size_t)> after_round_;
     AmbientCalculation calculation_;

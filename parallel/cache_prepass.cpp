@@ -90,7 +90,7 @@ struct Players {
     PublishedCache& cache;
     Executor& executor;
     WorkerContexts& contexts;
-    RoundExchange& exchange;
+    Group& exchange;
     const StopFlag& stop;
 };
 
@@ -145,7 +145,7 @@ class DeterministicPrepass {
         const BlockRenderer renderer(players_.tracer, players_.camera, coarse, players_.contexts,
                                      players_.stop);
         const PixelRectangle area = coarse.area();
-        const int workers = players_.executor.concurrency() * players_.exchange.count();
+        const int workers = players_.executor.concurrency() * players_.exchange.size();
         const std::vector<Block> all = make_blocks(
             area, block_side(area.width(), area.height(), workers, renderer.alignment()));
         std::vector<Block> mine;
@@ -192,10 +192,10 @@ CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera
                                       const FrameOptions& options, CachePrepass prepass,
                                       PublishedCache& cache, Executor& executor,
                                       WorkerContexts& contexts, const StopFlag& stop,
-                                      TakeProgress progress, RoundExchange* exchange) {
+                                      TakeProgress progress, Group* exchange) {
     const std::vector<int> steps = steps_of(prepass);
     CachePrepassSum sum(steps, progress);
-    NoExchange alone;
+    GroupOfOne alone;
     std::optional<DeterministicPrepass> rounds;
     cache.freeze(false);
     if (prepass == CachePrepass::deterministic) {

@@ -3,10 +3,10 @@
 // evenly over the view.
 #include "core/trace/tracer.h"
 #include "core/view/view.h"
+#include "parallel/comm/group.h"
 #include "parallel/executor.h"
 #include "parallel/frame.h"
 #include "parallel/published_cache.h"
-#include "parallel/round_exchange.h"
 
 namespace lightwalk {
 
@@ -49,6 +49,6 @@ inline constexpr int kQuickStep = 6;
                                                     CachePrepass prepass, PublishedCache& cache,
                                                     Executor& executor, WorkerContexts& contexts,
                                                     const StopFlag& stop, TakeProgress progress,
-                                                    RoundExchange* exchange = nullptr);
+                                                    Group* exchange = nullptr);
 
 }  // namespace lightwalk

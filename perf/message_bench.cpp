@@ -1,6 +1,6 @@
 // What a message costs between ranks of this machine: the parameters of the scaling model.
 //   mpirun -n 2 message_bench > costs.json
-// Two ranks and the transport of the program. L, o, g and G (LogGP) where both ranks look for
+// Two ranks and the communicator of the program. L, o, g and G (LogGP) where both ranks look for
 // messages all the time; then what sleeping between two looks, as RankLoop does, adds.
 #include <time.h>
 
@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "io/files/module.h"
-#include "parallel/ranks/message.h"
-#include "parallel/ranks/mpi_module.h"
+#include "parallel/comm/mpi_module.h"
+#include "parallel/work_queue/message.h"
 
 namespace {
 
@@ -35,90 +35,90 @@ double median(std::vector<double> list) {
     return list[list.size() / 2];
 }
 
-std::unique_ptr<Transport> open_transport() {
+std::unique_ptr<Communicator> open_communicator() {
     std::string error;
     const auto open =
         reinterpret_cast<OpenMpi>(load_from_module(kMpiModule, kOpenMpiSymbol, error));
-    std::unique_ptr<Transport> transport;
-    if (open != nullptr) transport.reset(open(nullptr, nullptr, error = {}));
-    if (!transport) throw std::runtime_error("cannot start MPI: " + error);
-    return transport;
+    std::unique_ptr<Communicator> communicator;
+    if (open != nullptr) communicator.reset(open(nullptr, nullptr, error = {}));
+    if (!communicator) throw std::runtime_error("cannot start MPI: " + error);
+    return communicator;
 }
 
-std::string wait_for(Transport& transport) {
+std::string wait_for(Communicator& communicator) {
     while (true) {
-        if (std::optional<Transport::Packet> packet = transport.receive()) return packet->bytes;
+        if (std::optional<Communicator::Packet> packet = communicator.receive())
+            return packet->bytes;
     }
 }
 
 /// Half of the time from one end to the other and back, the median of all rounds.
-double half_round_trip(Transport& transport, std::size_t bytes, int rounds) {
+double half_round_trip(Communicator& communicator, std::size_t bytes, int rounds) {
     std::vector<double> times;
     for (int i = 0; i < rounds; ++i) {
         const Clock::time_point begin = Clock::now();
-        if (transport.rank() == 0) {
-            transport.send(1, std::string(bytes, 'x'));
-            (void)wait_for(transport);
+        if (communicator.rank() == 0) {
+            communicator.send(1, std::string(bytes, 'x'));
+            (void)wait_for(communicator);
         } else {
-            transport.send(0, wait_for(transport));
+            communicator.send(0, wait_for(communicator));
         }
         times.push_back(std::chrono::duration<double>(Clock::now() - begin).count() / 2);
     }
-    transport.flush();
+    communicator.flush();
     return median(times);
 }
 
 /// Processor time a message where many follow each other: the sender's, and the receiver's [s].
-std::pair<double, double> message_rate(Transport& transport) {
-    const AskBlocks ask{1, {{{1, {0, 0, 8, 8}}, 1e-3}}};
-    const Envelope envelope{{transport.rank(), Role::worker}, {1, Role::master}, ask};
+std::pair<double, double> message_rate(Communicator& communicator) {
+    const WorkRequest request{1, {{FinishedWork::Payload::block, 1, 64, 1e-3}}};
     const double cpu = processor_seconds();
-    if (transport.rank() == 0) {
-        for (int i = 0; i < kRounds; ++i) transport.send(1, encode_message(envelope));
+    if (communicator.rank() == 0) {
+        for (int i = 0; i < kRounds; ++i) communicator.send(1, encode_message(request));
         const double sending = (processor_seconds() - cpu) / kRounds;
-        transport.flush();
-        return {sending, 1e-9 * std::stod(wait_for(transport))};
+        communicator.flush();
+        return {sending, 1e-9 * std::stod(wait_for(communicator))};
     }
     double receiving = 0;  // without the looks that find nothing
     for (int i = 0; i < kRounds;) {
         const double before = processor_seconds();
-        const std::optional<Transport::Packet> packet = transport.receive();
+        const std::optional<Communicator::Packet> packet = communicator.receive();
         if (!packet) continue;
-        (void)decode_message(packet->bytes, 0, 1);
+        (void)decode_message(packet->bytes);
         receiving += processor_seconds() - before;
         ++i;
     }
-    transport.send(0, std::to_string(1e9 * receiving / kRounds));
-    transport.flush();
+    communicator.send(0, std::to_string(1e9 * receiving / kRounds));
+    communicator.flush();
     return {0, 0};
 }
 
 /// How much later than asked for a sleeper looks again, and the processor time of a look.
-std::pair<double, double> sleeping(Transport& transport) {
+std::pair<double, double> sleeping(Communicator& communicator) {
     constexpr int kLooks = 500;
     constexpr std::chrono::microseconds kWait{200};
     std::vector<double> late;
     const double cpu = processor_seconds();
     for (int i = 0; i < kLooks; ++i) {
         const Clock::time_point begin = Clock::now();
-        transport.wait(kWait);
+        communicator.wait(kWait);
         late.push_back(std::chrono::duration<double>(Clock::now() - begin - kWait).count());
-        (void)transport.receive();
+        (void)communicator.receive();
     }
     return {median(late), (processor_seconds() - cpu) / kLooks};
 }
 
 /// From a call of wake() until the waiting thread runs.
-double waking(Transport& transport) {
+double waking(Communicator& communicator) {
     std::vector<double> times;
     for (int i = 0; i < 200; ++i) {
         Clock::time_point begin;
         std::thread waker([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             begin = Clock::now();
-            transport.wake();
+            communicator.wake();
         });
-        transport.wait(std::chrono::seconds(1));
+        communicator.wait(std::chrono::seconds(1));
         const Clock::time_point end = Clock::now();
         waker.join();
         times.push_back(std::chrono::duration<double>(end - begin).count());
@@ -130,14 +130,14 @@ double waking(Transport& transport) {
 
 int main() {
     try {
-        const std::unique_ptr<Transport> transport = open_transport();
-        if (transport->size() != 2) throw std::runtime_error("message_bench wants two ranks");
-        const double small = half_round_trip(*transport, 8, kRounds);
-        const double large = half_round_trip(*transport, kLong, kLongRounds);
-        const auto [sending, receiving] = message_rate(*transport);
-        const auto [oversleep, look] = sleeping(*transport);
-        const double woken = waking(*transport);
-        if (transport->rank() != 0) return 0;
+        const std::unique_ptr<Communicator> communicator = open_communicator();
+        if (communicator->size() != 2) throw std::runtime_error("message_bench wants two ranks");
+        const double small = half_round_trip(*communicator, 8, kRounds);
+        const double large = half_round_trip(*communicator, kLong, kLongRounds);
+        const auto [sending, receiving] = message_rate(*communicator);
+        const auto [oversleep, look] = sleeping(*communicator);
+        const double woken = waking(*communicator);
+        if (communicator->rank() != 0) return 0;
         const double overhead = (sending + receiving) / 2;
         const double byte = (large - small) / static_cast<double>(kLong);
         // A message of many bytes is copied at either end while it is on the wire: half of its

@@ -53,15 +53,12 @@ SimulatedRun read_run(const nlohmann::json& json, const CostMap& map) {
 }
 
 Json counts_of(const MessageCounts& counts) {
-    const std::map<std::size_t, const char*> names{
-        {Message(AskBlocks{}).index(), "AskBlocks"},
-        {Message(GiveBlocks{}).index(), "GiveBlocks"},
-        {Message(Pixels{}).index(), "Pixels"},
-        {Message(PicturePiece{}).index(), "PicturePiece"},
-        {Message(AmbientValues{}).index(), "AmbientValues"}};
     Json json;
-    for (const auto& [kind, name] : names)
-        json[name] = {{"count", counts.messages[kind]}, {"bytes", counts.bytes[kind]}};
+    for (std::size_t kind = 0; kind < kMessageKinds; ++kind) {
+        if (counts.messages[kind] > 0)
+            json[kind_name(kind)] = {{"count", counts.messages[kind]},
+                                     {"bytes", counts.bytes[kind]}};
+    }
     return json;
 }
 

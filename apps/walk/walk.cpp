@@ -6,11 +6,11 @@
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "apps/rank_frames.h"
 #include "apps/rank_session.h"
 #include "apps/rank_walk.h"
 #include "apps/render_command.h"
 #include "apps/walk/pages.h"
-#include "apps/walk/rank_frames.h"
 #include "apps/walk/render_loop.h"
 #include "apps/walk/walk_light.h"
 #include "apps/warnings.h"
@@ -236,10 +236,8 @@ class WalkProgram {
         lead_ranks(
             *link_, [&] { share.serve(); },
             [&] {
-                RankFrames frames(*link_, tracer, indirect, cloud, picture, *executor_, warnings_,
-                                  next_order_);
+                RankFrames frames(*link_, tracer, indirect, cloud, picture, *executor_, warnings_);
                 stay(*session, frames, serving);
-                next_order_ = frames.next();
                 link_->dismiss();
             });
         link_->forget_cache();
@@ -287,7 +285,6 @@ class WalkProgram {
 
     const RenderCommand& command_;
     RankLink* link_;
-    WalkFrameId next_order_ = 0;
     StderrWarnings warnings_;
     std::unique_ptr<Executor> executor_;
     ClientInbox client_inbox_;
@@ -298,7 +295,7 @@ class WalkProgram {
 
 }  // namespace
 
-int run_walk(const std::vector<std::string>& words, Transport* ranks) {
+int run_walk(const std::vector<std::string>& words, Communicator* ranks) {
     std::optional<RenderCommand> command;
     parse_on_ranks(ranks, "lightwalk walk", [&](const std::shared_ptr<FileSource>& files) {
         RenderCommand parsed = parse_render_command("walk", words, files);

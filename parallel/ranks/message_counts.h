@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "parallel/ranks/message.h"
+#include "parallel/work_queue/message.h"
 
 namespace lightwalk {
 

@@ -1,37 +1,35 @@
 #pragma once
-// One rank's messages, served: to its roles, and to what is within it.
+// One rank's messages, served: by its roles, and by what is within it.
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <map>
-#include <memory>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "parallel/ranks/chunk_roles.h"
-#include "parallel/ranks/cloud_roles.h"
-#include "parallel/ranks/local_end.h"
+#include "parallel/comm/communicator.h"
+#include "parallel/comm/group.h"
 #include "parallel/ranks/message_counts.h"
-#include "parallel/ranks/roles.h"
+#include "parallel/ranks/rank_roles.h"
 #include "parallel/ranks/timeline.h"
-#include "parallel/ranks/topology.h"
-#include "parallel/ranks/transport.h"
 #include "parallel/stop_flag.h"
 
 namespace lightwalk {
 
-struct RankSettings {
-    int slots = 1;                   ///< threads that trace on each worker
-    int ahead = 1;                   ///< blocks that wait on each worker
-    int block = 0, stride = 0;       ///< see BlockPolicy
-    std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
-    EncodePiece encode;
-    bool rays = false;  ///< chunks of rays are traced, and no pictures; one master for all
-    /// Frames of a walk are drawn from points, whose parts so many of the workers own at most; one
-    /// master for all. 0: pictures are traced
-    int projectors = 0;
+/// What within a rank is no role: its program, its tracing threads, its ambient cache. Called by
+/// the thread that serves the messages, which must not wait here.
+class LocalEnd {
+  public:
+    virtual ~LocalEnd() = default;
+    virtual void take(TracerNews news) = 0;
+    virtual void take(ProgramNews news) = 0;
+    virtual void take(AmbientValues news) = 0;
+    /// Ambient values that were made here and wait to be sent; asked for every second and at the
+    /// end.
+    [[nodiscard]] virtual AmbientValues unsent_values() { return {}; }
 };
 
 /// How soon a rank's loop looks again after a message has come (soon there will be more), and how
@@ -47,29 +45,28 @@ struct Patience {
 /// sleeps: it takes no core from those who trace.
 class RankLoop {
   public:
-    /// `transport`, `topology` and `local` must outlive this.
+    /// All must outlive this.
     /// @param timeline  whose last row is this loop's; null: none
-    RankLoop(Transport& transport, const Topology& topology, const RankSettings& settings,
+    RankLoop(Communicator& communicator, const Topology& topology, const RankSettings& settings,
              LocalEnd& local, Timeline* timeline = nullptr);
 
-    /// A message to a role of this rank, or to any other's. From any thread.
-    void post(Role from, Address to, Message message);
+    /// A message to a rank, which may be this one. From any thread.
+    void post(int to, Message message);
+    /// A step of this rank's roles, to be taken by the loop's thread. From any thread.
+    using Step = std::function<void(RankRoles& roles, Outbox& out)>;
+    void post(Activity activity, Step step);
 
-    /// Every rank gives bytes and gets everyone's, in the order of the ranks; waits for the
-    /// slowest. From any thread but the one that runs run(), by one thread at a time, and by all
-    /// ranks the same number of times. Throws Aborted when the loop ends before.
-    [[nodiscard]] std::vector<std::string> all_gather(std::string bytes) {
-        return gather(std::move(bytes), false);
-    }
-    /// The same among the workers alone, in the order of the topology's. Once one has begun, no
-    /// more all_gather.
-    [[nodiscard]] std::vector<std::string> gather_among_tracers(std::string bytes) {
-        return gather(std::move(bytes), true);
-    }
+    /// Every rank of a group gives bytes and gets everyone's, in the order of the ranks; waits for
+    /// the slowest. From any thread but the one that runs run(), by one thread at a time, and by
+    /// all of the group's ranks the same number of times. Throws Aborted when the loop ends before.
+    [[nodiscard]] std::vector<std::string> all_gather(Collective::Group group, std::string bytes);
+    /// The same, of numbers, which are added up.
+    [[nodiscard]] std::vector<std::uint64_t> all_reduce(Collective::Group group,
+                                                        std::vector<std::uint64_t> numbers);
     /// Rank 0's bytes, on every rank; called as all_gather is. This rank's messages wait meanwhile.
     [[nodiscard]] std::string broadcast(std::string bytes);
 
-    /// Until end() is called, or `stop` is requested. Asks for the first blocks by itself.
+    /// Until end() is called, or `stop` is requested. Requests the first work by itself.
     /// False: stopped.
     [[nodiscard]] bool run(const StopFlag& stop);
     /// This rank has no more to say, from any thread. Its loop ends when all ranks' have been told
@@ -83,64 +80,78 @@ class RankLoop {
     }
 
   private:
-    void make_block_roles(const RankSettings& settings);
-    void make_chunk_roles(const RankSettings& settings);
-    void make_cloud_roles(const RankSettings& settings);
-    void begin();
-    void say_goodbye();
+    void advance_shutdown();
     void exchange_values_in_time();
     void exchange_values();
     void serve_broadcast();
     [[nodiscard]] bool serve_posted();
     [[nodiscard]] bool serve_arrived();
-    void dispatch(Envelope envelope);
-    void deliver(Envelope envelope, Outbox& out);
-    [[nodiscard]] std::vector<std::string> gather(std::string bytes, bool tracers);
-    void serve_gather(Envelope envelope, Outbox& out);
-    [[nodiscard]] static Activity activity_of(const Message& message);
-    [[nodiscard]] EncodePiece timed_encoding(EncodePiece encode) const;
+    void take_step(Activity activity, const Step& step);
+    void dispatch(Outbox first);
+    void hand_out(Outbox& out);
+    void conclude(Collective result);
+    [[nodiscard]] Collective perform(Collective share);
 
-    Transport& transport_;
-    const Topology& topology_;
+    Communicator& communicator_;
+    Topology topology_;
     LocalEnd& local_;
     Timeline* timeline_;
-    std::optional<MasterRole> master_;
-    std::optional<SubMasterRole> sub_master_;
-    std::optional<WorkerRole> worker_;
-    std::optional<ChunkMasterRole> chunk_master_;  ///< where rays are traced
-    std::optional<ChunkWorkerRole> chunk_worker_;
-    std::optional<CloudMasterRole> cloud_master_;  ///< where walks are drawn
-    std::optional<CloudWorkerRole> cloud_worker_;
-    std::optional<AmbientMasterRole> ambient_master_;
-    std::optional<AmbientClientRole> ambient_client_;
+    bool draws_walks_;
+    RankRoles roles_;
     mutable std::mutex counts_mutex_;
     MessageCounts counts_;                             ///< guarded by it
     std::chrono::steady_clock::time_point exchanged_;  ///< when values were, last
 
+    struct Posted {
+        Activity activity{};
+        Step step;
+    };
+    struct Operation {
+        std::uint32_t round = 0;           ///< of the next one
+        std::optional<Collective> result;  ///< of the last one
+    };
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable answered_;
-    std::deque<Envelope> posted_;
-    bool ended_ = false;  ///< by this rank
-    bool over_ = false;   ///< the loop
-    std::optional<std::vector<std::string>> gathered_;
+    std::deque<Posted> posted_;
+    bool ended_ = false;                         ///< by this rank
+    bool over_ = false;                          ///< the loop
+    std::array<Operation, kGroups> operations_;  ///< by group
     std::optional<std::string> to_broadcast_, broadcast_;
-    std::uint32_t round_ = 0;
 
+    /// The end comes in two rounds of all ranks. Before the first each rank that has ended tells
+    /// its last ambient values; then rank 0, which may keep a file of them, hears these. After the
+    /// second nothing is on its way to anyone.
     enum class ShutdownPhase {
-        none,     ///< this rank has not ended
-        telling,  ///< its last ambient values
-        told,     ///< waits until all have
-        heard,    ///< all have
-        hearing,  ///< what the others told
-        said,     ///< goodbye: waits until all have
+        none,      ///< this rank has not ended
+        telling,   ///< its last ambient values
+        told,      ///< waits until all have
+        all_told,  ///< all have
+        hearing,   ///< what the others told
+        waiting,   ///< until all have heard
         over,
     };
     ShutdownPhase shutdown_ = ShutdownPhase::none;
-    struct Round {
-        std::vector<std::string> parts;
-        int missing = 0;
-    };
-    std::map<std::uint32_t, Round> rounds_;  ///< on rank 0: not yet complete
+};
+
+/// The ranks that trace.
+class LoopGroup final : public Group {
+  public:
+    LoopGroup(RankLoop& loop, const Topology& topology, int rank)
+        : loop_(loop),
+          index_(static_cast<int>(topology.worker_index(rank).value_or(0))),
+          size_(static_cast<int>(topology.workers.size())) {}
+    [[nodiscard]] int index() const override { return index_; }
+    [[nodiscard]] int size() const override { return size_; }
+    [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
+        return loop_.all_gather(Collective::Group::workers, std::move(mine));
+    }
+    [[nodiscard]] std::vector<std::uint64_t> all_reduce(std::vector<std::uint64_t> mine) override {
+        return loop_.all_reduce(Collective::Group::workers, std::move(mine));
+    }
+
+  private:
+    RankLoop& loop_;
+    int index_, size_;
 };
 
 }  // namespace lightwalk

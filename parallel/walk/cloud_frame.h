@@ -72,7 +72,7 @@ struct CloudRules {
     std::uint64_t frame = 0;  ///< its number
     bool empty = true;        ///< no frame has left points yet
     double tightness = 1;     ///< of reuse (ReuseErrorController)
-    AgeLimit room{};          ///< points for which there is no room any more after the last frame
+    friend bool operator==(const CloudRules&, const CloudRules&) = default;
 };
 
 }  // namespace lightwalk

@@ -1,6 +1,7 @@
 #include "parallel/walk/live_frames.h"
 
 #include <algorithm>
+#include <array>
 
 #include "parallel/pixel_tracer.h"
 #include "parallel/walk/scene_caster.h"
@@ -13,13 +14,12 @@ constexpr std::size_t kPixelsATask = 16;
 
 }  // namespace
 
-std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
-                                     const Camera& camera, const FrameOptions& options,
-                                     const ProgressiveWork& work, double seconds,
-                                     Executor& executor, const StopFlag& stop) {
+TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts, const Camera& camera,
+                          const FrameOptions& options, const ProgressiveWork& work, double seconds,
+                          Executor& executor, const StopFlag& stop) {
     const PixelRays rays = rays_of_sample(camera, options, work.sample);
     const UncachedPixelTracer::Clock::time_point deadline = deadline_of(seconds);
-    std::vector<PixelValue> values(work.places.size(), {{}, -1});
+    TracedValues values(work.places.size());
     contexts.reset_counters();
     executor.for_each(
         (work.places.size() + kPixelsATask - 1) / kPixelsATask,
@@ -27,10 +27,11 @@ std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& conte
             if (task > 0 && UncachedPixelTracer::Clock::now() > deadline) return;
             const std::size_t first = task * kPixelsATask;
             const std::size_t count = std::min(kPixelsATask, work.places.size() - first);
-            const std::span<PixelValue> part = std::span(values).subspan(first, count);
+            std::array<PixelValue, kPixelsATask> part;
             PixelTracer trace(tracer, rays, contexts[worker], stop);
-            trace(std::span(work.places).subspan(first, count), part);
-            if (stop.requested()) std::fill(part.begin(), part.end(), PixelValue{{}, -1});
+            trace(std::span(work.places).subspan(first, count), {part.data(), count});
+            if (stop.requested()) return;
+            std::copy_n(part.begin(), count, values.begin() + static_cast<std::ptrdiff_t>(first));
         },
         stop);
     return values;
@@ -48,11 +49,11 @@ LocalFrames::LocalFrames(const Tracer& direct, const Tracer* indirect, const Clo
 
 /// Points of another light are of no use, nor are those of a picture of another size: what answers
 /// a pixel depends on its size.
-void LocalFrames::begin(int width, int height, bool indirect) {
+void LocalFrames::begin(int width, int height, bool indirect, std::uint64_t first) {
     options_.width = width;
     options_.height = height;
     walking_ = indirect ? indirect_.get() : direct_.get();
-    frames_ = std::make_unique<CloudFrames>(width, height, cloud_);
+    frames_ = std::make_unique<CloudFrames>(width, height, cloud_, first);
 }
 
 WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
@@ -64,11 +65,10 @@ WalkFrame LocalFrames::draw(const View& view, double budget, double refine, cons
     return drawn;
 }
 
-std::vector<PixelValue> LocalFrames::trace(const View& view, const ProgressiveWork& work,
-                                           double seconds, const StopFlag& stop) {
-    std::vector<PixelValue> values =
-        trace_pixels(indirect_->tracer, indirect_->contexts, Camera(view), options_, work, seconds,
-                     executor_, stop);
+TracedValues LocalFrames::trace(const View& view, const ProgressiveWork& work, double seconds,
+                                const StopFlag& stop) {
+    TracedValues values = trace_pixels(indirect_->tracer, indirect_->contexts, Camera(view),
+                                       options_, work, seconds, executor_, stop);
     rays_ = indirect_->contexts.rays().total();
     return values;
 }

@@ -2,6 +2,7 @@
 // Who draws what a walk that is steered wants: the threads of this process, or many ranks.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/cloud/visibility_probe.h"
@@ -16,6 +17,9 @@
 
 namespace lightwalk {
 
+/// Values of pixels in their order; none: there was no time.
+using TracedValues = std::vector<std::optional<PixelValue>>;
+
 class LiveFrames {
   public:
     LiveFrames() = default;
@@ -27,7 +31,8 @@ class LiveFrames {
     [[nodiscard]] virtual bool has_indirect() const = 0;
     /// Frames of this size from here on, and of this light: what was carried on is forgotten.
     /// @param indirect  only where there is some
-    virtual void begin(int width, int height, bool indirect) = 0;
+    /// @param first     number of the first one, see FrameLead
+    virtual void begin(int width, int height, bool indirect, std::uint64_t first = 0) = 0;
 
     // After that; all throw what the tracers throw.
 
@@ -41,10 +46,8 @@ class LiveFrames {
     [[nodiscard]] virtual const ProgressivePicture* progressive(const StopFlag& stop) = 0;
     /// Pixels by all light there is.
     /// @param seconds  after which no more are begun, but some are at once
-    /// @return  of each; the distance of those that there was no time for is negative
-    [[nodiscard]] virtual std::vector<PixelValue> trace(const View& view,
-                                                        const ProgressiveWork& work, double seconds,
-                                                        const StopFlag& stop) = 0;
+    [[nodiscard]] virtual TracedValues trace(const View& view, const ProgressiveWork& work,
+                                             double seconds, const StopFlag& stop) = 0;
     /// See walk_frame.h; by all light there is.
     virtual void add_small_sources(const View& view, Frame& frame) = 0;
     /// That the last frame took, or the last pixels.
@@ -54,11 +57,10 @@ class LiveFrames {
 /// Pixels of a picture by the threads of an executor; see LiveFrames::trace.
 /// @param options   of the picture: one sample a pixel, no window
 /// @param contexts  made for `tracer`, one for each worker; their counters start from zero
-[[nodiscard]] std::vector<PixelValue> trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
-                                                   const Camera& camera,
-                                                   const FrameOptions& options,
-                                                   const ProgressiveWork& work, double seconds,
-                                                   Executor& executor, const StopFlag& stop);
+[[nodiscard]] TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
+                                        const Camera& camera, const FrameOptions& options,
+                                        const ProgressiveWork& work, double seconds,
+                                        Executor& executor, const StopFlag& stop);
 
 /// A tracer of a scene, and what goes with it.
 struct WalkLight {
@@ -79,14 +81,14 @@ class LocalFrames final : public LiveFrames {
                 const FrameOptions& options, Executor& executor, WarningSink& warnings);
 
     [[nodiscard]] bool has_indirect() const override { return indirect_ != nullptr; }
-    void begin(int width, int height, bool indirect) override;
+    void begin(int width, int height, bool indirect, std::uint64_t first = 0) override;
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
     [[nodiscard]] const ProgressivePicture* progressive(const StopFlag&) override {
         return frames_->progressive();
     }
-    [[nodiscard]] std::vector<PixelValue> trace(const View& view, const ProgressiveWork& work,
-                                                double seconds, const StopFlag& stop) override;
+    [[nodiscard]] TracedValues trace(const View& view, const ProgressiveWork& work, double seconds,
+                                     const StopFlag& stop) override;
     void add_small_sources(const View& view, Frame& frame) override;
     [[nodiscard]] std::uint64_t rays() const override { return rays_; }
 

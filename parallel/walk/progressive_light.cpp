@@ -32,19 +32,19 @@ bool ProgressiveLight::step(Trace trace) {
     if (chosen_.places.empty()) return false;
     const ProgressiveWork work = std::move(chosen_);
     chosen_ = {work.sample, {}};
-    const std::vector<PixelValue> values = trace(work);
+    const std::vector<std::optional<PixelValue>> values = trace(work);
     ProgressiveWork finished{work.sample, {}};
     std::vector<Rgb> radiance;
     for (std::size_t i = 0; i < work.places.size(); ++i) {
         const PixelPlace& place = work.places[i];
-        if (!(values[i].distance >= 0)) {
+        if (!values[i]) {
             chosen_.places.push_back(place);
             continue;
         }
         finished.places.push_back(place);
-        radiance.push_back(values[i].radiance);
+        radiance.push_back(values[i]->radiance);
         if (work.sample > 0) continue;
-        distance_[at(place.x, place.y)] = values[i].distance;
+        distance_[at(place.x, place.y)] = values[i]->distance;
         --left_[static_cast<std::size_t>(grid_level(place))];
     }
     work_.record(finished, radiance);

@@ -15,8 +15,8 @@ namespace lightwalk {
 /// that are not traced yet get what the difference is around them.
 class ProgressiveLight {
   public:
-    /// Traces pixels; the distance of those that there was no time for is negative.
-    using Trace = FunctionRef<std::vector<PixelValue>(const ProgressiveWork& work)>;
+    /// Traces pixels; nothing for those that there was no time for.
+    using Trace = FunctionRef<std::vector<std::optional<PixelValue>>(const ProgressiveWork& work)>;
 
     /// @param samples   rays that a pixel at an edge gets in the end, at least 1
     ProgressiveLight(int width, int height, int samples)

@@ -1,34 +1,13 @@
 #include "parallel/walk/walk_frame.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/light/small_sources.h"
 #include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
 
-Frame turned_over(CloudFrame& drawn, int width, int height) {
-    Frame frame;
-    frame.width = width;
-    frame.height = height;
-    const auto row = static_cast<std::ptrdiff_t>(width);
-    for (int y = 0; y < height / 2; ++y) {
-        const std::ptrdiff_t below = y * row, above = (height - 1 - y) * row;
-        std::swap_ranges(drawn.radiance.begin() + below, drawn.radiance.begin() + below + row,
-                         drawn.radiance.begin() + above);
-        std::swap_ranges(drawn.distance.begin() + below, drawn.distance.begin() + below + row,
-                         drawn.distance.begin() + above);
-    }
-    frame.radiance = std::move(drawn.radiance);
-    frame.distance = std::move(drawn.distance);
-    return frame;
-}
-
-namespace {
-
-/// The same of a frame that is still wanted.
-Frame copied_over(const CloudFrame& drawn, int width, int height, Executor& executor) {
+Frame turned_over(const CloudFrame& drawn, int width, int height, Executor& executor) {
     constexpr int kRowsATask = 32;
     Frame frame;
     frame.width = width;
@@ -49,8 +28,6 @@ Frame copied_over(const CloudFrame& drawn, int width, int height, Executor& exec
     });
     return frame;
 }
-
-}  // namespace
 
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
                         Executor& executor, WorkerContexts& contexts, Frame& frame) {
@@ -82,7 +59,7 @@ WalkFrame draw_walk_frame(CloudFrames& frames, const Tracer& tracer,
                            int worker) { caster.trace(places, pixels, sample, worker); };
     const CloudFrame& drawn = frames.draw(camera, {probe, trace}, executor, stop);
     WalkFrame result;
-    result.frame = copied_over(drawn, options.width, options.height, executor);
+    result.frame = turned_over(drawn, options.width, options.height, executor);
     result.report = drawn.report;
     result.causes = drawn.causes;
     if (drawn.complete)

@@ -26,8 +26,8 @@ struct WalkFrame {
                                         const FrameOptions& options, Executor& executor,
                                         WorkerContexts& contexts, const StopFlag& stop);
 
-/// The picture of a drawn frame, with its rows from the top; takes its pixels.
-[[nodiscard]] Frame turned_over(CloudFrame& drawn, int width, int height);
+/// The picture of a drawn frame, with its rows from the top.
+[[nodiscard]] Frame turned_over(const CloudFrame& drawn, int width, int height, Executor& executor);
 
 /// Draw light sources that are too small for the pixel grid into a frame, with their coverage: they
 /// are no part of the points, for they cover more or less of a pixel from frame to frame.

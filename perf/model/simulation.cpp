@@ -13,13 +13,22 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kPixelBytes = 16;   ///< of a pixel in a message
-constexpr double kOrderBytes = 400;  ///< of what a JobStart says of view and options
+constexpr double kOrderBytes = 400;  ///< of what an announcement says of view and options
 constexpr double kHeadStart = 10;  ///< ranks are there so long before the picture is asked for [s]
 constexpr double kReach = 0.5;     ///< of an ambient value, see AmbientSites
 
 CellCosts prepass_cells(const CostMap& map) {
     return map.prepass.width > 0 ? map.prepass : map.picture;
+}
+
+const Pixels* pixels_in(const Message& message) {
+    const auto* result = std::get_if<WorkResult>(&message);
+    return result != nullptr ? std::get_if<Pixels>(&result->result) : nullptr;
+}
+
+const PicturePart* picture_part(const Message& message) {
+    const auto* finished = std::get_if<FinishedPart>(&message);
+    return finished != nullptr ? std::get_if<PicturePart>(&finished->part) : nullptr;
 }
 
 }  // namespace
@@ -70,43 +79,18 @@ std::size_t Simulation::node_of(std::size_t rank) const {
     return machine_.node_ranks == 0 ? 0 : rank / static_cast<std::size_t>(machine_.node_ranks);
 }
 
-/// As RankLoop's constructor does.
 void Simulation::make_roles() {
-    const std::size_t workers = topology_.workers.size();
-    ranks_[0].master = std::make_unique<MasterRole>(
-        Address{0, Role::master}, topology_.children, workers,
-        BlockPolicy{run_.block, run_.stride, run_.threads * static_cast<int>(workers)});
-    for (const Topology::SubMaster& sub : topology_.sub_masters) {
-        ranks_[static_cast<std::size_t>(sub.rank)].sub_master = std::make_unique<SubMasterRole>(
-            Address{sub.rank, Role::master}, Address{0, Role::master}, sub.children,
-            sub.children.size() * static_cast<std::size_t>(run_.threads));
-    }
-    std::vector<int> list;
-    for (const Topology::Worker& worker : topology_.workers) list.push_back(worker.rank);
-    const auto all = std::make_shared<const std::vector<int>>(std::move(list));
-    for (std::size_t i = 0; i < workers; ++i) {
-        const Topology::Worker& worker = topology_.workers[i];
-        ranks_[static_cast<std::size_t>(worker.rank)].worker = std::make_unique<WorkerRole>(
-            WorkerOptions{{worker.rank, Role::worker},
-                          {worker.master, Role::master},
-                          i,
-                          all,
-                          run_.threads,
-                          std::max(1, run_.threads / 2),
-                          [](const PixelRectangle&, const std::vector<PixelValue>&) {
-                              return std::string();
-                          }});
-    }
-    if (!topology_.ambient_master) return;
-    const int master = *topology_.ambient_master;
-    ranks_[static_cast<std::size_t>(master)].ambient_master =
-        std::make_unique<AmbientMasterRole>(Address{master, Role::ambient_master});
-    for (const Topology::Worker& worker : topology_.workers) {
-        ranks_[static_cast<std::size_t>(worker.rank)].ambient_client =
-            std::make_unique<AmbientClientRole>(Address{worker.rank, Role::ambient_client},
-                                                Address{master, Role::ambient_master},
-                                                static_cast<std::size_t>(run_.ambient_batch));
-    }
+    RankSettings settings;
+    settings.slots = run_.threads;
+    settings.ahead = std::max(1, run_.threads / 2);
+    settings.block = run_.block;
+    settings.stride = run_.stride;
+    settings.ambient_batch = static_cast<std::size_t>(run_.ambient_batch);
+    settings.encode = [](const PixelRectangle&, const std::vector<PixelValue>&) {
+        return std::string();
+    };
+    for (std::size_t i = 0; i < ranks_.size(); ++i)
+        ranks_[i].roles.emplace(static_cast<int>(i), topology_, settings);
 }
 
 Prediction Simulation::run() {
@@ -153,11 +137,8 @@ void Simulation::submit() {
         Rank& rank = ranks_[r];
         double clock = -kHeadStart - early(random);
         rank.wire_free = clock;
-        Outbox out;
-        if (rank.sub_master) rank.sub_master->begin(out);
-        if (rank.worker) rank.worker->begin(out);
         now_ = clock;
-        for (Envelope& envelope : out) dispatch(r, std::move(envelope), clock);
+        dispatch(r, Posted{[](RankRoles& roles, Outbox& out) { roles.begin(out); }}, clock);
         rank.idle_from = rank.busy_until = clock;
     }
     if (picture_ > 0) at(0, Kind::request, 0, 0);
@@ -185,12 +166,12 @@ void Simulation::act(const Event& event) {
         case Kind::request: {
             const PixelRectangle whole{0, 0, run_.width, run_.height};
             const bool coarse = is_prepass(event.what);
-            JobStart start;
+            PictureJob start;
             start.job = event.what;
             start.area = coarse ? map_.prepass.area() : whole;
             start.alignment = coarse ? 1 : run_.alignment;
             start.keep = !coarse;
-            post(0, {{0, Role::program}, {0, Role::master}, std::move(start)});
+            post(0, {[start](RankRoles& roles, Outbox& out) { roles.queue().start(start, out); }});
             return;
         }
         case Kind::trace:
@@ -203,14 +184,14 @@ void Simulation::act(const Event& event) {
 }
 
 /// A message from within the rank wakes its loop.
-void Simulation::post(std::size_t rank, Envelope envelope) {
-    put_in(rank, std::move(envelope),
+void Simulation::post(std::size_t rank, Posted posted) {
+    put_in(rank, std::move(posted),
            std::max(ranks_[rank].busy_until, now_ + machine_.wake * machine_.slowness));
 }
 
-void Simulation::put_in(std::size_t number, Envelope envelope, double look) {
+void Simulation::put_in(std::size_t number, Input input, double look) {
     Rank& rank = ranks_[number];
-    rank.inbox.push_back(std::move(envelope));
+    rank.inbox.push_back(std::move(input));
     if (look >= rank.looks_at) return;
     rank.looks_at = look;
     at(look, Kind::serve, number);
@@ -250,13 +231,13 @@ void Simulation::serve(std::size_t number) {
     Rank& rank = ranks_[number];
     rank.looks_at = kNever;
     nodes_[node_of(number)].take_away(now_, eager_looks(rank));
-    std::vector<Envelope> inbox = std::exchange(rank.inbox, {});
+    std::vector<Input> inbox = std::exchange(rank.inbox, {});
     double clock = now_;
-    for (Envelope& envelope : inbox) {
-        if (envelope.from.rank != envelope.to.rank)
+    for (Input& input : inbox) {
+        if (const auto* envelope = std::get_if<Envelope>(&input))
             clock +=
-                machine_.slowness * (machine_.overhead + machine_.byte_work * bytes_of(envelope));
-        dispatch(number, std::move(envelope), clock);
+                machine_.slowness * (machine_.overhead + machine_.byte_work * bytes_of(*envelope));
+        dispatch(number, std::move(input), clock);
     }
     rank.idle_from = rank.busy_until = clock;
     if (now_ >= 0) rank.handling += clock - now_;
@@ -265,87 +246,83 @@ void Simulation::serve(std::size_t number) {
 }
 
 /// As RankLoop::dispatch(): what is for this rank at once, and what follows from it.
-void Simulation::dispatch(std::size_t number, Envelope first, double& clock) {
-    const auto here = static_cast<int>(number);
+void Simulation::dispatch(std::size_t number, Input input, double& clock) {
     std::vector<Envelope> due;
-    due.push_back(std::move(first));
-    Outbox out;
+    if (const auto* posted = std::get_if<Posted>(&input)) {
+        clock += machine_.slowness * posted->work;
+        take_step(number, posted->step, due, clock);
+    } else {
+        due.push_back(std::get<Envelope>(std::move(input)));
+    }
     for (std::size_t i = 0; i < due.size(); ++i) {
         Envelope envelope = std::move(due[i]);
-        const auto* piece = std::get_if<PicturePiece>(&envelope.message);
-        if (piece != nullptr && envelope.from == Address{here, Role::worker})
-            clock += machine_.slowness * map_.encode_seconds *
-                     static_cast<double>(piece->work.block.pixels());
-        if (envelope.to.rank != here) {
+        if (envelope.to != static_cast<int>(number)) {
             send(std::move(envelope), clock);
             continue;
         }
-        deliver(std::move(envelope), out, clock);
-        std::move(out.begin(), out.end(), std::back_inserter(due));
-        out.clear();
+        take_step(
+            number,
+            [&](RankRoles& roles, Outbox& out) {
+                roles.handle(envelope.from, std::move(envelope.message), out);
+            },
+            due, clock);
     }
 }
 
-void Simulation::deliver(Envelope envelope, Outbox& out, double& clock) {
-    Rank& rank = ranks_[static_cast<std::size_t>(envelope.to.rank)];
+void Simulation::take_step(std::size_t number, const Step& step, std::vector<Envelope>& due,
+                           double& clock) {
     clock += machine_.slowness * machine_.step;
-    switch (envelope.to.role) {
-        case Role::master:
-            if (rank.sub_master)
-                rank.sub_master->handle(std::move(envelope), out);
-            else
-                rank.master->handle(std::move(envelope), out);
-            return;
-        case Role::worker:
-            if (const auto* done = std::get_if<BlockDone>(&envelope.message))
-                clock += machine_.slowness * machine_.byte_work * kPixelBytes *
-                         static_cast<double>(done->pixels.work.block.pixels());
-            rank.worker->handle(std::move(envelope), out);
-            return;
-        case Role::ambient_master:
-            rank.ambient_master->handle(std::move(envelope), out);
-            return;
-        case Role::ambient_client:
-            rank.ambient_client->handle(std::move(envelope), out);
-            return;
-        default:
-            deliver_locally(std::move(envelope), clock);
+    Outbox out;
+    step(*ranks_[number].roles, out);
+    for (TracerNews& news : out.tracers) take(number, std::move(news), clock);
+    for (const AmbientValues& news : out.cache) take(number, news, clock);
+    for (const ProgramNews& news : out.program) take(news, clock);
+    for (const Envelope& envelope : out.messages) {
+        if (const PicturePart* part = picture_part(envelope.message))
+            clock += machine_.slowness * map_.encode_seconds *
+                     static_cast<double>(part->work.block.pixels());
     }
+    std::move(out.messages.begin(), out.messages.end(), std::back_inserter(due));
 }
 
-/// To the tracer, the cache or the program of a rank.
-void Simulation::deliver_locally(Envelope envelope, double& clock) {
-    const auto number = static_cast<std::size_t>(envelope.to.rank);
+void Simulation::take(std::size_t number, TracerNews news, double& clock) {
+    clock += machine_.slowness * machine_.step;
+    const auto* grant = std::get_if<WorkGrant>(&news);
+    if (grant == nullptr) return;
     Rank& rank = ranks_[number];
-    if (const auto* given = std::get_if<GiveBlocks>(&envelope.message)) {
-        rank.blocks.insert(rank.blocks.end(), given->blocks.begin(), given->blocks.end());
-        at(clock, Kind::trace, number);
-    } else if (const auto* values = std::get_if<AmbientValues>(&envelope.message)) {
-        for (const AmbientRecord& record : values->records) rank.known[record.normal] = true;
-        clock +=
-            machine_.slowness * machine_.value_work * static_cast<double>(values->records.size());
-    } else if (std::holds_alternative<FinishedPicture>(envelope.message)) {
-        const double unpacking = machine_.unpacks ? map_.decode_seconds : 0;
-        end_ = clock + machine_.slowness * (machine_.wake + unpacking * run_.width * run_.height);
-    }
+    for (const Work& piece : grant->pieces) rank.blocks.push_back(std::get<JobBlock>(piece));
+    at(clock, Kind::trace, number);
+}
+
+void Simulation::take(std::size_t number, const AmbientValues& news, double& clock) {
+    for (const AmbientRecord& record : news.records) ranks_[number].known[record.normal] = true;
+    clock += machine_.slowness *
+             (machine_.step + machine_.value_work * static_cast<double>(news.records.size()));
+}
+
+void Simulation::take(const ProgramNews& news, double& clock) {
+    clock += machine_.slowness * machine_.step;
+    if (!std::holds_alternative<FinishedPicture>(news)) return;
+    const double unpacking = machine_.unpacks ? map_.decode_seconds : 0;
+    end_ = clock + machine_.slowness * (machine_.wake + unpacking * run_.width * run_.height);
 }
 
 /// Bytes on the wire: the real message's, and those of what simulations leave out.
 double Simulation::bytes_of(const Envelope& envelope) const {
     const auto bytes = static_cast<double>(message_bytes(envelope.message));
-    if (const auto* pixels = std::get_if<Pixels>(&envelope.message))
+    if (const Pixels* pixels = pixels_in(envelope.message))
         return bytes + kPixelBytes * static_cast<double>(pixels->work.block.pixels());
-    if (const auto* piece = std::get_if<PicturePiece>(&envelope.message))
-        return bytes + map_.packed_bytes * static_cast<double>(piece->work.block.pixels());
-    if (std::holds_alternative<JobStart>(envelope.message)) return bytes + kOrderBytes;
+    if (const PicturePart* part = picture_part(envelope.message))
+        return bytes + map_.packed_bytes * static_cast<double>(part->work.block.pixels());
+    if (std::holds_alternative<Announcement>(envelope.message)) return bytes + kOrderBytes;
     return bytes;
 }
 
 void Simulation::send(Envelope envelope, double& clock) {
-    Rank& rank = ranks_[static_cast<std::size_t>(envelope.from.rank)];
+    Rank& rank = ranks_[static_cast<std::size_t>(envelope.from)];
     const double bytes = bytes_of(envelope);
     if (now_ >= 0) prediction_.messages.add(envelope.message, static_cast<std::size_t>(bytes));
-    if (std::holds_alternative<Pixels>(envelope.message)) count_owner(envelope.to.rank);
+    if (pixels_in(envelope.message) != nullptr) count_owner(envelope.to);
     clock += machine_.slowness * (machine_.overhead + machine_.byte_work * bytes);
     const double leaves = std::max(clock, rank.wire_free);
     rank.wire_free = leaves + std::max(machine_.gap, machine_.byte_gap * bytes);
@@ -357,7 +334,7 @@ void Simulation::send(Envelope envelope, double& clock) {
         slot = free_messages_.back();
         free_messages_.pop_back();
     }
-    const auto to = static_cast<std::size_t>(envelope.to.rank);
+    const auto to = static_cast<std::size_t>(envelope.to);
     messages_[slot] = std::move(envelope);
     at(leaves + machine_.byte_gap * bytes + machine_.latency, Kind::arrive, to, slot);
 }

@@ -2,14 +2,16 @@
 // One picture on a machine that need not exist: the roles of the real program, and a clock.
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <queue>
 #include <random>
+#include <variant>
 #include <vector>
 
 #include "parallel/ranks/message_counts.h"
-#include "parallel/ranks/roles.h"
+#include "parallel/ranks/rank_roles.h"
 #include "perf/model/ambient_sites.h"
 #include "perf/model/cost_map.h"
 #include "perf/model/machine.h"
@@ -53,6 +55,13 @@ class Simulation {
   private:
     struct Rank;
     struct Task;
+    /// A message that has arrived, or something that a rank's threads or program want of its roles.
+    using Step = std::function<void(RankRoles& roles, Outbox& out)>;
+    struct Posted {
+        Step step;
+        double work = 0;  ///< processor time beyond that of any step [s]
+    };
+    using Input = std::variant<Envelope, Posted>;
     enum class Kind : std::uint8_t { arrive, serve, traced, trace, request };
     struct Event {
         double time = 0;
@@ -72,14 +81,16 @@ class Simulation {
     void act(const Event& event);
 
     // Messages.
-    void post(std::size_t rank, Envelope envelope);
-    void put_in(std::size_t rank, Envelope envelope, double look);
+    void post(std::size_t rank, Posted posted);
+    void put_in(std::size_t rank, Input input, double look);
     [[nodiscard]] double next_look(const Rank& rank) const;
     [[nodiscard]] double eager_looks(const Rank& rank) const;
     void serve(std::size_t rank);
-    void dispatch(std::size_t rank, Envelope first, double& clock);
-    void deliver(Envelope envelope, Outbox& out, double& clock);
-    void deliver_locally(Envelope envelope, double& clock);
+    void dispatch(std::size_t rank, Input input, double& clock);
+    void take_step(std::size_t rank, const Step& step, std::vector<Envelope>& due, double& clock);
+    void take(std::size_t rank, TracerNews news, double& clock);
+    void take(std::size_t rank, const AmbientValues& news, double& clock);
+    void take(const ProgramNews& news, double& clock);
     void send(Envelope envelope, double& clock);
     [[nodiscard]] double bytes_of(const Envelope& envelope) const;
 

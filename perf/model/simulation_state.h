@@ -7,21 +7,18 @@
 
 namespace lightwalk {
 
+inline constexpr double kPixelBytes = 16;  ///< of a pixel in a message
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Simulation::Rank {
-    std::unique_ptr<MasterRole> master;
-    std::unique_ptr<SubMasterRole> sub_master;
-    std::unique_ptr<WorkerRole> worker;
-    std::unique_ptr<AmbientMasterRole> ambient_master;
-    std::unique_ptr<AmbientClientRole> ambient_client;
+    std::optional<RankRoles> roles;
 
-    std::vector<Envelope> inbox;  ///< arrived or posted, not yet looked at
-    double idle_from = 0;         ///< the loop has had nothing to do since
-    double busy_until = 0;        ///< with messages
-    double looks_at = kNever;     ///< when it will look next, if it matters
-    double wire_free = 0;         ///< when its next message may leave
-    double handling = 0;          ///< processor time of messages since the picture began
+    std::vector<Input> inbox;  ///< arrived or posted, not yet looked at
+    double idle_from = 0;      ///< the loop has had nothing to do since
+    double busy_until = 0;     ///< with messages
+    double looks_at = kNever;  ///< when it will look next, if it matters
+    double wire_free = 0;      ///< when its next message may leave
+    double handling = 0;       ///< processor time of messages since the picture began
 
     std::vector<JobBlock> blocks;  ///< given, not yet begun
     std::size_t next_block = 0;    ///< of them

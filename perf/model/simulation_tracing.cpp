@@ -101,15 +101,14 @@ void Simulation::end_step(int task) {
 /// Batches as AmbientSender makes them.
 void Simulation::keep(std::size_t number, std::uint32_t value) {
     Rank& rank = ranks_[number];
-    if (!rank.ambient_client) return;
+    if (!rank.roles || !rank.roles->ambient_client()) return;
     AmbientRecord record;
     record.normal = value;
     rank.own.push_back(record);
     if (rank.own.size() < static_cast<std::size_t>(run_.ambient_batch)) return;
-    const auto self = static_cast<int>(number);
-    post(number, {{self, Role::cache},
-                  {self, Role::ambient_client},
-                  AmbientValues{std::exchange(rank.own, {})}});
+    post(number, {[own = std::exchange(rank.own, {})](RankRoles& roles, Outbox& out) {
+             roles.ambient_client()->offer({own}, out);
+         }});
 }
 
 void Simulation::finish(int task) {
@@ -120,9 +119,14 @@ void Simulation::finish(int task) {
     if (run_.variant == Variant::threads) {
         if (++threads_done_ == threads_blocks_) end_ = now_;
     } else {
-        const auto self = static_cast<int>(number);
-        post(number,
-             {{self, Role::tracer}, {self, Role::worker}, BlockDone{{t.work, {}}, now_ - t.began}});
+        const auto pixels = static_cast<std::uint32_t>(t.work.block.pixels());
+        const FinishedWork finished{FinishedWork::Payload::block, t.work.job, pixels,
+                                    now_ - t.began};
+        // The block's pixels are copied to where they belong.
+        post(number, {[finished, work = t.work](RankRoles& roles, Outbox& out) {
+                          roles.worker().finish(finished, Pixels{work, {}}, out);
+                      },
+                      machine_.byte_work * kPixelBytes * pixels});
     }
     trace(number);
 }

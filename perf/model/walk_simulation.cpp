@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "parallel/ranks/topology.h"
+#include "parallel/sub_images.h"
 
 namespace lightwalk {
 namespace {
@@ -17,19 +18,6 @@ constexpr std::size_t kViewBytes = 300;
 /// A sleeping loop looks after 50, 100, 200 and then each 400 us (see RankLoop): on average so much
 /// later than a message is there [s].
 constexpr double kMeanWait = 100e-6;
-
-Address tracer_of(std::size_t rank) {
-    return {static_cast<int>(rank), Role::tracer};
-}
-Address worker_of(std::size_t rank) {
-    return {static_cast<int>(rank), Role::worker};
-}
-
-std::vector<int> first_ranks(int count) {
-    std::vector<int> ranks;
-    for (int rank = 0; rank < count; ++rank) ranks.push_back(rank);
-    return ranks;
-}
 
 PixelRectangle moved(PixelRectangle area, int by) {
     area.x0 += by;
@@ -51,25 +39,23 @@ WalkSimulation::WalkSimulation(const WalkCosts& costs, const Machine& machine,
       machine_(machine),
       walk_(walk),
       random_(walk.seed),
-      owners_(owners_of(static_cast<std::size_t>(walk.ranks), walk.projectors)),
-      master_({0, Role::master}, first_ranks(walk.ranks), owners_, walk.ranks * walk.threads) {
+      owners_(owners_of(static_cast<std::size_t>(walk.ranks), walk.projectors)) {
     const SubImages parts({0, 0, walk.width, walk.height}, owners_);
     for (std::size_t i = 0; i < owners_; ++i) parts_.push_back(parts[i]);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(walk.ranks); ++i) {
-        ranks_.emplace_back(CloudWorkerOptions{worker_of(i),
-                                               {0, Role::master},
-                                               i,
-                                               owners_,
-                                               walk.threads,
-                                               std::max(1, walk.threads / 2)});
+    const Topology topology = make_topology(Variant::hybrid, walk.ranks, false, 1);
+    RankSettings settings;
+    settings.slots = walk.threads;
+    settings.ahead = std::max(1, walk.threads / 2);
+    settings.projectors = walk.projectors;
+    for (int i = 0; i < walk.ranks; ++i) {
+        ranks_.emplace_back(RankRoles(i, topology, settings));
         ranks_.back().free_threads = walk.threads;
     }
 }
 
 WalkPrediction WalkSimulation::run() {
-    Outbox out;
-    for (Rank& rank : ranks_) rank.role.begin(out);
-    send(out);
+    for (std::size_t rank = 0; rank < ranks_.size(); ++rank)
+        take_step(rank, [](RankRoles& roles, Outbox& out) { roles.begin(out); });
     order();
     while (frames_done_ < walk_.frames) {
         if (events_.empty()) throw std::logic_error("walk simulation: a frame is never finished");
@@ -96,14 +82,19 @@ void WalkSimulation::at(double time, std::function<void()> act) {
 void WalkSimulation::order() {
     ordered_ = now_;
     most_uncached_ = all_uncached_ = 0;
-    CloudOrder next;
+    for (Rank& rank : ranks_) {
+        rank.points = rank.used = rank.pixels = 0;
+        rank.uncached.reset();
+        rank.checks = rank.gathers = false;
+    }
+    FrameOrder next;
+    next.number = frame();
     next.width = walk_.width;
     next.height = walk_.height;
     next.rules.frame = static_cast<std::uint64_t>(frames_done_);
     next.rules.empty = frames_done_ == 0;
     next.payload.assign(kViewBytes, ' ');
-    Outbox out{{{0, Role::program}, {0, Role::master}, std::move(next)}};
-    send(out);
+    take_step(0, [&](RankRoles& roles, Outbox& out) { roles.queue().start(next, out); });
 }
 
 void WalkSimulation::end_frame() {
@@ -148,16 +139,31 @@ void WalkSimulation::use_all_threads(std::size_t rank, double seconds, std::func
     }
 }
 
-void WalkSimulation::post(std::size_t rank, Address to, Message message) {
-    Outbox out{{tracer_of(rank), to, std::move(message)}};
-    send(out);
+template <class Step>
+void WalkSimulation::take_step(std::size_t rank, Step step) {
+    Outbox out;
+    step(ranks_[rank].roles, out);
+    for (TracerNews& news : out.tracers) take(rank, std::move(news));
+    for (const ProgramNews& news : out.program) {
+        if (!std::holds_alternative<FinishedFrame>(news)) continue;
+        // One thread unpacks the parts.
+        const double unpacking = machine_.unpacks ? costs_.decode * walk_.width * walk_.height : 0;
+        at(now_ + machine_.slowness * unpacking, [this] { end_frame(); });
+    }
+    send(std::move(out.messages));
+}
+
+void WalkSimulation::post(std::size_t rank, std::size_t to, Message message) {
+    std::vector<Envelope> messages;
+    messages.push_back({static_cast<int>(rank), static_cast<int>(to), std::move(message)});
+    send(std::move(messages));
 }
 
 /// Local messages wake the rank's loop; what follows from one on the same rank is served at once.
-void WalkSimulation::send(Outbox& out) {
-    for (Envelope& envelope : out) {
-        const auto from = static_cast<std::size_t>(envelope.from.rank);
-        const auto to = static_cast<std::size_t>(envelope.to.rank);
+void WalkSimulation::send(std::vector<Envelope> messages) {
+    for (Envelope& envelope : messages) {
+        const auto from = static_cast<std::size_t>(envelope.from);
+        const auto to = static_cast<std::size_t>(envelope.to);
         double arrives = now_ + machine_.wake * machine_.slowness;
         if (from != to) {
             const double bytes = bytes_of(envelope);
@@ -180,52 +186,63 @@ void WalkSimulation::send(Outbox& out) {
             work *= machine_.slowness;
             receiver.handling += work;
             receiver.loop_free = std::max(now_, receiver.loop_free) + work;
-            at(receiver.loop_free, [this, carried] { deliver(std::move(*carried)); });
+            at(receiver.loop_free, [this, carried, to] {
+                take_step(to, [&](RankRoles& roles, Outbox& out) {
+                    roles.handle(carried->from, std::move(carried->message), out);
+                });
+            });
         });
     }
-    out.clear();
 }
 
 /// Of the real message, and of what simulations leave out.
 double WalkSimulation::bytes_of(const Envelope& envelope) const {
     const auto bytes = static_cast<double>(message_bytes(envelope.message));
-    if (std::holds_alternative<CloudPoints>(envelope.message))
-        return bytes + kPointBytes * points_from(static_cast<std::size_t>(envelope.from.rank),
-                                                 static_cast<std::size_t>(envelope.to.rank));
-    if (const auto* traced = std::get_if<TracedPixelResults>(&envelope.message))
-        return bytes + kTracedBytes * traced->count;
-    if (const auto* part = std::get_if<CloudPart>(&envelope.message))
-        return bytes + costs_.packed_bytes * static_cast<double>(part->area.pixels());
+    if (const auto* exchange = std::get_if<PointExchange>(&envelope.message)) {
+        if (!std::holds_alternative<SharedPoints>(exchange->points)) return bytes;
+        return bytes + kPointBytes * points_from(static_cast<std::size_t>(envelope.from),
+                                                 static_cast<std::size_t>(envelope.to));
+    }
+    if (const auto* result = std::get_if<WorkResult>(&envelope.message))
+        return bytes + kTracedBytes * std::get<TracedRun>(result->result).count;
+    if (const auto* part = std::get_if<FinishedPart>(&envelope.message))
+        return bytes + costs_.packed_bytes *
+                           static_cast<double>(std::get<FramePart>(part->part).area.pixels());
     return bytes;
 }
 
-void WalkSimulation::deliver(Envelope envelope) {
-    Outbox out;
-    const auto rank = static_cast<std::size_t>(envelope.to.rank);
-    if (envelope.to.role == Role::master) {
-        master_.handle(std::move(envelope), out);
-    } else if (envelope.to.role == Role::worker) {
-        ranks_[rank].role.handle(std::move(envelope), out);
-    } else if (envelope.to.role == Role::program) {
-        // One thread unpacks the parts.
-        const double unpacking = machine_.unpacks ? costs_.decode * walk_.width * walk_.height : 0;
-        at(now_ + machine_.slowness * unpacking, [this] { end_frame(); });
-    } else {
-        tell_tracer(rank, std::move(envelope.message));
-    }
-    send(out);
+void WalkSimulation::take(std::size_t number, TracerNews news) {
+    Rank& rank = ranks_[number];
+    std::visit(Overloaded{[](const PictureJob&) {},
+                          [&](const FrameOrder&) {
+                              if (number < owners_) project(number);
+                          },
+                          [&](const WorkGrant& grant) {
+                              for (const Work& piece : grant.pieces)
+                                  trace(number, std::get<PixelRun>(piece));
+                          },
+                          [&](const PointExchange& exchange) {
+                              const bool points =
+                                  std::holds_alternative<SharedPoints>(exchange.points);
+                              ++(points ? rank.points : rank.used);
+                          },
+                          [&](const TracedRun& run) { rank.pixels += run.count; }},
+               news);
+    look_on(number);
 }
 
-void WalkSimulation::tell_tracer(std::size_t rank, Message message) {
-    if (std::holds_alternative<CloudOrder>(message)) {
-        if (rank < owners_) project(rank);
-    } else if (const auto* stage = std::get_if<CloudStage>(&message)) {
-        if (stage->kind == CloudStage::Kind::points)
-            check(rank);
-        else
-            gather(rank);
-    } else if (auto* uncached = std::get_if<GiveUncachedPixels>(&message)) {
-        if (!uncached->places.empty()) trace(rank, std::move(*uncached));
+/// A part goes on as soon as its owner has all that it waits for.
+void WalkSimulation::look_on(std::size_t number) {
+    Rank& rank = ranks_[number];
+    if (number >= owners_) return;
+    if (rank.checks && rank.points == owners_ - 1) {
+        rank.checks = false;
+        check(number);
+    }
+    if (rank.uncached && rank.pixels == *rank.uncached && !rank.gathers &&
+        rank.used == beside(number).size()) {
+        rank.gathers = true;
+        gather(number);
     }
 }
 
@@ -242,50 +259,50 @@ double WalkSimulation::points_from(std::size_t owner, std::size_t to) const {
 
 void WalkSimulation::project(std::size_t rank) {
     const double seconds = costs_.project * costs_.points * pixels_of(rank);
-    const auto frame = static_cast<WalkFrameId>(frames_done_);
-    use_all_threads(rank, seconds, [this, rank, frame] {
-        for (std::size_t i = 0; i < owners_; ++i) {
-            if (i != rank) post(rank, worker_of(i), CloudPoints{frame, {}});
-        }
+    use_all_threads(rank, seconds, [this, rank] {
+        for (std::size_t i = 0; i < owners_; ++i)
+            if (i != rank) post(rank, i, PointExchange{frame(), SharedPoints{}});
+        ranks_[rank].checks = true;
+        look_on(rank);
     });
 }
 
 void WalkSimulation::check(std::size_t rank) {
     last_projected_ = now_;
-    const auto frame = static_cast<WalkFrameId>(frames_done_);
-    use_all_threads(rank, costs_.check * pixels_of(rank), [this, rank, frame] {
+    use_all_threads(rank, costs_.check * pixels_of(rank), [this, rank] {
         last_checked_ = now_;
-        const SubImages parts({0, 0, walk_.width, walk_.height}, owners_);
-        for (const std::size_t i : owners_beside(parts, rank, walk_.width, walk_.height))
-            post(rank, worker_of(i), CloudUsed{frame, {}});
+        for (const std::size_t i : beside(rank))
+            post(rank, i, PointExchange{frame(), UsedPixels{}});
         const double varied = std::uniform_real_distribution<double>(0.5, 1.5)(random_);
-        UncachedPixels uncached{frame, 0, {}};
+        UncachedPixels uncached{frame(), 0, {}};
         uncached.places.resize(
             static_cast<std::size_t>(varied * costs_.uncached * pixels_of(rank) + 0.5));
         const auto count = static_cast<double>(uncached.places.size());
         most_uncached_ = std::max(most_uncached_, count);
         all_uncached_ += count;
-        post(rank, worker_of(rank), std::move(uncached));
+        ranks_[rank].uncached = uncached.places.size();
+        post(rank, 0, std::move(uncached));
+        look_on(rank);
     });
 }
 
-void WalkSimulation::trace(std::size_t rank, GiveUncachedPixels uncached) {
-    const auto count = static_cast<std::uint32_t>(uncached.places.size());
-    use_thread(rank, costs_.trace * count,
-               [this, rank, count, owner = uncached.owner, frame = uncached.frame,
-                first = uncached.first] {
-                   post(rank, worker_of(owner), TracedPixelResults{frame, first, count, {}});
-                   post(rank, {0, Role::master}, AskUncachedPixels{1});
-               });
+void WalkSimulation::trace(std::size_t rank, const PixelRun& run) {
+    const auto count = static_cast<std::uint32_t>(run.places.size());
+    const TracedRun traced{run.frame, run.owner, run.first, count, {}};
+    use_thread(rank, costs_.trace * count, [this, rank, traced] {
+        take_step(rank, [&](RankRoles& roles, Outbox& out) {
+            roles.worker().finish({FinishedWork::Payload::pixels, 0, traced.count, 0}, traced, out);
+        });
+    });
 }
 
 void WalkSimulation::gather(std::size_t rank) {
     last_traced_ = now_;
     const double seconds = (costs_.keep * costs_.points + costs_.encode) * pixels_of(rank);
-    CloudPart part;
-    part.frame = static_cast<WalkFrameId>(frames_done_);
+    FramePart part;
+    part.frame = frame();
     part.area = parts_[rank];
-    use_all_threads(rank, seconds, [this, rank, part] { post(rank, worker_of(rank), part); });
+    use_all_threads(rank, seconds, [this, rank, part] { post(rank, 0, FinishedPart{part}); });
 }
 
 }  // namespace lightwalk

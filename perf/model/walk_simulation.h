@@ -7,7 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "parallel/ranks/cloud_roles.h"
+#include "parallel/ranks/rank_frame_exchange.h"
+#include "parallel/ranks/rank_roles.h"
 #include "perf/model/machine.h"
 
 namespace lightwalk {
@@ -57,8 +58,12 @@ class WalkSimulation {
 
   private:
     struct Rank {
-        explicit Rank(const CloudWorkerOptions& options) : role(options) {}
-        CloudWorkerRole role;
+        explicit Rank(RankRoles its_roles) : roles(std::move(its_roles)) {}
+        RankRoles roles;
+        // Of the frame at hand, what the owner of a part has got from the others.
+        std::size_t points = 0, used = 0, pixels = 0;
+        std::optional<std::size_t> uncached;  ///< pixels that it waits for, once it has checked
+        bool checks = false, gathers = false;
         int free_threads = 1;
         std::deque<std::pair<double, std::function<void()>>> work;  ///< that waits for a thread
         double loop_free = 0;                                       ///< when its loop is
@@ -83,18 +88,25 @@ class WalkSimulation {
     void use_all_threads(std::size_t rank, double seconds, std::function<void()> done);
 
     // Messages.
-    void post(std::size_t rank, Address to, Message message);
-    void send(Outbox& out);
-    void deliver(Envelope envelope);
-    void tell_tracer(std::size_t rank, Message message);
+    template <class Step>
+    void take_step(std::size_t rank, Step step);
+    void post(std::size_t rank, std::size_t to, Message message);
+    void send(std::vector<Envelope> messages);
+    void take(std::size_t rank, TracerNews news);
+    void look_on(std::size_t rank);
     [[nodiscard]] double bytes_of(const Envelope& envelope) const;
 
     // Steps of a frame.
     void project(std::size_t rank);
     void check(std::size_t rank);
-    void trace(std::size_t rank, GiveUncachedPixels uncached);
+    void trace(std::size_t rank, const PixelRun& run);
     void gather(std::size_t rank);
     [[nodiscard]] double pixels_of(std::size_t owner) const;
+    [[nodiscard]] FrameNumber frame() const { return static_cast<FrameNumber>(frames_done_) + 1; }
+    [[nodiscard]] std::vector<std::size_t> beside(std::size_t owner) const {
+        return owners_beside(SubImages({0, 0, walk_.width, walk_.height}, owners_), owner,
+                             walk_.width, walk_.height);
+    }
     [[nodiscard]] double points_from(std::size_t owner, std::size_t to) const;
 
     WalkCosts costs_;
@@ -104,7 +116,6 @@ class WalkSimulation {
     std::size_t owners_;
     std::vector<PixelRectangle> parts_;
     std::vector<Rank> ranks_;
-    CloudMasterRole master_;
     std::priority_queue<Event> events_;
     std::uint64_t next_event_ = 0;
     double now_ = 0;

@@ -106,7 +106,7 @@ def pixels_sent(messages):
     if not messages:
         return None
     per_rank = messages if isinstance(messages, list) else [messages]
-    found = [m.get("messages", m).get("Pixels", {}) for m in per_rank]
+    found = [m.get("messages", m).get("WorkResult", {}) for m in per_rank]
     return sum(f.get("count", 0) for f in found), sum(f.get("bytes", 0) for f in found)
 
 
@@ -129,7 +129,7 @@ def stride(program, options):
         sent = pixels_sent(one["messages"])
         here, large = predicted[f"{name}/{ranks}"], predicted[f"{name}/65"]
         rows.append({"stride": name, "seconds": one["seconds"], "spread": one["most"] - one["least"],
-                     "pixel_messages": sent[0] if sent else here["messages"]["Pixels"]["count"],
+                     "pixel_messages": sent[0] if sent else here["messages"]["WorkResult"]["count"],
                      "owner_share": here["owner_share"], "owner_share_64_workers": large["owner_share"],
                      "busiest_64_workers": large["busiest_busy"], "others": one["others"]})
     print_table(rows)

@@ -106,12 +106,12 @@ class Meeting {
     std::uint64_t round_ = 0;
 };
 
-class MeetingExchange final : public RoundExchange {
+class MeetingExchange final : public Group {
   public:
     MeetingExchange(Meeting& meeting, int index, int count)
         : meeting_(meeting), index_(index), count_(count) {}
     [[nodiscard]] int index() const override { return index_; }
-    [[nodiscard]] int count() const override { return count_; }
+    [[nodiscard]] int size() const override { return count_; }
     [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
         return meeting_.all_gather(static_cast<std::size_t>(index_), std::move(mine));
     }
@@ -142,7 +142,7 @@ struct Process {
         view.direction = {0, 1, 0};
         return Camera(view);
     }
-    CachePrepassResult play(RoundExchange* exchange = nullptr) {
+    CachePrepassResult play(Group* exchange = nullptr) {
         return fill_ambient_cache(
             scene.tracer, camera, options, CachePrepass::deterministic, cache, executor, contexts,
             stop, [&](const FrameProgress&) { told(); }, exchange);
@@ -185,7 +185,7 @@ TEST_CASE("values of a round see those of earlier rounds only: none is stored wh
 
 TEST_CASE("rounds end when every point is served, and few of their values were needless") {
     Process process(2, 2);
-    NoExchange alone;
+    GroupOfOne alone;
     std::vector<std::size_t> left;
     AmbientRounds rounds(process.scene.tracer, process.cache, process.executor, process.contexts,
                          alone, process.stop, [&](std::size_t n) { left.push_back(n); });

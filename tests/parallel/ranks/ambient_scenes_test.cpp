@@ -1,28 +1,35 @@
 #include <doctest/doctest.h>
 
-#include "parallel/ranks/roles.h"
+#include "parallel/ranks/ambient_exchange.h"
 
 using namespace lightwalk;
 
 namespace {
 
-constexpr Address kMaster{0, Role::ambient_master}, kClient{1, Role::ambient_client};
+constexpr int kMaster = 0, kClient = 1;
 
 AmbientValues values_of(std::uint32_t scene, std::size_t count) {
     return {std::vector<AmbientRecord>(count), scene};
 }
 
-AmbientValues answer_of(AmbientMasterRole& master, int rank, AmbientValues values) {
+AmbientValues news_of(std::uint32_t scene, std::size_t count) {
+    return {std::vector<AmbientRecord>(count), scene, AmbientValues::Direction::news};
+}
+
+AmbientValues answer_of(AmbientMaster& master, int rank, AmbientValues values) {
     Outbox out;
-    master.handle({{rank, Role::ambient_client}, kMaster, std::move(values)}, out);
-    REQUIRE(out.size() == 1);
-    return std::get<AmbientValues>(out.front().message);
+    master.handle(rank, std::move(values), out);
+    REQUIRE(out.messages.size() == 1);
+    CHECK(out.messages.front().to == rank);
+    const auto& answer = std::get<AmbientValues>(out.messages.front().message);
+    CHECK(answer.direction == AmbientValues::Direction::news);
+    return answer;
 }
 
 }  // namespace
 
 TEST_CASE("ambient values of several scenes: the master forgets those of the scene before") {
-    AmbientMasterRole master(kMaster);
+    AmbientMaster master(kMaster);
     CHECK(answer_of(master, 1, values_of(1, 3)).records.empty());
     CHECK(answer_of(master, 2, values_of(1, 0)).records.size() == 3);
     CHECK(answer_of(master, 2, values_of(2, 1)).records.empty());
@@ -35,27 +42,27 @@ TEST_CASE("ambient values of several scenes: the master forgets those of the sce
 }
 
 TEST_CASE("ambient values of several scenes: a client keeps them apart") {
-    AmbientClientRole client(kClient, kMaster, 4);
-    const Address cache{1, Role::cache};
+    AmbientClient client(kClient, kMaster, 4);
     Outbox out;
-    client.handle({cache, kClient, values_of(1, 3)}, out);
-    CHECK(out.empty());  // no batch yet
-    client.handle({cache, kClient, values_of(2, 1)}, out);
-    CHECK(out.empty());
-    client.handle({cache, kClient, values_of(1, 9)}, out);
-    CHECK(out.empty());
+    client.offer(values_of(1, 3), out);
+    CHECK(out.messages.empty());  // no batch yet
+    client.offer(values_of(2, 1), out);
+    CHECK(out.messages.empty());
+    client.offer(values_of(1, 9), out);
+    CHECK(out.messages.empty());
     client.ask(out);
-    REQUIRE(out.size() == 1);
-    CHECK(std::get<AmbientValues>(out[0].message).records.size() == 1);
-    CHECK(std::get<AmbientValues>(out[0].message).scene == 2);
-    out.clear();
+    REQUIRE(out.messages.size() == 1);
+    const auto& offer = std::get<AmbientValues>(out.messages[0].message);
+    CHECK(offer.records.size() == 1);
+    CHECK(offer.scene == 2);
+    CHECK(offer.direction == AmbientValues::Direction::offer);
     SUBCASE("the answer is for the cache") {
-        client.handle({kMaster, kClient, values_of(2, 2)}, out);
-        CHECK(out.size() == 1);
+        client.handle(news_of(2, 2), out);
+        CHECK(out.cache.size() == 1);
     }
     SUBCASE("but not one of the scene before") {
-        client.handle({kMaster, kClient, values_of(1, 2)}, out);
-        CHECK(out.empty());
+        client.handle(news_of(1, 2), out);
+        CHECK(out.cache.empty());
     }
     CHECK_FALSE(client.waits_for_answer());
 }

@@ -14,11 +14,11 @@
 #include <thread>
 #include <vector>
 
-#include "parallel/ranks/cloud_lead.h"
-#include "parallel/ranks/cloud_tracer.h"
+#include "parallel/ranks/frame_parts.h"
 #include "parallel/ranks/piece_codec.h"
-#include "parallel/ranks/rank_loop.h"
+#include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/walk/cloud_frames.h"
+#include "parallel/walk/frame_lead.h"
 #include "parallel/walk/scene_caster.h"
 #include "tests/test_scene.h"
 
@@ -68,9 +68,9 @@ std::vector<View> walk(int frames) {
 }
 
 /// Packets arrive late, and in another order, but for those of one sender.
-class DelayingTransport final : public Transport {
+class DelayingCommunicator final : public Communicator {
   public:
-    DelayingTransport(std::unique_ptr<Transport> wire, std::uint64_t seed)
+    DelayingCommunicator(std::unique_ptr<Communicator> wire, std::uint64_t seed)
         : wire_(std::move(wire)), random_(seed) {}
     [[nodiscard]] int rank() const override { return wire_->rank(); }
     [[nodiscard]] int size() const override { return wire_->size(); }
@@ -100,7 +100,7 @@ class DelayingTransport final : public Transport {
     }
 
   private:
-    std::unique_ptr<Transport> wire_;
+    std::unique_ptr<Communicator> wire_;
     std::mt19937_64 random_;
     std::map<int, std::deque<Packet>> held_;  ///< by sender
 };
@@ -170,20 +170,23 @@ std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
 /// All that a rank has within.
 class End final : public LocalEnd {
   public:
-    std::function<void(Message)> tell_tracer;  ///< none: the rank does not trace
+    TracerInbox inbox;
     RankLoop* loop = nullptr;
+    bool traces = false;
 
-    void take(Envelope envelope) override {
-        if (auto* frame = std::get_if<FinishedFrame>(&envelope.message)) {
+    void take(TracerNews news) override { inbox.push(std::move(news)); }
+    void take(ProgramNews news) override {
+        if (auto* frame = std::get_if<FinishedFrame>(&news)) {
             const std::lock_guard lock(mutex_);
             frames_.push_back(std::move(*frame));
             changed_.notify_all();
-        } else if (tell_tracer) {
-            tell_tracer(std::move(envelope.message));
-        } else if (std::holds_alternative<Finish>(envelope.message)) {
+        } else if (traces) {
+            inbox.close();
+        } else {
             loop->end();
         }
     }
+    void take(AmbientValues) override {}
     FinishedFrame next_frame() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return !frames_.empty(); });
@@ -206,12 +209,25 @@ struct Company {
 /// The program of rank 0.
 std::vector<Drawn> lead(RankLoop& loop, End& end, const std::vector<View>& views,
                         const CloudOptions& options) {
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    FrameNumber number = 0;
+    const auto finished = [&](FrameOrder order) {
+        order.number = ++number;
+        loop.post(Activity::serve,
+                  [order](RankRoles& roles, Outbox& out) { roles.queue().start(order, out); });
+        return assemble_frame(order, end.next_frame(), options.most_points(kWidth, kHeight));
+    };
     std::vector<Drawn> result;
-    CloudLead rules(kWidth, kHeight, options, 0);
+    FrameLead walk(kWidth, kHeight, options, 0);
+    CloudFrame last;
     for (std::size_t i = 0; i < views.size(); ++i) {
-        const View* next = i + 1 < views.size() ? &views[i + 1] : nullptr;
-        loop.post(Role::program, {0, Role::master}, rules.order(views[i], next, std::to_string(i)));
-        result.push_back(to_drawn(rules.take(end.next_frame())));
+        const std::string payload = std::to_string(i);
+        if (walk.rests(views[i]) && walk.wants_origins())
+            walk.begin_progressive(last, finished(walk.origins_order(payload)).origins);
+        AssembledFrame drawn = finished(walk.order(views[i], payload));
+        walk.complete(drawn.frame, drawn.known, drawn.refined, *executor);
+        last = std::move(drawn.frame);
+        result.push_back(to_drawn(last));
     }
     return result;
 }
@@ -220,13 +236,13 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
                                  const CloudOptions& options, const Company& company,
                                  std::uint64_t seed) {
     const Topology topology = make_topology(company.variant, company.ranks, false, 1);
-    auto wires = make_memory_transports(company.ranks);
+    auto wires = make_memory_communicators(company.ranks);
     std::vector<Drawn> result;
     std::vector<std::thread> threads;
     for (int rank = 0; rank < company.ranks; ++rank) {
         threads.emplace_back([&, rank] {
-            DelayingTransport wire(std::move(wires[static_cast<std::size_t>(rank)]),
-                                   seed * 1000 + static_cast<std::uint64_t>(rank));
+            DelayingCommunicator wire(std::move(wires[static_cast<std::size_t>(rank)]),
+                                      seed * 1000 + static_cast<std::uint64_t>(rank));
             RankSettings settings;
             settings.slots = company.threads;
             settings.projectors = company.projectors;
@@ -235,28 +251,22 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
             end.loop = &loop;
             const auto executor = make_executor(ExecutorKind::threads, company.threads);
             WorkerContexts contexts(room.scene.tracer, room.scene.warnings, company.threads);
-            CloudTracerOptions own;
+            WalkPartOptions own;
             own.index = topology.worker_index(rank).value_or(0);
             for (const Topology::Worker& worker : topology.workers)
                 own.workers.push_back(worker.rank);
             own.owners = owners_of(own.workers.size(), company.projectors);
             own.cloud = options;
             own.encode = encode_piece;
-            CloudTracer tracer(
-                own,
-                [&](const CloudOrder& order) {
-                    return std::make_unique<RoomRays>(
-                        room, views.at(static_cast<std::size_t>(std::stoi(order.payload))),
-                        contexts);
-                },
-                [&](Address to, Message message) {
-                    loop.post(Role::tracer, to, std::move(message));
-                });
+            const auto make = [&](const FrameOrder& order) {
+                return std::make_unique<RoomRays>(
+                    room, views.at(static_cast<std::size_t>(std::stoi(order.payload))), contexts);
+            };
             std::thread drawing;
             if (topology.traces(rank)) {
-                end.tell_tracer = [&](Message message) { tracer.take(std::move(message)); };
+                end.traces = true;
                 drawing = std::thread([&] {
-                    tracer.run(*executor, room.stop);
+                    draw_frames(loop, end.inbox, own, make, *executor, room.stop);
                     loop.end();
                 });
             }
@@ -264,8 +274,7 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
             if (rank == 0) {
                 program = std::thread([&] {
                     result = lead(loop, end, views, options);
-                    for (int to = 0; to < company.ranks; ++to)
-                        loop.post(Role::program, {to, Role::program}, Finish{});
+                    for (int to = 0; to < company.ranks; ++to) loop.post(to, Notice{Finish{}});
                 });
             }
             CHECK(loop.run(room.stop));

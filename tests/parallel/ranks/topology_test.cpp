@@ -1,5 +1,7 @@
 #include "parallel/ranks/topology.h"
 
+#include "parallel/sub_images.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -94,27 +96,26 @@ TEST_CASE("roles of each variant") {
                          doctest::Contains("at least 3 ranks"), InputError);
 }
 
-TEST_CASE("every worker has one master, and every master is another's child") {
+TEST_CASE("every worker has one queue, and every queue is another's child") {
     for (const Variant variant : {Variant::ranks, Variant::hybrid}) {
         for (const int masters : {1, 2, 3, 5}) {
             for (const int ranks : {12, 13, 40}) {
                 CAPTURE(ranks);
                 CAPTURE(masters);
                 const Topology topology = make_topology(variant, ranks, true, masters);
-                CHECK(topology.sub_masters.size() == static_cast<std::size_t>(masters - 1));
-                std::multiset<int> fed;
-                for (const Address& child : topology.children) {
-                    if (child.role == Role::worker) fed.insert(child.rank);
-                }
-                for (const Topology::SubMaster& sub : topology.sub_masters) {
-                    CHECK(std::count(topology.children.begin(), topology.children.end(),
-                                     Address{sub.rank, Role::master}) == 1);
+                CHECK(topology.sub_queues.size() == static_cast<std::size_t>(masters - 1));
+                std::multiset<int> fed(topology.children.begin(), topology.children.end());
+                for (const Topology::SubQueue& sub : topology.sub_queues) {
+                    const auto child = fed.find(sub.rank);
+                    REQUIRE(child != fed.end());
+                    fed.erase(child);  // it is no worker of rank 0
                     CHECK(sub.rank != 0);
                     CHECK_FALSE(sub.children.empty());
-                    for (const Address& child : sub.children) {
-                        fed.insert(child.rank);
-                        CHECK(topology.workers[*topology.worker_index(child.rank)].master ==
-                              sub.rank);
+                }
+                for (const Topology::SubQueue& sub : topology.sub_queues) {
+                    for (const int rank : sub.children) {
+                        fed.insert(rank);
+                        CHECK(topology.workers[*topology.worker_index(rank)].queue == sub.rank);
                     }
                 }
                 CHECK(fed.size() == topology.workers.size());

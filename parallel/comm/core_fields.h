@@ -1,0 +1,58 @@
+#pragma once
+// The fields of core's types on the wire (see wire.h).
+#include "core/ambient/ambient_record.h"
+#include "core/cloud/point.h"
+#include "core/cloud/progressive.h"
+#include "core/view/pixels.h"
+#include "core/view/view.h"
+#include "parallel/comm/wire.h"
+
+namespace lightwalk {
+
+template <class Wire>
+void visit_fields(Wire& wire, Vec3& v) {
+    wire(v.x, v.y, v.z);
+}
+template <class Wire>
+void visit_fields(Wire& wire, Rgb& c) {
+    wire(c.r, c.g, c.b);
+}
+template <class Wire>
+void visit_fields(Wire& wire, PixelPlace& place) {
+    wire(place.x, place.y);
+}
+template <class Wire>
+void visit_fields(Wire& wire, PixelRectangle& r) {
+    wire(r.x0, r.y0, r.x1, r.y1);
+}
+template <class Wire>
+void visit_fields(Wire& wire, PixelValue& value) {
+    wire(value.radiance, value.distance);
+}
+template <class Wire>
+void visit_fields(Wire& wire, View& v) {
+    wire(v.type, v.position, v.direction, v.up, v.horizontal, v.vertical, v.fore, v.aft, v.shift,
+         v.lift);
+}
+template <class Wire>
+void visit_fields(Wire& wire, AmbientRecord& r) {
+    wire(r.position, r.normal, r.axis, r.radius, r.translation, r.rotation, r.value, r.weight,
+         r.corral, r.level);
+}
+
+template <>
+inline constexpr int wire::kEnumerators<PointKind> = kPointKinds;
+template <class Wire>
+void visit_fields(Wire& wire, CloudPoint& p) {
+    wire(p.position, p.radiance, p.surface, p.direction, p.max_view_angle, p.kind, p.age, p.old,
+         p.paired);
+}
+
+template <>
+inline constexpr int wire::kEnumerators<PixelOrigin::Kind> = 4;
+template <class Wire>
+void visit_fields(Wire& wire, PixelOrigin& origin) {
+    wire(origin.kind, origin.samples, origin.order);
+}
+
+}  // namespace lightwalk

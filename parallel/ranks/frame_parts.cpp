@@ -1,0 +1,128 @@
+#include "parallel/ranks/frame_parts.h"
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+
+#include "core/error.h"
+#include "parallel/ranks/piece_codec.h"
+
+namespace lightwalk {
+namespace {
+
+[[noreturn]] void refuse() {
+    throw InputError("the parts of a frame that ranks have sent do not make one");
+}
+
+using Parts = std::vector<const FramePart*>;
+
+/// In an order that does not depend on which came first.
+Parts sorted_parts(const FrameOrder& order, const FinishedFrame& finished) {
+    if (finished.frame != order.number) refuse();
+    Parts parts;
+    std::size_t pixels = 0;
+    for (const FramePart& part : finished.parts) {
+        const PixelRectangle& area = part.area;
+        if (area.empty()) continue;
+        if (area.x0 < 0 || area.y0 < 0 || area.x1 > order.width || area.y1 > order.height) refuse();
+        pixels += area.pixels();
+        parts.push_back(&part);
+    }
+    if (pixels != PixelRectangle{0, 0, order.width, order.height}.pixels()) refuse();
+    std::sort(parts.begin(), parts.end(), [](const FramePart* a, const FramePart* b) {
+        return std::tie(a->area.y0, a->area.x0) < std::tie(b->area.y0, b->area.x0);
+    });
+    return parts;
+}
+
+void add_report(const CloudReport& part, CloudReport& all) {
+    for (std::size_t CloudReport::*count :
+         {&CloudReport::reused, &CloudReport::filled, &CloudReport::points})
+        all.*count += part.*count;
+    all.rays += part.rays;
+    for (std::size_t i = 0; i < all.uncached.size(); ++i) all.uncached[i] += part.uncached[i];
+    for (double CloudReport::*seconds : {&CloudReport::project_seconds, &CloudReport::check_seconds,
+                                         &CloudReport::trace_seconds, &CloudReport::keep_seconds})
+        all.*seconds = std::max(all.*seconds, part.*seconds);
+    all.audit_errors.insert(all.audit_errors.end(), part.audit_errors.begin(),
+                            part.audit_errors.end());
+    all.audit_floors.insert(all.audit_floors.end(), part.audit_floors.begin(),
+                            part.audit_floors.end());
+}
+
+/// Calls visit(index of the pixel in the picture, index in the part).
+template <class Visit>
+void for_pixels(const PixelRectangle& area, int width, Visit visit) {
+    std::size_t in_part = 0;
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x, ++in_part)
+            visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x),
+                  in_part);
+}
+
+void put_together(const Parts& parts, int width, AssembledFrame& whole) {
+    for (const FramePart* part : parts) {
+        const std::vector<PixelValue> values = decode_piece(part->area, part->pixels);
+        std::vector<std::uint8_t> known(values.size(), 1);
+        for (const std::uint32_t i : part->unknown) {
+            if (i >= known.size()) refuse();
+            known[i] = 0;
+        }
+        for_pixels(part->area, width, [&](std::size_t at, std::size_t i) {
+            whole.frame.radiance[at] = values[i].radiance;
+            whole.frame.distance[at] = values[i].distance;
+            whole.known[at] = known[i];
+        });
+    }
+}
+
+std::vector<PixelOrigin> origins_of(const Parts& parts, int width, std::size_t pixels) {
+    std::vector<PixelOrigin> origins(pixels);
+    for (const FramePart* part : parts) {
+        if (part->origins.size() != part->area.pixels()) refuse();
+        for_pixels(part->area, width,
+                   [&](std::size_t at, std::size_t i) { origins[at] = part->origins[i]; });
+    }
+    return origins;
+}
+
+/// What the parts have of the pixels that were to be refined, in the order's order.
+std::vector<std::optional<PixelValue>> refined_of(const Parts& parts, const FrameOrder& order) {
+    std::vector<std::optional<PixelValue>> values;
+    values.reserve(order.refined.size());
+    std::vector<std::size_t> next(parts.size());  // of the parts' pixels
+    for (const PixelPlace& place : order.refined) {
+        const auto part = std::find_if(parts.begin(), parts.end(), [&](const FramePart* one) {
+            return one->area.contains(place);
+        });
+        if (part == parts.end()) refuse();
+        std::size_t& at = next[static_cast<std::size_t>(part - parts.begin())];
+        if (at >= (*part)->refined.size()) refuse();
+        values.push_back((*part)->refined[at++]);
+    }
+    return values;
+}
+
+}  // namespace
+
+AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
+                              std::size_t most_points) {
+    const Parts parts = sorted_parts(order, finished);
+    const std::size_t pixels = PixelRectangle{0, 0, order.width, order.height}.pixels();
+    AssembledFrame whole;
+    whole.frame.radiance.resize(pixels);
+    whole.frame.distance.resize(pixels);
+    whole.known.resize(pixels);
+    CloudReport& report = whole.frame.report;
+    report.pixels = pixels;
+    report.tightness = order.rules.tightness;
+    for (const FramePart* part : parts) add_report(part->report, report);
+    report.points = std::min(most_points, report.points);
+    if (!order.rests) put_together(parts, order.width, whole);
+    if (order.tells_origins) whole.origins = origins_of(parts, order.width, pixels);
+    whole.refined = refined_of(parts, order);
+    return whole;
+}
+
+}  // namespace lightwalk

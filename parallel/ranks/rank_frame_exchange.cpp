@@ -1,0 +1,228 @@
+#include "parallel/ranks/rank_frame_exchange.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace lightwalk {
+namespace {
+
+/// One frame, as long as it is drawn.
+class RankFrameExchange final : public FrameExchange {
+  public:
+    RankFrameExchange(RankLoop& loop, TracerInbox& inbox, const WalkPartOptions& options,
+                      const FrameOrder& order, const WalkRays& rays, double last_keep_seconds,
+                      Timeline* timeline)
+        : loop_(loop),
+          inbox_(inbox),
+          options_(options),
+          order_(order),
+          rays_(rays),
+          rays_before_(rays.traced()),
+          last_keep_seconds_(last_keep_seconds),
+          timeline_(timeline),
+          parts_({0, 0, order.width, order.height}, options.owners) {}
+
+    [[nodiscard]] bool exchange_points(CloudRegion& region, const StopFlag& stop) override {
+        std::vector<SharedPoints> leaving(options_.owners);
+        region.leaving([&](const CloudPoint& point, const PixelPlace& place) {
+            const PixelRectangle near = widened({place.x, place.y, place.x + 1, place.y + 1}, 1,
+                                                order_.width, order_.height);
+            for (const std::size_t owner : parts_.overlapping(near))
+                leaving[owner].points.push_back(point);
+        });
+        for (std::size_t i = 0; i < leaving.size(); ++i)
+            if (i != options_.index)
+                loop_.post(options_.workers[i],
+                           PointExchange{order_.number, std::move(leaving[i])});
+        const TimedActivity waiting(timeline_, 0, Activity::wait);
+        const auto arrived = inbox_.points(order_.number, options_.owners - 1, stop);
+        if (!arrived) return false;
+        for (const SharedPoints& shared : *arrived) region.add(shared.points);
+        return true;
+    }
+
+    void send_used(const CloudRegion& region) override {
+        const UsedPixels used = region.used_beside();
+        for (const std::size_t i : beside())
+            loop_.post(options_.workers[i], PointExchange{order_.number, used});
+    }
+
+    [[nodiscard]] bool trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
+                             Executor& executor, const StopFlag& stop) override {
+        const std::span<const std::uint32_t> pairs = region.noise_pairs();
+        UncachedPixels pixels{order_.number, static_cast<std::uint32_t>(pairs.size()), {}};
+        for (const UncachedPixel& pixel : region.uncached()) pixels.places.push_back(pixel.place);
+        for (const std::uint32_t i : pairs) pixels.places.push_back(region.uncached()[i].place);
+        const std::size_t expected = pixels.places.size();
+        loop_.post(0, std::move(pixels));
+        trace_runs(tracer, sample, executor, stop);
+        const TimedActivity waiting(timeline_, 0, Activity::wait);
+        const std::size_t lists = order_.rests ? 0 : beside().size();
+        const auto mail = inbox_.mail(order_.number, expected, lists, stop);
+        if (!mail) return false;
+        for (const UsedPixels& used : mail->used) region.mark_used(used);
+        record(mail->runs, expected, region);
+        return true;
+    }
+
+    /// All threads trace what comes, whoever owns it, until no more of the frame does.
+    void trace_runs(const UncachedPixelTracer& tracer, int sample, Executor& executor,
+                    const StopFlag& stop) {
+        run_on_all(inbox_, executor, stop, [&](int worker) {
+            const auto next = [&] {
+                const TimedActivity waiting(timeline_, worker, Activity::wait);
+                return inbox_.next_run(order_.number, stop);
+            };
+            while (const std::optional<PixelRun> run = next())
+                finish(trace_run(*run, tracer, sample, worker));
+        });
+    }
+
+    void deliver(const FrameOrder&, CloudRegion& region) override {
+        FramePart part;
+        part.frame = order_.number;
+        part.area = region.area();
+        if (order_.rests)
+            part.refined = refined_values(region);
+        else
+            encode(region, part);
+        if (order_.tells_origins)
+            part.origins.assign(region.origins().begin(), region.origins().end());
+        part.report = region.frame().report;
+        part.report.rays = rays_.traced() - rays_before_;
+        part.report.keep_seconds = last_keep_seconds_;
+        loop_.post(0, FinishedPart{std::move(part)});
+    }
+
+    [[nodiscard]] std::optional<AgeCounts> sum(const AgeCounts& mine) override {
+        AgeCounts all{};
+        try {
+            const std::vector<std::uint64_t> sums =
+                loop_.all_reduce(Collective::Group::owners, {mine.begin(), mine.end()});
+            if (sums.size() != all.size()) throw InputError("ranks count ages in different ways");
+            std::copy(sums.begin(), sums.end(), all.begin());
+        } catch (const Aborted&) {
+            return std::nullopt;
+        }
+        return all;
+    }
+
+  private:
+    [[nodiscard]] std::vector<std::size_t> beside() const {
+        return owners_beside(parts_, options_.index, order_.width, order_.height);
+    }
+
+    [[nodiscard]] TracedRun trace_run(const PixelRun& run, const UncachedPixelTracer& tracer,
+                                      int sample, int worker) const {
+        const auto count = static_cast<std::uint32_t>(run.places.size());
+        TracedRun result{run.frame, run.owner, run.first, count, std::nullopt};
+        if (!run.at_once && tracer.is_late()) return result;
+        const TimedActivity tracing(timeline_, worker, Activity::trace);
+        std::vector<TracedPixelResult>& all = result.traced.emplace(count);
+        const auto keep = [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+            std::copy(traced.begin(), traced.end(),
+                      all.begin() + static_cast<std::ptrdiff_t>(first));
+        };
+        tracer.trace_part(run.places, run.noise_pairs ? 1 : sample, worker, keep);
+        return result;
+    }
+
+    void finish(TracedRun run) {
+        const FinishedWork finished{FinishedWork::Payload::pixels, 0, run.count, 0};
+        loop_.post(Activity::send,
+                   [finished, traced = std::move(run)](RankRoles& roles, Outbox& out) mutable {
+                       roles.worker().finish(finished, std::move(traced), out);
+                   });
+    }
+
+    /// Each pixel must have been dealt with, and once.
+    static void record(std::span<const TracedRun> runs, std::size_t expected, CloudRegion& region) {
+        const std::size_t uncached = region.uncached().size();
+        std::vector<bool> there(expected);
+        for (const TracedRun& run : runs) {
+            const std::size_t end = std::size_t{run.first} + run.count;
+            // What is handed out together is either of the one kind or of the other.
+            const bool sound = end <= expected && (run.first >= uncached || end <= uncached) &&
+                               (!run.traced || run.traced->size() == run.count) &&
+                               std::none_of(there.begin() + run.first,
+                                            there.begin() + static_cast<std::ptrdiff_t>(end),
+                                            [](bool is) { return is; });
+            if (!sound) throw InputError("a rank has traced pixels that it should not have");
+            std::fill(there.begin() + run.first, there.begin() + static_cast<std::ptrdiff_t>(end),
+                      true);
+            if (!run.traced) continue;
+            if (run.first >= uncached)
+                region.record_noise_pairs(run.first - uncached, *run.traced);
+            else
+                region.record(run.first, *run.traced);
+        }
+    }
+
+    void encode(CloudRegion& region, FramePart& part) const {
+        const CloudFrame& frame = region.frame();
+        std::vector<PixelValue> values(frame.radiance.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = {frame.radiance[i], frame.distance[i]};
+        if (frame.report.filled > 0) {
+            const std::span<const std::uint8_t> known = region.known();
+            for (std::size_t i = 0; i < known.size(); ++i)
+                if (known[i] == 0) part.unknown.push_back(static_cast<std::uint32_t>(i));
+        }
+        part.pixels = options_.encode(region.area(), std::move(values));
+    }
+
+    RankLoop& loop_;
+    TracerInbox& inbox_;
+    const WalkPartOptions& options_;
+    const FrameOrder& order_;
+    const WalkRays& rays_;
+    std::uint64_t rays_before_;
+    double last_keep_seconds_;
+    Timeline* timeline_;
+    SubImages parts_;
+};
+
+}  // namespace
+
+void draw_frames(RankLoop& loop, TracerInbox& inbox, const WalkPartOptions& options,
+                 const MakeWalkRays& make, Executor& executor, const StopFlag& stop,
+                 Timeline* timeline) {
+    FrameLoop frames(options.cloud, options.index, options.owners);
+    const auto next = [&] {
+        const TimedActivity waiting(timeline, 0, Activity::wait);
+        return inbox.next_order(stop);
+    };
+    while (const std::optional<FrameOrder> order = next()) {
+        const std::unique_ptr<WalkRays> rays = make(*order);
+        const auto probe = [&](std::span<const PixelPlace> places,
+                               std::span<PixelVisibility> visibility,
+                               int worker) { rays->probe(places, visibility, worker); };
+        const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
+                               int sample,
+                               int worker) { rays->trace(places, pixels, sample, worker); };
+        const PixelCaster caster{probe, trace};
+        RankFrameExchange exchange(loop, inbox, options, *order, *rays, frames.keep_seconds(),
+                                   timeline);
+        if (options.index < options.owners) {
+            (void)frames.draw(*order, rays->camera(), caster, exchange, executor, stop);
+            continue;
+        }
+        // A rank that owns no part has nothing to do before others have found what to trace.
+        const auto deadline = order->budget > 0 ? deadline_of(order->budget)
+                                                : UncachedPixelTracer::Clock::time_point::max();
+        exchange.trace_runs(UncachedPixelTracer(caster, options.cloud.tolerance,
+                                                tracing_deadline(deadline, order->budget, 0)),
+                            order->sample, executor, stop);
+    }
+}
+
+std::vector<std::size_t> owners_beside(const SubImages& parts, std::size_t index, int width,
+                                       int height) {
+    std::vector<std::size_t> found = parts.overlapping(widened(parts[index], 1, width, height));
+    std::erase(found, index);
+    return found;
+}
+
+}  // namespace lightwalk

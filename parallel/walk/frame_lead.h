@@ -1,0 +1,82 @@
+#pragma once
+// What whoever leads a walk decides from frame to frame, and what it makes of the drawn frames.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/cloud/progressive.h"
+#include "core/cloud/reuse_error_controller.h"
+#include "core/view/view.h"
+#include "parallel/executor.h"
+#include "parallel/walk/cloud_frame.h"
+#include "parallel/walk/frame_order.h"
+
+namespace lightwalk {
+
+class FrameLead {
+  public:
+    /// @param first  number of the first frame: the audits of frames with the same number choose
+    /// the
+    ///               same pixels
+    FrameLead(int width, int height, const CloudOptions& options, std::uint64_t first);
+
+    /// The next frame. Where its view is that of the last one, begin_progressive() comes before.
+    /// @param payload  see FrameOrder
+    [[nodiscard]] FrameOrder order(const View& view, std::string payload);
+    /// The frame that was ordered is drawn: fills its gaps, or puts what was refined into the
+    /// picture of the resting view.
+    /// @param known    see CloudRegion::known
+    /// @param refined  values of the order's refined pixels; none: there was no time
+    void complete(CloudFrame& frame, std::span<const std::uint8_t> known,
+                  std::span<const std::optional<PixelValue>> refined, Executor& executor);
+    /// It was not drawn, as somebody stopped it.
+    void abandon() { view_.reset(); }
+
+    /// Whether a frame of this view refines the last one, and not only because nothing is known.
+    [[nodiscard]] bool rests(const View& view) const { return view_ == view; }
+    /// Whether the last frame may be refined but begin_progressive() has not been called.
+    [[nodiscard]] bool wants_origins() const { return view_ && !begun_; }
+    /// The last frame, and where its pixels come from: only once its view is known to rest, for
+    /// copying them takes longer than showing a frame.
+    void begin_progressive(const CloudFrame& last, std::span<const PixelOrigin> origins);
+    /// The last frame as one to be refined; null where that has not begun.
+    [[nodiscard]] const ProgressivePicture* progressive() const {
+        return view_ && begun_ ? &progressive_ : nullptr;
+    }
+    /// An order of the last frame's view that draws nothing: parts say where pixels come from.
+    [[nodiscard]] FrameOrder origins_order(std::string payload) const;
+    /// Pixels of the last frame's view that are no part of the frames, and leave no points.
+    [[nodiscard]] FrameOrder trace_order(const ProgressiveWork& work, std::string payload) const;
+
+    /// Of the frames that follow; see CloudOptions.
+    void set_budget(double seconds) { options_.budget = seconds; }
+    void set_refine(double share) { options_.refine = share; }
+
+  private:
+    [[nodiscard]] FrameOrder new_order(std::string payload) const;
+    void fill(CloudFrame& frame, std::span<const std::uint8_t> known, Executor& executor) const;
+    void refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined);
+    [[nodiscard]] std::size_t pixel(const PixelPlace& place) const {
+        return static_cast<std::size_t>(place.y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(place.x);
+    }
+
+    int width_, height_;
+    CloudOptions options_;
+    ReuseErrorController error_controller_;
+    std::uint64_t frame_;
+    bool empty_ = true;  ///< no frame has left points yet
+    // The frame that was ordered.
+    View ordered_;
+    bool rests_ = false;
+    ProgressiveWork work_;
+    // The last frame, where views that rest are refined.
+    std::optional<View> view_;
+    bool begun_ = false;  ///< to be refined: what follows is of it
+    ProgressivePicture progressive_;
+    std::vector<float> distance_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,94 @@
+#include "parallel/walk/frame_loop.h"
+
+#include <numeric>
+
+#include "core/error.h"
+#include "parallel/sub_images.h"
+#include "parallel/walk/step_timer.h"
+
+namespace lightwalk {
+
+bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, const PixelCaster& caster,
+                     FrameExchange& exchange, Executor& executor, const StopFlag& stop) {
+    using Clock = UncachedPixelTracer::Clock;
+    const Clock::time_point deadline =
+        order.budget > 0 ? deadline_of(order.budget - keep_seconds_) : Clock::time_point::max();
+    begin(order, camera);
+    CloudRegion& region = *region_;
+    CloudReport& report = region.frame().report;
+    if (order.rests) {
+        refine(order.refined);
+    } else {
+        region.project(executor);
+        if (!exchange.exchange_points(region, stop)) return false;
+        region.answer(caster, executor, stop, checking_deadline(order.budget));
+        if (stop.requested()) return false;
+        exchange.send_used(region);
+    }
+    {
+        const StepTimer timer(report.trace_seconds);
+        const UncachedPixelTracer tracer(
+            caster, options_.tolerance, tracing_deadline(deadline, order.budget, region.unknown()));
+        if (!exchange.trace(region, tracer, order.sample, executor, stop)) return false;
+    }
+    if (!order.rests) region.show();
+    const AgeCounts ages = order.rests ? region.rest(order.leaves) : region.age(executor);
+    report.points = std::accumulate(ages.begin(), ages.end(), std::size_t{0});
+    exchange.deliver(order, region);
+    const std::optional<AgeCounts> all = exchange.sum(ages);
+    if (!all) return false;
+    region.keep(age_limit(*all, options_.most_points(width_, height_)), executor);
+    keep_seconds_ = report.keep_seconds;
+    return true;
+}
+
+void FrameLoop::begin(const FrameOrder& order, const Camera& camera) {
+    constexpr int kMostPixels = 1 << 16;  // in a row or column
+    if (order.width < 1 || order.width > kMostPixels || order.height < 1 ||
+        order.height > kMostPixels)
+        throw InputError("a frame of a walk is ordered in a size that cannot be");
+    const bool same = region_ && width_ == order.width && height_ == order.height;
+    width_ = order.width;
+    height_ = order.height;
+    if (!same || order.rules.empty) {
+        const SubImages parts({0, 0, width_, height_}, owners_);
+        region_.emplace(parts[index_], width_, height_, options_);
+    }
+    region_->begin(camera, order.rules);
+}
+
+/// The view stands still: the order says what is to be traced.
+void FrameLoop::refine(std::span<const PixelPlace> places) {
+    const StepTimer timer(region_->frame().report.check_seconds);
+    std::vector<PixelPlace> own;
+    for (const PixelPlace& place : places)
+        if (region_->area().contains(place)) own.push_back(place);
+    region_->refine(own);
+}
+
+bool NoFrameExchange::trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
+                            Executor& executor, const StopFlag& stop) {
+    const std::span<const UncachedPixel> pixels = region.uncached();
+    tracer.trace(
+        pixels.size(), [&](std::size_t i) { return pixels[i].place; }, sample, executor, stop,
+        [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+            region.record(first, traced);
+        });
+    const std::span<const std::uint32_t> pairs = region.noise_pairs();
+    tracer.trace(
+        pairs.size(), [&](std::size_t pair) { return pixels[pairs[pair]].place; }, 1, executor,
+        stop,
+        [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+            region.record_noise_pairs(first, traced);
+        });
+    return !stop.requested();
+}
+
+std::vector<std::optional<PixelValue>> refined_values(CloudRegion& region) {
+    std::vector<std::optional<PixelValue>> values(region.uncached().size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (region.is_traced(i)) values[i] = region.traced(i).value;
+    return values;
+}
+
+}  // namespace lightwalk

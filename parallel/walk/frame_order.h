@@ -1,0 +1,50 @@
+#pragma once
+// A frame of a walk as the owners of its parts are told to draw it, and what they hand back.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/cloud/progressive.h"
+#include "core/view/pixels.h"
+#include "parallel/walk/cloud_frame.h"
+
+namespace lightwalk {
+
+/// Number of an order: greater than that of every order before.
+using FrameNumber = std::uint64_t;
+
+struct FrameOrder {
+    FrameNumber number = 0;
+    std::int32_t width = 0, height = 0;
+    CloudRules rules;
+    std::string payload;  ///< view and options, for whoever makes the frame's rays
+    double budget = 0;    ///< see CloudOptions [s]
+    // Or the view is that of the frame before: nothing but these pixels is traced.
+    bool rests = false;
+    bool leaves = false;      ///< whether these pixels leave points
+    std::int32_t sample = 0;  ///< see PixelCaster
+    std::vector<PixelPlace> refined;
+    bool tells_origins = false;  ///< whether parts say where the last frame's pixels come from
+    friend bool operator==(const FrameOrder&, const FrameOrder&) = default;
+};
+
+/// A rectangle of a frame, drawn by the rank that owns it.
+struct FramePart {
+    FrameNumber frame = 0;
+    PixelRectangle area;
+    std::string pixels;                  ///< compressed (encode_piece); empty where the view rests
+    std::vector<std::uint32_t> unknown;  ///< indices of pixels of which nothing is known, ascending
+    CloudReport report;                  ///< its points: those that may be kept
+    std::vector<PixelOrigin> origins;    ///< row by row from the bottom, where they are wanted
+    /// Those of the order's refined pixels that lie here, in its order; none: there was no time.
+    std::vector<std::optional<PixelValue>> refined;
+};
+
+/// All parts of a frame, in any order.
+struct FinishedFrame {
+    FrameNumber frame = 0;
+    std::vector<FramePart> parts;
+};
+
+}  // namespace lightwalk
