@@ -6,6 +6,9 @@
 #include <array>
 #include <cstdio>
 #include <ctime>
+#include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace lightwalk {
 namespace {
@@ -17,6 +20,33 @@ CustomOption error_file(std::string& file) {
             throw UsageError(
                 "option -e: global definitions are not supported, only the name of a file for "
                 "messages");
+    }};
+}
+
+constexpr std::array<std::pair<std::string_view, bool Ablation::*>, 6> kTechniques{
+    {{"batches", &Ablation::batches},
+     {"function-lanes", &Ablation::function_lanes},
+     {"sample-lanes", &Ablation::sample_lanes},
+     {"leaves", &Ablation::leaves},
+     {"slices", &Ablation::slices},
+     {"packets", &Ablation::packets}}};
+
+/// Techniques to do without, by their names with commas between them.
+CustomOption ablated(CommonOptions& options, RenderOptions& light) {
+    return {[&options, &light](OptionWords& words) {
+        std::istringstream names(words.text());
+        for (std::string name; std::getline(names, name, ',');) {
+            const auto* const technique =
+                std::ranges::find_if(kTechniques, [&](const auto& t) { return t.first == name; });
+            if (technique == kTechniques.end()) {
+                std::string expected;
+                for (const auto& [known, _] : kTechniques)
+                    expected += (expected.empty() ? "" : ", ") + std::string(known);
+                refuse_argument("--ablate", "some of " + expected, '"' + name + '"');
+            }
+            options.ablation.*technique->second = false;
+        }
+        light.ablation = options.ablation;
     }};
 }
 
@@ -48,7 +78,9 @@ std::vector<OptionRow> own_rows(CommonOptions& o, RenderOptions& light) {
         {"--allow-commands", &o.allow_commands,
          "run commands in scene files that Lightwalk does not replace by its own generators"},
         {"--stale", &o.stale_allowed,
-         "take a frozen scene whose files have changed since it was frozen"}};
+         "take a frozen scene whose files have changed since it was frozen"},
+        {"--ablate WORDS", ablated(o, light), "do without techniques that change the speed only",
+         With{.hidden = true}}};
 }
 
 std::string date_line(const char* name, const std::tm& time) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/rank_options.h"
+#include "core/ablation.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
 #include "io/options/render_options.h"
@@ -20,6 +21,7 @@ struct CommonOptions {
     bool allow_commands = false;               ///< --allow-commands
     bool stale_allowed = false;                ///< --stale
     bool quiet = false;                        ///< --quiet
+    Ablation ablation;                         ///< --ablate, for tests and benchmarks
     std::string stats_file;                    ///< --stats
     std::string error_file;                    ///< -e: where messages go, "" for standard error
     std::vector<std::string> scene_files;      ///< words that are no options, in order

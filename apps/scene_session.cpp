@@ -52,7 +52,8 @@ SceneSession::SceneSession(const CommonOptions& options, WarningSink& sink,
     : warnings(sink),
       files(std::move(source)),
       library(LibraryPath::from_environment(files)),
-      workers(options.workers) {
+      workers(options.workers),
+      ablation(options.ablation) {
     const Stopwatch watch;
     if (shared_by.empty())
         read(options);
@@ -127,7 +128,8 @@ void SceneSession::compile(Resources& asked) {
 void SceneSession::compile(Resources& asked, const TaskRunner& task_runner) {
     raise_problems(asked);
     trim_heap();
-    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, task_runner);
+    built = std::make_unique<const Scene>(model, modifier_factory, asked, warnings, task_runner,
+                                          SceneExtent::whole, ablation);
     trim_heap();
 }
 

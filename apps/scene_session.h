@@ -73,7 +73,8 @@ struct SceneSession {
     const FrozenScene* frozen = nullptr;       ///< where they are those of a frozen scene
     std::shared_ptr<const MemoryFile> shared;  ///< with other processes; null: nothing is
     int workers = 1;                           ///< that build the scene
-    ProblemList problems;                      ///< of the description, which `model` leaves out
+    Ablation ablation;
+    ProblemList problems;  ///< of the description, which `model` leaves out
     std::shared_ptr<const Model> model;
     std::unique_ptr<const Scene> built;
     // With -ab and -aa; they outlive the tracer.

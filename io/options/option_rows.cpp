@@ -186,7 +186,7 @@ bool OptionRow::attached() const {
 
 bool OptionRow::offered() const {
     return !std::holds_alternative<SectionTitle>(place) &&
-           !std::holds_alternative<RefusedOption>(place);
+           !std::holds_alternative<RefusedOption>(place) && !with.hidden;
 }
 
 std::string OptionRow::comment() const {

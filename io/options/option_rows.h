@@ -68,6 +68,7 @@ struct With {
     std::function<bool(OptionWords&)> take = nullptr;
     std::function<void()> then = nullptr;  ///< is called when the option was taken
     unsigned commands = ~0U;               ///< that take it: a sum of powers of two, one a command
+    bool hidden = false;                   ///< neither help nor suggestions name it: for tests
 };
 
 struct OptionRow {
@@ -80,7 +81,7 @@ struct OptionRow {
 
     [[nodiscard]] std::string name() const;
     [[nodiscard]] bool attached() const;  ///< the argument is part of the option's word
-    [[nodiscard]] bool offered() const;   ///< neither a title nor refused
+    [[nodiscard]] bool offered() const;   ///< neither a title nor refused nor hidden
     [[nodiscard]] std::string comment() const;
     [[nodiscard]] std::string help() const;
     /// The arguments that set the present value, real numbers by this conversion of printf; "":

@@ -167,6 +167,21 @@ TEST_CASE(
     }
 }
 
+TEST_CASE(
+    "options: --ablate is for tests: taken, refused with the words that it knows, never shown") {
+    for (const Command& command : commands()) {
+        const OptionTable table = command.options();
+        CHECK(help_text(command.name).find("ablate") == std::string::npos);
+        const bool takes = std::ranges::any_of(
+            table.rows(), [](const OptionRow& row) { return row.name() == "--ablate"; });
+        if (!takes) continue;
+        CHECK(refusal(table, {"--ablate", "packets,batches"}).empty());
+        const std::string said = refusal(table, {"--ablate", "leaves,lanes"});
+        CHECK(said.starts_with("option --ablate: expected some of batches, function-lanes"));
+        CHECK(said.ends_with("found \"lanes\""));
+    }
+}
+
 TEST_CASE("options: apps/OPTIONS.md is what `lightwalk help options` prints") {
     std::ifstream file(LIGHTWALK_SOURCE "/apps/OPTIONS.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
