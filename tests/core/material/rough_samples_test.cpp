@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "tests/core/chi_square.h"
-#include "tests/core/material/surroundings.h"
 #include "tests/tolerance.h"
 
 using namespace lightwalk;
@@ -51,47 +50,6 @@ TEST_CASE("weighted samples of Ward's lobe estimate the light that it reflects o
     REQUIRE(estimate.error() < 0.005 * expected);
     CHECK(std::abs(estimate.mean() - expected) <
           4 * estimate.error() + 1e-5);  // the integral's own error
-}
-
-TEST_CASE(
-    "a panel's highlight is the integral of the lobe, sampled from the lobe or from the lamp") {
-    // Seen at 40 degrees, in a black metal but for its lobe; the panel is where that is bright.
-    const Vec3 wo = normalize(Vec3{-0.6, 0.2, 0.75});
-    const std::string panel = " polygon panel 0 0 12 1.2 -.3 1.1 .9 -.3 1.4 .9 .7 1.4 1.2 .7 1.1\n";
-    const Vec3 corner{1.2, -0.3, 1.1}, u{-0.3, 0, 0.3}, v{0, 1, 0};
-    for (const auto& [material, alpha_u, alpha_v] :
-         {std::tuple{"void metal m 0 0 5 1 1 1 1 .3\n", 0.3, 0.3},
-          {"void metal2 m 4 1 0 0 . 0 6 1 1 1 1 .15 .4\n", 0.15, 0.4}}) {
-        const WardReflection lobe{wo, kFrame, alpha_u, alpha_v};
-        const double area = length(cross(u, v));
-        const double expected = integrate(
-            [&](double x, double y) {
-                const Vec3 way = corner + u * x + v * y, wi = normalize(way);
-                const double cosine = std::abs(dot(cross(u, v), wi)) / area;
-                return lobe.eval(wi) * wi.z * cosine * area / length_squared(way);
-            },
-            0, 1, 0, 1, 1e-9);
-        CAPTURE(std::string(material));
-        for (const bool by_lamp : {false, true}) {
-            RenderOptions options = TestScene::exact();
-            options.specular_threshold = 0;
-            options.weight_limit = 1e-9;
-            options.specular_samples = 1500;
-            options.source_jitter = 1;
-            options.source_subdivision = 0.05;
-            const std::string light =
-                by_lamp ? "void light bright 0 0 3 1 1 1\n" : "void glow bright 0 0 4 1 1 1 0\n";
-            TestScene scene(light + "bright" + panel + material + sheet("floor"), options);
-            Statistics shown;
-            for (std::uint32_t i = 0; i < 60; ++i)
-                shown.add(static_cast<double>(scene.trace(wo, -wo, i).value.g));
-            CAPTURE(by_lamp);
-            CAPTURE(expected);
-            CAPTURE(shown.mean());
-            REQUIRE(shown.error() < 0.02 * expected);
-            CHECK(std::abs(shown.mean() - expected) < 4 * shown.error() + 1e-6 * expected);
-        }
-    }
 }
 
 TEST_CASE("-ss below 1 narrows the lobe to its centre, from 1 on it does not") {
