@@ -104,7 +104,7 @@ void check_counts(const CellCounts& counts) {
 template <class Lobe>
 CellCounts count_accepted(const Lobe& lobe, const Vec3& ng, double side, std::uint64_t seed) {
     return count_directions(
-        {ng, 1, 20, 30}, kTrials, seed,
+        {ng, 1, 16, 20}, kTrials, seed,
         [&](RandomStream& random) {
             const double xi1 = random.next();
             return lobe.sample(ng, xi1, random.next());
