@@ -7,16 +7,15 @@
 namespace lightwalk {
 
 Collectives::Collectives(const Topology& topology, std::size_t owners) {
-    using Group = Collective::Group;
-    const auto of = [&](Group group) -> std::vector<int>& {
+    const auto of = [&](Collective::Group group) -> std::vector<int>& {
         return members_[static_cast<std::size_t>(group)];
     };
-    for (int rank = 0; rank < topology.ranks; ++rank) of(Group::all).push_back(rank);
-    of(Group::shutdown) = of(Group::all);
+    for (int rank = 0; rank < topology.ranks; ++rank) of(Collective::Group::all).push_back(rank);
+    of(Collective::Group::shutdown) = of(Collective::Group::all);
     for (const Topology::Worker& worker : topology.workers)
-        of(Group::workers).push_back(worker.rank);
-    of(Group::owners) = of(Group::workers);
-    of(Group::owners).resize(std::min(owners, topology.workers.size()));
+        of(Collective::Group::workers).push_back(worker.rank);
+    of(Collective::Group::owners) = of(Collective::Group::workers);
+    of(Collective::Group::owners).resize(std::min(owners, topology.workers.size()));
 }
 
 void Collectives::handle(int from, Collective share, Outbox& out) {

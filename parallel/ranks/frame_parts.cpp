@@ -10,7 +10,7 @@
 namespace lightwalk {
 namespace {
 
-[[noreturn]] void refuse() {
+[[noreturn]] void refuse_parts() {
     throw InputError("the parts of a frame that ranks have sent do not make one");
 }
 
@@ -18,17 +18,18 @@ using Parts = std::vector<const FramePart*>;
 
 /// In an order that does not depend on which came first.
 Parts sorted_parts(const FrameOrder& order, const FinishedFrame& finished) {
-    if (finished.frame != order.number) refuse();
+    if (finished.frame != order.number) refuse_parts();
     Parts parts;
     std::size_t pixels = 0;
     for (const FramePart& part : finished.parts) {
         const PixelRectangle& area = part.area;
         if (area.empty()) continue;
-        if (area.x0 < 0 || area.y0 < 0 || area.x1 > order.width || area.y1 > order.height) refuse();
+        if (area.x0 < 0 || area.y0 < 0 || area.x1 > order.width || area.y1 > order.height)
+            refuse_parts();
         pixels += area.pixels();
         parts.push_back(&part);
     }
-    if (pixels != PixelRectangle{0, 0, order.width, order.height}.pixels()) refuse();
+    if (pixels != PixelRectangle{0, 0, order.width, order.height}.pixels()) refuse_parts();
     std::sort(parts.begin(), parts.end(), [](const FramePart* a, const FramePart* b) {
         return std::tie(a->area.y0, a->area.x0) < std::tie(b->area.y0, b->area.x0);
     });
@@ -66,7 +67,7 @@ void put_together(const Parts& parts, int width, AssembledFrame& whole) {
         const std::vector<PixelValue> values = decode_piece(part->area, part->pixels);
         std::vector<std::uint8_t> known(values.size(), 1);
         for (const std::uint32_t i : part->unknown) {
-            if (i >= known.size()) refuse();
+            if (i >= known.size()) refuse_parts();
             known[i] = 0;
         }
         for_pixels(part->area, width, [&](std::size_t at, std::size_t i) {
@@ -80,7 +81,7 @@ void put_together(const Parts& parts, int width, AssembledFrame& whole) {
 std::vector<PixelOrigin> origins_of(const Parts& parts, int width, std::size_t pixels) {
     std::vector<PixelOrigin> origins(pixels);
     for (const FramePart* part : parts) {
-        if (part->origins.size() != part->area.pixels()) refuse();
+        if (part->origins.size() != part->area.pixels()) refuse_parts();
         for_pixels(part->area, width,
                    [&](std::size_t at, std::size_t i) { origins[at] = part->origins[i]; });
     }
@@ -96,9 +97,9 @@ std::vector<std::optional<PixelValue>> refined_of(const Parts& parts, const Fram
         const auto part = std::find_if(parts.begin(), parts.end(), [&](const FramePart* one) {
             return one->area.contains(place);
         });
-        if (part == parts.end()) refuse();
+        if (part == parts.end()) refuse_parts();
         std::size_t& at = next[static_cast<std::size_t>(part - parts.begin())];
-        if (at >= (*part)->refined.size()) refuse();
+        if (at >= (*part)->refined.size()) refuse_parts();
         values.push_back((*part)->refined[at++]);
     }
     return values;

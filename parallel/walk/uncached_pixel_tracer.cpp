@@ -7,7 +7,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kPixelsATask = 32;
+constexpr std::size_t kPixelsARun = 32;
 
 }  // namespace
 
@@ -31,10 +31,10 @@ std::chrono::steady_clock::time_point tracing_deadline(
 
 void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
                                      Take take) const {
-    std::array<TracedPixel, kPixelsATask> traced;
-    std::array<TracedPixelResult, kPixelsATask> uncached;
-    for (std::size_t first = 0; first < places.size(); first += kPixelsATask) {
-        const std::size_t count = std::min(kPixelsATask, places.size() - first);
+    std::array<TracedPixel, kPixelsARun> traced;
+    std::array<TracedPixelResult, kPixelsARun> uncached;
+    for (std::size_t first = 0; first < places.size(); first += kPixelsARun) {
+        const std::size_t count = std::min(kPixelsARun, places.size() - first);
         caster_.trace(places.subspan(first, count), {traced.data(), count}, sample, worker);
         for (std::size_t i = 0; i < count; ++i)
             uncached[i] = {{traced[i].radiance, traced[i].distance},
@@ -46,12 +46,12 @@ void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sam
 void UncachedPixelTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at,
                                 int sample, Executor& executor, const StopFlag& stop,
                                 Take take) const {
-    executor.for_each((count + kPixelsATask - 1) / kPixelsATask,
+    executor.for_each((count + kPixelsARun - 1) / kPixelsARun,
                       [&](std::size_t task, int worker) {
                           if (task > 0 && is_late()) return;
-                          const std::size_t begin = task * kPixelsATask;
-                          std::array<PixelPlace, kPixelsATask> places;
-                          const std::size_t some = std::min(kPixelsATask, count - begin);
+                          const std::size_t begin = task * kPixelsARun;
+                          std::array<PixelPlace, kPixelsARun> places;
+                          const std::size_t some = std::min(kPixelsARun, count - begin);
                           for (std::size_t i = 0; i < some; ++i) places[i] = at(begin + i);
                           trace_part(
                               {places.data(), some}, sample, worker,
