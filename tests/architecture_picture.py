@@ -59,6 +59,13 @@ def captions(root):
     return texts
 
 
+def lines_of(caption):
+    """A caption in lines of at most LETTERS letters, as even as they can be."""
+    fewest = len(textwrap.wrap(caption, LETTERS))
+    width = next(width for width in range(1, LETTERS + 1) if len(textwrap.wrap(caption, width)) <= fewest)
+    return textwrap.wrap(caption, width)
+
+
 # ---------------------------------------------------------------------------------------------------------- layout
 
 ROOM_WIDTH, ROOM_HEIGHT, GAP, LAYER_PITCH = 142, 46, 14, 78
@@ -268,7 +275,7 @@ def circle_arrow(low, high, ink):
 def room_box(top, room, place, caption):
     x, y = place[0] - ROOM_WIDTH / 2, place[1]
     name = f"{room}/" if room != "." else f"{top}/*.h"
-    lines = textwrap.wrap(caption, LETTERS)
+    lines = lines_of(caption)
     out = [f'<rect x="{x:.1f}" y="{y:.1f}" width="{ROOM_WIDTH}" height="{ROOM_HEIGHT}" rx="6" fill="#ffffff" stroke="{INKS[top]}"/>',
            f'<text x="{place[0]:.1f}" y="{y + ((16 if len(lines) > 1 else 19) if lines else 27):.1f}" class="room" fill="{INKS[top]}">{html.escape(name)}</text>']
     for k, line in enumerate(lines):
@@ -301,7 +308,7 @@ def draw(graph, texts):
     for top in TOPS:
         rooms = [room for t, room in graph if t == top]
         layouts[top] = Layout(rooms, {room: {r for t, r in graph[top, room] if t == top} for room in rooms})
-    title = {top: 9.5 * len(top) + 7.2 * len(TITLES[top]) for top in TOPS}
+    title = {top: 9.5 * len(top) + 7.8 * len(TITLES[top]) for top in TOPS}
     box = {top: (max(layouts[top].width, title[top]) + 2 * PADDING, layouts[top].height + HEAD + 1.5 * PADDING) for top in TOPS}
     gap = 3 * PADDING  # between parallel and io: the arrow from apps to core passes there
     width = max(box["apps"][0], box["parallel"][0] + gap + box["io"][0], box["core"][0])
@@ -355,7 +362,7 @@ def unnamed_rooms(root):
     for top, room in sorted(set(texts) - set(graph)):
         yield f"{top}/README.md: the table of rooms names {room}, which is not there"
     for (top, room), text in sorted(texts.items()):
-        if len(textwrap.wrap(text, LETTERS)) > 2:
+        if len(lines_of(text)) > 2:
             yield f"{top}/README.md: {room}: what stands before the first colon does not fit two lines of {LETTERS} letters: {text}"
 
 
