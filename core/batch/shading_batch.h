@@ -34,9 +34,9 @@ class ShadingBatch {
     explicit ShadingBatch(std::unique_ptr<Fibers> fibers)
         : fibers_(std::move(fibers)), tasks_(fibers_->size()) {}
 
-    /// Calls body(i) for i = 0 ... count - 1, each on a fiber, with context.batch set to this
-    /// batch. `calculate` runs on the caller's stack. When bodies throw, the run ends after all
-    /// bodies have ended, and the exception of the first one is thrown again.
+    /// Calls body(i) for i = 0 ... count - 1, each on a fiber, with context.batches.current set to
+    /// this batch. `calculate` runs on the caller's stack. When bodies throw, the run ends after
+    /// all bodies have ended, and the exception of the first one is thrown again.
     void run(std::size_t count, FunctionRef<void(std::size_t)> body, Calculate calculate,
              TraceContext& context, BatchWaits waits = BatchWaits::anywhere);
 
