@@ -69,7 +69,7 @@ class LightSources {
     /// In-scattered light of the ray's scatter list along its segment (participating media).
     void add_in_scatter(Ray& ray, TraceContext& context) const;
 
-    /// Index for a source identifier of a mist ("name" or "redirecting surface>source"): the last
+    /// Index for a source identifier of a mist ("name" or "surface>source"): the last
     /// match; nothing when unknown.
     [[nodiscard]] std::optional<std::int32_t> find(std::string_view identifier) const;
     /// The sources that a mist scatters, as its arguments name them; null when it names none that

@@ -160,7 +160,7 @@ class PrimitiveTransformer {
         for (std::string& path : p_.strings) path = prefixed_path(path);
     }
 
-    /// "redirecting surface>source" names surfaces, and they are renamed.
+    /// "surface>source" names surfaces, and they are renamed.
     [[nodiscard]] std::string prefixed_path(const std::string& path) const {
         std::string result = step_.prefix + ".";
         for (const char c : path) {

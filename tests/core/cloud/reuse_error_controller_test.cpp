@@ -51,7 +51,7 @@ TEST_CASE(
     ReuseErrorController controller(0.05);
     tell(controller, 0.3, 0.3, 10);
     CHECK(controller.tightness() == 1);
-    tell(controller, 0.3, 0.22, 10);  // 8 % beyond, give or record 6 %
+    tell(controller, 0.3, 0.22, 10);  // 8 % beyond, give or take 6 %
     CHECK(controller.tightness() == 1);
     tell(controller, 0.3, 0.1, 1);
     CHECK(controller.tightness() == 0.5);
