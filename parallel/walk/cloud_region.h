@@ -88,7 +88,7 @@ class CloudRegion {
     /// What others' used_beside() says of this one.
     void mark_used(const UsedPixels& used);
 
-    /// Holes `first` ... are traced. For different uncached pixels from many threads at once.
+    /// Uncached pixels `first` ... are traced. Called by many threads at once, for different ones.
     void record(std::size_t first, std::span<const TracedPixelResult> traced);
     /// The noise pairs `first` ... are traced.
     void record_noise_pairs(std::size_t first, std::span<const TracedPixelResult> traced);
