@@ -101,7 +101,8 @@ def lost_tests(root):
 def check_project():
     files = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.h")]
     embree = [p for f in FORBIDDEN_FOLDERS for p in (ROOT / f).rglob("*.[hc]*") if "embree3/" in p.read_text()]
-    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unsorted_rooms(ROOT, ORDER), *shared_names(ROOT), *lost_tests(ROOT)]
+    problems = [*wrong_includes(ROOT), *wrong_order(ROOT, ORDER), *unsorted_rooms(ROOT, ORDER), *shared_names(ROOT), *lost_tests(ROOT),
+                *architecture_picture.unnamed_rooms(ROOT), *architecture_picture.outdated_picture(ROOT)]
     if len(files) < 20:
         problems.append("the headers were not found: is this the project's root?")
     if len(embree) != 1:
