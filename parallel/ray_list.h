@@ -7,21 +7,10 @@
 #include "core/math/function_ref.h"
 #include "core/trace/tracer.h"
 #include "parallel/executor.h"
+#include "parallel/ray_query.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
-
-/// A ray to trace; a zero direction is answered like a ray that hits nothing.
-struct RayQuery {
-    Vec3 origin, direction;  ///< direction of any length
-};
-
-struct RayListOptions {
-    bool shade = true;             ///< false: nearest hits only
-    bool sensor = false;           ///< irradiance at the origin facing the direction (rtrace -I)
-    bool limit_by_length = false;  ///< the direction's length limits the ray (rtrace -ld)
-    std::uint64_t seed = 0;
-};
 
 /// Number of consecutive rays that one task traces, in order.
 inline constexpr std::size_t kRaysPerTask = 64;
