@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <ctime>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -83,12 +81,6 @@ std::vector<OptionRow> own_rows(CommonOptions& o, RenderOptions& light) {
          With{.hidden = true}}};
 }
 
-std::string date_line(const char* name, const std::tm& time) {
-    std::array<char, 64> text{};
-    std::strftime(text.data(), text.size(), "%Y:%m:%d %H:%M:%S", &time);
-    return std::string(name) + "= " + text.data();
-}
-
 }  // namespace
 
 std::vector<OptionRow> common_option_rows(CommonOptions& options, RenderSettings& settings,
@@ -158,26 +150,6 @@ std::string command_history(const std::string& command, const OptionWords& words
     }
     return history_line(std::vector<std::string>{"lightwalk", command}) +
            (all.empty() ? std::string() : ' ' + history_line(all));
-}
-
-std::vector<std::string> history_header(const std::vector<std::string>& scene_header,
-                                        const std::string& command_line) {
-    std::vector<std::string> lines;
-    for (const std::string& line : scene_header) {
-        if (!line.starts_with("#?")) lines.push_back(line);
-    }
-    lines.push_back(command_line);
-    lines.emplace_back("SOFTWARE= Lightwalk " LIGHTWALK_VERSION);
-    return lines;
-}
-
-std::vector<std::string> date_lines() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    std::tm universal{};
-    localtime_r(&now, &local);
-    gmtime_r(&now, &universal);
-    return {date_line("CAPDATE", local), date_line("GMT", universal)};
 }
 
 }  // namespace lightwalk

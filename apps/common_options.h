@@ -52,10 +52,5 @@ void redirect_messages(const CommonOptions& options, const std::string& history)
 /// "program command option ..." without the scene's files, as history lines have it.
 [[nodiscard]] std::string command_history(const std::string& command, const OptionWords& words,
                                           const CommonOptions& options);
-/// The header lines of a result: the scene's own, the command's, SOFTWARE=.
-[[nodiscard]] std::vector<std::string> history_header(const std::vector<std::string>& scene_header,
-                                                      const std::string& command_line);
-/// CAPDATE= and GMT= of now.
-[[nodiscard]] std::vector<std::string> date_lines();
 
 }  // namespace lightwalk

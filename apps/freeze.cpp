@@ -4,11 +4,9 @@
 #include <system_error>
 
 #include "apps/commands.h"
-#include "apps/scene_session.h"
+#include "apps/renderer_request.h"
+#include "apps/session/lightwalk/scene.h"
 #include "apps/warnings.h"
-#include "io/files/file_manifest.h"
-#include "io/scene/freezing_resources.h"
-#include "io/scene/frozen_scene.h"
 
 namespace lightwalk {
 namespace {
@@ -57,13 +55,8 @@ int run_freeze(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     StderrWarnings warnings(kFreezeProgram);
     warnings.enable(!options.quiet);
     resolve_scene_files(command.common, "", *real_files());
-    const auto manifest = std::make_shared<ManifestRecorder>();
-    SceneSession session(options, warnings, std::make_shared<FileRecorder>(manifest));
-    if (session.frozen != nullptr)
-        throw InputError({options.scene_files.front(), 0}, "is frozen already");
-    FreezingResources library(*session.resources);
-    session.compile(library);
-    write_frozen_scene(output, session.scene(), library, manifest->files());
+    freeze_scene(scene_source(options), output,
+                 [&](const std::string& message) { warnings.warn(message); });
     return kSuccessStatus;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "apps/commands.h"
-#include "apps/progress.h"
-#include "apps/scene_session.h"
+#include "apps/renderer_request.h"
+#include "apps/session/scene_session.h"
 #include "apps/warnings.h"
 #include "core/light/light_sources.h"
 #include "core/material/modifier_factories.h"
@@ -113,7 +113,8 @@ void print_memory(const SceneSession& session) {
     print("around it", memory.search.tables, 0, "");
     print("mapped", memory.mapped, 0, "");
     std::printf("  %-12s %.1f after reading, %.1f after building\n", "peak",
-                megabytes(session.cost.read_peak_bytes), megabytes(session.cost.build_peak_bytes));
+                megabytes(session.cost().read_peak_bytes),
+                megabytes(session.cost().build_peak_bytes));
 }
 
 /// Count, levels, radii and bounds of an ambient file.
@@ -174,16 +175,17 @@ int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
         return kSuccessStatus;
     }
     resolve_scene_files(options, "", *real_files());
-    SceneSession session(options, warnings);
-    if (session.frozen != nullptr) print_origin(*session.frozen);
-    print_counts(*session.model);
-    print_unsupported(*session.model);
-    session.build(settings);
+    const auto scene = std::make_shared<CompiledScene>(scene_source(options), warnings);
+    if (scene->frozen() != nullptr) print_origin(*scene->frozen());
+    print_counts(scene->model());
+    print_unsupported(scene->model());
+    scene->compile();
+    const SceneSession session(scene, {settings.light, settings.ambient_file}, warnings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());
     print_memory(session);
-    std::printf("time           %.2f s to read, %.2f s to build\n", session.cost.read_seconds,
-                session.cost.build_seconds);
+    std::printf("time           %.2f s to read, %.2f s to build\n", session.cost().read_seconds,
+                session.cost().build_seconds);
     return kSuccessStatus;
 }
 

@@ -59,7 +59,7 @@ void handle_interrupts() {
 void set_interrupt_phase(InterruptPhase next) {
     phase.store(next);
 }
-const StopFlag& interrupt_flag() {
+StopFlag& interrupt_flag() {
     return stop_flag;
 }
 

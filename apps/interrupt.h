@@ -18,7 +18,7 @@ enum class InterruptPhase {
 /// Install the handler, in phase `leave`.
 void handle_interrupts();
 void set_interrupt_phase(InterruptPhase phase);
-[[nodiscard]] const StopFlag& interrupt_flag();
+[[nodiscard]] StopFlag& interrupt_flag();
 
 /// A file that is removed when an interrupt ends the process at once; "": none (any more). At most
 /// one; longer names than the system allows are not remembered.

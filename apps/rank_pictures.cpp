@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "apps/interrupt.h"
 #include "parallel/comm/core_fields.h"
 #include "parallel/ranks/piece_codec.h"
 
@@ -49,7 +48,7 @@ void LeadPictures::order(std::shared_ptr<const PictureRequest> request) {
             {next_++, quick_prepass(options).whole(), 1, false, encode_order(coarse), {}, false});
     }
     order.deterministic = prepass_ == CachePrepass::deterministic;
-    const BlockRenderer renderer(tracer_, request->camera, options, contexts_, interrupt_flag());
+    const BlockRenderer renderer(tracer_, request->camera, options, contexts_, stop_);
     const JobId job = next_++;
     link_.submit({job, options.area(), renderer.alignment(), true, encode_order(order), {}, false},
                  request->checkpoint);
@@ -62,12 +61,12 @@ std::optional<Frame> LeadPictures::take() {
     const FrameOptions& options = ordered.request->options;
     WorkPhase phase;
     phase.pixels = static_cast<double>(options.area().pixels());
-    ProgressMeter meter(progress_, {phase});
+    ProgressReporter reporter(listener_, {phase});
     const std::optional<FinishedPicture> picture =
-        link_.wait_for(ordered.job, interrupt_flag(), [&](double share) {
-            meter.update(0, {share, 0, 0});
+        link_.wait_for(ordered.job, stop_, [&](double share) {
+            reporter.update(0, {share, 0, 0});
         });
-    meter.finish(picture.has_value(), 0);
+    reporter.finish(picture.has_value(), 0);
     if (!picture) return std::nullopt;
     return assemble(*picture, options.width, options.height);
 }

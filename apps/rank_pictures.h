@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "apps/picture_maker.h"
-#include "apps/progress.h"
 #include "apps/rank_link.h"
 #include "apps/rank_work.h"
+#include "apps/session/picture_maker.h"
+#include "apps/session/progress_reporter.h"
 #include "parallel/cache_prepass.h"
 #include "parallel/frame.h"
 #include "parallel/frame_options.h"
@@ -36,12 +36,13 @@ class LeadPictures final : public PictureMaker {
   public:
     /// Everything must outlive this.
     LeadPictures(RankLink& link, const Tracer& tracer, CachePrepass prepass,
-                 WorkerContexts& contexts, const ProgressOptions& progress)
+                 WorkerContexts& contexts, ProgressListener listener, const StopFlag& stop)
         : link_(link),
           tracer_(tracer),
           prepass_(prepass),
           contexts_(contexts),
-          progress_(progress) {}
+          listener_(std::move(listener)),
+          stop_(stop) {}
 
     void order(std::shared_ptr<const PictureRequest> request) override;
     [[nodiscard]] std::optional<Frame> take() override;
@@ -60,7 +61,8 @@ class LeadPictures final : public PictureMaker {
     const Tracer& tracer_;
     CachePrepass prepass_;
     WorkerContexts& contexts_;
-    ProgressOptions progress_;
+    ProgressListener listener_;
+    const StopFlag& stop_;
     std::deque<Ordered> ordered_;
     JobId next_ = 0;
 };

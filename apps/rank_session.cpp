@@ -10,9 +10,6 @@
 #include "parallel/ranks/piece_codec.h"
 
 namespace lightwalk {
-bool caches_ambient_values(const RenderOptions& light) {
-    return light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon;
-}
 
 std::unique_ptr<RankLink> link_ranks(Communicator* communicator, CommonOptions& options,
                                      const SharedWork& work) {
@@ -82,14 +79,27 @@ std::shared_ptr<FileReplay> replay_of_rank_0(RankLink& link) {
     return std::make_shared<FileReplay>(std::string_view(recording).substr(1));
 }
 
-/// The steps by which all ranks come to have the scene; `session` stays null on those that have
-/// nothing to build, as rank 0 could not read it.
+/// The other ranks, as those who have the same cache.
+class RankSharing final : public CacheSharing {
+  public:
+    explicit RankSharing(RankLink& link) : link_(link) {}
+    [[nodiscard]] bool has_file() const override { return link_.leads(); }
+    void exchange(PublishedCache& cache, const std::vector<AmbientRecord>& known) override {
+        link_.exchange(cache, known);
+    }
+
+  private:
+    RankLink& link_;
+};
+
+/// The steps by which all ranks come to have the scene; it stays null on those that have nothing to
+/// build, as rank 0 could not read it.
 struct SceneOfRank {
     RankLink& link;
-    const CommonOptions& options;
+    const SceneSource& source;
     WarningSink& warnings;
     std::shared_ptr<FileSource> base;
-    std::unique_ptr<SceneSession> session;
+    std::shared_ptr<CompiledScene> scene;
     std::shared_ptr<FileReplay> replay;
 
     void read() { make(std::make_shared<FileRecorder>(base)); }
@@ -101,8 +111,8 @@ struct SceneOfRank {
         if (path == kUnreadable) return;
         if (path == kEachItsOwn) return read();
         try {
-            session = std::make_unique<SceneSession>(options, warnings,
-                                                     std::make_shared<FileRecorder>(), path);
+            scene = std::make_shared<CompiledScene>(source, warnings,
+                                                    std::make_shared<FileRecorder>(), path);
         } catch (const InputError&) {
             read();  // the system lets no process look at another's
         }
@@ -118,14 +128,14 @@ struct SceneOfRank {
     static constexpr const char *kUnreadable = "", *kEachItsOwn = "-";
 
     void make(const std::shared_ptr<FileRecorder>& files) {
-        session = std::make_unique<SceneSession>(options, warnings, files);
+        scene = std::make_shared<CompiledScene>(source, warnings, files);
     }
 
     void lead_sharing() {
         std::string path = kUnreadable;
         try {
             read();
-            if (session->frozen == nullptr) path = session->share();
+            if (scene->frozen() == nullptr) path = scene->share();
             if (path.empty()) path = kEachItsOwn;
         } catch (...) {
             (void)link.broadcast(kUnreadable);
@@ -137,26 +147,30 @@ struct SceneOfRank {
 
 }  // namespace
 
-std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions& options,
-                                             const RenderSettings& settings,
+std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const SceneSource& source,
+                                             SceneFrom from, const LightSettings& light,
                                              const std::string& history, WarningSink& warnings,
                                              std::shared_ptr<FileSource> base) {
-    const SceneFrom from = options.ranks.scene_from;
     const bool by_rank_0 = from == SceneFrom::rank0;
     const bool shared = from == SceneFrom::shared && link.ranks() > 1 && link.on_one_machine();
     std::shared_ptr<FileRecorder> recorder;  // of what all shall have
     if (by_rank_0 && link.leads()) recorder = std::make_shared<FileRecorder>(base, true);
-    SceneOfRank scene{link, options, warnings, std::move(base), {}, {}};
+    SceneOfRank ours{link, source, warnings, std::move(base), {}, {}};
+    std::unique_ptr<SceneSession> session;
     std::string problem;
     int status = kSuccessStatus;
     try {
         if (by_rank_0)
-            scene.take_from_rank_0(recorder);
+            ours.take_from_rank_0(recorder);
         else if (shared)
-            scene.share();
+            ours.share();
         else
-            scene.read();
-        if (scene.session) scene.session->build(settings, &link);
+            ours.read();
+        if (ours.scene) {
+            ours.scene->compile();
+            RankSharing sharing(link);
+            session = std::make_unique<SceneSession>(ours.scene, light, warnings, &sharing);
+        }
     } catch (const UsageError& error) {
         problem = error.what();
         status = kUsageStatus;
@@ -165,12 +179,12 @@ std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions
         status = kFailureStatus;
     }
     if (recorder) (void)link.broadcast(problem.empty() ? '+' + recorder->take() : "");
-    if (scene.replay) scene.replay->clear();
+    if (ours.replay) ours.replay->clear();
     std::vector<std::string> facts;
-    if (scene.session && problem.empty()) {
+    if (session && problem.empty()) {
         facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + history};
         if (!shared)  // there is one copy
-            for (const std::string& file : scene.session->files->digests())
+            for (const std::string& file : ours.scene->files().digests())
                 facts.push_back("file " + file);
     }
     link.agree(facts, problem, status,
@@ -178,7 +192,7 @@ std::unique_ptr<SceneSession> build_on_ranks(RankLink& link, const CommonOptions
                    ? ""
                    : "Every rank reads its own copy of the scene; with --scene-from rank0 rank 0 "
                      "reads it for all.");
-    return std::move(scene.session);
+    return session;
 }
 
 void lead_ranks(RankLink& link, FunctionRef<void()> trace, FunctionRef<void()> work) {

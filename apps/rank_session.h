@@ -5,7 +5,7 @@
 
 #include "apps/common_options.h"
 #include "apps/rank_link.h"
-#include "apps/scene_session.h"
+#include "apps/session/scene_session.h"
 #include "core/math/function_ref.h"
 
 namespace lightwalk {
@@ -31,17 +31,13 @@ void parse_on_ranks(Communicator* communicator, const std::string& program,
 [[nodiscard]] std::unique_ptr<RankLink> link_ranks(Communicator* communicator,
                                                    CommonOptions& options, const SharedWork& work);
 
-/// Whether light is computed with cached ambient values.
-[[nodiscard]] bool caches_ambient_values(const RenderOptions& light);
-
 /// Every rank reads and builds the scene, from its own files or from what rank 0 has read
 /// (--scene-from); all go on, or none: throws AgreedProblem.
 /// @param history  the options, which must be the same everywhere
 /// @param base     where rank 0, or each rank, finds its files
 [[nodiscard]] std::unique_ptr<SceneSession> build_on_ranks(
-    RankLink& link, const CommonOptions& options, const RenderSettings& settings,
-    const std::string& history, WarningSink& warnings,
-    std::shared_ptr<FileSource> base = real_files());
+    RankLink& link, const SceneSource& source, SceneFrom from, const LightSettings& light,
+    const std::string& history, WarningSink& warnings, std::shared_ptr<FileSource> base);
 
 /// On rank 0: `work`, while another thread runs `trace` where this rank traces. `trace` must end
 /// after work's RankLink::finish. An exception of either ends the whole run.

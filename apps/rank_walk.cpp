@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "apps/interrupt.h"
 #include "apps/rank_pictures.h"
 #include "parallel/walk/scene_caster.h"
 #include "parallel/walk/walk_frame.h"
@@ -39,7 +38,7 @@ class SceneRays final : public WalkRays {
 
 std::unique_ptr<LiveFrames> LeadWalk::make_frames(const FrameOptions& options) {
     return std::make_unique<RankFrames>(link_, tracer_, nullptr, this->options(), options,
-                                        *executor_, warnings());
+                                        *executor_, warnings_);
 }
 
 void RankWalk::serve(Executor& executor) {

@@ -5,9 +5,8 @@
 #include "apps/rank_frames.h"
 #include "apps/rank_link.h"
 #include "apps/rank_work.h"
-#include "apps/scene_session.h"
-#include "apps/walk_pictures.h"
-#include "apps/warnings.h"
+#include "apps/session/scene_session.h"
+#include "apps/session/walk_pictures.h"
 #include "core/cloud/visibility_probe.h"
 #include "parallel/cache_prepass.h"
 #include "parallel/worker_contexts.h"
@@ -19,10 +18,12 @@ class LeadWalk final : public WalkPictures {
   public:
     /// Everything must outlive this; see WalkPictures.
     LeadWalk(RankLink& link, const Tracer& tracer, const CloudOptions& options, std::size_t frames,
-             const ProgressOptions& progress, StderrWarnings& warnings, RunStatistics& statistics)
-        : WalkPictures(options, frames, 1, progress, warnings, statistics),
+             ProgressListener listener, WarningSink& warnings, const StopFlag& stop,
+             RunStatistics& statistics)
+        : WalkPictures(options, frames, 1, std::move(listener), stop, statistics),
           link_(link),
           tracer_(tracer),
+          warnings_(warnings),
           executor_(make_executor(ExecutorKind::serial, 1)) {}
 
   private:
@@ -30,6 +31,7 @@ class LeadWalk final : public WalkPictures {
 
     RankLink& link_;
     const Tracer& tracer_;
+    WarningSink& warnings_;
     std::unique_ptr<Executor> executor_;  ///< of what rank 0 draws by itself
 };
 

@@ -5,30 +5,37 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
-#include "apps/checkpoint.h"
-#include "apps/cloud_pictures.h"
 #include "apps/commands.h"
-#include "apps/film.h"
 #include "apps/interrupt.h"
-#include "apps/local_pictures.h"
-#include "apps/picture_series.h"
-#include "apps/progress.h"
-#include "apps/rank_pictures.h"
+#include "apps/progress_printer.h"
 #include "apps/rank_report.h"
 #include "apps/rank_session.h"
-#include "apps/rank_walk.h"
 #include "apps/render_command.h"
-#include "apps/scene_session.h"
+#include "apps/renderer_request.h"
+#include "apps/session/checkpoint.h"
+#include "apps/session/film.h"
+#include "apps/session/picture_series.h"
+#include "apps/session/run_header.h"
 #include "apps/warnings.h"
 #include "io/files/atomic_file.h"
-#include "io/files/library_path.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
-#include "parallel/cache_prepass.h"
 
 namespace lightwalk {
 namespace {
+
+void write_to_stdout(const std::string& bytes) {
+    const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (!whole || std::fflush(stdout) != 0) throw InputError("cannot write standard output");
+}
+
+InterruptPhase phase_of(SeriesStage stage) {
+    return stage == SeriesStage::rendering ? InterruptPhase::request
+           : stage == SeriesStage::writing ? InterruptPhase::finish
+                                           : InterruptPhase::leave;
+}
 
 class RenderRun {
   public:
@@ -37,7 +44,8 @@ class RenderRun {
         : command_(std::move(command)),
           program_("lightwalk " + command_.name),
           communicator_(communicator),
-          warnings_(program_) {
+          warnings_(program_),
+          printer_(progress_options(), warnings_) {
         redirect_messages(command_.common, command_.history);
         const bool speaks = communicator_ == nullptr || communicator_->rank() == 0;
         warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
@@ -58,51 +66,58 @@ class RenderRun {
     int run() {
         handle_interrupts();
         if (!share_out()) return draw();
-        const auto body = [this] { return link_->leads() ? lead() : follow(); };
-        return link_->run(body, interrupt_flag());
+        return link_->run([this] { return draw(); }, interrupt_flag());
     }
 
   private:
-    /// This process by itself.
+    /// On every rank, where there are several.
     int draw() {
-        session_ = std::make_unique<SceneSession>(command_.common, warnings_);
-        session_->build(command_.settings);
-        session_->warn_of_darkness();
-        make_threads();
-        open_checkpoint();
-        if (!render_all(*local_pictures())) return kInterruptedStatus;
-        save_statistics();
+        Renderer& renderer = renderer_.emplace(open_renderer(link_.get(), request(), warnings_));
+        if (renderer.leads()) renderer.session().warn_of_darkness();
+        bool whole = false;
+        renderer.run([&] { whole = render_all(renderer); });
+        if (!renderer.leads()) return kSuccessStatus;
+        if (!whole) return kInterruptedStatus;
+        save_statistics(renderer.statistics());
         return kSuccessStatus;
     }
 
-    std::unique_ptr<PictureMaker> local_pictures() {
-        if (reuses())
-            return std::make_unique<CloudPictures>(
-                *session_, prepass(), command_.walk->cloud, walk_length(*command_.walk), *executor_,
-                *contexts_, progress_options(), warnings_, statistics_);
-        return std::make_unique<LocalPictures>(*session_, prepass(), *executor_, *contexts_,
-                                               progress_options(), warnings_, statistics_);
+    /// Whether there are others to share the work with.
+    bool share_out() {
+        // A deterministic run exchanges values in rounds, among all who trace.
+        const bool ambient =
+            caches_ambient_values(command_.settings.light) && !command_.deterministic;
+        const bool reuses = command_.walk && command_.walk->reuse;
+        const int projectors = reuses ? command_.walk->projectors : 0;
+        link_ = link_ranks(communicator_, command_.common, {program_, ambient, false, projectors});
+        return link_ != nullptr;
     }
 
-    void make_threads() {
-        executor_ = make_executor(command_.common.executor, command_.common.workers);
-        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
-                                                     executor_->concurrency());
-        statistics_.threads = executor_->concurrency();
+    [[nodiscard]] RendererRequest request() {
+        RendererRequest request = renderer_request(command_, warnings_);
+        request.options.progress = [this](const RenderProgress& progress) {
+            printer_.print(progress);
+        };
+        request.options.progress_interval = printer_.interval();
+        return request;
     }
 
     /// With --checkpoint. What an earlier run has left must have been made of the same scene by the
     /// same options.
-    void open_checkpoint() {
+    void open_checkpoint(const SceneSession& session) {
         if (command_.checkpoint.empty()) return;
+        if (!command_.resume && std::filesystem::exists(command_.checkpoint)) {
+            throw InputError({command_.checkpoint, 0},
+                             "this checkpoint is there already: continue its run with --resume, or "
+                             "remove it");
+        }
         RenderCommand same = command_;  // the number of threads changes nothing
         same.common.workers = 1;
         same.report_interval = 0;
         if (!kept_values_.empty()) same.settings.ambient_file.clear();
         std::string header = "SOFTWARE= Lightwalk " LIGHTWALK_VERSION "\n" + describe(same);
-        header += "scene " + session_->digest() + '\n';
-        checkpoint_ =
-            std::make_unique<Checkpoint>(command_.checkpoint, command_.resume, header, warnings_);
+        header += "scene " + session.compiled().files().digest() + '\n';
+        checkpoint_ = std::make_unique<Checkpoint>(command_.checkpoint, header, warnings_);
     }
 
     [[nodiscard]] ProgressOptions progress_options() const {
@@ -111,21 +126,17 @@ class RenderRun {
         return {bar, command_.report_interval, program_};
     }
 
-    [[nodiscard]] CachePrepass prepass() const {
-        if (!session_->freezable) return CachePrepass::none;
-        if (command_.deterministic) return CachePrepass::deterministic;
-        return command_.prepass ? CachePrepass::quick : CachePrepass::none;
-    }
-
-    void save_statistics() {
-        statistics_.command = command_.name;
-        statistics_.scene = session_->cost;
-        if (session_->ambient) {
-            statistics_.ambient_values = session_->ambient->size();
-            statistics_.ambient_bytes = session_->ambient->memory_bytes();
-        }
-        if (!command_.common.stats_file.empty())
-            write_statistics(command_.common.stats_file, statistics_);
+    void save_statistics(RunStatistics statistics) {
+        statistics.command = command_.name;
+        statistics.render_seconds = made_.seconds;
+        statistics.width = made_.width;
+        statistics.height = made_.height;
+        statistics.frames = made_.frames;
+        const CommonOptions& common = command_.common;
+        if (!common.stats_file.empty())
+            write_file_atomically(common.stats_file, statistics_json(statistics));
+        if (link_ && !common.ranks.timeline.empty())
+            write_file_atomically(common.ranks.timeline, timeline_json(statistics.reports));
     }
 
     /// With --checkpoint and cached ambient light: the values are kept beside it, as with -af. Not
@@ -141,90 +152,6 @@ class RenderRun {
                              "values of a checkpoint are there already: continue its run with "
                              "--resume, or remove them");
         }
-    }
-
-    // One of several ranks.
-
-    /// Whether there are others to share the work with.
-    bool share_out() {
-        // A deterministic run exchanges values in rounds, among all who trace.
-        const bool ambient =
-            caches_ambient_values(command_.settings.light) && !command_.deterministic;
-        const int projectors = reuses() ? command_.walk->projectors : 0;
-        link_ = link_ranks(communicator_, command_.common, {program_, ambient, false, projectors});
-        if (link_) statistics_.ranks = link_->ranks();
-        return link_ != nullptr;
-    }
-
-    void prepare() {
-        session_ =
-            build_on_ranks(*link_, command_.common, command_.settings, command_.history, warnings_);
-        // The rounds of all ranks begin with the same cache.
-        if (prepass() == CachePrepass::deterministic)
-            link_->spread(session_->known, *session_->ambient);
-        make_threads();
-    }
-
-    /// Whether points of frames before serve the next ones.
-    [[nodiscard]] bool reuses() const { return command_.walk && command_.walk->reuse; }
-
-    std::unique_ptr<RankWork> rank_work() {
-        const FrameOptions options = frame_options(command_, {});
-        if (reuses())
-            return std::make_unique<RankWalk>(*link_, *session_, prepass(), options,
-                                              command_.walk->cloud, command_.walk->projectors,
-                                              *contexts_, warnings_, interrupt_flag());
-        return std::make_unique<RankPictures>(*link_, session_->tracer(), options,
-                                              session_->freezable.get(), *contexts_, warnings_,
-                                              interrupt_flag());
-    }
-
-    std::unique_ptr<PictureMaker> lead_pictures() {
-        if (reuses())
-            return std::make_unique<LeadWalk>(*link_, session_->tracer(), command_.walk->cloud,
-                                              walk_length(*command_.walk), progress_options(),
-                                              warnings_, statistics_);
-        return std::make_unique<LeadPictures>(*link_, session_->tracer(), prepass(), *contexts_,
-                                              progress_options());
-    }
-
-    int follow() {
-        prepare();
-        const std::unique_ptr<RankWork> work = rank_work();
-        if (link_->traces())
-            work->serve(*executor_);
-        else
-            link_->wait_for_end(interrupt_flag());
-        link_->report(report(*work));
-        return kSuccessStatus;
-    }
-
-    int lead() {
-        prepare();
-        session_->warn_of_darkness();
-        const std::unique_ptr<RankWork> rays = rank_work();
-        bool whole = false;
-        lead_ranks(
-            *link_, [&] { rays->serve(*executor_); },
-            [&] {
-                const std::unique_ptr<PictureMaker> all = lead_pictures();
-                open_checkpoint();
-                whole = render_all(*all);
-                statistics_.reports = link_->finish(interrupt_flag());
-            });
-        if (!whole) return kInterruptedStatus;
-        statistics_.reports[0] = report(*rays);
-        for (const auto& [rank, text] : statistics_.reports)
-            add_report(text, statistics_.rays, statistics_.ambient);
-        save_statistics();
-        if (!command_.common.ranks.timeline.empty())
-            write_file_atomically(command_.common.ranks.timeline,
-                                  timeline_json(statistics_.reports));
-        return kSuccessStatus;
-    }
-
-    [[nodiscard]] std::string report(const RankWork& work) const {
-        return rank_report(*link_, executor_->concurrency(), work.rays(), work.ambient());
     }
 
     // Pictures.
@@ -250,8 +177,8 @@ class RenderRun {
     }
 
     /// What is to be rendered; pictures of a sequence that are there already are left out.
-    [[nodiscard]] std::vector<WantedPicture> wanted_pictures() {
-        if (command_.walk) return frames_of_walk();
+    [[nodiscard]] std::vector<WantedPicture> wanted_pictures(const Scene& scene) {
+        if (command_.walk) return frames_of_walk(scene);
         if (command_.first_frame == 0) return {{command_.view, std::nullopt, 0}};
         std::vector<WantedPicture> wanted;
         int frame = command_.first_frame;
@@ -268,23 +195,65 @@ class RenderRun {
         return wanted;
     }
 
-    [[nodiscard]] std::vector<WantedPicture> frames_of_walk() const {
+    [[nodiscard]] std::vector<WantedPicture> frames_of_walk(const Scene& scene) const {
         std::vector<WantedPicture> wanted;
         std::optional<View> before;
-        for (const View& view : walk_views(*command_.walk, command_.view, session_->scene())) {
+        for (const View& view : walk_views(*command_.walk, command_.view, scene)) {
             wanted.push_back({view, before, static_cast<int>(wanted.size()) + 1});
             before = view;
         }
         return wanted;
     }
 
+    [[nodiscard]] SeriesOutput output(const SceneSession& session) const {
+        SeriesOutput output;
+        output.picture = command_.output;
+        output.depth = command_.depth;
+        output.bytes = write_to_stdout;
+        output.history = history_header(session.compiled().model().header, command_.history);
+        output.primaries = command_.primaries;
+        output.xyz = command_.xyz;
+        output.tone = command_.tone;
+        output.keep_exposure = command_.walk.has_value();
+        if (command_.walk && is_film(command_.output)) output.film_rate = command_.walk->rate;
+        return output;
+    }
+
+    [[nodiscard]] SeriesObserver observer() {
+        SeriesObserver observer;
+        observer.size_of = [this](const View& view) { return picture_size(view); };
+        if (command_.report_interval > 0)
+            observer.begins = [](const WantedPicture& wanted) {
+                if (wanted.frame > 0)
+                    std::fprintf(stderr, "FRAME %d:%s\n", wanted.frame,
+                                 view_text(wanted.view).c_str());
+            };
+        observer.enters = [](SeriesStage stage) { set_interrupt_phase(phase_of(stage)); };
+        observer.unfinished_file = set_interrupt_litter;
+        return observer;
+    }
+
+    [[nodiscard]] PictureSize picture_size(const View& view) {
+        constexpr int kMostPixels = 1 << 28;
+        const Camera camera(view);
+        const PictureSize size =
+            fit_picture(command_.x, command_.y, camera.aspect(), command_.pixel_aspect);
+        if (size.width <= 0 || size.height <= 0) warnings_.warn("empty output picture");
+        if (static_cast<double>(size.width) * size.height > kMostPixels)
+            throw UsageError("options -x and -y: more than " + std::to_string(kMostPixels) +
+                             " pixels");
+        return size;
+    }
+
     /// False: interrupted.
-    bool render_all(PictureMaker& maker) {
-        PictureSeries series(command_, *session_->model, warnings_, statistics_, checkpoint_.get());
-        if (command_.walk) series.keep_exposure();
-        if (!series.make(wanted_pictures(), maker)) return false;
-        if (!kept_values_.empty()) std::filesystem::remove(kept_values_);
-        return true;
+    bool render_all(Renderer& renderer) {
+        const SceneSession& session = renderer.session();
+        open_checkpoint(session);
+        PictureSeries series(output(session), observer(), interrupt_flag(), checkpoint_.get());
+        const bool whole = series.make(wanted_pictures(session.scene()), renderer);
+        made_ = series.result();
+        if (whole && !kept_values_.empty()) std::filesystem::remove(kept_values_);
+        return whole;
     }
 
     RenderCommand command_;
@@ -294,10 +263,9 @@ class RenderRun {
     std::unique_ptr<RankLink> link_;
     std::unique_ptr<Checkpoint> checkpoint_;
     std::string kept_values_;  ///< file of ambient values that goes with the checkpoint; "": none
-    std::unique_ptr<SceneSession> session_;
-    std::unique_ptr<Executor> executor_;
-    std::unique_ptr<WorkerContexts> contexts_;
-    RunStatistics statistics_;
+    ProgressPrinter printer_;
+    SeriesResult made_;
+    std::optional<Renderer> renderer_;  ///< lasts: values for its cache come until all ranks end
 };
 
 int run_pictures(const std::string& name, const std::vector<std::string>& words,

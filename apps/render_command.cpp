@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "apps/commands.h"
-#include "apps/film.h"
+#include "apps/session/film.h"
 #include "core/model/transform_args.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"

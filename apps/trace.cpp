@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -9,17 +10,18 @@
 #include "apps/interrupt.h"
 #include "apps/rank_report.h"
 #include "apps/rank_session.h"
-#include "apps/scene_session.h"
+#include "apps/renderer_request.h"
+#include "apps/session/run_header.h"
+#include "apps/session/stopwatch.h"
 #include "apps/trace_command.h"
 #include "apps/warnings.h"
 #include "io/files/atomic_file.h"
-#include "parallel/ray_list.h"
+#include "parallel/ray_query.h"
 
 namespace lightwalk {
 namespace {
 
 constexpr const char* kProgram = "lightwalk trace";
-constexpr std::size_t kBatch = 16384;     ///< rays read ahead when nobody asks for a flush
 constexpr std::size_t kEnough = 1 << 16;  ///< bytes of output that are worth writing
 
 class TraceRun {
@@ -49,71 +51,53 @@ class TraceRun {
         const bool ambient =
             options_.shade && caches_ambient_values(command_.settings.light) && !tree_;
         link_ = link_ranks(communicator_, command_.common, {kProgram, ambient, true, 0});
-        if (!link_) return trace_alone();
+        if (!link_) return trace(nullptr);
         const auto body = [this] {
-            if (tree_) return link_->leads() ? lead_trees() : wait();
-            return link_->leads() ? lead() : follow();
+            if (!tree_) return trace(link_.get());
+            return link_->leads() ? trace_trees() : wait();
         };
         return link_->run(body, interrupt_flag());
     }
 
   private:
-    // This process by itself.
-
-    int trace_alone() {
-        session_ = std::make_unique<SceneSession>(command_.common, warnings_);
-        session_->build(command_.settings);
-        if (options_.shade) session_->warn_of_darkness();
-        make_threads();
-        if (tree_) {
-            tree_->watch(session_->tracer());
-            (*contexts_)[0].observer = &*tree_;
-        }
-        const Stopwatch watch;
-        put_header();
-        while (read_batch(tree_ ? 1 : kBatch)) answer_batch();  // trees may be large
-        finish();
-        statistics_.render_seconds = watch.seconds();
-        statistics_.rays = contexts_->rays();
-        statistics_.ambient = contexts_->ambient();
-        save_statistics();
+    /// @param link  the other ranks, whose number of threads takes part; null: there are none
+    int trace(RankLink* link) {
+        Renderer& renderer = renderer_.emplace(open_renderer(link, request(), warnings_));
+        if (renderer.leads() && options_.shade) renderer.session().warn_of_darkness();
+        if (tree_) tree_->watch(renderer.session().tracer());
+        scene_ = &renderer.session().scene();
+        double seconds = 0;
+        renderer.run([&] {
+            const Stopwatch watch;
+            put_header(renderer.session().compiled().model());
+            answer_all(renderer);
+            finish();
+            seconds = watch.seconds();
+        });
+        if (renderer.leads()) save_statistics(renderer.statistics(), seconds, link != nullptr);
         return kSuccessStatus;
     }
 
-    void make_threads() {
-        executor_ = make_executor(command_.common.executor, command_.common.workers);
-        contexts_ = std::make_unique<WorkerContexts>(session_->tracer(), warnings_,
-                                                     executor_->concurrency());
+    [[nodiscard]] RendererRequest request() {
+        RendererRequest request =
+            renderer_request(command_.common, command_.settings, command_.history, warnings_);
+        RendererOptions& options = request.options;
+        options.answers_rays = true;
+        options.rays = options_;
+        if (tree_) options.observer = &*tree_;
+        options.record = [this](const RayQuery& query, const Ray& ray, const Hit& first,
+                                std::string& bytes) {
+            if (tree_) bytes += tree_->take();
+            append_record(query, ray, first, bytes);
+        };
+        return request;
     }
 
-    // One of several ranks.
-
-    void prepare() {
-        session_ =
-            build_on_ranks(*link_, command_.common, command_.settings, command_.history, warnings_);
-        make_threads();
-    }
-
-    void trace_chunks() {
-        link_->trace_rays(
-            *executor_,
-            [this](const RayChunk& chunk, int worker) { return answer_chunk(chunk, worker); },
-            interrupt_flag());
-    }
-
-    int follow() {
-        prepare();
-        if (link_->traces())
-            trace_chunks();
-        else
-            link_->wait_for_end(interrupt_flag());
-        link_->report(report());
-        return kSuccessStatus;
-    }
-
-    [[nodiscard]] std::string report() const {
-        return rank_report(*link_, executor_->concurrency(), contexts_->rays(),
-                           contexts_->ambient());
+    /// Rank 0 works alone, and then tells the others.
+    int trace_trees() {
+        const int status = trace(nullptr);
+        (void)link_->finish(interrupt_flag());
+        return status;
     }
 
     /// While rank 0 works alone.
@@ -123,88 +107,39 @@ class TraceRun {
         return kSuccessStatus;
     }
 
-    int lead_trees() {
-        const int status = trace_alone();
-        (void)link_->finish(interrupt_flag());
-        return status;
-    }
-
-    int lead() {
-        prepare();
-        if (options_.shade) session_->warn_of_darkness();
-        lead_ranks(
-            *link_, [this] { trace_chunks(); },
-            [&] {
-                const Stopwatch watch;
-                put_header();
-                share_rays();
-                finish();
-                statistics_.render_seconds = watch.seconds();
-                statistics_.reports = link_->finish(interrupt_flag());
-            });
-        statistics_.ranks = link_->ranks();
-        statistics_.reports[0] = report();
-        for (const auto& [rank, text] : statistics_.reports)
-            add_report(text, statistics_.rays, statistics_.ambient);
-        save_statistics();
-        if (!command_.common.ranks.timeline.empty())
-            write_file_atomically(command_.common.ranks.timeline,
-                                  timeline_json(statistics_.reports));
-        return kSuccessStatus;
-    }
-
-    /// All rays to the ranks, as many at a time as the master asks for; their answers to the
-    /// output.
-    void share_rays() {
-        bool more = true;
-        while (!interrupt_flag().requested() && (more || chunks_out_ > 0)) {
-            const bool can_read = more && chunks_wanted_ > 0;
-            take_news(!can_read);
-            if (!can_read) continue;
-            more = read_batch(chunk_rays_);
-            if (!more) continue;
-            give_chunk();
-            if (!flush_due_) continue;
-            while (chunks_out_ > 0 && !interrupt_flag().requested()) take_news(true);
-            flush();
+    /// All rays to the renderer, as many at a time as it asks for; their answers to the output.
+    void answer_all(Renderer& renderer) {
+        bool more = true, wanted = true;
+        while (!interrupt_flag().requested() && (more || !lists_.empty())) {
+            // Where there is nothing to read for, something else has to come.
+            const RayDemand demand = renderer.ray_demand(!(more && wanted));
+            wanted = demand.lists > 0;
+            if (demand.answered) {
+                if (!put_answer(renderer)) return;
+            } else if (more && wanted) {
+                more = read_batch(demand.rays);
+                if (more) give_batch(renderer);
+            }
         }
     }
 
-    void take_news(bool wait) {
-        const RankLink::RayNews news = link_->ray_news(wait, interrupt_flag());
-        chunks_wanted_ += news.chunks;
-        if (news.rays > 0) chunk_rays_ = news.rays;
-        for (const RayAnswer& answer : news.answers) {
-            output_ += answer.bytes;
-            --chunks_out_;
-            if (output_.size() >= kEnough) flush();
+    void give_batch(Renderer& renderer) {
+        const std::uint64_t first = read_ - queries_.size();
+        lists_.push_back(renderer.start(RayTask{std::move(queries_), first}));
+        if (!flush_due_) return;
+        while (!lists_.empty() && put_answer(renderer)) {
         }
+        flush();
     }
 
-    void give_chunk() {
-        RayChunk chunk{next_chunk_++, read_ - queries_.size(), {}};
-        chunk.numbers.reserve(6 * queries_.size());
-        for (const RayQuery& query : queries_) {
-            for (const Vec3& v : {query.origin, query.direction})
-                chunk.numbers.insert(chunk.numbers.end(), {v.x, v.y, v.z});
-        }
-        link_->submit(std::move(chunk));
-        --chunks_wanted_;
-        ++chunks_out_;
-    }
-
-    [[nodiscard]] std::string answer_chunk(const RayChunk& chunk, int worker) const {
-        std::vector<RayQuery> queries(chunk.rays());
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            const double* const v = &chunk.numbers[6 * i];
-            queries[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
-        }
-        std::string text;
-        trace_rays(session_->tracer(), (*contexts_)[worker], queries, chunk.first, options_,
-                   [&](std::size_t i, const Ray& ray, const Hit& first) {
-                       append_record(queries[i], ray, first, text);
-                   });
-        return text;
+    /// Of the oldest list. False: stopped.
+    bool put_answer(Renderer& renderer) {
+        const std::optional<RayBytes> answer = renderer.finish(lists_.front());
+        lists_.pop_front();
+        if (!answer) return false;
+        output_ += answer->bytes;
+        if (output_.size() >= kEnough) flush();
+        return true;
     }
 
     // Input and output.
@@ -248,11 +183,10 @@ class TraceRun {
             warnings_.warn("-otV and -otW are only accurate with -aa 0 -as 0");
     }
 
-    void put_header() {
+    void put_header(const Model& model) {
         if (command_.header) {
             std::string text = "#?RADIANCE\n";
-            for (const std::string& line :
-                 history_header(session_->model->header, command_.history))
+            for (const std::string& line : history_header(model.header, command_.history))
                 text += line + '\n';
             for (const std::string& line : date_lines()) text += line + '\n';
             output_ += text;
@@ -284,22 +218,10 @@ class TraceRun {
         return !queries_.empty();
     }
 
-    void answer_batch() {
-        texts_.assign((queries_.size() + kRaysPerTask - 1) / kRaysPerTask, {});
-        trace_ray_list(session_->tracer(), *contexts_, queries_, read_ - queries_.size(), options_,
-                       *executor_, [&](std::size_t i, const Ray& ray, const Hit& first) {
-                           std::string& text = texts_[i / kRaysPerTask];
-                           if (tree_) text += tree_->take();
-                           append_record(queries_[i], ray, first, text);
-                       });
-        for (const std::string& text : texts_) output_ += text;
-        if (flush_due_ || output_.size() >= kEnough) flush();
-    }
-
     void append_record(const RayQuery& query, const Ray& ray, const Hit& first,
                        std::string& text) const {
         const bool sensor = options_.sensor && length_squared(query.direction) > 0;
-        if (records_) records_->append({ray, first, sensor}, session_->scene(), text);
+        if (records_) records_->append({ray, first, sensor}, *scene_, text);
     }
 
     void finish() {
@@ -313,16 +235,14 @@ class TraceRun {
         output_.clear();
     }
 
-    void save_statistics() {
-        if (command_.common.stats_file.empty()) return;
-        statistics_.command = "trace";
-        statistics_.scene = session_->cost;
-        if (session_->ambient) {
-            statistics_.ambient_values = session_->ambient->size();
-            statistics_.ambient_bytes = session_->ambient->memory_bytes();
-        }
-        statistics_.threads = executor_->concurrency();
-        write_statistics(command_.common.stats_file, statistics_);
+    void save_statistics(RunStatistics statistics, double seconds, bool on_ranks) {
+        statistics.command = "trace";
+        statistics.render_seconds = seconds;
+        const CommonOptions& common = command_.common;
+        if (!common.stats_file.empty())
+            write_file_atomically(common.stats_file, statistics_json(statistics));
+        if (on_ranks && !common.ranks.timeline.empty())
+            write_file_atomically(common.ranks.timeline, timeline_json(statistics.reports));
     }
 
     TraceCommand command_;
@@ -333,19 +253,14 @@ class TraceRun {
     RayReader reader_;
     RayListOptions options_;
     std::unique_ptr<RankLink> link_;
-    std::unique_ptr<SceneSession> session_;
-    std::unique_ptr<Executor> executor_;
-    std::unique_ptr<WorkerContexts> contexts_;
+    const Scene* scene_ = nullptr;  ///< that records name parts of
     std::vector<RayQuery> queries_;
-    std::vector<std::string> texts_;  ///< answers, by task
+    std::deque<Ticket<RayBytes>> lists_;  ///< that were started
     std::string output_;
     std::uint64_t read_ = 0, expected_ = 0;
     int in_row_ = 0;
     bool flush_due_ = false;
-    // On rank 0, of several:
-    std::uint64_t next_chunk_ = 0;
-    std::size_t chunks_wanted_ = 0, chunks_out_ = 0, chunk_rays_ = 0;
-    RunStatistics statistics_;
+    std::optional<Renderer> renderer_;  ///< lasts: values for its cache come until all ranks end
 };
 
 }  // namespace

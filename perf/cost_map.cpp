@@ -13,7 +13,8 @@
 #include <thread>
 
 #include "apps/render_command.h"
-#include "apps/scene_session.h"
+#include "apps/renderer_request.h"
+#include "apps/session/scene_session.h"
 #include "apps/warnings.h"
 #include "core/error.h"
 #include "io/files/file_source.h"
@@ -66,15 +67,20 @@ double sum(const std::vector<double>& list) {
     return total;
 }
 
+std::shared_ptr<const CompiledScene> compiled_scene(CommonOptions& options, WarningSink& warnings) {
+    resolve_scene_files(options, "", *real_files());
+    auto scene = std::make_shared<CompiledScene>(scene_source(options), warnings);
+    scene->compile();
+    return scene;
+}
+
 class Measurement {
   public:
     explicit Measurement(RenderCommand command)
         : command_(std::move(command)),
           warnings_("cost_map"),
-          session_((resolve_scene_files(command_.common, "", *real_files()), command_.common),
-                   warnings_) {
-        session_.build(command_.settings);
-    }
+          session_(compiled_scene(command_.common, warnings_),
+                   {command_.settings.light, command_.settings.ambient_file}, warnings_) {}
 
     Json run() {
         const Camera camera(command_.view);

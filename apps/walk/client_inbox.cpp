@@ -50,19 +50,19 @@ void ClientInbox::announce(const LoadedReply& reply) {
 
 void ClientInbox::announce_text(std::string text) {
     const std::lock_guard lock(mutex_);
-    for (const ClientId client : driver_lock_.clients()) server_->send_text(client, text);
+    for (const ClientId client : driver_lock_.clients()) sender_->send_text(client, text);
     stage_ = std::move(text);
 }
 
 void ClientInbox::tell_all(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    for (const ClientId client : driver_lock_.clients()) server_->send_text(client, text);
+    for (const ClientId client : driver_lock_.clients()) sender_->send_text(client, text);
 }
 
 void ClientInbox::tell_watchers(const std::string& text) {
     const std::lock_guard lock(mutex_);
     for (const ClientId client : driver_lock_.clients())
-        if (!driver_lock_.drives(client)) server_->send_text(client, text);
+        if (!driver_lock_.drives(client)) sender_->send_text(client, text);
 }
 
 void ClientInbox::set_home(const View& view) {
@@ -111,8 +111,8 @@ void ClientInbox::accept(ClientId client, const HelloRequest& request) {
     welcome.display = inbox_.wish.display;
     welcome.settings = inbox_.wish.settings;
     if (const std::optional<View> view = driver_lock_.place(client)) welcome.view = view;
-    server_->send_text(client, walk_text(welcome));
-    if (!stage_.empty()) server_->send_text(client, stage_);
+    sender_->send_text(client, walk_text(welcome));
+    if (!stage_.empty()) sender_->send_text(client, stage_);
     announce_roles();
     inbox_.joined.push_back(client);
 }
@@ -131,7 +131,7 @@ void ClientInbox::accept(ClientId client, const DisplayRequest& request) {
     if (!driver_lock_.drives(client)) return;
     inbox_.wish.display = request;
     for (const ClientId other : driver_lock_.clients())
-        if (other != client) server_->send_text(other, walk_text(DisplayReply{request}));
+        if (other != client) sender_->send_text(other, walk_text(DisplayReply{request}));
 }
 
 void ClientInbox::accept(ClientId client, const SettingsRequest& request) {
@@ -148,14 +148,14 @@ void ClientInbox::accept(ClientId client, const TakeRequest&) {
     if (driver_lock_.acquire(client))
         announce_roles();
     else
-        server_->send_text(client, walk_text(RefusedReply{"somebody else drives", {}}));
+        sender_->send_text(client, walk_text(RefusedReply{"somebody else drives", {}}));
 }
 
 void ClientInbox::accept(ClientId client, const HandRequest& request) {
     if (driver_lock_.hand(client, ClientId{request.to}))
         announce_roles();
     else
-        server_->send_text(client, walk_text(RefusedReply{"only the driver hands over", {}}));
+        sender_->send_text(client, walk_text(RefusedReply{"only the driver hands over", {}}));
 }
 
 void ClientInbox::ask(WalkQuestion question) {
@@ -164,7 +164,7 @@ void ClientInbox::ask(WalkQuestion question) {
         return;
     }
     const std::uint32_t id = std::visit([](const auto& ask) { return ask.id; }, question.ask);
-    server_->send_text(question.client,
+    sender_->send_text(question.client,
                        walk_text(RefusedReply{"too many requests are waiting for an answer", id}));
 }
 
@@ -175,7 +175,7 @@ void ClientInbox::announce_roles() {
     if (driver_lock_.driver()) reply.driver_id = static_cast<std::uint32_t>(*driver_lock_.driver());
     for (const ClientId client : driver_lock_.clients()) {
         reply.driver = driver_lock_.drives(client);
-        server_->send_text(client, walk_text(reply));
+        sender_->send_text(client, walk_text(reply));
     }
 }
 

@@ -46,6 +46,14 @@ struct InboxContents {
     std::vector<WebReply> saves;  ///< who waits for the picture as a file
 };
 
+/// How messages reach clients. A client that is gone is no error: nothing happens.
+class ClientSender {
+  public:
+    virtual ~ClientSender() = default;
+    virtual void send_text(ClientId client, std::string text) = 0;
+    virtual void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) = 0;
+};
+
 /// Answers by itself who drives, and greets; everything else waits in the inbox.
 class ClientInbox final : public WebHandler {
   public:
@@ -53,7 +61,7 @@ class ClientInbox final : public WebHandler {
     explicit ClientInbox(WelcomeReply welcome);
 
     /// Before the server runs; it must outlive the inbox's use.
-    void attach(WebServer& server) { server_ = &server; }
+    void attach(ClientSender& sender) { sender_ = &sender; }
 
     // For the drawing thread.
     /// Waits for something, so long at most.
@@ -64,11 +72,11 @@ class ClientInbox final : public WebHandler {
     void announce(const LoadingReply& reply);
     void announce(const FailedReply& reply);
     void announce(const LoadedReply& reply);
-    void tell(ClientId client, std::string text) { server_->send_text(client, std::move(text)); }
+    void tell(ClientId client, std::string text) { sender_->send_text(client, std::move(text)); }
     void tell_all(const std::string& text);
     void tell_watchers(const std::string& text);
     void send(ClientId client, std::shared_ptr<const std::string> frame) {
-        server_->send_binary(client, std::move(frame));
+        sender_->send_binary(client, std::move(frame));
     }
     /// To go on from after the scene was read again, or until somebody asks for another.
     void set_home(const View& view);
@@ -95,7 +103,7 @@ class ClientInbox final : public WebHandler {
     void announce_text(std::string text);
     void announce_roles();
 
-    WebServer* server_ = nullptr;
+    ClientSender* sender_ = nullptr;
     mutable std::mutex mutex_;
     std::condition_variable news_;
     bool has_news_ = false;

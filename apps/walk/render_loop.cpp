@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/session/run_header.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
 
@@ -60,16 +61,16 @@ WalkPhase phase_name(LivePhase phase) {
 
 }  // namespace
 
-RenderLoop::RenderLoop(const RenderCommand& command, const SceneSession& session, const View& home,
+RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, const View& home,
                        LiveFrames& frames, Executor& executor, WarningSink& warnings,
                        ClientInbox& client_inbox, WalkScreen& screen)
-    : command_(command),
+    : options_(std::move(options)),
       session_(session),
       client_inbox_(client_inbox),
       screen_(screen),
       threads_(executor.concurrency()),
       has_indirect_(frames.has_indirect()),
-      live_(frames, command.serve->edge_samples),
+      live_(frames, options_.edge_samples),
       answers_(session.tracer(), warnings),
       glare_(session.tracer(), executor, warnings),
       eye_height_(eye_height_of(session.scene(), home)) {}
@@ -153,7 +154,7 @@ AmbientUse RenderLoop::ambient_use() const {
 }
 
 void RenderLoop::draw(const StopFlag& stop) {
-    const double budget = std::max(1 / command_.walk->rate - aside_seconds_, 0.001);
+    const double budget = std::max(1 / options_.rate - aside_seconds_, 0.001);
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;
     if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop))
@@ -231,7 +232,7 @@ void RenderLoop::save(const InboxContents& inbox) {
             reply({503, "text/plain; charset=utf-8", "there is no picture yet\n", {}});
             continue;
         }
-        PictureHeader header{history_header(session_.model->header, command_.history)};
+        PictureHeader header{history_header(session_.compiled().model().header, options_.history)};
         header.lines.push_back("VIEW= " + view_text(*view_));
         for (const std::string& line : date_lines()) header.lines.push_back(line);
         const Picture picture{live_.picture().width, live_.picture().height,

@@ -6,8 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/render_command.h"
-#include "apps/scene_session.h"
+#include "apps/session/scene_session.h"
 #include "apps/walk/client_inbox.h"
 #include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
@@ -16,12 +15,18 @@
 
 namespace lightwalk {
 
+struct RenderLoopOptions {
+    double rate = 30;      ///< frames while the view moves [1/s]
+    int edge_samples = 8;  ///< rays a pixel at an edge gets at rest
+    std::string history;   ///< the command line, for headers of pictures that are saved
+};
+
 /// Draws until it is told to stop. For one thread.
 class RenderLoop {
   public:
     /// All must outlive this.
     /// @param home  where the walk begins, which tells how high eyes are
-    RenderLoop(const RenderCommand& command, const SceneSession& session, const View& home,
+    RenderLoop(RenderLoopOptions options, const SceneSession& session, const View& home,
                LiveFrames& frames, Executor& executor, WarningSink& warnings,
                ClientInbox& client_inbox, WalkScreen& screen);
 
@@ -61,7 +66,7 @@ class RenderLoop {
     [[nodiscard]] bool has_work() const;
     [[nodiscard]] std::chrono::milliseconds patience() const;
 
-    const RenderCommand& command_;
+    RenderLoopOptions options_;
     const SceneSession& session_;
     ClientInbox& client_inbox_;
     WalkScreen& screen_;

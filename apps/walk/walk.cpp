@@ -6,13 +6,11 @@
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
-#include "apps/rank_frames.h"
 #include "apps/rank_session.h"
-#include "apps/rank_walk.h"
 #include "apps/render_command.h"
+#include "apps/renderer_request.h"
 #include "apps/walk/pages.h"
 #include "apps/walk/render_loop.h"
-#include "apps/walk/walk_light.h"
 #include "apps/warnings.h"
 #include "io/files/watched_files.h"
 #include "io/net/web_rules.h"
@@ -66,6 +64,21 @@ WebServerOptions web_options(const ServeCommand& serve) {
     return options;
 }
 
+/// The server, as the inbox knows it.
+class ServerSender final : public ClientSender {
+  public:
+    explicit ServerSender(WebServer& server) : server_(server) {}
+    void send_text(ClientId client, std::string text) override {
+        server_.send_text(client, std::move(text));
+    }
+    void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) override {
+        server_.send_binary(client, std::move(bytes));
+    }
+
+  private:
+    WebServer& server_;
+};
+
 /// A server that works while this lives.
 class ServerThread {
   public:
@@ -101,45 +114,14 @@ class ServerThread {
 // What rank 0 tells the others to do next.
 constexpr const char *kLoad = "load", *kEnd = "end";
 
-/// A rank's part of the frames of one scene.
-class RankShare {
-  public:
-    /// @param direct  without indirect light; null: there is none
-    RankShare(RankLink& link, const SceneSession& session, const RenderCommand& command,
-              const Tracer* direct, StderrWarnings& warnings)
-        : executor_(make_executor(command.common.executor, command.common.workers)),
-          contexts_(session.tracer(), warnings, executor_->concurrency()),
-          walk_(link, session, CachePrepass::none, walk_picture_options(command),
-                walk_cloud_options(command), command.walk->projectors, contexts_, warnings,
-                interrupt_flag()) {
-        if (direct == nullptr) return;
-        direct_.emplace(*direct, warnings, executor_->concurrency());
-        walk_.set_direct(*direct_);
-    }
-    void serve() { walk_.serve(*executor_); }
-
-  private:
-    std::unique_ptr<Executor> executor_;
-    WorkerContexts contexts_;
-    std::optional<WalkLight> direct_;
-    RankWalk walk_;
-};
-
 /// The other ranks: scene after scene.
 int follow_walk(RankLink& link, const RenderCommand& command) {
     StderrWarnings warnings("lightwalk walk");
     warnings.enable(false);  // rank 0 has the same
     while (link.hear() == kLoad) {
         try {
-            const std::unique_ptr<SceneSession> session =
-                build_on_ranks(link, command.common, command.settings, command.history, warnings);
-            const std::unique_ptr<const Tracer> direct = without_indirect(*session, warnings);
-            RankShare share(link, *session, command, direct.get(), warnings);
-            if (link.traces())
-                share.serve();
-            else
-                link.wait_for_end(interrupt_flag());
-            link.forget_cache();
+            Renderer renderer = open_renderer(&link, renderer_request(command, warnings), warnings);
+            renderer.run([] {});
         } catch (const AgreedProblem&) {
             continue;  // until its files change
         }
@@ -158,9 +140,10 @@ class WalkProgram {
           executor_(make_executor(command_.common.executor, command_.common.workers)),
           client_inbox_(welcome()),
           server_(web_options(*command_.serve), viewer_pages(), client_inbox_),
+          sender_(server_),
           screen_(*executor_) {
         warnings_.enable(command_.settings.warnings && !command_.common.quiet);
-        client_inbox_.attach(server_);
+        client_inbox_.attach(sender_);
     }
 
     int run() {
@@ -205,42 +188,26 @@ class WalkProgram {
     }
 
     /// Throws InputError for what is wrong with the scene, or AgreedProblem.
-    std::unique_ptr<SceneSession> read_scene() {
+    [[nodiscard]] Renderer open() {
         client_inbox_.announce(LoadingReply{"reading " + welcome().scene, 0.1});
-        if (link_ != nullptr) {
-            (void)link_->hear(kLoad);
-            return build_on_ranks(*link_, command_.common, command_.settings, command_.history,
-                                  warnings_, watched_);
-        }
-        auto session = std::make_unique<SceneSession>(command_.common, warnings_,
-                                                      std::make_shared<FileRecorder>(watched_));
-        client_inbox_.announce(LoadingReply{"building the scene", 0.5});
-        session->build(command_.settings);
-        return session;
+        if (link_ != nullptr) (void)link_->hear(kLoad);
+        RendererRequest request = renderer_request(command_, warnings_);
+        request.files = watched_;
+        request.when_read = [this] {
+            client_inbox_.announce(LoadingReply{"building the scene", 0.5});
+        };
+        return open_renderer(link_, request, warnings_);
     }
 
-    /// Read the scene, and draw until its files change. Throws as read_scene.
+    /// Read the scene, and draw until its files change. Throws as open().
     void enter(const ServerThread& serving) {
-        const std::unique_ptr<SceneSession> session = read_scene();
-        session->warn_of_darkness();
-        const std::unique_ptr<const Tracer> direct = without_indirect(*session, warnings_);
-        const Tracer& tracer = direct ? *direct : session->tracer();
-        const Tracer* const indirect = direct ? &session->tracer() : nullptr;
-        const CloudOptions cloud = walk_cloud_options(command_);
-        const FrameOptions picture = walk_picture_options(command_);
-        if (link_ == nullptr) {
-            LocalFrames frames(tracer, indirect, cloud, picture, *executor_, warnings_);
-            return stay(*session, frames, serving);
-        }
-        RankShare share(*link_, *session, command_, direct.get(), warnings_);
-        lead_ranks(
-            *link_, [&] { share.serve(); },
-            [&] {
-                RankFrames frames(*link_, tracer, indirect, cloud, picture, *executor_, warnings_);
-                stay(*session, frames, serving);
-                link_->dismiss();
-            });
-        link_->forget_cache();
+        Renderer renderer = open();
+        renderer.session().warn_of_darkness();
+        renderer.run([&] { stay(renderer.session(), renderer.frames(), serving); });
+    }
+
+    [[nodiscard]] RenderLoopOptions loop_options() const {
+        return {command_.walk->rate, command_.serve->edge_samples, command_.history};
     }
 
     /// Draw until the scene's files change.
@@ -249,7 +216,7 @@ class WalkProgram {
                           : command_.view_given          ? command_.view
                                                          : view_of(session.scene());
         client_inbox_.set_home(home);
-        RenderLoop loop(command_, session, home, frames, *executor_, warnings_, client_inbox_,
+        RenderLoop loop(loop_options(), session, home, frames, *executor_, warnings_, client_inbox_,
                         screen_);
         if (link_ != nullptr) loop.set_company(link_->ranks(), command_.common.workers);
         LoadedReply loaded;
@@ -289,6 +256,7 @@ class WalkProgram {
     std::unique_ptr<Executor> executor_;
     ClientInbox client_inbox_;
     WebServer server_;
+    ServerSender sender_;
     WalkScreen screen_;
     std::shared_ptr<WatchedFiles> watched_;
 };

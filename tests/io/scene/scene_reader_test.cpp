@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/parse_queue.h"
+#include "apps/session/parse_queue.h"
 #include "tests/all_primitives.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scene.h"

@@ -1,0 +1,121 @@
+#include "apps/session/checkpoint.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+
+#include "parallel/ranks/piece_codec.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::chrono::seconds kOften{1};  ///< between two times of writing, which cost a sync
+
+using Head = std::array<std::int32_t, 5>;  ///< frame, x0, y0, x1, y1
+
+bool contains(const PixelRectangle& whole, const PixelRectangle& part) {
+    return whole.x0 <= part.x0 && whole.y0 <= part.y0 && part.x1 <= whole.x1 && part.y1 <= whole.y1;
+}
+
+bool overlap(const PixelRectangle& a, const PixelRectangle& b) {
+    return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
+}
+
+}  // namespace
+
+class Checkpoint::Picture final : public CheckpointSink {
+  public:
+    Picture(Checkpoint& checkpoint, int frame, const PixelRectangle& whole)
+        : checkpoint_(checkpoint), frame_(frame), whole_(whole) {}
+
+    [[nodiscard]] std::vector<BlockPixels> known() override {
+        std::vector<BlockPixels> blocks;
+        for (const Known& known : checkpoint_.known_[frame_]) {
+            const bool sound =
+                contains(whole_, known.block) && !known.block.empty() &&
+                std::none_of(blocks.begin(), blocks.end(), [&](const BlockPixels& other) {
+                    return overlap(other.block, known.block);
+                });
+            if (sound) blocks.push_back({known.block, decode_piece(known.block, known.bytes), {}});
+        }
+        return blocks;
+    }
+    void keep(const BlockPixels& pixels) override { checkpoint_.keep(frame_, pixels); }
+
+  private:
+    Checkpoint& checkpoint_;
+    int frame_;
+    PixelRectangle whole_;
+};
+
+Checkpoint::Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings) {
+    log_ = std::make_unique<RecordLog>(
+        path, header, [&](std::string_view record) { take(record); }, warnings);
+    writer_ = std::thread([this] { write(); });
+}
+
+Checkpoint::~Checkpoint() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    changed_.notify_all();
+    writer_.join();
+}
+
+void Checkpoint::take(std::string_view record) {
+    Head head{};
+    if (record.size() < sizeof head) return;
+    std::memcpy(head.data(), record.data(), sizeof head);
+    known_[head[0]].push_back(
+        {{head[1], head[2], head[3], head[4]}, std::string(record.substr(sizeof head))});
+}
+
+std::shared_ptr<CheckpointSink> Checkpoint::picture(int frame, const PixelRectangle& whole) {
+    return std::make_shared<Picture>(*this, frame, whole);
+}
+
+void Checkpoint::forget(int frame) {
+    known_.erase(frame);
+}
+
+void Checkpoint::keep(int frame, const BlockPixels& pixels) {
+    const std::lock_guard lock(mutex_);
+    if (problem_) std::rethrow_exception(problem_);
+    kept_.push_back({frame, pixels.block, pixels.values});
+    if (kept_.size() == 1) changed_.notify_all();
+}
+
+void Checkpoint::write() {
+    std::unique_lock lock(mutex_);
+    std::chrono::steady_clock::time_point next{};
+    while (true) {
+        changed_.wait(lock, [&] { return ending_ || !kept_.empty(); });
+        changed_.wait_until(lock, next, [&] { return ending_; });
+        if (kept_.empty()) return;
+        next = std::chrono::steady_clock::now() + kOften;
+        std::deque<Kept> kept;
+        kept.swap(kept_);
+        lock.unlock();
+        try {
+            for (const Kept& one : kept) {
+                const Head head{one.frame, one.block.x0, one.block.y0, one.block.x1, one.block.y1};
+                std::string record(reinterpret_cast<const char*>(head.data()), sizeof head);
+                log_->append(record + encode_piece(one.block, one.values));
+            }
+            log_->sync();
+            lock.lock();
+        } catch (const InputError&) {
+            lock.lock();
+            problem_ = std::current_exception();
+            return;
+        }
+    }
+}
+
+void Checkpoint::remove() {
+    log_->remove();
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,63 @@
+#pragma once
+// Finished blocks on disk, so that a run that was killed goes on where it stood.
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/files/record_log.h"
+#include "parallel/checkpoint_sink.h"
+
+namespace lightwalk {
+
+/// A log of blocks: frame number and rectangle (five i32), then the pixels as encode_piece packs
+/// them. A thread of its own writes; blocks are on disk at most two seconds after they are kept.
+class Checkpoint {
+  public:
+    /// Blocks of a file that is there already are known.
+    /// @param header  what the blocks depend on, one line each: a file with other lines is refused
+    /// Throws InputError.
+    Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings);
+    ~Checkpoint();
+    Checkpoint(const Checkpoint&) = delete;
+    Checkpoint& operator=(const Checkpoint&) = delete;
+
+    /// The blocks of one picture of the run, which must not outlive this.
+    /// @param whole  all of its pixels; known blocks beyond are left out
+    [[nodiscard]] std::shared_ptr<CheckpointSink> picture(int frame, const PixelRectangle& whole);
+    /// The picture is written: its blocks are no longer needed.
+    void forget(int frame);
+    /// The run is whole: removes the file.
+    void remove();
+
+  private:
+    class Picture;
+    struct Known {
+        PixelRectangle block;
+        std::string bytes;
+    };
+    struct Kept {
+        int frame = 0;
+        PixelRectangle block;
+        std::vector<PixelValue> values;
+    };
+    void take(std::string_view record);
+    void keep(int frame, const BlockPixels& pixels);
+    void write();
+
+    std::map<int, std::vector<Known>> known_;  ///< by frame
+    std::unique_ptr<RecordLog> log_;
+    std::mutex mutex_;  ///< guards what follows
+    std::condition_variable changed_;
+    std::deque<Kept> kept_;  ///< to be written
+    bool ending_ = false;
+    std::exception_ptr problem_;  ///< why it could not be written
+    std::thread writer_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,205 @@
+#include "apps/session/compiled_scene.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "apps/session/heap.h"
+#include "apps/session/parse_queue.h"
+#include "apps/session/stopwatch.h"
+#include "core/material/modifier_factories.h"
+#include "io/scene/binary_models.h"
+#include "io/scene/file_resources.h"
+#include "io/scene/freezing_resources.h"
+#include "io/scene/scene_reader.h"
+#include "parallel/executor.h"
+#include "parallel/executor_task_runner.h"
+
+namespace lightwalk {
+namespace {
+
+/// Beyond this a process holds on to no memory that it has done with; of a smaller one the pages
+/// are worth more where they are [bytes].
+constexpr std::uint64_t kLarge = std::uint64_t{64} << 20;
+
+class NoWarnings final : public WarningSink {
+  public:
+    void warn(const std::string&) override {}
+};
+
+LibraryPath library_of(const SceneSource& source, const std::shared_ptr<FileSource>& files) {
+    return source.library.empty() ? LibraryPath::from_environment(files)
+                                  : LibraryPath(source.library, files);
+}
+
+void append_words(std::string& text, const std::vector<std::string>& words) {
+    text += std::to_string(words.size());
+    for (const std::string& word : words) text += ' ' + word;
+    text += '\n';
+}
+
+std::string number_text(double number) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.17g", number);
+    return text.data();
+}
+
+/// Primitives as a scene file has them, a primitive in five lines.
+std::string scene_text(const std::vector<ScenePrimitive>& primitives) {
+    std::string text;
+    for (const ScenePrimitive& primitive : primitives) {
+        text += primitive.modifier + ' ' + primitive.type + ' ' + primitive.name + '\n';
+        append_words(text, primitive.strings);
+        text += "0\n";
+        std::vector<std::string> numbers;
+        numbers.reserve(primitive.numbers.size());
+        for (const double number : primitive.numbers) numbers.push_back(number_text(number));
+        append_words(text, numbers);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::uint64_t peak_memory_bytes() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return static_cast<std::uint64_t>(used.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+void CallbackWarnings::warn(const std::string& message) {
+    if (!take_) return;
+    const std::lock_guard lock(mutex_);
+    take_(message);
+}
+
+CompiledScene::CompiledScene(const SceneSource& source, WarningSink& warnings,
+                             std::shared_ptr<FileRecorder> files, const std::string& shared_by)
+    : warnings_(warnings),
+      files_(std::move(files)),
+      library_(library_of(source, files_)),
+      threads_(source.threads > 0 ? source.threads : hardware_threads()),
+      trim_heap_(source.trim_heap),
+      ablation_(source.ablation) {
+    const Stopwatch watch;
+    if (!shared_by.empty())
+        map(shared_by);
+    else if (source.files.empty())
+        read_bytes(source);
+    else
+        read(source);
+    cost_.read_seconds = watch.seconds();
+    cost_.read_peak_bytes = peak_memory_bytes();
+}
+
+void CompiledScene::read(const SceneSource& source) {
+    const std::vector<std::string>& names = source.files;
+    if (!source.bytes.empty() || !source.primitives.empty())
+        throw InputError("a scene comes from files or from memory, not from both");
+    const auto found = std::ranges::find_if(
+        names, [&](const std::string& name) { return is_frozen_scene(name, *files_); });
+    if (found == names.end()) {
+        resources_ = std::make_unique<FileResources>(library_, source.allow_commands, warnings_);
+        MakeTextPipe pipe;
+        if (threads_ > 1) pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
+        model_ =
+            read_scene(names, {library_, source.allow_commands, {}, pipe}, warnings_, &problems_);
+        return;
+    }
+    if (names.size() > 1) throw InputError({*found, 0}, "a frozen scene is all of a scene");
+    // Every rank maps it itself, also where one reads for all: its pages are shared anyway.
+    auto opened = open_frozen_scene(*found, source.allow_stale);
+    files_->note_mapped(*found, opened->file().digest());
+    model_ = opened->model();
+    frozen_ = opened.get();
+    resources_ = std::move(opened);
+}
+
+void CompiledScene::read_bytes(const SceneSource& source) {
+    if (!source.bytes.empty() && !source.primitives.empty())
+        throw InputError("a scene comes from bytes or from primitives, not from both");
+    if (is_frozen_scene(source.bytes)) return map_bytes(source);
+    resources_ = std::make_unique<FileResources>(library_, source.allow_commands, warnings_);
+    const SceneReadOptions options{library_, source.allow_commands, {}, {}};
+    if (is_octree(source.bytes))
+        model_ = read_octree(source.bytes, source.name, options, warnings_, &problems_);
+    else
+        model_ =
+            parse_scene(source.primitives.empty() ? source.bytes : scene_text(source.primitives),
+                        source.name, options, warnings_);
+}
+
+/// A frozen scene shows its bytes, from an address that is a multiple of 8 on.
+void CompiledScene::map_bytes(const SceneSource& source) {
+    const std::size_t size = source.bytes.size();
+    const auto owner = std::make_shared<std::vector<std::uint64_t>>((size + 7) / 8);
+    std::memcpy(owner->data(), source.bytes.data(), size);
+    auto opened = std::make_unique<FrozenScene>(FrozenFile(
+        owner, std::span(reinterpret_cast<const std::byte*>(owner->data()), size), source.name));
+    model_ = opened->model();
+    frozen_ = opened.get();
+    resources_ = std::move(opened);
+}
+
+void CompiledScene::map(const std::string& path) {
+    auto opened = open_frozen_scene(path, true);
+    model_ = opened->model();
+    resources_ = std::move(opened);
+}
+
+std::string CompiledScene::share() {
+    const Stopwatch watch;
+    FreezingResources asked(*resources_);
+    raise_problems(asked);
+    {
+        const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
+        NoWarnings later;  // they come when the scene is compiled to be rendered
+        const Scene compiled(model_, modifier_factory, asked, later, ExecutorTaskRunner(*executor),
+                             SceneExtent::without_search);
+        try {
+            shared_ = share_scene(compiled, asked);
+        } catch (const InputError&) {
+            return {};
+        }
+    }
+    map(shared_->path());
+    cost_.read_seconds += watch.seconds();
+    cost_.read_peak_bytes = peak_memory_bytes();
+    return shared_->path();
+}
+
+void CompiledScene::raise_problems(Resources& asked) {
+    if (problems_.empty()) return;
+    try {
+        Scene::unsupported(model_, modifier_factory, asked, warnings_).raise();
+    } catch (const InputError& error) {
+        problems_.add(error);
+    }
+    problems_.raise();
+}
+
+void CompiledScene::compile(Resources& asked) {
+    const Stopwatch watch;
+    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
+    raise_problems(asked);
+    trim_heap();
+    scene_ =
+        std::make_unique<const Scene>(model_, modifier_factory, asked, warnings_,
+                                      ExecutorTaskRunner(*executor), SceneExtent::whole, ablation_);
+    trim_heap();
+    cost_.build_seconds = watch.seconds();
+    cost_.build_peak_bytes = peak_memory_bytes();
+}
+
+void CompiledScene::trim_heap() const {
+    if (trim_heap_ && peak_memory_bytes() > kLarge) give_back_heap();
+}
+
+}  // namespace lightwalk

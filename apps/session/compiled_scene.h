@@ -1,0 +1,98 @@
+#pragma once
+// A scene, from where it is described to what rays can be cast in.
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "apps/session/lightwalk/scene.h"
+#include "core/error.h"
+#include "core/math/task_runner.h"
+#include "core/model/resources.h"
+#include "core/problem_list.h"
+#include "core/scene/scene.h"
+#include "io/files/file_source.h"
+#include "io/files/library_path.h"
+#include "io/files/memory_file.h"
+#include "io/scene/frozen_scene.h"
+
+namespace lightwalk {
+
+/// What it took to have a scene: time, and the most memory that the process held until then.
+struct SceneCost {
+    double read_seconds = 0, build_seconds = 0;
+    std::uint64_t read_peak_bytes = 0, build_peak_bytes = 0;
+};
+
+/// Largest memory this process ever held [bytes].
+[[nodiscard]] std::uint64_t peak_memory_bytes();
+
+/// Warnings as a function gets them. Callable from many threads.
+class CallbackWarnings final : public WarningSink {
+  public:
+    explicit CallbackWarnings(TakeWarning take) : take_(std::move(take)) {}
+    void warn(const std::string& message) override;
+
+  private:
+    TakeWarning take_;
+    std::mutex mutex_;
+};
+
+/// Reads when it is made; compile() does the rest. For one thread until it is compiled.
+class CompiledScene {
+  public:
+    /// Throws InputError for what cannot be read at all.
+    /// @param warnings   of reading, and of compiling; must outlive this
+    /// @param files      where all that is read comes from
+    /// @param shared_by  where another process of this machine shares the scene: what its share()
+    ///                   returned; "": it is read
+    CompiledScene(const SceneSource& source, WarningSink& warnings,
+                  std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>(),
+                  const std::string& shared_by = {});
+
+    /// Compiles, by what the scene's library says. Throws InputError, with all problems of the
+    /// description.
+    void compile() { compile(*resources_); }
+    /// Compiles by what `asked` says of the library.
+    void compile(Resources& asked);
+    /// From now on the scene is in memory that other processes can map: returns where; "" where the
+    /// system has no such memory. Before compile(); throws InputError as that does.
+    [[nodiscard]] std::string share();
+
+    [[nodiscard]] const Model& model() const { return *model_; }
+    /// After compile().
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
+    [[nodiscard]] bool is_compiled() const { return scene_ != nullptr; }
+    [[nodiscard]] Resources& resources() { return *resources_; }
+    /// Null: the scene is not a frozen one.
+    [[nodiscard]] const FrozenScene* frozen() const { return frozen_; }
+    [[nodiscard]] const FileRecorder& files() const { return *files_; }
+    [[nodiscard]] int threads() const { return threads_; }
+    [[nodiscard]] const SceneCost& cost() const { return cost_; }
+    [[nodiscard]] WarningSink& warnings() const { return warnings_; }
+
+  private:
+    void read(const SceneSource& source);
+    void read_bytes(const SceneSource& source);
+    void map_bytes(const SceneSource& source);
+    void map(const std::string& path);
+    void raise_problems(Resources& asked);
+    void trim_heap() const;
+
+    WarningSink& warnings_;
+    std::shared_ptr<FileRecorder> files_;
+    LibraryPath library_;
+    int threads_;
+    bool trim_heap_;
+    Ablation ablation_;
+    std::unique_ptr<Resources> resources_;
+    const FrozenScene* frozen_ = nullptr;       ///< where resources_ are those of a frozen scene
+    std::shared_ptr<const MemoryFile> shared_;  ///< with other processes; null: nothing is
+    ProblemList problems_;                      ///< of the description, which model_ leaves out
+    std::shared_ptr<const Model> model_;
+    std::unique_ptr<const Scene> scene_;
+    SceneCost cost_;
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,71 @@
+#include <utility>
+
+#include "apps/session/compiled_scene.h"
+#include "apps/session/lightwalk/picture.h"
+#include "apps/session/lightwalk/renderer.h"
+#include "apps/session/lightwalk/scene.h"
+#include "io/files/file_manifest.h"
+#include "io/picture/picture.h"
+#include "io/picture/tone.h"
+#include "io/scene/freezing_resources.h"
+#include "parallel/walk/cloud_frame.h"
+
+namespace lightwalk {
+namespace {
+
+/// A scene that keeps whom it warns.
+struct WarningScene {
+    WarningScene(const SceneSource& source, TakeWarning warn)
+        : warnings(std::move(warn)), scene(source, warnings) {}
+    CallbackWarnings warnings;
+    CompiledScene scene;
+};
+
+SceneSource source_of(const std::vector<std::string>& files) {
+    SceneSource source;
+    source.files = files;
+    return source;
+}
+
+}  // namespace
+
+LoadedScene::LoadedScene(const SceneSource& source, TakeWarning warn) {
+    const auto made = std::make_shared<WarningScene>(source, std::move(warn));
+    made->scene.compile();
+    compiled_ = {made, &made->scene};
+}
+
+LoadedScene::LoadedScene(const std::vector<std::string>& files, TakeWarning warn)
+    : LoadedScene(source_of(files), std::move(warn)) {}
+
+LoadedScene::Box LoadedScene::bounds() const {
+    const Bounds bounds = compiled_->scene().geometry().bounds();
+    return {bounds.lower, bounds.upper};
+}
+
+std::string LoadedScene::digest() const {
+    return compiled_->files().digest();
+}
+
+void freeze_scene(const SceneSource& source, const std::string& path, TakeWarning warn) {
+    if (source.files.empty()) throw InputError("a scene that is frozen consists of files");
+    CallbackWarnings warnings(std::move(warn));
+    const auto manifest = std::make_shared<ManifestRecorder>();
+    CompiledScene scene(source, warnings, std::make_shared<FileRecorder>(manifest));
+    if (scene.frozen() != nullptr) throw InputError({source.files.front(), 0}, "is frozen already");
+    FreezingResources library(scene.resources());
+    scene.compile(library);
+    write_frozen_scene(path, scene.scene(), library, manifest->files());
+}
+
+void save_picture(const std::string& path, const RenderedPicture& picture,
+                  const std::vector<std::string>& header) {
+    write_picture(path, {picture.width, picture.height, picture.radiance}, {header}, {});
+}
+
+std::shared_ptr<const CloudOptions> default_reuse() {
+    return std::make_shared<const CloudOptions>(
+        CloudOptions{.audit = 0.01, .audit_limit = 0.1, .refine = 0.1});
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,55 @@
+#include "apps/session/scene_session.h"
+
+#include <utility>
+
+#include "apps/session/stopwatch.h"
+#include "core/light/light_sources.h"
+#include "parallel/executor.h"
+#include "parallel/executor_task_runner.h"
+
+namespace lightwalk {
+
+bool caches_ambient_values(const RenderOptions& light) {
+    return light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon;
+}
+
+SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
+                           const LightSettings& settings, WarningSink& warnings,
+                           CacheSharing* sharing)
+    : compiled_(std::move(compiled)), warnings_(warnings), cost_(compiled_->cost()) {
+    const Stopwatch watch;
+    const std::unique_ptr<Executor> executor =
+        make_executor(kDefaultExecutor, compiled_->threads());
+    auto tracer = std::make_unique<Tracer>(compiled_->scene(), settings.light, warnings,
+                                           ExecutorTaskRunner(*executor));
+    if (caches_ambient_values(settings.light)) {
+        make_cache(settings, sharing);
+        tracer->use_ambient_cache(freezable.get());
+    } else if (!settings.ambient_file.empty()) {
+        warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
+    }
+    tracer_ = std::move(tracer);
+    cost_.build_seconds += watch.seconds();
+    cost_.build_peak_bytes = peak_memory_bytes();
+}
+
+void SceneSession::make_cache(const LightSettings& settings, CacheSharing* sharing) {
+    const RenderOptions& options = settings.light;
+    const SceneCube cube = scene().cube();
+    ambient = std::make_unique<ConcurrentCache>(ambient_limits(
+        cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
+    freezable = std::make_unique<PublishedCache>(*ambient);
+    if (!settings.ambient_file.empty() && (sharing == nullptr || sharing->has_file())) {
+        ambient_store =
+            std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings_);
+        known = ambient_store->take_loaded();
+        freezable->add(*ambient_store);
+    }
+    if (sharing != nullptr) sharing->exchange(*freezable, known);
+}
+
+void SceneSession::warn_of_darkness() const {
+    if (!tracer_->lights().shine()) warnings_.warn("no light sources found");
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,163 @@
+#include "apps/walk/render_loop.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "apps/session/lightwalk/renderer.h"
+#include "apps/session/scene_session.h"
+#include "core/error.h"
+#include "io/picture/picture.h"
+#include "parallel/walk/cloud_frame.h"
+#include "tests/apps/walk/recorded_clients.h"
+#include "tests/test_scene.h"
+
+using namespace lightwalk;
+using namespace lightwalk::test;
+
+namespace {
+
+const std::string kRoom = R"(
+void plastic grey 0 0 5 .5 .5 .5 0 0
+void light lamp 0 0 3 40 40 40
+grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+grey sphere ball 0 0 4 -1 2 .7 .7
+lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
+)";
+constexpr ClientId kDriver{1}, kWatcher{2};
+
+RendererOptions options_of(bool steered) {
+    RendererOptions options;
+    options.threads = 2;
+    options.steered = steered;
+    options.pixels.spacing = 1;
+    CloudOptions cloud = *default_reuse();
+    cloud.samples = 1;  // also at edges, as in a picture
+    if (steered) options.reuse = std::make_shared<const CloudOptions>(cloud);
+    return options;
+}
+
+SceneSource room() {
+    SceneSource source;
+    source.bytes = kRoom;
+    return source;
+}
+
+/// A walk without a server: two pages that are one step away.
+struct Walk {
+    explicit Walk(const LoadedScene& scene) : renderer(scene, options_of(true)) {
+        inbox.attach(clients);
+        for (const ClientId client : {kDriver, kWatcher})
+            inbox.message(client,
+                          hello("0123456789abcde" + std::to_string(static_cast<int>(client))));
+        View home;
+        home.position = {0, -4, 1.5};
+        loop.emplace(RenderLoopOptions{30, 1, "lightwalk walk"}, renderer.session(), home,
+                     renderer.frames(), *executor, warnings, inbox, screen);
+    }
+    /// Until the driver's view is as good as it gets, and on its screen.
+    void rest() {
+        for (int i = 0; i < 2000; ++i) {
+            loop->step(stop);
+            for (const ClientId client : {kDriver, kWatcher}) acknowledge(client);
+            if (clients.frames_of(kDriver) > 0 &&
+                (frame_flags(*clients.frames[kDriver].back()) & 4) != 0)
+                return;
+        }
+        FAIL("the view does not come to rest");
+    }
+    void acknowledge(ClientId client) {
+        if (clients.frames_of(client) == acked[client]) return;
+        acked[client] = clients.frames_of(client);
+        inbox.message(client, R"({"type":"ack","frame":)" +
+                                  std::to_string(frame_number(*clients.frames[client].back())) +
+                                  "}");
+    }
+    [[nodiscard]] std::string saved() {
+        std::string bytes;
+        inbox.save("/save/picture.hdr", WebReply([&](WebAnswer answer) { bytes = answer.bytes; }));
+        loop->step(stop);
+        return bytes;
+    }
+
+    Silence warnings;
+    Renderer renderer;
+    RecordedClients clients;
+    std::map<ClientId, std::size_t> acked;
+    ClientInbox inbox{WelcomeReply{}};
+    std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, 2);
+    WalkScreen screen{*executor};
+    std::optional<RenderLoop> loop;
+    StopFlag stop;
+};
+
+}  // namespace
+
+TEST_CASE("render loop: a view that rests becomes the picture that is rendered of it") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    walk.inbox.message(kDriver, view_message(1, 0.25));
+    walk.rest();
+    CHECK(number_at<std::uint32_t>(*walk.clients.frames[kDriver].back(), 8) == 1);
+    CHECK(walk.clients.frames_of(kWatcher) > 0);
+    CHECK(walk.clients.got(kWatcher, "view"));
+    CHECK_FALSE(walk.clients.got(kDriver, "view"));
+    const ViewRequest wanted = std::get<ViewRequest>(parse_walk_request(view_message(1, 0.25)));
+    Renderer renderer(scene, options_of(false));
+    PictureTask task;
+    task.view = wanted.view;
+    task.width = wanted.width;
+    task.height = wanted.height;
+    const auto expected = renderer.finish(renderer.start(task));
+    const Picture saved = read_hdr(walk.saved(), "saved");
+    REQUIRE(saved.pixels.size() == expected->radiance.size());
+    const Picture written =
+        read_hdr(encode_hdr({task.width, task.height, expected->radiance}, {}), "written");
+    CHECK(saved.pixels == written.pixels);
+}
+
+TEST_CASE("render loop: before there is a picture questions and files are refused") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    walk.inbox.message(kWatcher, R"({"type":"pick","id":7,"x":0.5,"y":0.5})");
+    unsigned status = 0;
+    walk.inbox.save("/save/picture.hdr", WebReply([&](const WebAnswer& a) { status = a.status; }));
+    walk.loop->step(walk.stop);
+    CHECK(walk.clients.got(kWatcher, "refused", "there is no picture yet"));
+    CHECK(status == 503);
+    CHECK(walk.clients.frames_of(kDriver) == 0);
+}
+
+TEST_CASE("render loop: light is told where somebody points, and at pins") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    walk.inbox.message(kDriver, view_message(1, 0));
+    walk.inbox.message(
+        kDriver, R"({"type":"probes","probes":[{"id":3,"position":[0,0,0],"normal":[0,0,1]}]})");
+    walk.rest();
+    walk.inbox.message(kWatcher, R"({"type":"pick","id":7,"x":0.5,"y":0.2})");
+    walk.inbox.message(kWatcher, R"({"type":"rectangle","id":8,"rect":[0,0,1,1]})");
+    walk.loop->step(walk.stop);
+    CHECK(walk.clients.got(kWatcher, "picked", "\"material\":\"grey\""));
+    CHECK(walk.clients.got(kWatcher, "mean", "\"pixels\":768"));
+    CHECK(walk.clients.got(kWatcher, "probes", "\"id\":3"));
+}
+
+TEST_CASE("render loop: a view that moves is shown at once, and the eye walks on the ground") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    CHECK(walk.loop->eye_height() == doctest::Approx(1.5));
+    walk.inbox.message(kDriver, view_message(1, 0));
+    walk.rest();
+    std::string walking = view_message(2, 0.5);
+    walking.replace(walking.find("-4,1.5]"), 7, "-4,1.2]");
+    walking.replace(walking.find("\"walk\":false"), 12, "\"walk\":true");
+    walk.inbox.message(kDriver, walking);
+    const std::size_t before = walk.clients.frames_of(kDriver);
+    walk.loop->step(walk.stop);
+    REQUIRE(walk.clients.frames_of(kDriver) == before + 1);
+    const std::string& frame = *walk.clients.frames[kDriver].back();
+    CHECK(number_at<std::uint32_t>(frame, 8) == 2);
+    CHECK(number_at<double>(frame, 40) == doctest::Approx(1.5));
+}

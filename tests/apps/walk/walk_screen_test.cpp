@@ -1,0 +1,135 @@
+#include "apps/walk/walk_screen.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <vector>
+
+#include "tests/apps/walk/recorded_clients.h"
+
+using namespace lightwalk;
+using namespace lightwalk::test;
+
+namespace {
+
+constexpr ClientId kFirst{1}, kSecond{2};
+constexpr int kWidth = 400, kHeight = 200;  // six pieces
+
+LivePicture picture_of(float value) {
+    LivePicture picture;
+    picture.width = kWidth;
+    picture.height = kHeight;
+    picture.radiance.assign(std::size_t{kWidth} * kHeight, Rgb::grey(value));
+    return picture;
+}
+
+/// A screen at a clock of its own, with colours that do not adapt.
+struct Screen {
+    Screen() {
+        inbox.attach(clients);
+        fixed.automatic = false;
+        screen.join(kFirst);
+    }
+    void show(const LivePicture& picture, std::uint32_t id, bool at_rest = true) {
+        screen.show(picture, fixed, {id, {0, 0, 1}, at_rest, false}, now);
+    }
+    void send() { screen.send(inbox, now); }
+    void ack(ClientId client) {
+        now += std::chrono::milliseconds(10);
+        const WalkAck all[] = {{client, frame_number(*clients.frames[client].back()), now}};
+        screen.acked(all);
+    }
+    const std::string& last(ClientId client) { return *clients.frames[client].back(); }
+
+    std::unique_ptr<Executor> executor = make_executor(ExecutorKind::serial, 1);
+    WalkScreen screen{*executor};
+    RecordedClients clients;
+    ClientInbox inbox{WelcomeReply{}};
+    DisplaySettings fixed;
+    WalkScreen::Time now{std::chrono::seconds(100)};
+};
+
+}  // namespace
+
+TEST_CASE("walk screen: the first frame has all pieces, and what is the same is not sent again") {
+    Screen all;
+    all.send();
+    CHECK(all.clients.frames_of(kFirst) == 0);  // there is no picture yet
+    all.show(picture_of(0.5f), 1);
+    all.send();
+    REQUIRE(all.clients.frames_of(kFirst) == 1);
+    CHECK(frame_pieces(all.last(kFirst)) == 6);
+    CHECK(frame_flags(all.last(kFirst)) == 3);  // whole, at rest
+    all.ack(kFirst);
+    all.show(picture_of(0.5f), 1);
+    all.send();
+    CHECK(all.clients.frames_of(kFirst) == 1);
+}
+
+TEST_CASE("walk screen: only pieces that have changed are sent, a new view also without any") {
+    Screen all;
+    LivePicture picture = picture_of(0.5f);
+    all.show(picture, 1);
+    all.send();
+    all.ack(kFirst);
+    picture.radiance[0] = Rgb::grey(0.1f);
+    picture.radiance.back() = Rgb::grey(0.1f);
+    all.show(picture, 1);
+    all.send();
+    REQUIRE(all.clients.frames_of(kFirst) == 2);
+    CHECK(frame_pieces(all.last(kFirst)) == 2);
+    CHECK(frame_flags(all.last(kFirst)) == 2);
+    all.ack(kFirst);
+    all.show(picture, 2);
+    all.send();
+    REQUIRE(all.clients.frames_of(kFirst) == 3);
+    CHECK(frame_pieces(all.last(kFirst)) == 0);
+    CHECK(number_at<std::uint32_t>(all.last(kFirst), 8) == 2);
+}
+
+TEST_CASE("walk screen: clients that lack the same share a frame, newcomers get all of it") {
+    Screen all;
+    all.screen.join(kSecond);
+    all.show(picture_of(0.5f), 1);
+    all.send();
+    REQUIRE(all.clients.frames_of(kSecond) == 1);
+    CHECK(all.clients.frames[kFirst][0] == all.clients.frames[kSecond][0]);
+    all.screen.leave(kSecond);
+    all.screen.join(kSecond);
+    all.send();
+    CHECK(all.clients.frames_of(kFirst) == 1);
+    REQUIRE(all.clients.frames_of(kSecond) == 2);
+    CHECK(frame_pieces(all.last(kSecond)) == 6);
+}
+
+TEST_CASE(
+    "walk screen: a client that does not answer gets no more than two frames, then the newest") {
+    Screen all;
+    for (int i = 1; i <= 5; ++i) {
+        all.now += std::chrono::seconds(1);
+        all.show(picture_of(0.1f * static_cast<float>(i)), static_cast<std::uint32_t>(i), false);
+        all.send();
+    }
+    CHECK(all.clients.frames_of(kFirst) <= 2);
+    const std::size_t before = all.clients.frames_of(kFirst);
+    all.ack(kFirst);
+    all.send();
+    REQUIRE(all.clients.frames_of(kFirst) == before + 1);
+    CHECK(number_at<std::uint32_t>(all.last(kFirst), 8) == 5);
+}
+
+TEST_CASE("walk screen: a picture of another size is sent whole") {
+    Screen all;
+    all.show(picture_of(0.5f), 1);
+    all.send();
+    all.ack(kFirst);
+    LivePicture small;
+    small.width = 10;
+    small.height = 8;
+    small.radiance.assign(80, Rgb::grey(0.5f));
+    all.show(small, 1);
+    all.send();
+    REQUIRE(all.clients.frames_of(kFirst) == 2);
+    CHECK(frame_pieces(all.last(kFirst)) == 1);
+    CHECK(number_at<std::uint16_t>(all.last(kFirst), 12) == 10);
+}
