@@ -13,15 +13,23 @@ std::string last_error() {
     return text != nullptr ? text : "unknown error";
 }
 
+/// Of the program or the shared library that this code is a part of.
+std::filesystem::path own_folder() {
+    Dl_info found{};
+    if (dladdr(reinterpret_cast<const void*>(&load_from_module), &found) == 0) return {};
+    return std::filesystem::path(found.dli_fname).parent_path();
+}
+
 }  // namespace
 
 void* load_from_module(const char* file, const char* symbol, std::string& error) {
     std::error_code failed;
     const std::filesystem::path here =
         std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
-    for (const std::filesystem::path& folder : {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk",
+    for (const std::filesystem::path& folder :
+         {here, here / ".." / LIGHTWALK_LIBDIR / "lightwalk", own_folder() / "lightwalk",
 #ifdef LIGHTWALK_MODULE_DIR
-                                                std::filesystem::path(LIGHTWALK_MODULE_DIR)
+          std::filesystem::path(LIGHTWALK_MODULE_DIR)
 #endif
          }) {
         void* module = dlopen((folder / file).c_str(), RTLD_NOW | RTLD_LOCAL);
