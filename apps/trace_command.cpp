@@ -112,7 +112,8 @@ std::string describe(const TraceCommand& command) {
 }
 
 OptionTable trace_option_table() {
-    return owning_table(TraceCommand{}, own_table);
+    TraceCommand usual;
+    return owning_table(std::move(usual), own_table);
 }
 
 }  // namespace lightwalk

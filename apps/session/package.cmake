@@ -6,7 +6,7 @@ add_library(lightwalk_session STATIC ${session_sources})
 target_sources(lightwalk_session PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${session_headers})
 set_target_properties(lightwalk_session PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 target_compile_definitions(lightwalk_session PRIVATE LIGHTWALK_VERSION="${PROJECT_VERSION}")
-target_link_libraries(lightwalk_session PUBLIC lightwalk_parallel lightwalk_io PRIVATE nlohmann_json::nlohmann_json)
+target_link_libraries(lightwalk_session PUBLIC lightwalk_parallel_chosen lightwalk_io PRIVATE nlohmann_json::nlohmann_json)
 # With a sanitizer, whose library stands in front of every program, no package is made.
 if(NOT LIGHTWALK_PACKAGE OR LIGHTWALK_SANITIZE)
   return()

@@ -192,12 +192,12 @@ PrismRay PrismTracer::transmitted(PrismRay ray, Face at) const {
         return ray;
     }
     const Vec3 d = ray.direction;
-    const double root = std::sqrt(in.squared_index);
+    const double ratio = std::sqrt(in.squared_index);
     const double s2 = d.y * d.y + d.z * d.z;
     const double sign = d.x < 0 ? -1 : 1;
-    ray.direction = {sign * std::sqrt(1 - s2 / in.squared_index), d.y / root, d.z / root};
+    ray.direction = {sign * std::sqrt(1 - s2 / in.squared_index), d.y / ratio, d.z / ratio};
     const double sum =
-        scale(ray, 2 * root * in.cosine / (in.refracted + in.squared_index * in.cosine),
+        scale(ray, 2 * ratio * in.cosine / (in.refracted + in.squared_index * in.cosine),
               2 * in.cosine / (in.cosine + in.refracted));
     ray.energy = ray.energy / 2 * (in.refracted / in.cosine) * sum;
     ray.medium = ray.medium == 1 ? prism_.index : 1;

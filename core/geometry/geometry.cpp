@@ -22,8 +22,8 @@
 // faster than triangles with a filter function.
 
 namespace lightwalk {
-namespace {
-
+/// Owners of Embree's objects.
+namespace embree {
 struct ReleaseDevice {
     void operator()(RTCDeviceTy* device) const noexcept { rtcReleaseDevice(device); }
 };
@@ -32,6 +32,9 @@ struct ReleaseGeometry {
 };
 using DevicePtr = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using GeometryPtr = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
+}  // namespace embree
+
+namespace {
 
 /// From so many BVH primitives on a tree has quantized leaves, which need less memory. In small
 /// meshes they are as fast as single primitives; with other surfaces some 3 % slower.
@@ -100,7 +103,7 @@ struct Geometry::Impl {
     std::string embree_message;
     Ablation ablation;
     PlacedScene placed;
-    DevicePtr device;  ///< outlives the scenes below
+    embree::DevicePtr device;  ///< outlives the scenes below
     std::vector<Hierarchy> models;
     Bounds box;  ///< of all geometry, relative to models[0].space.center, margins included
 
@@ -183,7 +186,7 @@ void Geometry::Impl::add_surfaces(Hierarchy& model, const TaskRunner& task_runne
         if (model.leaves.empty()) throw std::runtime_error("Embree has lost surfaces");
         model.bvh_primitives = BvhPrimitives();
     }
-    const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    const embree::GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the surfaces");
     const bool in_leaves = !model.leaves.empty();
     rtcSetGeometryUserPrimitiveCount(
@@ -243,7 +246,7 @@ void Geometry::Impl::add_instances(std::uint32_t model) {
         instances.boxes.push_back(box_of(*child.placement, around));
     }
     if (instances.all.empty()) return;
-    const GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    const embree::GeometryPtr geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("creating the instances");
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(instances.all.size()));
     rtcSetGeometryUserData(geometry.get(), &instances);

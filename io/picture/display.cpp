@@ -11,10 +11,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kMiddleGrey = 0.18;
-constexpr double kShareBelowWhite = 0.999;
 constexpr double kAdaptationTime = 0.4;  // [s]
-constexpr float kBrightest = 1e30f;
 
 // Tables by the upper bits of positive floats: 256 steps an octave.
 constexpr unsigned kDropped = 15;
@@ -57,7 +54,7 @@ const SrgbTable& srgb_table() {
 
 /// The value limited to 0 ... kBrightest; NaN becomes 0.
 float shown_part(float value) {
-    return value > 0 ? std::min(value, kBrightest) : 0.0f;
+    return value > 0 ? std::min(value, kBrightestShown) : 0.0f;
 }
 
 double polynomial(double x, std::initializer_list<double> coefficients) {

@@ -7,11 +7,8 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kMiddleGrey = 0.18;
 constexpr double kKnee = 2 * kMiddleGrey;
-constexpr double kShareBelowWhite = 0.999;
 constexpr double kFading = 0.03;
-constexpr float kBrightest = 1e30f;
 
 double srgb_curve(double x) {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
@@ -99,7 +96,7 @@ std::array<std::uint8_t, 3> display_pixel(const Rgb& color, const DisplayTone& t
     std::array<double, 3> values{};
     for (std::size_t k = 0; k < 3; ++k) {
         if (color[k] > 0)
-            values[k] = static_cast<double>(std::min(color[k], kBrightest)) * tone.scale;
+            values[k] = static_cast<double>(std::min(color[k], kBrightestShown)) * tone.scale;
     }
     if (tone.curve) values = compress(values, *tone.curve);
     std::array<std::uint8_t, 3> bytes{};

@@ -9,6 +9,12 @@
 
 namespace lightwalk {
 
+/// What automatic exposure shows a picture's log-average as, and the share of its pixels that the
+/// curve keeps below white.
+inline constexpr double kMiddleGrey = 0.18, kShareBelowWhite = 0.999;
+/// Values above this one, infinity among them, are shown as it is.
+inline constexpr float kBrightestShown = 1e30f;
+
 /// How values beyond the display's range are shown.
 enum class ToneCurve {
     highlights,  ///< compressed smoothly, so that windows and lamps keep visible detail

@@ -10,7 +10,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kPixelsATask = 16;
+constexpr std::size_t kPixelsALiveTask = 16;
 
 }  // namespace
 
@@ -22,12 +22,12 @@ TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts, const 
     TracedValues values(work.places.size());
     contexts.reset_counters();
     executor.for_each(
-        (work.places.size() + kPixelsATask - 1) / kPixelsATask,
+        (work.places.size() + kPixelsALiveTask - 1) / kPixelsALiveTask,
         [&](std::size_t task, int worker) {
             if (task > 0 && UncachedPixelTracer::Clock::now() > deadline) return;
-            const std::size_t first = task * kPixelsATask;
-            const std::size_t count = std::min(kPixelsATask, work.places.size() - first);
-            std::array<PixelValue, kPixelsATask> part;
+            const std::size_t first = task * kPixelsALiveTask;
+            const std::size_t count = std::min(kPixelsALiveTask, work.places.size() - first);
+            std::array<PixelValue, kPixelsALiveTask> part;
             PixelTracer trace(tracer, rays, contexts[worker], stop);
             trace(std::span(work.places).subspan(first, count), {part.data(), count});
             if (stop.requested()) return;

@@ -22,7 +22,7 @@ using lightwalk::test::TestScene;
 namespace {
 
 /// Rough and mirror-like surfaces, a lamp, a lamp smaller than a pixel, and a sky.
-const std::string kRoom = R"(
+const std::string kBlockRoom = R"(
 void plastic floor 0 0 5 .5 .4 .3 0 0
 void metal ball 0 0 5 .9 .8 .7 .8 .1
 void mirror silver 0 0 3 .9 .9 .9
@@ -54,7 +54,7 @@ FrameOptions options_of(int spacing, bool use_distances) {
 }
 
 struct Room {
-    explicit Room(RenderOptions options = noisy()) : scene(kRoom, options) {}
+    explicit Room(RenderOptions options = noisy()) : scene(kBlockRoom, options) {}
 
     Frame frame(const FrameOptions& options, int workers = 1) {
         WorkerContexts contexts(scene.tracer, scene.warnings, workers);

@@ -18,7 +18,7 @@ using lightwalk::test::TestScene;
 namespace {
 
 /// A room with a block in it, open to a sky on one side.
-const std::string kRoom = R"(
+const std::string kPrepassRoom = R"(
 void plastic paint 0 0 5 .6 .5 .4 0 0
 void glow sky 0 0 4 1 1 2 0
 sky source dome 0 0 4 0 -1 0 180
@@ -28,7 +28,7 @@ paint polygon back 0 0 12  -3 3 0  3 3 0  3 3 3  -3 3 3
 paint sphere ball 0 0 4 0 1 1 .7
 )";
 
-RenderOptions indirect(int bounces) {
+RenderOptions with_prepass(int bounces) {
     RenderOptions options;
     options.ambient_bounces = bounces;
     options.ambient_divisions = 32;
@@ -42,7 +42,7 @@ RenderOptions indirect(int bounces) {
 struct Played {
     explicit Played(CachePrepass prepass, int workers = 1, const FrameOptions& frame = small(),
                     int bounces = 1, const std::string& more = "")
-        : scene(kRoom + more, indirect(bounces)),
+        : scene(kPrepassRoom + more, with_prepass(bounces)),
           shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.5, 8)),
           cache(shared),
           executor(make_executor(ExecutorKind::threads, workers)),
@@ -86,7 +86,7 @@ struct Played {
     CachePrepassResult result;
 };
 
-bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+bool same_pixel_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("after a deterministic prepass the cache is closed and pictures are th
             Played other(CachePrepass::deterministic, workers, Played::small(), bounces);
             CHECK(other.shared.size() == values);
             CHECK(other.result.rays.total() == expected.result.rays.total());
-            CHECK(same_bytes(other.picture().radiance, picture.radiance));
+            CHECK(same_pixel_bytes(other.picture().radiance, picture.radiance));
         }
     }
 }
@@ -179,7 +179,7 @@ TEST_CASE("a deterministic prepass fills clipped matter, too, with the same byte
     CHECK(picture.ambient.computed < values / 2);  // most of the hole is filled
     Played other(CachePrepass::deterministic, 2, Played::small(), 1, cut);
     CHECK(other.shared.size() == values);
-    CHECK(same_bytes(other.picture().radiance, picture.radiance));
+    CHECK(same_pixel_bytes(other.picture().radiance, picture.radiance));
 }
 
 TEST_CASE("windows of a picture after a deterministic prepass are parts of the whole") {

@@ -22,7 +22,7 @@ namespace {
 
 /// A floor and a rough, shiny ball under a square lamp and a sky: textures of all kinds of sampling
 /// noise.
-const std::string kRoom = R"(
+const std::string kFrameRoom = R"(
 void plastic floor 0 0 5 .5 .4 .3 0 0
 void metal ball 0 0 5 .9 .8 .7 .8 .1
 void glass pane 0 0 3 .9 .9 .9
@@ -35,7 +35,7 @@ pane polygon window 0 0 12  2 -2 0  2 2 0  2 2 3  2 -2 3
 lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
 )";
 
-RenderOptions noisy() {
+RenderOptions noisy_frame() {
     RenderOptions options;
     options.source_jitter = 0.9;
     options.virtual_source_pretest = 0;
@@ -74,7 +74,7 @@ bool same_bytes(const Frame& a, const Frame& b) {
 }  // namespace
 
 TEST_CASE("the picture does not depend on executor, threads or blocks, whatever the spacing") {
-    const TestScene scene(kRoom, noisy());
+    const TestScene scene(kFrameRoom, noisy_frame());
     const Camera camera(room_view());
     for (const int spacing : {1, 4, 7}) {
         FrameOptions options = options_of(97, 73, spacing, 0.67);
@@ -96,7 +96,7 @@ TEST_CASE("the picture does not depend on executor, threads or blocks, whatever 
 }
 
 TEST_CASE("another seed draws other numbers, the same seed the same") {
-    const TestScene scene(kRoom, noisy());
+    const TestScene scene(kFrameRoom, noisy_frame());
     FrameOptions options = options_of(32, 24, 1, 0.67);
     const Frame a = render(scene.tracer, room_view(), options);
     const Frame b = render(scene.tracer, room_view(), options);
@@ -107,7 +107,7 @@ TEST_CASE("another seed draws other numbers, the same seed the same") {
 }
 
 TEST_CASE("with spacing 1 each pixel is its own ray, rows from the top") {
-    TestScene scene(kRoom);
+    TestScene scene(kFrameRoom);
     const Camera camera(room_view());
     const int width = 20;
     const int height = 15;
@@ -126,7 +126,7 @@ TEST_CASE("with spacing 1 each pixel is its own ray, rows from the top") {
 }
 
 TEST_CASE("wider spacing traces fewer rays and stays near the full picture") {
-    const TestScene scene(kRoom);
+    const TestScene scene(kFrameRoom);
     const Frame full = render(scene.tracer, room_view(), options_of(160, 120, 1));
     const Frame sparse = render(scene.tracer, room_view(), options_of(160, 120, 4));
     CHECK(sparse.rays.primary < full.rays.primary / 2);
@@ -193,7 +193,7 @@ lamp polygon small 0 0 12  .0011 1 .0011  .0031 1 .0011  .0031 1 .0031  .0011 1 
 }
 
 TEST_CASE("a requested stop ends the frame early and marks it") {
-    const TestScene scene(kRoom, noisy());
+    const TestScene scene(kFrameRoom, noisy_frame());
     const Camera camera(room_view());
     for (const ExecutorKind kind :
          {ExecutorKind::serial, ExecutorKind::threads, kDefaultExecutor}) {
@@ -210,7 +210,7 @@ TEST_CASE("a requested stop ends the frame early and marks it") {
 }
 
 TEST_CASE("progress grows to all pixels and counts the rays") {
-    const TestScene scene(kRoom);
+    const TestScene scene(kFrameRoom);
     const Camera camera(room_view());
     Silence warnings;
     double last = 0;

@@ -42,7 +42,7 @@ std::vector<Answer> trace(TestScene& scene, const std::vector<RayQuery>& queries
     return answers;
 }
 
-RenderOptions noisy() {
+RenderOptions noisy_rays() {
     RenderOptions options = TestScene::exact();
     options.source_jitter = 1;
     options.specular_samples = 1;
@@ -53,7 +53,7 @@ RenderOptions noisy() {
 }  // namespace
 
 TEST_CASE("answers come in order and do not depend on the workers") {
-    TestScene scene(kFloor, noisy());
+    TestScene scene(kFloor, noisy_rays());
     std::vector<RayQuery> queries;
     for (int i = 0; i < 1000; ++i) queries.push_back({{0.01 * i - 5, 0, 3}, {0, 0.001 * i, -1}});
     const std::vector<Answer> expected = trace(scene, queries, {});
@@ -68,7 +68,7 @@ TEST_CASE("answers come in order and do not depend on the workers") {
 
 TEST_CASE("equal rays of one input draw different random numbers, unless nothing is sampled") {
     const std::vector<RayQuery> same(8, RayQuery{{0, 0, 3}, {0.1, 0, -1}});
-    TestScene random(kFloor, noisy());
+    TestScene random(kFloor, noisy_rays());
     const std::vector<Answer> a = trace(random, same, {});
     CHECK_FALSE(a[0] == a[1]);
     TestScene exact(kFloor);

@@ -23,7 +23,7 @@ const std::string kSquare =
     "bright polygon square 0 0 12  -.5 5 -.5  .5 5 -.5  .5 5 .5  -.5 5 .5\n";
 
 /// A floor and a rough, shiny ball under a lamp: noise of several kinds.
-const std::string kRoom = R"(
+const std::string kSampledRoom = R"(
 void plastic floor 0 0 5 .5 .4 .3 0 0
 void metal ball 0 0 5 .9 .8 .7 .8 .1
 void light lamp 0 0 3 20 20 20
@@ -32,7 +32,7 @@ ball sphere shiny 0 0 4 0 0 1 1
 lamp polygon panel 0 0 12  -1 -1 5  -1 1 5  1 1 5  1 -1 5
 )";
 
-RenderOptions noisy() {
+RenderOptions noisy_samples() {
     RenderOptions options;
     options.source_jitter = 0.9;
     options.virtual_source_pretest = 0;
@@ -46,7 +46,7 @@ View parallel_view(double size) {
     return view;
 }
 
-FrameOptions options_of(int width, int height, int samples, std::uint64_t seed = 0) {
+FrameOptions sample_options(int width, int height, int samples, std::uint64_t seed = 0) {
     FrameOptions options;
     options.width = width;
     options.height = height;
@@ -56,16 +56,16 @@ FrameOptions options_of(int width, int height, int samples, std::uint64_t seed =
     return options;
 }
 
-Frame render(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
-             Executor& executor) {
+Frame render_samples(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                     Executor& executor) {
     Silence warnings;
     WorkerContexts contexts(tracer, warnings, executor.concurrency());
     return render_frame(tracer, camera, options, executor, contexts, StopFlag(),
                         [](const FrameProgress&) {});
 }
 
-Frame render(const Tracer& tracer, const View& view, const FrameOptions& options) {
-    return render(tracer, Camera(view), options, *make_executor(ExecutorKind::serial, 1));
+Frame render_samples(const Tracer& tracer, const View& view, const FrameOptions& options) {
+    return render_samples(tracer, Camera(view), options, *make_executor(ExecutorKind::serial, 1));
 }
 
 double green(const Frame& frame, std::size_t i) {
@@ -81,16 +81,16 @@ double total(const Frame& frame) {
 }  // namespace
 
 TEST_CASE("with several samples the picture does not depend on executor, threads or blocks") {
-    const TestScene scene(kRoom, noisy());
+    const TestScene scene(kSampledRoom, noisy_samples());
     const Camera camera(room_view());
     for (const int spacing : {1, 4}) {
-        FrameOptions options = options_of(61, 47, 5);
+        FrameOptions options = sample_options(61, 47, 5);
         options.pixels.spacing = spacing;
         const Frame expected =
-            render(scene.tracer, camera, options, *make_executor(ExecutorKind::serial, 1));
+            render_samples(scene.tracer, camera, options, *make_executor(ExecutorKind::serial, 1));
         for (const int workers : {1, 2, 7}) {
-            const Frame frame =
-                render(scene.tracer, camera, options, *make_executor(kDefaultExecutor, workers));
+            const Frame frame = render_samples(scene.tracer, camera, options,
+                                               *make_executor(kDefaultExecutor, workers));
             CHECK(std::memcmp(frame.radiance.data(), expected.radiance.data(),
                               expected.radiance.size() * sizeof(Rgb)) == 0);
             CHECK(frame.distance == expected.distance);
@@ -109,9 +109,9 @@ TEST_CASE("samples keep the light: a square's pixels add up to its area") {
         double sum = 0;
         constexpr int kSeeds = 60;
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-            FrameOptions options = options_of(kSize, kSize, samples, seed);
+            FrameOptions options = sample_options(kSize, kSize, samples, seed);
             options.pixels.jitter = 1;  // with one sample: anywhere in its pixel
-            sum += total(render(scene.tracer, parallel_view(1.6), options));
+            sum += total(render_samples(scene.tracer, parallel_view(1.6), options));
         }
         // Some two pixels on either side of the outline are uncertain, each by 1/2 at most.
         const double uncertain = 4 * 4 / pixel;
@@ -129,7 +129,7 @@ TEST_CASE("a straight edge gets what the Gaussian of .6 pixels sees of it") {
     View view = parallel_view(width);
     view.position = {0.5 - 0.3 * width / kSize, 0, 0};  // 0.3 pixels left of it
     view.vertical = 0.4;                                // nowhere near the upper and lower edges
-    const Frame frame = render(scene.tracer, view, options_of(kSize, kSize, kSamples));
+    const Frame frame = render_samples(scene.tracer, view, sample_options(kSize, kSize, kSamples));
     for (int x = 0; x < kSize; ++x) {
         CAPTURE(x);
         double sum = 0;
@@ -143,13 +143,13 @@ TEST_CASE("a straight edge gets what the Gaussian of .6 pixels sees of it") {
 }
 
 TEST_CASE("16 samples have less than an eighth of the variance of one") {
-    const TestScene scene(kRoom, noisy());
+    const TestScene scene(kSampledRoom, noisy_samples());
     const auto variance = [&](int samples) {
         constexpr int kSeeds = 24;
         std::vector<double> sum(20 * 15), squares(20 * 15);
         for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-            const Frame frame =
-                render(scene.tracer, room_view(), options_of(20, 15, samples, seed + 1));
+            const Frame frame = render_samples(scene.tracer, room_view(),
+                                               sample_options(20, 15, samples, seed + 1));
             for (std::size_t i = 0; i < sum.size(); ++i) {
                 sum[i] += green(frame, i);
                 squares[i] += green(frame, i) * green(frame, i);
@@ -174,18 +174,19 @@ TEST_CASE("small sources are found by the samples, and count once") {
     constexpr int kSamples = 64;
     double sum = 0;
     for (std::uint64_t seed = 0; seed < kSeeds; ++seed)
-        sum += total(render(scene.tracer, parallel_view(0.16), options_of(16, 16, kSamples, seed)));
+        sum += total(render_samples(scene.tracer, parallel_view(0.16),
+                                    sample_options(16, 16, kSamples, seed)));
     const double hits = kSeeds * kSamples * expected / 100;
     CHECK(std::abs(sum / kSeeds - expected) < 4 * expected / std::sqrt(hits));
 }
 
 TEST_CASE("distance is that of the first sample's ray, the nearest to the pixel's centre") {
-    const TestScene scene(kRoom);
+    const TestScene scene(kSampledRoom);
     const Camera camera(room_view());
-    const FrameOptions options = options_of(20, 15, 4);
-    const Frame frame = render(scene.tracer, room_view(), options);
+    const FrameOptions options = sample_options(20, 15, 4);
+    const Frame frame = render_samples(scene.tracer, room_view(), options);
     const PixelRays rays(camera, nullptr, 20, 15, options.pixels, 0);
-    TestScene again(kRoom);
+    TestScene again(kSampledRoom);
     for (int row = 0; row < 15; ++row) {
         for (int x = 0; x < 20; ++x) {
             const PixelRay pixel = rays(x, 14 - row, 0);

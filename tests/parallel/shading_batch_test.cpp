@@ -44,7 +44,7 @@ struct Asking {
 };
 
 /// A room with all that makes rays wait: mirrors, glass, gloss, mixtures, patterns, many lights.
-std::string room() {
+std::string batch_room() {
     std::string text =
         "void brightfunc grain 2 if(noise3(Px,Py,Pz),.9,.4) . 0 0\n"
         "grain plastic floor_paint 0 0 5 .6 .5 .4 .05 .1\n"
@@ -181,7 +181,7 @@ TEST_CASE("shading batches: rays that go side by side bring back the bits that t
         CAPTURE(every_shadow);
         RenderOptions options = usual();
         if (every_shadow) options.shadow_threshold = 0;
-        TestScene scene(room(), options);
+        TestScene scene(batch_room(), options);
         scene.context.batches.make_fibers = make_context_fibers;
         std::vector<Ray> together = looking_down(scene, 20), alone = together;
         const std::vector<Hit> hits = hits_of(scene, together);
@@ -203,7 +203,7 @@ TEST_CASE("shading batches: rays that go side by side bring back the bits that t
 }
 
 TEST_CASE("shading batches: the same with so many lights that a batch is calculated in parts") {
-    std::string text = room();
+    std::string text = batch_room();
     for (int i = 0; i < 1200; ++i) {
         const std::string n = std::to_string(i);
         text += "l" + std::to_string(i % 30) + " sphere many" + n + " 0 0 4 " +
@@ -226,7 +226,7 @@ TEST_CASE("shading batches: ambient rays go side by side, too, within those that
     options.ambient_bounces = 2;
     options.ambient_divisions = 64;
     options.ambient_accuracy = 0;  // every value is computed anew
-    TestScene scene(room(), options);
+    TestScene scene(batch_room(), options);
     scene.context.batches.make_fibers = make_context_fibers;
     std::vector<Ray> together = looking_down(scene, 3), alone = together;
     const std::vector<Hit> hits = hits_of(scene, together);

@@ -34,7 +34,7 @@ CloudPoint point_at(const Vec3& place, PointKind kind = PointKind::plain) {
     return point;
 }
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kProjectionWidth = 64, kProjectionHeight = 48;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ TEST_CASE("cloud: a point on a pixel's ray is projected onto that place, in ever
     for (const char type : std::string("vlchas")) {
         CAPTURE(type);
         const Camera camera(view_of_type(type));
-        const PointProjector project(camera, kWidth, kHeight);
+        const PointProjector project(camera, kProjectionWidth, kProjectionHeight);
         RandomStream random(7);
         int shown = 0;
         for (int i = 0; i < 500; ++i) {
@@ -53,8 +53,10 @@ TEST_CASE("cloud: a point on a pixel's ray is projected onto that place, in ever
             const double distance = 0.5 + 20 * random.next();
             const ImagePlace place = project(ray->origin + ray->direction * distance);
             // Single precision of a coordinate of at most 64 pixels, and of twenty metres.
-            CHECK(static_cast<double>(place.x) == doctest::Approx(h * kWidth).epsilon(1e-5));
-            CHECK(static_cast<double>(place.y) == doctest::Approx(v * kHeight).epsilon(1e-5));
+            CHECK(static_cast<double>(place.x) ==
+                  doctest::Approx(h * kProjectionWidth).epsilon(1e-5));
+            CHECK(static_cast<double>(place.y) ==
+                  doctest::Approx(v * kProjectionHeight).epsilon(1e-5));
             CHECK(static_cast<double>(place.distance) == doctest::Approx(distance).epsilon(1e-5));
         }
         CHECK(shown > 100);
@@ -64,7 +66,7 @@ TEST_CASE("cloud: a point on a pixel's ray is projected onto that place, in ever
 TEST_CASE(
     "cloud: what lies behind the eye, before the fore plane or beside the picture is not shown") {
     const Camera camera(view_of_type('v'));
-    const PointProjector project(camera, kWidth, kHeight);
+    const PointProjector project(camera, kProjectionWidth, kProjectionHeight);
     const Vec3 eye = camera.view().position;
     CHECK(project(eye - camera.forward() * 3).distance == 0);
     CHECK(project(eye + camera.forward() * 0.2).distance == 0);
@@ -79,7 +81,7 @@ TEST_CASE("cloud: many points are projected to the places of each, what is gone 
             View view = view_of_type(type);
             view.aft = aft;
             const Camera camera(view);
-            const PointProjector project(camera, kWidth, kHeight);
+            const PointProjector project(camera, kProjectionWidth, kProjectionHeight);
             RandomStream random(5);
             std::vector<CloudPoint> points(333);  // no multiple of what is taken at a time
             for (CloudPoint& point : points) {
@@ -125,7 +127,7 @@ TEST_CASE("cloud: a cell keeps the nearest point, whoever comes first") {
 
 TEST_CASE("cloud: the winners do not depend on how the points are divided") {
     const Camera camera(view_of_type('v'));
-    const PointProjector project(camera, kWidth, kHeight);
+    const PointProjector project(camera, kProjectionWidth, kProjectionHeight);
     RandomStream random(3);
     std::vector<CloudPoint> points;
     for (int i = 0; i < 5000; ++i) {
@@ -134,7 +136,7 @@ TEST_CASE("cloud: the winners do not depend on how the points are divided") {
                                   i % 3 == 0 ? PointKind::mirrored : PointKind::plain));
     }
     std::vector<ImagePlace> places(points.size());
-    const PixelRectangle all{0, 0, kWidth, kHeight};
+    const PixelRectangle all{0, 0, kProjectionWidth, kProjectionHeight};
     CloudGrids whole(all), parts(all);
     project_points(project, points, 0, points.size(), whole, places);
     for (std::size_t last = points.size(); last > 0;) {  // backwards
@@ -142,8 +144,8 @@ TEST_CASE("cloud: the winners do not depend on how the points are divided") {
         project_points(project, points, first, last, parts, places);
         last = first;
     }
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kProjectionHeight; ++y) {
+        for (int x = 0; x < kProjectionWidth; ++x) {
             CHECK(whole.ahead.winner(x, y) == parts.ahead.winner(x, y));
             CHECK(whole.mirrored.winner(x, y) == parts.mirrored.winner(x, y));
         }

@@ -15,24 +15,24 @@
 namespace lightwalk::test {
 namespace {
 
-const std::string kPrelude = R"(
+const std::string kLanguagePrelude = R"(
 va(i) = select(i,1,2,3);  vb(i) = select(i,4,5,6);
 fac(n) : if(n-1.5, n*fac(n-1), 1);   fib(n) = if(n-1.5, fib(n-1)+fib(n-2), n);
 app(f,x) = f(x);  comp(f,g,x) = f(g(x));  first(a,b) = a;  second(a,b) = b;
 nargs3(a,b,c) = select(0,a,b,c);
 x3 = .3;  y1 = .1;  z = 0;  m8 = -8;  o = 1;  K : 3;  kk = 3;
 )";
-const std::string kFaulty = "m8=-8; z=0; o=1; bad=sqrt(m8); good=sin(o);";
+const std::string kFaultyLanguage = "m8=-8; z=0; o=1; bad=sqrt(m8); good=sin(o);";
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSkip = -12345;  ///< instead of a value: the error flag is set
 
-struct Row {
+struct LanguageRow {
     std::string expression;
     double value;
 };
 
-const std::vector<Row> kLanguage{
+const std::vector<LanguageRow> kLanguage{
     {"-2^2", 4},
     {"2^3^2", 512},
     {"2^-1^2", 2},
@@ -115,7 +115,7 @@ const std::vector<Row> kLanguage{
     {"noise3d(2,1.3,2.2,3.7)", -0.23555688107165795},
 };
 
-const std::vector<Row> kErrors{
+const std::vector<LanguageRow> kErrors{
     {"m8^(1/3)", kSkip},
     {".25/z", kSkip},
     {".25/z+.5", kSkip},
@@ -190,9 +190,9 @@ Setting ray_over(std::string_view definitions) {
 }  // namespace
 
 TEST_CASE("the language and its library have the values that Radiance prints") {
-    for (const Row& row : kLanguage) {
+    for (const LanguageRow& row : kLanguage) {
         CAPTURE(row.expression);
-        const std::string definitions = kPrelude + "the_value = " + row.expression + ";";
+        const std::string definitions = kLanguagePrelude + "the_value = " + row.expression + ";";
         // Slopes of noise are differences over a small step: they lose digits.
         const bool slope =
             row.expression.rfind("turbulence", 0) == 0 || row.expression.rfind("noise3d", 0) == 0;
@@ -202,9 +202,9 @@ TEST_CASE("the language and its library have the values that Radiance prints") {
 }
 
 TEST_CASE("numeric errors make a primitive skip, unless a later function forgets them") {
-    for (const Row& row : kErrors) {
+    for (const LanguageRow& row : kErrors) {
         CAPTURE(row.expression);
-        const Evaluated result = evaluate(row.expression, ray_over(kFaulty));
+        const Evaluated result = evaluate(row.expression, ray_over(kFaultyLanguage));
         CHECK((result.error != EvalError::none) == (row.value == kSkip));
         if (row.value != kSkip) CHECK(near(result.value, row.value, 1e-7));
     }
@@ -213,13 +213,13 @@ TEST_CASE("numeric errors make a primitive skip, unless a later function forgets
 TEST_CASE("what is wrong for certain throws") {
     for (const std::string& expression : kFatal) {
         CAPTURE(expression);
-        CHECK(complaint(expression, kFaulty).substr(0, 13) == "scene.rad:7: ");
+        CHECK(complaint(expression, kFaultyLanguage).substr(0, 13) == "scene.rad:7: ");
     }
 }
 
 TEST_CASE("the error flag lives on from one output of an epoch to the next") {
     const auto skips = [](const std::vector<std::string>& in_order) {
-        return evaluate_all(in_order, ray_over(kFaulty)).back().error != EvalError::none;
+        return evaluate_all(in_order, ray_over(kFaultyLanguage)).back().error != EvalError::none;
     };
     CHECK(skips({"good", "good", "bad"}));
     CHECK(skips({"good", "bad", "good"}));  // good is not computed again
@@ -229,7 +229,7 @@ TEST_CASE("the error flag lives on from one output of an epoch to the next") {
 }
 
 TEST_CASE("domain and range errors are told apart") {
-    const auto error = [](const char* e) { return evaluate(e, ray_over(kFaulty)).error; };
+    const auto error = [](const char* e) { return evaluate(e, ray_over(kFaultyLanguage)).error; };
     CHECK(error("sqrt(m8)") == EvalError::domain);
     CHECK(error("m8^.5") == EvalError::domain);
     CHECK(error("select(7*o,1,2)") == EvalError::domain);
@@ -252,10 +252,10 @@ TEST_CASE("constants fold as Radiance folds them, rounding included") {
     CHECK(value_of("x+(y+x)", x) == .3 + (.1 + .3));
     CHECK(value_of("s", x + "s = x+(y+x);") == (.3 + .1) + .3);
     // Dropped with their errors.
-    CHECK(evaluate("0*(1/z)", ray_over(kFaulty)).error == EvalError::none);
-    CHECK(evaluate("(1/z)*0", ray_over(kFaulty)).error == EvalError::none);
-    CHECK(evaluate("(1/z)^0", ray_over(kFaulty)).value == 1);
-    CHECK(evaluate("0/(1/z)", ray_over(kFaulty)).error == EvalError::none);
+    CHECK(evaluate("0*(1/z)", ray_over(kFaultyLanguage)).error == EvalError::none);
+    CHECK(evaluate("(1/z)*0", ray_over(kFaultyLanguage)).error == EvalError::none);
+    CHECK(evaluate("(1/z)^0", ray_over(kFaultyLanguage)).value == 1);
+    CHECK(evaluate("0/(1/z)", ray_over(kFaultyLanguage)).error == EvalError::none);
     CHECK(complaint("PI(2)").find("undefined function") != std::string::npos);
 }
 
@@ -269,12 +269,13 @@ TEST_CASE("select counts its cases at 0 and fails outside of them") {
 }
 
 TEST_CASE("arguments are computed by need, once") {
-    CHECK(value_of("first(7,undefinedname)", kPrelude) == 7);
-    CHECK(complaint("second(7,undefinedname)", kPrelude) ==
+    CHECK(value_of("first(7,undefinedname)", kLanguagePrelude) == 7);
+    CHECK(complaint("second(7,undefinedname)", kLanguagePrelude) ==
           "scene.rad:7: undefinedname: undefined variable");
-    CHECK(complaint("second(7)", kPrelude) == "scene.rad:7: second`tt(): too few arguments");
-    CHECK(value_of("first(7)", kPrelude) == 7);
-    CHECK(value_of("first(7,8,undefinedname)", kPrelude) == 7);
+    CHECK(complaint("second(7)", kLanguagePrelude) ==
+          "scene.rad:7: second`tt(): too few arguments");
+    CHECK(value_of("first(7)", kLanguagePrelude) == 7);
+    CHECK(value_of("first(7,8,undefinedname)", kLanguagePrelude) == 7);
     // The error of an argument is forgotten with its first use.
     const std::string late = "z = 0; o = 1; late(x) = x + sin(o) + x;";
     CHECK(evaluate("late(1/z)", ray_over(late)).error == EvalError::none);
@@ -282,7 +283,8 @@ TEST_CASE("arguments are computed by need, once") {
 }
 
 TEST_CASE("functions are passed by name through any number of levels") {
-    const std::string text = kPrelude + "through(g,x) = app(g,x); deeper(h,x) = through(h,x)+h(x);";
+    const std::string text =
+        kLanguagePrelude + "through(g,x) = app(g,x); deeper(h,x) = through(h,x)+h(x);";
     CHECK(value_of("deeper(fac,4)", text) == 48);
     CHECK(value_of("deeper(sqrt,16)", text) == 8);
     CHECK(value_of("through(first,7)", text) == 7);

@@ -29,14 +29,15 @@ std::string call(const LibraryEntry& entry, const std::array<std::string, 3>& ar
     return text + ")";
 }
 
-std::uint64_t bits(double x) {
+std::uint64_t bits_of(double x) {
     return std::bit_cast<std::uint64_t>(x);
 }
 
 }  // namespace
 
 TEST_CASE(
-    "every built-in function of numbers: constant, folded, of a ray and in lanes the same bits") {
+    "every built-in function of numbers: constant, folded, of a ray and in lanes the same "
+    "bits") {
     std::size_t checked = 0;
     for (const LibraryEntry& entry : function::library_functions()) {
         if (entry.kind != LibraryKind::function && entry.kind != LibraryKind::reduction) continue;
@@ -60,13 +61,13 @@ TEST_CASE(
         CHECK(state.error == EvalError::none);
         for (const std::size_t folded : {1, 2}) {
             REQUIRE(program.constant(folded));
-            CHECK(bits(*program.constant(folded)) == bits(value));
+            CHECK(bits_of(*program.constant(folded)) == bits_of(value));
         }
         REQUIRE(program.has_lanes() == (entry.lanes != LaneSupport::none));
         if (program.has_lanes()) {
             const LaneValues values = program.evaluate_lanes(0, rays, state);
             REQUIRE(values.done == (1U << kLanes) - 1);
-            for (const double lane : values.lanes.value) CHECK(bits(lane) == bits(value));
+            for (const double lane : values.lanes.value) CHECK(bits_of(lane) == bits_of(value));
         }
         ++checked;
     }

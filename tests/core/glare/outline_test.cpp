@@ -17,16 +17,16 @@ using test::within;
 
 namespace {
 
-constexpr int kSize = 400;
-constexpr double kPixel = kPi / kSize;  ///< of an angular fisheye [rad]
+constexpr int kOutlineSize = 400;
+constexpr double kPixel = kPi / kOutlineSize;  ///< of an angular fisheye [rad]
 
 /// The pixels of a fisheye for which a predicate of directions holds.
 template <class Shows>
 std::vector<PixelPlace> places_where(const Camera& camera, const Shows& shows) {
     std::vector<PixelPlace> places;
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) {
-            const auto ray = camera.ray((x + 0.5) / kSize, (y + 0.5) / kSize);
+    for (int y = 0; y < kOutlineSize; ++y) {
+        for (int x = 0; x < kOutlineSize; ++x) {
+            const auto ray = camera.ray((x + 0.5) / kOutlineSize, (y + 0.5) / kOutlineSize);
             if (ray && ray->direction.y >= 0 && shows(ray->direction)) places.push_back({x, y});
         }
     }
@@ -54,7 +54,7 @@ TEST_CASE("outline: of a disc runs along its edge, wherever it is seen") {
         const double radius = disc.radius * kPi / 180;
         const auto outline = outline_of(
             places_where(camera, [&](const Vec3& d) { return angle_between(d, centre) <= radius; }),
-            camera, kSize, kSize);
+            camera, kOutlineSize, kOutlineSize);
         CHECK(outline.size() >= 8);
         CHECK(outline.size() <= 64);
         for (const Vec3& p : outline) {
@@ -78,7 +78,7 @@ TEST_CASE("outline: of a window has few corners, whose edges are straight in a p
                                                      return d.x / d.y > 0.5 && d.x / d.y < 2 &&
                                                             d.z / d.y > 0.2 && d.z / d.y < 1.5;
                                                  }),
-                                    camera, kSize, kSize);
+                                    camera, kOutlineSize, kOutlineSize);
     CHECK(outline.size() >= 4);
     CHECK(outline.size() <= 12);  // 4, and what the stairs of the pixels leave at the corners
     // Each corner of the window has a point of the outline: the smoothing's 1.6 pixels and the
@@ -96,18 +96,19 @@ TEST_CASE("outline: of a window has few corners, whose edges are straight in a p
 TEST_CASE("outline: of a pixel is its corners, and pieces of one source have one") {
     const Camera camera(fisheye_view('a'));
     const std::vector<PixelPlace> one{{200, 200}};
-    CHECK(outline_of(one, camera, kSize, kSize).size() == 4);
-    CHECK(outline_of({}, camera, kSize, kSize).empty());
+    CHECK(outline_of(one, camera, kOutlineSize, kOutlineSize).size() == 4);
+    CHECK(outline_of({}, camera, kOutlineSize, kOutlineSize).empty());
     std::vector<PixelPlace> panes;
     for (int y = 180; y < 200; ++y) {
         for (int x = 180; x < 220; ++x) {
             if (x % 10 < 8) panes.push_back({x, y});  // bars of two pixels
         }
     }
-    const std::vector<Vec3> outline = outline_of(panes, camera, kSize, kSize);
+    const std::vector<Vec3> outline = outline_of(panes, camera, kOutlineSize, kOutlineSize);
     // 38 x 20 pixels, each side wider by one.
-    CHECK(solid_angle_in(outline, camera.ray(199. / kSize, 190. / kSize)->direction) ==
-          within(0.05, 40 * 22 * kPixel * kPixel));
+    CHECK(
+        solid_angle_in(outline, camera.ray(199. / kOutlineSize, 190. / kOutlineSize)->direction) ==
+        within(0.05, 40 * 22 * kPixel * kPixel));
 }
 
 TEST_CASE("outline: never more points than asked for") {
@@ -116,7 +117,8 @@ TEST_CASE("outline: never more points than asked for") {
         return std::hypot(d.x, d.z) < 0.5 + 0.3 * std::sin(25 * std::atan2(d.z, d.x));
     });
     for (const std::size_t limit : {4u, 20u, 64u}) {
-        const std::vector<Vec3> outline = outline_of(ragged, camera, kSize, kSize, limit);
+        const std::vector<Vec3> outline =
+            outline_of(ragged, camera, kOutlineSize, kOutlineSize, limit);
         CHECK(outline.size() <= limit);
         CHECK(outline.size() >= 4);
     }
@@ -126,7 +128,7 @@ TEST_CASE("outline: of a thin ragged line has an inside") {
     const Camera camera(fisheye_view('a'));
     std::vector<PixelPlace> line;
     for (int x = 50; x < 350; ++x) line.push_back({x, 200 + x / 2 % 2});
-    const std::vector<Vec3> outline = outline_of(line, camera, kSize, kSize, 4);
+    const std::vector<Vec3> outline = outline_of(line, camera, kOutlineSize, kOutlineSize, 4);
     CHECK(outline.size() == 4);
     Vec3 turn;
     for (std::size_t i = 0; i < outline.size(); ++i)
@@ -138,7 +140,7 @@ TEST_CASE("outline: all that is before the eye is bounded by the plane of the ey
     for (const char type : {'a', 'h'}) {
         const Camera camera(fisheye_view(type));
         const auto outline = outline_of(places_where(camera, [](const Vec3&) { return true; }),
-                                        camera, kSize, kSize);
+                                        camera, kOutlineSize, kOutlineSize);
         CHECK(outline.size() <= 64);
         // The rim's pixels stay inside it: in a hemispherical view by sqrt(2 pixels) of the radius.
         for (const Vec3& p : outline) CHECK(p.y < (type == 'a' ? 2 * kPixel : 0.15));

@@ -15,7 +15,7 @@ using namespace lightwalk::test;
 
 namespace {
 
-const std::string kFloor =
+const std::string kLitFloor =
     "void plastic grey\n0\n0\n5 .5 .5 .5 0 0\ngrey polygon floor\n0\n0\n12 -50 -50 0 50 -50 0 50 "
     "50 0 -50 50 0\n";
 const std::string kLamp = "void light lamp\n0\n0\n3 100 50 25\n";
@@ -41,7 +41,7 @@ double floor_sum(TestScene& scene, int points, double step) {
 /// them.
 std::string many_lamps(int count) {
     std::ostringstream text;
-    text << kFloor << "grey polygon wall\n0\n0\n12 .2 -1 .6  .2 -1 1.5  .2 1 1.5  .2 1 .6\n";
+    text << kLitFloor << "grey polygon wall\n0\n0\n12 .2 -1 .6  .2 -1 1.5  .2 1 1.5  .2 1 .6\n";
     double radiance = 1000;
     for (int i = 0; i < count; ++i) {
         text << "void light l" << i << "\n0\n0\n3 " << radiance << ' ' << radiance << ' '
@@ -55,7 +55,7 @@ std::string many_lamps(int count) {
 }  // namespace
 
 TEST_CASE("direct light of a sphere: radiance · solid angle · cosine · reflectance / π") {
-    TestScene scene(kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n");
+    TestScene scene(kLitFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n");
     CHECK(floor_at(scene, 0, 0).r == rounded(0.5 * 100 * 0.0625 / 16));
     const Rgb aside = floor_at(scene, 3, 0);
     CHECK(aside.r == rounded(0.5 * 100 * 0.0625 / 25 * 0.8));
@@ -65,11 +65,11 @@ TEST_CASE("direct light of a sphere: radiance · solid angle · cosine · reflec
 
 TEST_CASE(
     "direct light of a panel: one sample without -ds, the form factor of the rectangle with it") {
-    TestScene coarse(kFloor + kPanel);
+    TestScene coarse(kLitFloor + kPanel);
     CHECK(floor_at(coarse, 0, 0).r == rounded(0.5 * 100 / kPi));
     RenderOptions options = TestScene::exact();
     options.source_subdivision = 0.1;
-    TestScene fine(kFloor + kPanel, options);
+    TestScene fine(kLitFloor + kPanel, options);
     const double root = std::sqrt(1.25),
                  factor = 4 * (0.5 / root * std::atan(0.5 / root));  // times L: irradiance
     // The midpoint rule of 8 x 8 parts gives 0.30 % more than the integral.
@@ -78,17 +78,17 @@ TEST_CASE(
 }
 
 TEST_CASE("a panel lights its front only, a wide sun with the cosine of its centre") {
-    TestScene above(kFloor + kLamp +
+    TestScene above(kLitFloor + kLamp +
                     "lamp polygon panel\n0\n0\n12 -.5 -.5 1  .5 -.5 1  .5 .5 1  -.5 .5 1\n");
     CHECK(floor_at(above, 0, 0) == Rgb{});
-    TestScene sun(kFloor + kLamp + "lamp source sun\n0\n0\n4 0 3 4 10\n");
+    TestScene sun(kLitFloor + kLamp + "lamp source sun\n0\n0\n4 0 3 4 10\n");
     const double omega = 2 * kPi * (1 - std::cos(5 * kPi / 180));
     CHECK(floor_at(sun, 3, 3).r == rounded(0.5 * 100 / kPi * omega * 0.8));
 }
 
 TEST_CASE(
     "shadows: opaque surfaces block, wherever they stand, what is behind the light does not") {
-    const std::string base = kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
+    const std::string base = kLitFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
     const std::string wall = "grey ring w\n0\n0\n8 0 0 ";
     for (const char* height : {"3.7", "2", "0.6"}) {
         TestScene scene(base + wall + height + " 0 0 1 0 .1\n");
@@ -104,7 +104,7 @@ TEST_CASE(
 }
 
 TEST_CASE("glass in the way: the pane's transmittance, squared for two, nothing with a wall") {
-    const std::string base = kFloor + "void glass pane\n0\n0\n3 .96 .96 .96\n" + kLamp +
+    const std::string base = kLitFloor + "void glass pane\n0\n0\n3 .96 .96 .96\n" + kLamp +
                              "lamp sphere s\n0\n0\n4 0 0 4 .25\n";
     const std::string pane = "pane ring g\n0\n0\n8 0 0 2 0 0 1 0 1\n",
                       second = "pane ring h\n0\n0\n8 0 0 3 0 0 1 0 1\n";
@@ -120,7 +120,7 @@ TEST_CASE("glass in the way: the pane's transmittance, squared for two, nothing 
 TEST_CASE("a medium absorbs on the way from the light") {
     RenderOptions options = TestScene::exact();
     options.extinction = {0.1f, 0.1f, 0.1f};
-    TestScene scene(kFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n", options);
+    TestScene scene(kLitFloor + kLamp + "lamp sphere s\n0\n0\n4 0 0 4 .25\n", options);
     CHECK(floor_at(scene, 0, 0).r ==
           rounded(0.5 * 100 * 0.0625 / 16 * std::exp(-0.1 * 3.75) * std::exp(-0.1 * 0.5)));
 }
@@ -223,9 +223,9 @@ TEST_CASE("a source brings its pattern's value in the direction of the ray, howe
     const auto check = [&](const std::string& material, const std::string& shape) {
         CAPTURE(material);
         CAPTURE(shape);
-        TestScene even(kFloor + "void" + material + "lamp" + shape);
-        TestScene below(kFloor + "void" + pattern + "slope" + material + "lamp" + shape);
-        TestScene between(kFloor + "void" + material + "lamp" + pattern + "slope" + shape);
+        TestScene even(kLitFloor + "void" + material + "lamp" + shape);
+        TestScene below(kLitFloor + "void" + pattern + "slope" + material + "lamp" + shape);
+        TestScene between(kLitFloor + "void" + material + "lamp" + pattern + "slope" + shape);
         const Rgb expected = floor_at(even, 0, 0) * 0.6f;
         CHECK(expected.r > 0);
         for (TestScene* patterned : {&below, &between}) {
@@ -258,11 +258,11 @@ TEST_CASE("many sources with patterns give what single ones give: alike or not, 
         return text.str();
     };
     constexpr int kPanels = 30;
-    std::string together = kFloor + patterns;
+    std::string together = kLitFloor + patterns;
     double sum = 0;
     for (int i = 0; i < kPanels; ++i) {
         together += panel(i);
-        TestScene alone(kFloor + patterns + panel(i));
+        TestScene alone(kLitFloor + patterns + panel(i));
         sum += static_cast<double>(floor_at(alone, 0.1, 0.2).g);
     }
     CHECK(sum > 0.1);
@@ -284,7 +284,7 @@ TEST_CASE("-dj 1: in the mean over many samples a half hidden panel gives half i
     RenderOptions options = TestScene::exact();
     options.source_jitter = 1;
     TestScene scene(
-        kFloor + kLamp +
+        kLitFloor + kLamp +
             "lamp polygon panel\n0\n0\n12 -.05 -.05 2  -.05 .05 2  .05 .05 2  .05 -.05 2\n" +
             "grey polygon half\n0\n0\n12 0 -1 1.99  0 1 1.99  1 1 1.99  1 -1 1.99\n",
         options);
@@ -300,7 +300,7 @@ TEST_CASE("hit rates are measured where no source reaches the points") {
     RenderOptions options = TestScene::exact();
     options.shadow_threshold = 0.05;
     options.source_subdivision = 0.02;
-    TestScene scene(kFloor +
+    TestScene scene(kLitFloor +
                         "void glow ember\n0\n0\n4 9 3 1 .5\n"
                         "ember polygon panel\n0\n0\n12 -.5 -.5 2  -.5 .5 2  .5 .5 2  .5 -.5 2\n",
                     options);

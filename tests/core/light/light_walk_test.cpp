@@ -38,7 +38,7 @@ ChiSquare compare(const std::vector<Vec3>& found, const Pdf& pdf) {
         [&](RandomStream&) { return std::optional(found[next++]); }, pdf);
 }
 
-const std::string kPanel =
+const std::string kWalkPanel =
     "polygon panel 0 0 12 -1e-4 -1e-4 0 1e-4 -1e-4 0 1e-4 1e-4 0 -1e-4 1e-4 0\n";
 const std::string kBall = "sphere ball 0 0 4 0 0 0 1e-4\n";
 
@@ -52,7 +52,7 @@ double uniform(const Vec3&) {
 }  // namespace
 
 TEST_CASE("light walk: a panel sends by the cosine over its front, a ball everywhere alike") {
-    const std::vector<Vec3> panel = directions(kPanel, 0), ball = directions(kBall, 0);
+    const std::vector<Vec3> panel = directions(kWalkPanel, 0), ball = directions(kBall, 0);
     CHECK(agrees(compare(panel, by_cosine)));
     CHECK(!agrees(compare(panel, uniform)));
     CHECK(agrees(compare(ball, uniform)));
@@ -61,5 +61,5 @@ TEST_CASE("light walk: a panel sends by the cosine over its front, a ball everyw
 
 TEST_CASE("light walk: what a white sphere reflects falls evenly on all of it") {
     for (const std::size_t hit : {std::size_t{1}, std::size_t{2}})
-        CHECK(agrees(compare(directions(kPanel, hit), uniform)));
+        CHECK(agrees(compare(directions(kWalkPanel, hit), uniform)));
 }

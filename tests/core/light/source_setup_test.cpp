@@ -14,10 +14,10 @@ using namespace lightwalk::test;
 
 namespace {
 
-const std::string kLamp = "void light lamp\n0\n0\n3 10 20 30\n";
+const std::string kSquareLamp = "void light lamp\n0\n0\n3 10 20 30\n";
 
 /// The only source of a scene with this surface.
-LightSource only_source(const std::string& surface, const std::string& material = kLamp) {
+LightSource only_source(const std::string& surface, const std::string& material = kSquareLamp) {
     TestScene scene(material + surface);
     REQUIRE(scene.tracer.lights().all().size() == 1);
     return scene.tracer.lights()[0];
@@ -74,7 +74,7 @@ TEST_CASE("light source of a triangle: the square that touches its nearest edge"
     CHECK(length(s.v) == rounded(nearest));
     CHECK(std::abs(dot(normalize(s.u), normalize(Vec3{-6, 4, 0}))) == rounded(1));
     CHECK(s.size == rounded(12));
-    CHECK(warns(kLamp + "lamp polygon p\n0\n0\n9 0 0 0  60 0 0  0 1 0\n",
+    CHECK(warns(kSquareLamp + "lamp polygon p\n0\n0\n9 0 0 0  60 0 0  0 1 0\n",
                 "test.rad:5: polygon \"p\": source aspect"));
 }
 
@@ -114,7 +114,8 @@ TEST_CASE("light source of a sphere, a cylinder and a cone of directions") {
     CHECK(d.size == rounded(omega));
     CHECK(4 * length(d.u) * length(d.v) == float_rounded(omega));
     CHECK(d.radius == rounded(std::sqrt(omega / kPi)));
-    CHECK(warns(kLamp + "lamp cylinder c\n0\n0\n7 0 0 1  1 0 1  .3\n", "source aspect too small"));
+    CHECK(warns(kSquareLamp + "lamp cylinder c\n0\n0\n7 0 0 1  1 0 1  .3\n",
+                "source aspect too small"));
 }
 
 TEST_CASE(
@@ -163,21 +164,22 @@ TEST_CASE("spotlights: cone, focal length, and a warning for those that shine ba
 }
 
 TEST_CASE("surfaces that cannot emit: what is wrong, and where") {
-    CHECK(error_of(kLamp + "\nlamp cone c\n0\n0\n8 0 0 0 0 0 1 .1 .2\n") ==
+    CHECK(error_of(kSquareLamp + "\nlamp cone c\n0\n0\n8 0 0 0 0 0 1 .1 .2\n") ==
           "test.rad:6: cone \"c\": illegal material \"lamp\": only source, sphere, polygon, ring "
           "and cylinder can be "
           "light sources");
-    CHECK(error_of(kLamp + "lamp bubble b\n0\n0\n4 0 0 0 1\n").find("illegal material") !=
+    CHECK(error_of(kSquareLamp + "lamp bubble b\n0\n0\n4 0 0 0 1\n").find("illegal material") !=
           std::string::npos);
-    CHECK(error_of(kLamp + "lamp tube t\n0\n0\n7 0 0 0 0 0 1 .1\n").find("illegal material") !=
-          std::string::npos);
-    CHECK(error_of(kLamp + "lamp ring r\n0\n0\n8 0 0 0 0 0 1 .1 .2\n")
+    CHECK(
+        error_of(kSquareLamp + "lamp tube t\n0\n0\n7 0 0 0 0 0 1 .1\n").find("illegal material") !=
+        std::string::npos);
+    CHECK(error_of(kSquareLamp + "lamp ring r\n0\n0\n8 0 0 0 0 0 1 .1 .2\n")
               .find("test.rad:5: ring \"r\": cannot hit") == 0);
-    CHECK(error_of(kLamp + "lamp polygon p\n0\n0\n18 0 0 0 9 0 0 9 9 0 8 9 0 8 1 0 0 1 0\n")
+    CHECK(error_of(kSquareLamp + "lamp polygon p\n0\n0\n18 0 0 0 9 0 0 9 9 0 8 9 0 8 1 0 0 1 0\n")
               .find("cannot hit source center") != std::string::npos);
-    CHECK(error_of(kLamp + "lamp source s\n0\n0\n4 0 0 0 5\n").find("zero direction") !=
+    CHECK(error_of(kSquareLamp + "lamp source s\n0\n0\n4 0 0 0 5\n").find("zero direction") !=
           std::string::npos);
-    CHECK(error_of(kLamp + "lamp source s\n0\n0\n4 0 0 1 1e-5\n").find("zero size") !=
+    CHECK(error_of(kSquareLamp + "lamp source s\n0\n0\n4 0 0 1 1e-5\n").find("zero size") !=
           std::string::npos);
     CHECK(error_of("void spotlight s\n0\n0\n7 1 1 1 0 0 0 1\ns sphere b\n0\n0\n4 0 0 0 1\n")
               .find("zero angle") != std::string::npos);

@@ -11,7 +11,7 @@ using namespace lightwalk::test;
 
 namespace {
 
-Vec3 at_angles(double theta, double phi) {
+Vec3 lobe_direction(double theta, double phi) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
@@ -40,7 +40,7 @@ AshikhminReflection ashikhmin(const Vec3& wo, double nu, double nv) {
 
 TEST_CASE("Ward's lobe peaks at 1 / (4 pi alpha² cos²) in the mirror direction") {
     for (const double theta : {0.0, 0.6, 1.2}) {
-        const Vec3 wo = at_angles(theta, 0), wi = at_angles(theta, kPi);
+        const Vec3 wo = lobe_direction(theta, 0), wi = lobe_direction(theta, kPi);
         const double c = std::cos(theta);
         CHECK(ward_reflection(wo + wi, kFrame.n, 0.02) * 4 * kPi * 0.02 * c * c == rounded(1));
         CHECK(ward(wo, 0.1, 0.2).eval(wi) * 4 * kPi * 0.02 * c * c == rounded(1));
@@ -48,7 +48,7 @@ TEST_CASE("Ward's lobe peaks at 1 / (4 pi alpha² cos²) in the mirror direction
 }
 
 TEST_CASE("Ward's lobe of equal slopes is the isotropic one, and turns with its frame") {
-    const Vec3 wo = at_angles(0.7, 1.9), wi = at_angles(0.3, 1.1);
+    const Vec3 wo = lobe_direction(0.7, 1.9), wi = lobe_direction(0.3, 1.1);
     const double alpha = std::sqrt(0.4), narrow = std::sqrt(0.5), wide = std::sqrt(2);
     CHECK(ward(wo, alpha, alpha).eval(wi) == rounded(ward_reflection(wo + wi, kFrame.n, 0.4)));
     CHECK(ward(wo, alpha, alpha).eval(wi, 0.3) == rounded(ward_reflection(wo + wi, kFrame.n, 0.7)));
@@ -62,7 +62,8 @@ TEST_CASE("Ward's lobe of equal slopes is the isotropic one, and turns with its 
 TEST_CASE("Ward's lobe never reflects more than it receives, and all of it when narrow and faced") {
     for (const double alpha : {0.05, 0.15, 0.4}) {
         for (const double theta : {0.0, 0.5, 1.0, 1.4, 1.52}) {
-            const WardReflection lobe = ward(at_angles(theta, 0.2), alpha, std::sqrt(0.7) * alpha);
+            const WardReflection lobe =
+                ward(lobe_direction(theta, 0.2), alpha, std::sqrt(0.7) * alpha);
             const double albedo =
                 half_sphere_integral([&](const Vec3& wi) { return lobe.eval(wi) * wi.z; });
             CAPTURE(alpha);
@@ -79,8 +80,8 @@ TEST_CASE("Ward's lobe never reflects more than it receives, and all of it when 
 TEST_CASE("reciprocity: reflected and transmitted lobes are the same from wo to wi and back") {
     RandomStream random(3);
     for (int i = 0; i < 200; ++i) {
-        const Vec3 a = at_angles(1.5 * random.next(), 2 * kPi * random.next());
-        const Vec3 b = at_angles(1.5 * random.next(), 2 * kPi * random.next());
+        const Vec3 a = lobe_direction(1.5 * random.next(), 2 * kPi * random.next());
+        const Vec3 b = lobe_direction(1.5 * random.next(), 2 * kPi * random.next());
         const double u = 0.1 + random.next(), v = 0.1 + random.next();
         CHECK(ward(a, u, v).eval(b) == rounded(ward(b, u, v).eval(a)));
         CHECK(ashikhmin(a, 9 * u, v).eval(b) == rounded(ashikhmin(b, 9 * u, v).eval(a)));
@@ -93,7 +94,7 @@ TEST_CASE("reciprocity: reflected and transmitted lobes are the same from wo to 
 
 TEST_CASE("Ward's transmitted lobe carries what it receives when narrow, and more at grazing") {
     const auto albedo = [](double theta, double alpha) {
-        const WardTransmission lobe = ward_through(at_angles(theta, 1), alpha, alpha);
+        const WardTransmission lobe = ward_through(lobe_direction(theta, 1), alpha, alpha);
         return half_sphere_integral([&](const Vec3& wi) { return lobe.eval(wi); }, -1);
     };
     CHECK(albedo(0.3, 0.04) == within(0.01, 1));  // its tails
@@ -104,7 +105,7 @@ TEST_CASE("Ward's transmitted lobe carries what it receives when narrow, and mor
 
 TEST_CASE(
     "Ward's transmitted lobe of equal slopes is the isotropic one, and has its peak straight on") {
-    const Vec3 wo = at_angles(0.3, 1), wi = -at_angles(0.45, 1.7);
+    const Vec3 wo = lobe_direction(0.3, 1), wi = -lobe_direction(0.45, 1.7);
     CHECK(ward_through(wo, 0.1, 0.2).eval(-wo) == rounded(1 / (kPi * 0.02)));
     const double cosines = std::sqrt(-wi.z / wo.z);
     CHECK(ward_through(wo, 0.3, 0.3).eval(wi) ==
@@ -117,7 +118,7 @@ TEST_CASE(
 
 TEST_CASE("the Ashikhmin-Shirley lobe never reflects more than it receives") {
     for (const double theta : {0.0, 0.6, 1.2, 1.52}) {
-        const AshikhminReflection lobe = ashikhmin(at_angles(theta, 0.9), 100, 40);
+        const AshikhminReflection lobe = ashikhmin(lobe_direction(theta, 0.9), 100, 40);
         const double albedo =
             half_sphere_integral([&](const Vec3& wi) { return lobe.eval(wi) * wi.z; });
         CAPTURE(theta);
@@ -127,15 +128,15 @@ TEST_CASE("the Ashikhmin-Shirley lobe never reflects more than it receives") {
 }
 
 TEST_CASE("the Ashikhmin-Shirley lobe has its peak where the half vector is the normal") {
-    const AshikhminReflection lobe = ashikhmin(at_angles(0.5, 0), 50, 50);
-    const double peak = lobe.eval(at_angles(0.5, kPi));
+    const AshikhminReflection lobe = ashikhmin(lobe_direction(0.5, 0), 50, 50);
+    const double peak = lobe.eval(lobe_direction(0.5, kPi));
     CHECK(std::isfinite(peak));
     CHECK(peak == rounded(51 / (8 * kPi * lobe.cos_o * lobe.cos_o)));
-    CHECK(lobe.eval(at_angles(0.6, kPi)) < peak);
+    CHECK(lobe.eval(lobe_direction(0.6, kPi)) < peak);
 }
 
 TEST_CASE("a brushed frame follows its direction, and falls back where there is none") {
-    const Vec3 n = at_angles(0.3, 0.8);
+    const Vec3 n = lobe_direction(0.3, 0.8);
     const OrientedFrame f = orient({1, 2, 0.5}, n);
     CHECK(!f.isotropic);
     CHECK(dot(f.frame.u, n) == rounded(0));
@@ -170,7 +171,7 @@ TEST_CASE(
 }
 
 TEST_CASE("samples of lobes are unit vectors on the right side of the surface, or nothing") {
-    const Vec3 wo = at_angles(1.3, 0.4), ng = normalize(Vec3{0.1, 0.2, 1});
+    const Vec3 wo = lobe_direction(1.3, 0.4), ng = normalize(Vec3{0.1, 0.2, 1});
     RandomStream random(2);
     int none = 0;
     for (int i = 0; i < 500; ++i) {

@@ -10,7 +10,7 @@ using namespace lightwalk::test;
 
 namespace {
 
-const LobeFrame kFrame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const LobeFrame kLevelFrame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 /// Running mean and its standard error.
 struct Statistics {
@@ -36,7 +36,7 @@ double sky(const Vec3& wi) {
 
 TEST_CASE("weighted samples of Ward's lobe estimate the light that it reflects of a sky") {
     const Vec3 up{0, 0, 1};
-    const WardReflection lobe{normalize(Vec3{-1, -0.4, 1.2}), kFrame, 0.2, 0.35};
+    const WardReflection lobe{normalize(Vec3{-1, -0.4, 1.2}), kLevelFrame, 0.2, 0.35};
     const double expected = sphere_integral(DirectionCells{up, 1, 40, 40}, [&](const Vec3& wi) {
         return wi.z > 0 ? lobe.eval(wi) * wi.z * sky(wi) : 0;
     });

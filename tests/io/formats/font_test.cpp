@@ -12,7 +12,7 @@ using namespace lightwalk;
 
 namespace {
 
-void check_error(const std::string& text, const char* message) {
+void check_font_error(const std::string& text, const char* message) {
     CAPTURE(text);
     CHECK_THROWS_WITH_AS((void)decode_font(text, "t.fnt"), doctest::Contains(message), InputError);
 }
@@ -47,14 +47,16 @@ TEST_CASE("the mean width of Radiance's helvet.fnt is 171") {
 }
 
 TEST_CASE("damaged fonts are refused with file and line") {
-    check_error("65\n3 10 10 20 x",
-                "t.fnt:2: font load error: a vertex coordinate \"x\", expected an integer from 0");
-    check_error("65 3 10 10 20 256 30 30", "expected an integer from 0 to 255");
-    check_error("65 3 10 10 20 -1 30 30", "expected an integer from 0 to 255");
-    check_error("0 0", "font load error: glyph number \"0\", expected an integer from 1 to 255");
-    check_error("256 0", "font load error: glyph number");
-    check_error("65 32001", "expected an integer from 0 to 32000");
-    check_error("65 32000 1 2", "font load error: the file ends before a vertex");
-    check_error("65", "font load error: the file ends before a vertex count");
-    check_error("65 0\n66 0\n65 0", "t.fnt:3: font load error: duplicate glyph 65");
+    check_font_error(
+        "65\n3 10 10 20 x",
+        "t.fnt:2: font load error: a vertex coordinate \"x\", expected an integer from 0");
+    check_font_error("65 3 10 10 20 256 30 30", "expected an integer from 0 to 255");
+    check_font_error("65 3 10 10 20 -1 30 30", "expected an integer from 0 to 255");
+    check_font_error("0 0",
+                     "font load error: glyph number \"0\", expected an integer from 1 to 255");
+    check_font_error("256 0", "font load error: glyph number");
+    check_font_error("65 32001", "expected an integer from 0 to 32000");
+    check_font_error("65 32000 1 2", "font load error: the file ends before a vertex");
+    check_font_error("65", "font load error: the file ends before a vertex count");
+    check_font_error("65 0\n66 0\n65 0", "t.fnt:3: font load error: duplicate glyph 65");
 }

@@ -13,10 +13,10 @@ using test::kRounding;
 using test::rounded;
 using test::within;
 
-constexpr double kDegree = kPi / 180;
+constexpr double kSolarDegree = kPi / 180;
 
 Site site(double latitude, double longitude, double meridian) {
-    return {latitude * kDegree, longitude * kDegree, meridian * kDegree};
+    return {latitude * kSolarDegree, longitude * kSolarDegree, meridian * kSolarDegree};
 }
 
 }  // namespace
@@ -29,8 +29,8 @@ TEST_CASE("day_of_year: February has 28 days") {
 
 TEST_CASE("solar_angles: at noon the sun stands south at 90 - latitude + declination") {
     for (const double declination : {-23.45, 0., 12.}) {
-        const SolarAngles noon = solar_angles({declination * kDegree, 12}, site(47, 0, 0));
-        CHECK(noon.altitude / kDegree == rounded(43 + declination));
+        const SolarAngles noon = solar_angles({declination * kSolarDegree, 12}, site(47, 0, 0));
+        CHECK(noon.altitude / kSolarDegree == rounded(43 + declination));
         CHECK(noon.azimuth == rounded(0));
         const Vec3 d = solar_direction(noon);
         CHECK(d.x == rounded(0));
@@ -45,8 +45,8 @@ TEST_CASE("solar_angles: at the equinox it rises due east at 6 and sets due west
         const SolarAngles set = solar_angles({0, 18}, site(latitude, 0, 0));
         CHECK(std::abs(rise.altitude) < kRounding);
         CHECK(std::abs(set.altitude) < kRounding);
-        CHECK(rise.azimuth / kDegree == rounded(-90));
-        CHECK(set.azimuth / kDegree == rounded(90));
+        CHECK(rise.azimuth / kSolarDegree == rounded(-90));
+        CHECK(set.azimuth / kSolarDegree == rounded(90));
         CHECK(solar_direction(rise).x == rounded(1));
         CHECK(solar_direction(set).x == rounded(-1));
     }
@@ -73,14 +73,14 @@ TEST_CASE("solar_time: four minutes a degree, and the equation of time within 17
 
 TEST_CASE("solar_time: declination of the solstices and equinoxes") {
     // 23.45 degrees is the amplitude: a day off the turn is 0.01 degrees less.
-    CHECK(simple_declination(day_of_year(6, 21)) / kDegree == within(0.001, 23.45));
-    CHECK(simple_declination(day_of_year(12, 21)) / kDegree == within(0.001, -23.45));
+    CHECK(simple_declination(day_of_year(6, 21)) / kSolarDegree == within(0.001, 23.45));
+    CHECK(simple_declination(day_of_year(12, 21)) / kSolarDegree == within(0.001, -23.45));
     // Near the equinox the declination changes by 0.4 degrees a day.
-    CHECK(std::abs(simple_declination(day_of_year(3, 22)) / kDegree) < 0.4);
+    CHECK(std::abs(simple_declination(day_of_year(3, 22)) / kSolarDegree) < 0.4);
     const Site greenwich = site(51.5, 0, 0);
-    CHECK(solar_time({6, 21, 2010, 12, false}, greenwich).declination / kDegree ==
+    CHECK(solar_time({6, 21, 2010, 12, false}, greenwich).declination / kSolarDegree ==
           within(0.0005, 23.436));
-    CHECK(std::abs(solar_time({3, 20, 2010, 17.5, false}, greenwich).declination / kDegree) <
+    CHECK(std::abs(solar_time({3, 20, 2010, 17.5, false}, greenwich).declination / kSolarDegree) <
           0.02);  // 0.016 degrees an hour
 }
 
@@ -91,12 +91,12 @@ TEST_CASE("solar_time with a year: the almanac's position of 17 October 2003 in 
     const Site colorado = site(39.742476, 105.1786, 105);
     const SolarTime time = solar_time({10, 17, 2003, 12 + 30. / 60 + 30. / 3600, false}, colorado);
     const SolarAngles angles = solar_angles(time, colorado);
-    CHECK(std::abs(angles.altitude / kDegree - (90 - 50.11162)) < 0.03);  // refraction is 0.02
-    CHECK(std::abs(angles.azimuth / kDegree - 14.34024) < 0.02);
+    CHECK(std::abs(angles.altitude / kSolarDegree - (90 - 50.11162)) < 0.03);  // refraction is 0.02
+    CHECK(std::abs(angles.azimuth / kSolarDegree - 14.34024) < 0.02);
     // (Daily differences are alike to 2 %.) Leap years: the day after 28 February is the 29th, so
     // March begins a day later.
     const auto declination = [&](int year, int month, int day) {
-        return solar_time({month, day, year, 12, false}, colorado).declination / kDegree;
+        return solar_time({month, day, year, 12, false}, colorado).declination / kSolarDegree;
     };
     CHECK(declination(2004, 3, 1) - declination(2004, 2, 28) ==
           within(0.02, 2 * (declination(2004, 3, 2) - declination(2004, 3, 1))));
@@ -112,7 +112,7 @@ TEST_CASE("solar_time: without a year close to the almanac") {
             solar_angles(solar_time({month, 15, 0, 10, false}, colorado), colorado);
         const SolarAngles almanac =
             solar_angles(solar_time({month, 15, 2001, 10, false}, colorado), colorado);
-        CHECK(length(solar_direction(simple) - solar_direction(almanac)) < 1.5 * kDegree);
+        CHECK(length(solar_direction(simple) - solar_direction(almanac)) < 1.5 * kSolarDegree);
     }
 }
 

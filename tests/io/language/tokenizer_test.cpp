@@ -18,14 +18,14 @@ std::vector<std::string> words(const std::string& text) {
 }
 
 TEST_CASE("words end at white space outside quotes, and quotes vanish") {
-    using Words = std::vector<std::string>;
-    CHECK(words("a b\tc\nd\re\vf\fg") == Words{"a", "b", "c", "d", "e", "f", "g"});
-    CHECK(words("a\"b c\"d") == Words{"ab cd"});
-    CHECK(words("'say \"hi\"' \"it's\"") == Words{"say \"hi\"", "it's"});
-    CHECK(words("\"\" x") == Words{"", "x"});
-    CHECK(words("a#b !c") == Words{"a#b", "!c"});
-    CHECK(words("x 'open to the end\n y") == Words{"x", "open to the end\n y"});
-    CHECK(words("a\\ b") == Words{"a\\", "b"});  // no escapes
+    using Tokens = std::vector<std::string>;
+    CHECK(words("a b\tc\nd\re\vf\fg") == Tokens{"a", "b", "c", "d", "e", "f", "g"});
+    CHECK(words("a\"b c\"d") == Tokens{"ab cd"});
+    CHECK(words("'say \"hi\"' \"it's\"") == Tokens{"say \"hi\"", "it's"});
+    CHECK(words("\"\" x") == Tokens{"", "x"});
+    CHECK(words("a#b !c") == Tokens{"a#b", "!c"});
+    CHECK(words("x 'open to the end\n y") == Tokens{"x", "open to the end\n y"});
+    CHECK(words("a\\ b") == Tokens{"a\\", "b"});  // no escapes
     CHECK(words(" \n ").empty());
 }
 

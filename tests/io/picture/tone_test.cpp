@@ -11,7 +11,7 @@ using namespace lightwalk;
 
 namespace {
 
-using Bytes = std::array<std::uint8_t, 3>;
+using Pixel8 = std::array<std::uint8_t, 3>;
 
 const DisplayTone kLinear{1, std::nullopt};
 
@@ -38,7 +38,7 @@ TEST_CASE("automatic exposure shows the log-average as middle grey, whatever the
         Picture picture{2, 2, {Rgb::grey(unit / 10), Rgb::grey(10 * unit), {}, Rgb::grey(unit)}};
         const DisplayTone tone = choose_tone(picture, {});
         CHECK(tone.scale * static_cast<double>(unit) == doctest::Approx(0.18).epsilon(1e-5));
-        CHECK(display_pixel(picture.pixels[3], tone) == Bytes{118, 118, 118});  // sRGB of 18 %
+        CHECK(display_pixel(picture.pixels[3], tone) == Pixel8{118, 118, 118});  // sRGB of 18 %
     }
 }
 
@@ -50,9 +50,9 @@ TEST_CASE("a picture without light, or with numbers that are none, has an exposu
     CHECK(choose_tone({1, 1, {Rgb{}}}, {}).curve->white() == 1);
     CHECK(choose_tone({2, 1, {Rgb::grey(inf), Rgb::grey(1)}}, {}).scale == doctest::Approx(0.18));
     CHECK(choose_tone({2, 1, {Rgb::grey(inf), Rgb::grey(1)}}, {}).curve->white() == 1);
-    CHECK(display_pixel({inf, nan, -1}, kLinear) == Bytes{255, 0, 0});
-    CHECK(display_pixel({inf, nan, -1}, {}) == Bytes{255, 255, 255});
-    CHECK(display_pixel({nan, nan, -1}, {}) == Bytes{0, 0, 0});
+    CHECK(display_pixel({inf, nan, -1}, kLinear) == Pixel8{255, 0, 0});
+    CHECK(display_pixel({inf, nan, -1}, {}) == Pixel8{255, 255, 255});
+    CHECK(display_pixel({nan, nan, -1}, {}) == Pixel8{0, 0, 0});
 }
 
 TEST_CASE("a fixed exposure counts in stops, and fixes the curve for all pictures") {
@@ -125,15 +125,15 @@ TEST_CASE("linear is sRGB, cut off at white") {
     CHECK(grey_byte(0.5, tone) == 188);
     CHECK(grey_byte(1, tone) == 255);
     CHECK(grey_byte(100, tone) == 255);
-    CHECK(display_pixel({0.5f, 0, 2}, tone) == Bytes{188, 0, 255});
+    CHECK(display_pixel({0.5f, 0, 2}, tone) == Pixel8{188, 0, 255});
 }
 
 TEST_CASE("a colour keeps its order of channels, none falls as light rises, and it ends in white") {
     const DisplayTone tone = with_white(50);
-    Bytes previous{};
+    Pixel8 previous{};
     for (float light = 0.01f; light < 200; light *= 1.05f) {
         CAPTURE(light);
-        const Bytes bytes = display_pixel(light * Rgb{1, 0.4f, 0.1f}, tone);
+        const Pixel8 bytes = display_pixel(light * Rgb{1, 0.4f, 0.1f}, tone);
         CHECK(bytes[0] >= bytes[1]);
         CHECK(bytes[1] >= bytes[2]);
         for (std::size_t k = 0; k < 3; ++k) CHECK(bytes[k] >= previous[k]);
@@ -142,7 +142,7 @@ TEST_CASE("a colour keeps its order of channels, none falls as light rises, and 
     // Dim: the proportions are untouched. At four times display white they still show.
     CHECK(display_pixel({0.1f, 0.04f, 0.01f}, tone) ==
           display_pixel({0.1f, 0.04f, 0.01f}, kLinear));
-    const Bytes lamp = display_pixel({4, 1.6f, 0.4f}, tone);
+    const Pixel8 lamp = display_pixel({4, 1.6f, 0.4f}, tone);
     CHECK(lamp[0] > lamp[1] + 20);
     CHECK(lamp[1] > lamp[2] + 20);
     CHECK(display_pixel({5000, 2000, 500}, tone)[2] > 250);

@@ -13,7 +13,7 @@ using lightwalk::test::TestScene;
 namespace {
 
 /// A lamp over a floor that is seen through a pane; a mirror to the side.
-const std::string kScene = R"(
+const std::string kTreeScene = R"(
 void plastic white 0 0 5 .5 .5 .5 0 0
 void glass clear 0 0 3 .8 .8 .8
 void light lamp 0 0 3 10 20 30
@@ -33,7 +33,7 @@ std::string tree(TestScene& scene, const std::string& letters, const Vec3& direc
     return tree.take();
 }
 
-const Vec3 kDown{0, 0, -1};
+const Vec3 kStraightDown{0, 0, -1};
 using Kind = TreeSelection::Kind;
 
 }  // namespace
@@ -59,33 +59,34 @@ TEST_CASE("ray trees: t and T divide the letters, and mean nothing at their end"
 
 TEST_CASE(
     "ray trees: children before parents, a tab a generation, T also tells what reaches a lamp") {
-    TestScene scene(kScene);
+    TestScene scene(kTreeScene);
     // Through the pane to the floor; the pane mirrors nothing but the sky.
-    CHECK(tree(scene, "ts", kDown) == "\tfloor\t\n\t*\t\npane\t\n");
-    CHECK(tree(scene, "Ts", kDown) == "\t\tbulb\t\n\tfloor\t\n\t*\t\npane\t\n");
+    CHECK(tree(scene, "ts", kStraightDown) == "\tfloor\t\n\t*\t\npane\t\n");
+    CHECK(tree(scene, "Ts", kStraightDown) == "\t\tbulb\t\n\tfloor\t\n\t*\t\npane\t\n");
     CHECK(tree(scene, "tLs", {-1, 0, 0}) == "1.000000e+10\t*\t\n");
-    CHECK(scene.trace({0, 0, 2}, kDown).value.g > 0);  // and unobserved the same scene still works
+    CHECK(scene.trace({0, 0, 2}, kStraightDown).value.g >
+          0);  // and unobserved the same scene still works
 }
 
 TEST_CASE(
     "ray trees: include and exclude lists go by modifier, and leave the generations as they are") {
-    TestScene scene(kScene);
+    TestScene scene(kTreeScene);
     TreeSelection selection;
     selection.add(Kind::exclude, {"clear"});
-    CHECK(tree(scene, "Tm", kDown, selection) == "\t\tlamp\t\n\twhite\t\n\t*\t\n");
+    CHECK(tree(scene, "Tm", kStraightDown, selection) == "\t\tlamp\t\n\twhite\t\n\t*\t\n");
     selection.add(Kind::exclude, {"lamp"});
-    CHECK(tree(scene, "Tm", kDown, selection) == "\twhite\t\n\t*\t\n");
+    CHECK(tree(scene, "Tm", kStraightDown, selection) == "\twhite\t\n\t*\t\n");
     selection.add(Kind::include, {"white"});
-    CHECK(tree(scene, "Tm", kDown, selection) == "\twhite\t\n");
+    CHECK(tree(scene, "Tm", kStraightDown, selection) == "\twhite\t\n");
     selection.add(Kind::include, {"lamp"});
-    CHECK(tree(scene, "tm", kDown, selection) == "\twhite\t\n");
-    CHECK(tree(scene, "Tm", kDown, selection) == "\t\tlamp\t\n\twhite\t\n");
+    CHECK(tree(scene, "tm", kStraightDown, selection) == "\twhite\t\n");
+    CHECK(tree(scene, "Tm", kStraightDown, selection) == "\t\tlamp\t\n\twhite\t\n");
 }
 
 TEST_CASE(
     "ray trees: values times coefficients add up to the primary ray's, who watches changes none") {
-    TestScene scene(kScene);
-    const Rgb alone = scene.trace({0, 0, 2}, kDown).value;
+    TestScene scene(kTreeScene);
+    const Rgb alone = scene.trace({0, 0, 2}, kStraightDown).value;
     struct Sum final : RayObserver {
         Rgb leaves;
         Rgb primary;
@@ -97,7 +98,7 @@ TEST_CASE(
         }
     } sum;
     scene.context.observer = &sum;
-    (void)scene.trace({0, 0, 2}, kDown);
+    (void)scene.trace({0, 0, 2}, kStraightDown);
     for (std::size_t i = 0; i < 3; ++i) {
         CHECK(sum.primary[i] == doctest::Approx(static_cast<double>(alone[i])).epsilon(1e-6));
         CHECK(sum.leaves[i] == doctest::Approx(static_cast<double>(alone[i])).epsilon(1e-6));

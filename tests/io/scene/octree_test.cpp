@@ -50,7 +50,7 @@ std::string frozen_octree(int objects = 7) {
     return file.integer(-1, 1).bytes();
 }
 
-std::string message_of(const std::string& bytes) {
+std::string octree_message(const std::string& bytes) {
     try {
         static_cast<void>(decode_octree(bytes, "x.oct"));
     } catch (const InputError& error) {
@@ -126,22 +126,22 @@ TEST_CASE("object numbers may take 1 to 8 bytes") {
 TEST_CASE("bad octrees are refused with a reason") {
     const std::string head = octree().bytes();
     const auto tree = [&](const BinaryWriter& bytes) {
-        return message_of(octree().text("").integer(0, 4).raw(bytes.bytes()).bytes());
+        return octree_message(octree().text("").integer(0, 4).raw(bytes.bytes()).bytes());
     };
-    CHECK(message_of("#?RADIANCE\nFORMAT=ascii\n\n") ==
+    CHECK(octree_message("#?RADIANCE\nFORMAT=ascii\n\n") ==
           "x.oct: not an octree: FORMAT=ascii, expected Radiance_octree");
-    CHECK(message_of(test::begin_file("Radiance_octree", 283).bytes()) ==
+    CHECK(octree_message(test::begin_file("Radiance_octree", 283).bytes()) ==
           "x.oct: incompatible octree format");
-    CHECK(message_of(test::begin_file("Radiance_octree", 292).bytes()) ==
+    CHECK(octree_message(test::begin_file("Radiance_octree", 292).bytes()) ==
           "x.oct: incompatible octree format");
-    CHECK(message_of(head) == "x.oct: truncated octree");
+    CHECK(octree_message(head) == "x.oct: truncated octree");
     CHECK(tree(BinaryWriter().integer(3, 1)) == "x.oct: damaged tree: unknown node tag");
     CHECK(tree(BinaryWriter().integer(1, 1).integer(512, 4)) ==
           "x.oct: damaged tree: a leaf of 512 objects");
     CHECK(tree(BinaryWriter().integer(1, 1).integer(0, 4)) ==
           "x.oct: damaged tree: a leaf of 0 objects");
     CHECK(tree(BinaryWriter().raw(std::string(100000, '\2'))) == "x.oct: truncated octree");
-    CHECK(message_of(frozen_octree(8)) == "x.oct: holds 7 objects, expected 8");
+    CHECK(octree_message(frozen_octree(8)) == "x.oct: holds 7 objects, expected 8");
 
     const auto object = [&](int type, int modifier, const std::string& name) {
         BinaryWriter file = octree();
@@ -149,7 +149,7 @@ TEST_CASE("bad octrees are refused with a reason") {
             "");
         add_object(file, 0, -1, "s", {}, {});
         add_object(file, type, modifier, name, {}, {});
-        return message_of(file.integer(-1, 1).bytes());
+        return octree_message(file.integer(-1, 1).bytes());
     };
     CHECK(object(1, -1, "m") == "no error");
     CHECK(object(1, 0, "m") == "x.oct: a surface cannot be a modifier: sphere \"s\"");
@@ -165,10 +165,10 @@ TEST_CASE("bad octrees are refused with a reason") {
 
 TEST_CASE("every truncation of an octree is an error") {
     const std::string whole = frozen_octree();
-    CHECK(message_of(whole) == "no error");
+    CHECK(octree_message(whole) == "no error");
     for (std::size_t size = 0; size < whole.size(); ++size) {
         CAPTURE(size);
-        CHECK(message_of(whole.substr(0, size)).starts_with("x.oct: "));
+        CHECK(octree_message(whole.substr(0, size)).starts_with("x.oct: "));
     }
 }
 

@@ -40,7 +40,7 @@ Rgb shade(const Vec3& p, Body body) {
     return Rgb::grey(static_cast<float>(light * pattern));
 }
 
-constexpr int kWidth = 96, kHeight = 64;
+constexpr int kFieldWidth = 96, kFieldHeight = 64;
 
 /// A ray caster of thirty lines.
 struct FieldCaster {
@@ -53,7 +53,7 @@ struct FieldCaster {
         const double x = place.x + 0.5 + aside, y = place.y + 0.5 + aside;
         visibility.x = static_cast<float>(x);
         visibility.y = static_cast<float>(y);
-        const auto ray = camera.ray(x / kWidth, y / kHeight);
+        const auto ray = camera.ray(x / kFieldWidth, y / kFieldHeight);
         visibility.ray = true;
         visibility.direction = ray->direction;
         visibility.ahead.seen = true;
@@ -106,7 +106,7 @@ TEST_CASE("cloud: another ray caster's frames are true, turning and walking back
     const auto executor = make_executor(ExecutorKind::serial, 1);
     for (const bool turns : {true, false}) {
         CAPTURE(turns);
-        CloudFrames frames(kWidth, kHeight, {});
+        CloudFrames frames(kFieldWidth, kFieldHeight, {});
         for (int i = 0; i < 12; ++i) {
             CAPTURE(i);
             const Camera camera(step(i, turns));
@@ -114,9 +114,10 @@ TEST_CASE("cloud: another ray caster's frames are true, turning and walking back
             const CloudFrame frame = caster.draw(frames, *executor);
             CHECK(frame.complete);
             int wrong = 0, floor = 0;  // of the frame, and of one moved by half a pixel
-            for (int y = 0; y < kHeight; ++y) {
-                for (int x = 0; x < kWidth; ++x) {
-                    const float is = frame.radiance[static_cast<std::size_t>(y * kWidth + x)].g;
+            for (int y = 0; y < kFieldHeight; ++y) {
+                for (int x = 0; x < kFieldWidth; ++x) {
+                    const float is =
+                        frame.radiance[static_cast<std::size_t>(y * kFieldWidth + x)].g;
                     const float should = caster.cast({x, y}).radiance.g;
                     const float moved = caster.cast({x, y}, 0.5).radiance.g;
                     wrong += std::abs(is - should) > 0.1f * should;
@@ -124,7 +125,7 @@ TEST_CASE("cloud: another ray caster's frames are true, turning and walking back
                 }
             }
             // On the ball's limb, and on the post, light changes by a tenth within a pixel.
-            CHECK(wrong <= floor + kWidth * kHeight / 200);
+            CHECK(wrong <= floor + kFieldWidth * kFieldHeight / 200);
             if (i == 0)
                 CHECK(frame.report.reused == 0);
             else

@@ -15,7 +15,7 @@ using lightwalk::test::TestScene;
 
 namespace {
 
-const std::string kRoom = R"(
+const std::string kLiveRoom = R"(
 void plastic grey 0 0 5 .5 .5 .5 0 0
 void plastic red 0 0 5 .6 .1 .1 0 0
 void light lamp 0 0 3 40 40 40
@@ -26,7 +26,7 @@ red polygon right 0 0 12  4 6 0  4 -6 0  4 -6 3  4 6 3
 grey sphere ball 0 0 4 -1 2 .7 .7
 lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
 )";
-constexpr int kWidth = 80, kHeight = 60;
+constexpr int kLiveWidth = 80, kLiveHeight = 60;
 
 View view_at(double turned) {
     View view;
@@ -48,7 +48,7 @@ RenderOptions with_bounces(int bounces) {
 
 struct Walker {
     explicit Walker(int bounces, int samples = 1)
-        : room(kRoom),
+        : room(kLiveRoom),
           direct(room.scene, with_bounces(0), room.warnings),
           full(room.scene, with_bounces(bounces), room.warnings),
           executor(make_executor(ExecutorKind::threads, 2)),
@@ -65,13 +65,13 @@ struct Walker {
     }
     static FrameOptions options() {
         FrameOptions options;
-        options.width = kWidth;
-        options.height = kHeight;
+        options.width = kLiveWidth;
+        options.height = kLiveHeight;
         options.pixels.spacing = 1;
         return options;
     }
     LivePicture next(const View& view, AmbientUse use, double budget = 1e-9) {
-        REQUIRE(live.next(view, kWidth, kHeight, use, budget, stop));
+        REQUIRE(live.next(view, kLiveWidth, kLiveHeight, use, budget, stop));
         return live.picture();
     }
     /// The picture when nothing more comes; with what was said meanwhile.
@@ -145,7 +145,7 @@ TEST_CASE("a view that moves on leaves what it was doing, and is told from one t
     (void)walker.rest(view_at(0), AmbientUse::rest);
     const LivePicture moved = walker.next(view_at(0.05), AmbientUse::rest);
     CHECK(moved.phase == LivePhase::moving);
-    CHECK(moved.radiance.size() == kWidth * kHeight);
+    CHECK(moved.radiance.size() == kLiveWidth * kLiveHeight);
     CHECK(walker.next(view_at(0.05), AmbientUse::rest).phase != LivePhase::moving);
     REQUIRE(walker.live.next(view_at(0.05), 40, 30, AmbientUse::rest, 1, walker.stop));
     CHECK(walker.live.picture().radiance.size() == 1200);

@@ -115,7 +115,7 @@ class Stream final : public RankNetwork {
     std::uint32_t wanted_ = 0;
 };
 
-StreamOptions some_options(std::mt19937_64& random) {
+StreamOptions some_stream(std::mt19937_64& random) {
     StreamOptions options;
     options.workers = one_of(random, {1, 2, 3, 8});
     options.slots = one_of(random, {1, 2, 4});
@@ -142,7 +142,7 @@ TEST_CASE(
     std::mt19937_64 random(1);
     for (int schedule = 0; schedule < 1000; ++schedule) {
         CAPTURE(schedule);
-        const StreamOptions options = some_options(random);
+        const StreamOptions options = some_stream(random);
         Stream stream(options, random());
         stream.run();
         std::string expected;
