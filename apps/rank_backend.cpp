@@ -31,7 +31,7 @@ class RankRays final : public RayMaker {
     }
 
     [[nodiscard]] std::optional<std::string> take() override {
-        while (answers_.empty() && !stop_.requested()) hear(true);
+        while (answers_.empty() && !stop_.requested()) receive_news(true);
         if (answers_.empty()) return std::nullopt;
         std::string answer = std::move(answers_.front());
         answers_.pop_front();
@@ -39,13 +39,13 @@ class RankRays final : public RayMaker {
     }
 
     [[nodiscard]] RayDemand demand(bool wait) override {
-        hear(wait && answers_.empty());
+        receive_news(wait && answers_.empty());
         demand_.answered = !answers_.empty();
         return demand_;
     }
 
   private:
-    void hear(bool wait) {
+    void receive_news(bool wait) {
         RankLink::RayNews news = link_.ray_news(wait, stop_);
         demand_.lists += news.chunks;
         if (news.rays > 0) demand_.rays = news.rays;
@@ -139,7 +139,7 @@ std::unique_ptr<RankWork> RankBackend::make_work() {
 }
 
 void RankBackend::trace() {
-    if (work_) return work_->serve(*executor_);
+    if (work_) return work_->trace(*executor_);
     link_.trace_rays(
         *executor_,
         [this](const RayChunk& chunk, int worker) {

@@ -290,7 +290,7 @@ void RankLink::forget_cache() {
     early_values_.clear();
 }
 
-std::string RankLink::hear(std::string said) {
+std::string RankLink::next_command(std::string said) {
     inbox_.reopen();
     {
         const std::lock_guard lock(mutex_);

@@ -115,8 +115,9 @@ class RankLink final : private LocalEnd {
     void dismiss();
     /// On every rank, when it has ended: before the cache of exchange() goes.
     void forget_cache();
-    /// What rank 0 says, on every rank; waits for all. The work before has ended on this one.
-    [[nodiscard]] std::string hear(std::string said = {});
+    /// The word by which rank 0 tells all ranks what to do next, `said` there; collective: all call
+    /// it, when the work before has ended.
+    [[nodiscard]] std::string next_command(std::string said = {});
 
     /// What this rank cannot go on for: ends the whole run.
     void fail(const std::string& text);

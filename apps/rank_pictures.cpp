@@ -71,7 +71,7 @@ std::optional<Frame> LeadPictures::take() {
     return assemble(*picture, options.width, options.height);
 }
 
-void RankPictures::serve(Executor& executor) {
+void RankPictures::trace(Executor& executor) {
     link_.trace(
         executor, [&](const PictureJob& job) { return make(job); }, stop_);
 }

@@ -83,7 +83,7 @@ class RankPictures final : public RankWork {
           warnings_(warnings),
           stop_(stop) {}
 
-    void serve(Executor& executor) override;
+    void trace(Executor& executor) override;
     [[nodiscard]] RayCounters rays() const override;
     [[nodiscard]] AmbientCounters ambient() const override;
 

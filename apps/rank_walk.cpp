@@ -41,7 +41,7 @@ std::unique_ptr<LiveFrames> LeadWalk::make_frames(const FrameOptions& options) {
                                         *executor_, warnings_);
 }
 
-void RankWalk::serve(Executor& executor) {
+void RankWalk::trace(Executor& executor) {
     link_.draw_walk(
         executor, cloud_, projectors_,
         [&](const FrameOrder& order) { return make_rays(order, executor); }, stop_);

@@ -58,7 +58,7 @@ class RankWalk final : public RankWork {
     /// Orders that want direct light alone get this; without, they get what the session has.
     void set_direct(WalkLight& direct) { direct_ = &direct; }
 
-    void serve(Executor& executor) override;
+    void trace(Executor& executor) override;
     [[nodiscard]] RayCounters rays() const override;
     [[nodiscard]] AmbientCounters ambient() const override;
 

@@ -9,7 +9,7 @@ class RankWork {
   public:
     virtual ~RankWork() = default;
     /// On ranks that trace: what rank 0 orders, until it says that no more comes.
-    virtual void serve(Executor& executor) = 0;
+    virtual void trace(Executor& executor) = 0;
     // What this rank did.
     [[nodiscard]] virtual RayCounters rays() const = 0;
     [[nodiscard]] virtual AmbientCounters ambient() const = 0;

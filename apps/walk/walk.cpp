@@ -118,7 +118,7 @@ constexpr const char *kLoad = "load", *kEnd = "end";
 int follow_walk(RankLink& link, const RenderCommand& command) {
     StderrWarnings warnings("lightwalk walk");
     warnings.enable(false);  // rank 0 has the same
-    while (link.hear() == kLoad) {
+    while (link.next_command() == kLoad) {
         try {
             Renderer renderer = open_renderer(&link, renderer_request(command, warnings), warnings);
             renderer.run([] {});
@@ -167,7 +167,7 @@ class WalkProgram {
         if (link_ == nullptr)
             set_interrupt_phase(InterruptPhase::finish);
         else
-            (void)link_->hear(kEnd);
+            (void)link_->next_command(kEnd);
         if (serving.ended()) serving.raise();
         return kSuccessStatus;
     }
@@ -190,7 +190,7 @@ class WalkProgram {
     /// Throws InputError for what is wrong with the scene, or AgreedProblem.
     [[nodiscard]] Renderer open() {
         client_inbox_.announce(LoadingReply{"reading " + welcome().scene, 0.1});
-        if (link_ != nullptr) (void)link_->hear(kLoad);
+        if (link_ != nullptr) (void)link_->next_command(kLoad);
         RendererRequest request = renderer_request(command_, warnings_);
         request.files = watched_;
         request.when_read = [this] {
