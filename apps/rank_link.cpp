@@ -187,7 +187,7 @@ void RankLink::trace_rays(Executor& executor, AnswerChunk answer, const StopFlag
 }
 
 void RankLink::draw_walk(Executor& executor, const CloudOptions& cloud, int projectors,
-                         MakeWalkRays make, const StopFlag& stop) {
+                         const MakeWalkRays& make, const StopFlag& stop) {
     WalkPartOptions options;
     options.index = topology_.worker_index(rank()).value_or(0);
     for (const Topology::Worker& worker : topology_.workers) options.workers.push_back(worker.rank);

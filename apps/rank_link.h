@@ -75,8 +75,8 @@ class RankLink final : private LocalEnd {
     void trace_rays(Executor& executor, AnswerChunk answer, const StopFlag& stop);
     /// The same for the frames of a walk.
     /// @param projectors  ranks that own a part of the frames, at most
-    void draw_walk(Executor& executor, const CloudOptions& cloud, int projectors, MakeWalkRays make,
-                   const StopFlag& stop);
+    void draw_walk(Executor& executor, const CloudOptions& cloud, int projectors,
+                   const MakeWalkRays& make, const StopFlag& stop);
     /// On ranks that do not trace.
     void wait_for_end(const StopFlag& stop);
     /// What this rank did, for rank 0.

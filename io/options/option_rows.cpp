@@ -205,7 +205,7 @@ std::string OptionRow::value(const char* format) const {
 
 std::string OptionRow::default_text() const {
     if (with.shown != nullptr) return with.shown;
-    const std::string present = value("%g");
+    std::string present = value("%g");
     if (!std::holds_alternative<bool*>(place)) return present;
     return present == "+" ? "on" : present == "-" ? "off" : "";
 }

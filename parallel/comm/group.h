@@ -22,7 +22,8 @@ class Group {
     /// Everyone's bytes, in the order of their indices.
     [[nodiscard]] virtual std::vector<std::string> all_gather(std::string mine) = 0;
     /// Everyone's numbers, added up one by one; all give as many.
-    [[nodiscard]] virtual std::vector<std::uint64_t> all_reduce(std::vector<std::uint64_t> mine) {
+    [[nodiscard]] virtual std::vector<std::uint64_t> all_reduce(
+        const std::vector<std::uint64_t>& mine) {
         std::vector<std::uint64_t> sums(mine.size());
         for (const std::string& one : all_gather(wire::encode(mine))) {
             const auto numbers = wire::decode<std::vector<std::uint64_t>>(one);

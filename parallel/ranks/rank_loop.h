@@ -145,8 +145,9 @@ class LoopGroup final : public Group {
     [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
         return loop_.all_gather(Collective::Group::workers, std::move(mine));
     }
-    [[nodiscard]] std::vector<std::uint64_t> all_reduce(std::vector<std::uint64_t> mine) override {
-        return loop_.all_reduce(Collective::Group::workers, std::move(mine));
+    [[nodiscard]] std::vector<std::uint64_t> all_reduce(
+        const std::vector<std::uint64_t>& mine) override {
+        return loop_.all_reduce(Collective::Group::workers, mine);
     }
 
   private:

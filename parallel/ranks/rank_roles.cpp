@@ -12,6 +12,7 @@ constexpr int kChunksAThread = 4;  ///< one is traced, others wait there, here, 
 
 std::vector<int> ranks_of(const std::vector<Topology::Worker>& workers) {
     std::vector<int> ranks;
+    ranks.reserve(workers.size());
     for (const Topology::Worker& worker : workers) ranks.push_back(worker.rank);
     return ranks;
 }
