@@ -9,20 +9,6 @@ namespace {
 using std::chrono::microseconds;
 constexpr microseconds kWalkPatience{400};
 
-Activity activity_of(const Message& message) {
-    return std::visit(Overloaded{[](const WorkResult&) { return Activity::send; },
-                                 [](const PointExchange&) { return Activity::send; },
-                                 [](const AmbientValues&) { return Activity::exchange; },
-                                 [](const Announcement&) { return Activity::serve; },
-                                 [](const WorkRequest&) { return Activity::serve; },
-                                 [](const WorkGrant&) { return Activity::serve; },
-                                 [](const FinishedPart&) { return Activity::serve; },
-                                 [](const UncachedPixels&) { return Activity::serve; },
-                                 [](const Collective&) { return Activity::serve; },
-                                 [](const Notice&) { return Activity::serve; }},
-                      message);
-}
-
 RankSettings with_timed_encoding(RankSettings settings, Timeline* timeline) {
     const int row = timeline != nullptr ? timeline->message_row() : 0;
     settings.encode = [encode = settings.encode, timeline, row](const PixelRectangle& block,

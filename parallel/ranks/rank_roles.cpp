@@ -91,6 +91,20 @@ void RankRoles::handle(int from, Message message, Outbox& out) {
         message);
 }
 
+Activity activity_of(const Message& message) {
+    return std::visit(Overloaded{[](const WorkResult&) { return Activity::send; },
+                                 [](const PointExchange&) { return Activity::send; },
+                                 [](const AmbientValues&) { return Activity::exchange; },
+                                 [](const Announcement&) { return Activity::serve; },
+                                 [](const WorkRequest&) { return Activity::serve; },
+                                 [](const WorkGrant&) { return Activity::serve; },
+                                 [](const FinishedPart&) { return Activity::serve; },
+                                 [](const UncachedPixels&) { return Activity::serve; },
+                                 [](const Collective&) { return Activity::serve; },
+                                 [](const Notice&) { return Activity::serve; }},
+                      message);
+}
+
 void RankRoles::handle_result(WorkResult result, Outbox& out) {
     std::visit(Overloaded{[&](Pixels& m) { expected(worker_).store(std::move(m), out); },
                           [&](LoggedPixels& m) { out.program.emplace_back(std::move(m)); },

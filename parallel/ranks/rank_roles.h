@@ -5,6 +5,7 @@
 
 #include "parallel/ranks/ambient_exchange.h"
 #include "parallel/ranks/collectives.h"
+#include "parallel/ranks/timeline.h"
 #include "parallel/ranks/topology.h"
 #include "parallel/work_queue/outbox.h"
 #include "parallel/work_queue/work_queue.h"
@@ -26,6 +27,10 @@ struct RankSettings {
 [[nodiscard]] inline std::size_t owners_of(std::size_t workers, int most) {
     return std::min(workers, static_cast<std::size_t>(std::max(most, 0)));
 }
+
+/// What a timeline calls the time that a rank takes to handle the message. Beside the handlers, so
+/// that a new kind of message is one more row in one file.
+[[nodiscard]] Activity activity_of(const Message& message);
 
 /// The roles of one rank: pure steps, see work_queue.h.
 class RankRoles {
