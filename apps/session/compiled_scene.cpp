@@ -3,9 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "apps/session/parse_queue.h"
 #include "apps/session/stopwatch.h"
 #include "core/material/modifier_factories.h"
+#include "io/language/primitive_text.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/file_resources.h"
 #include "io/scene/freezing_resources.h"
@@ -29,40 +28,18 @@ namespace {
 /// are worth more where they are [bytes].
 constexpr std::uint64_t kLarge = std::uint64_t{64} << 20;
 
-class NoWarnings final : public WarningSink {
-  public:
-    void warn(const std::string&) override {}
-};
-
 LibraryPath library_of(const SceneSource& source, const std::shared_ptr<FileSource>& files) {
     return source.library.empty() ? LibraryPath::from_environment(files)
                                   : LibraryPath(source.library, files);
 }
 
-void append_words(std::string& text, const std::vector<std::string>& words) {
-    text += std::to_string(words.size());
-    for (const std::string& word : words) text += ' ' + word;
-    text += '\n';
-}
-
-std::string number_text(double number) {
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", number);
-    return text.data();
-}
-
-/// Primitives as a scene file has them, a primitive in five lines.
+/// Primitives as a scene file has them.
 std::string scene_text(const std::vector<ScenePrimitive>& primitives) {
+    constexpr int kExactDigits = 17;
     std::string text;
-    for (const ScenePrimitive& primitive : primitives) {
-        text += primitive.modifier + ' ' + primitive.type + ' ' + primitive.name + '\n';
-        append_words(text, primitive.strings);
-        text += "0\n";
-        std::vector<std::string> numbers;
-        numbers.reserve(primitive.numbers.size());
-        for (const double number : primitive.numbers) numbers.push_back(number_text(number));
-        append_words(text, numbers);
-    }
+    for (const ScenePrimitive& p : primitives)
+        write_primitive({p.modifier, p.type, {}, p.name, p.strings, p.numbers, {}}, kExactDigits,
+                        text);
     return text;
 }
 
@@ -90,7 +67,7 @@ CompiledScene::CompiledScene(const SceneSource& source, WarningSink& warnings,
       ablation_(source.ablation) {
     const Stopwatch watch;
     if (!shared_by.empty())
-        map(shared_by);
+        map_shared(shared_by);
     else if (source.files.empty())
         read_bytes(source);
     else
@@ -115,11 +92,8 @@ void CompiledScene::read(const SceneSource& source) {
     }
     if (names.size() > 1) throw InputError({*found, 0}, "a frozen scene is all of a scene");
     // Every rank maps it itself, also where one reads for all: its pages are shared anyway.
-    auto opened = open_frozen_scene(*found, source.allow_stale);
-    files_->note_mapped(*found, opened->file().digest());
-    model_ = opened->model();
-    frozen_ = opened.get();
-    resources_ = std::move(opened);
+    adopt(open_frozen_scene(*found, source.allow_stale));
+    files_->note_mapped(*found, frozen_->file().digest());
 }
 
 void CompiledScene::read_bytes(const SceneSource& source) {
@@ -141,17 +115,20 @@ void CompiledScene::map_bytes(const SceneSource& source) {
     const std::size_t size = source.bytes.size();
     const auto owner = std::make_shared<std::vector<std::uint64_t>>((size + 7) / 8);
     std::memcpy(owner->data(), source.bytes.data(), size);
-    auto opened = std::make_unique<FrozenScene>(FrozenFile(
-        owner, std::span(reinterpret_cast<const std::byte*>(owner->data()), size), source.name));
+    const std::span bytes(reinterpret_cast<const std::byte*>(owner->data()), size);
+    adopt(std::make_unique<FrozenScene>(FrozenFile(owner, bytes, source.name)));
+}
+
+void CompiledScene::adopt(std::unique_ptr<FrozenScene> opened) {
     model_ = opened->model();
     frozen_ = opened.get();
     resources_ = std::move(opened);
 }
 
-void CompiledScene::map(const std::string& path) {
-    auto opened = open_frozen_scene(path, true);
-    model_ = opened->model();
-    resources_ = std::move(opened);
+/// What a process shares was not frozen, as far as others are concerned.
+void CompiledScene::map_shared(const std::string& path) {
+    adopt(open_frozen_scene(path, true));
+    frozen_ = nullptr;
 }
 
 std::string CompiledScene::share() {
@@ -160,7 +137,7 @@ std::string CompiledScene::share() {
     raise_problems(asked);
     {
         const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
-        NoWarnings later;  // they come when the scene is compiled to be rendered
+        CallbackWarnings later({});  // they come when the scene is compiled to be rendered
         const Scene compiled(model_, modifier_factory, asked, later, ExecutorTaskRunner(*executor),
                              SceneExtent::without_search);
         try {
@@ -169,7 +146,7 @@ std::string CompiledScene::share() {
             return {};
         }
     }
-    map(shared_->path());
+    map_shared(shared_->path());
     cost_.read_seconds += watch.seconds();
     cost_.read_peak_bytes = peak_memory_bytes();
     return shared_->path();

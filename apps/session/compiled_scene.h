@@ -63,7 +63,6 @@ class CompiledScene {
     [[nodiscard]] const Model& model() const { return *model_; }
     /// After compile().
     [[nodiscard]] const Scene& scene() const { return *scene_; }
-    [[nodiscard]] bool is_compiled() const { return scene_ != nullptr; }
     [[nodiscard]] Resources& resources() { return *resources_; }
     /// Null: the scene is not a frozen one.
     [[nodiscard]] const FrozenScene* frozen() const { return frozen_; }
@@ -76,7 +75,8 @@ class CompiledScene {
     void read(const SceneSource& source);
     void read_bytes(const SceneSource& source);
     void map_bytes(const SceneSource& source);
-    void map(const std::string& path);
+    void adopt(std::unique_ptr<FrozenScene> opened);
+    void map_shared(const std::string& path);
     void raise_problems(Resources& asked);
     void trim_heap() const;
 

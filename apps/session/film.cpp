@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -22,15 +23,6 @@ namespace lightwalk {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// 8-bit samples r, g, b, row by row from the top.
-std::vector<std::array<std::uint8_t, 3>> shown_pixels(const Picture& picture,
-                                                      const DisplayTone& tone) {
-    std::vector<std::array<std::uint8_t, 3>> pixels;
-    pixels.reserve(picture.pixels.size());
-    for (const Rgb& color : picture.pixels) pixels.push_back(display_pixel(color, tone));
-    return pixels;
-}
 
 /// While it lives a pipe whose reader has gone is an error for this thread, not a signal that ends
 /// the process.
@@ -67,35 +59,16 @@ bool write_all(int descriptor, const char* bytes, std::size_t count) {
 
 std::vector<std::string> encoder_line(const std::string& encoder, int width, int height,
                                       double rate, const std::string& file) {
-    std::array<char, 32> frames{};
-    std::snprintf(frames.data(), frames.size(), "%.6g", rate);
-    // Half the resolution of colours is what every player can show; that wants even sides.
-    return {encoder,
-            "-nostdin",
-            "-hide_banner",
-            "-loglevel",
-            "error",
-            "-y",
-            "-f",
-            "rawvideo",
-            "-pix_fmt",
-            "rgb24",
-            "-s",
-            std::to_string(width) + "x" + std::to_string(height),
-            "-framerate",
-            frames.data(),
-            "-i",
-            "pipe:0",
-            "-an",
-            "-vf",
-            "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-            "-pix_fmt",
-            "yuv420p",
-            "-movflags",
-            "+faststart",
-            "-f",
-            "mp4",
-            "file:" + file};
+    std::stringstream options;
+    options << "-nostdin -hide_banner -loglevel error -y -f rawvideo -pix_fmt rgb24 -s " << width
+            << 'x' << height << " -framerate " << rate
+            << " -i pipe:0 -an"
+            // Half the resolution of colours is what every player can show; that wants even sides.
+            << " -vf pad=ceil(iw/2)*2:ceil(ih/2)*2 -pix_fmt yuv420p -movflags +faststart -f mp4";
+    std::vector<std::string> words{encoder};
+    for (std::string word; options >> word;) words.push_back(word);
+    words.push_back("file:" + file);
+    return words;
 }
 
 }  // namespace
@@ -188,7 +161,7 @@ void Film::add(const Picture& picture, const DisplayTone& tone) {
     if (picture.width != width_ || picture.height != height_)
         throw InputError({path_, 0},
                          "the frames of a film are of one size, and these views are not");
-    const auto pixels = shown_pixels(picture, tone);
+    const std::vector<std::array<std::uint8_t, 3>> pixels = display_pixels(picture, tone);
     if (write_all(input_, reinterpret_cast<const char*>(pixels.data()), pixels.size() * 3)) return;
     (void)wait();
     throw InputError({path_, 0}, "ffmpeg has failed");

@@ -1,6 +1,5 @@
 #include "io/picture/encode_picture.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
@@ -18,9 +17,7 @@ namespace {
 std::string encode_display_image(ImageRequest request, const Picture& picture,
                                  const DisplayTone& tone) {
     assert(picture.pixels.size() == pixel_count(picture.width, picture.height));
-    std::vector<std::array<std::uint8_t, 3>> pixels(picture.pixels.size());
-    std::transform(picture.pixels.begin(), picture.pixels.end(), pixels.begin(),
-                   [&](const Rgb& color) { return display_pixel(color, tone); });
+    const std::vector<std::array<std::uint8_t, 3>> pixels = display_pixels(picture, tone);
     request.width = picture.width;
     request.height = picture.height;
     request.pixels = pixels.data();

@@ -107,4 +107,12 @@ std::array<std::uint8_t, 3> display_pixel(const Rgb& color, const DisplayTone& t
     return bytes;
 }
 
+std::vector<std::array<std::uint8_t, 3>> display_pixels(const Picture& picture,
+                                                        const DisplayTone& tone) {
+    std::vector<std::array<std::uint8_t, 3>> pixels;
+    pixels.reserve(picture.pixels.size());
+    for (const Rgb& color : picture.pixels) pixels.push_back(display_pixel(color, tone));
+    return pixels;
+}
+
 }  // namespace lightwalk

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/math/rgb.h"
 #include "io/picture/picture.h"
@@ -69,5 +70,8 @@ struct DisplayTone {
 /// compresses from lower values on. Then follows the sRGB curve (IEC 61966-2-1). Radiance's white
 /// is shown as the display's white; negative channels and NaN count as 0.
 [[nodiscard]] std::array<std::uint8_t, 3> display_pixel(const Rgb& color, const DisplayTone& tone);
+/// Those of all pixels of a picture.
+[[nodiscard]] std::vector<std::array<std::uint8_t, 3>> display_pixels(const Picture& picture,
+                                                                      const DisplayTone& tone);
 
 }  // namespace lightwalk
