@@ -8,6 +8,12 @@
 namespace lightwalk {
 namespace {
 
+template <class Command>
+OptionTable own_table(Command command) {
+    return owning_table(std::move(command),
+                        [](Command& owned) { return option_table(owned, real_files()); });
+}
+
 constexpr const char* kProgramHelp =
     R"(
 SCENE is one octree (.oct), one frozen scene (.lwz), or Radiance scene files in order; "-" is standard input, which
@@ -23,27 +29,27 @@ Exit status: 0 success, 1 bad input (the message begins with file:line), 2 a com
 
 constexpr Command kCommands[] = {
     {"render", "OPTIONS SCENE...   a picture of a view          (like rpict)", run_render,
-     [] { return render_option_table("render"); },
+     [] { return own_table(RenderCommand("render")); },
      R"(Compute a picture. Options are those of Radiance's rpict; a word @FILE or $NAME in place of an option stands for the
 words in the file or environment variable. A switch like -dv toggles; -dv+ and -dv- set it. `-defaults` lists every
 option with its value; rpict(1) tells more of those with one dash.
 )",
      ""},
     {"animate", "OPTIONS SCENE...  the frames of a walk", run_animate,
-     [] { return render_option_table("animate"); },
+     [] { return own_table(RenderCommand("animate")); },
      R"(Compute the frames of a walk. Options are those of `lightwalk render`, but for -S and the checkpoint; what a frame has
 in common with those before it is not traced again.
 )",
      ""},
     {"walk", "OPTIONS SCENE...     walk through a scene in a browser", run_walk,
-     [] { return render_option_table("walk"); },
+     [] { return own_table(RenderCommand("walk")); },
      R"(Walk through a scene in a browser: prints the address to open. Options are those of `lightwalk render` and those on
 reuse of `lightwalk animate`, but for what is about files of pictures. When the scene's files change it is read again,
 and the walk goes on from where it stood; what is wrong with them stands in the page.
 )",
      ""},
     {"trace", "OPTIONS SCENE...    radiance along single rays   (like rtrace)", run_trace,
-     trace_option_table,
+     [] { return own_table(TraceCommand{}); },
      R"(Trace rays from standard input, one record a ray on standard output, in order. A ray is six numbers: origin and
 direction. Options are those of Radiance's rtrace, as are the defaults (-defaults lists them); @FILE, $NAME and
 switches work as in `lightwalk render`. Without -ab the output does not depend on the number of threads.
@@ -68,13 +74,13 @@ one in the library, the run ends and names it; --stale takes the scene as it was
 (--allow-commands) and standard input are not looked at again. Damaged files are refused: each part has a checksum. A
 file belongs to the version of Lightwalk that wrote it.
 )",
-     ""},
+     "", false},
     {"info", "SCENE...             what a scene holds", run_info, info_option_table,
      R"(Say what a scene holds: primitives by type, bounds, light sources with the virtual ones that mirrors and prisms make,
 instances, memory, and what Lightwalk does not support, with the first place of each. Exit status 1 when the scene
 cannot be rendered; what could be found out is printed all the same.
 )",
-     ""},
+     "", false},
 };
 
 /// Text in a cell of a table in Markdown.
@@ -123,15 +129,19 @@ std::span<const Command> commands() {
     return kCommands;
 }
 
+const Command* find_command(const std::string& name) {
+    const auto* const found = std::ranges::find_if(
+        kCommands, [&](const Command& command) { return name == command.name; });
+    return found != std::end(kCommands) ? found : nullptr;
+}
+
 std::string help_text(const std::string& name) {
     if (name == "options") return option_reference();
-    for (const Command& command : kCommands) {
-        if (name != command.name) continue;
-        const std::string summary = command.summary;
-        return "lightwalk " + name + ' ' + summary.substr(0, summary.find("  ")) + "\n\n" +
-               command.about + command.options().help() + command.example;
-    }
-    return program_help();
+    const Command* const command = find_command(name);
+    if (command == nullptr) return program_help();
+    const std::string summary = command->summary;
+    return "lightwalk " + name + ' ' + summary.substr(0, summary.find("  ")) + "\n\n" +
+           command->about + command->options().help() + command->example;
 }
 
 }  // namespace lightwalk

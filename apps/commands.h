@@ -39,8 +39,11 @@ struct Command {
     OptionTable (*options)();  ///< with their defaults
     const char* about;         ///< its help before the options
     const char* example;       ///< its help behind the options
+    bool shared = true;        ///< ranks share its work; else rank 0 does it alone
 };
 [[nodiscard]] std::span<const Command> commands();
+/// Null: there is no such command.
+[[nodiscard]] const Command* find_command(const std::string& name);
 
 /// Help texts: of the program (""), of each command, and of "options": all options of all commands,
 /// as a document in Markdown.

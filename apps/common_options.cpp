@@ -1,12 +1,13 @@
 #include "apps/common_options.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 #include <string_view>
 #include <utility>
+
+#include "apps/commands.h"
+#include "apps/interrupt.h"
+#include "parallel/executor.h"
 
 namespace lightwalk {
 namespace {
@@ -30,8 +31,9 @@ constexpr std::array<std::pair<std::string_view, bool Ablation::*>, 6> kTechniqu
      {"packets", &Ablation::packets}}};
 
 /// Techniques to do without, by their names with commas between them.
-CustomOption ablated(CommonOptions& options, RenderOptions& light) {
-    return {[&options, &light](OptionWords& words) {
+CustomOption ablated(CommonOptions& o) {
+    return {[&o](OptionWords& words) {
+        Ablation& ablation = o.request.source.ablation;
         std::istringstream names(words.text());
         for (std::string name; std::getline(names, name, ',');) {
             const auto* const technique =
@@ -42,18 +44,41 @@ CustomOption ablated(CommonOptions& options, RenderOptions& light) {
                     expected += (expected.empty() ? "" : ", ") + std::string(known);
                 refuse_argument("--ablate", "some of " + expected, '"' + name + '"');
             }
-            options.ablation.*technique->second = false;
+            ablation.*technique->second = false;
         }
-        light.ablation = options.ablation;
+        o.settings.light.ablation = ablation;
     }};
 }
 
-std::vector<OptionRow> own_rows(CommonOptions& o, RenderOptions& light) {
-    constexpr const char* kThreads = "1 to 4096 threads";
-    return {
+/// "program command option ..." without the scene's files, as history lines have it.
+std::string command_history(const OptionWords& words, const CommonOptions& options) {
+    std::vector<std::string> all = words.expanded();
+    for (auto at = options.scene_positions.rbegin(); at != options.scene_positions.rend(); ++at)
+        all.erase(all.begin() + static_cast<std::ptrdiff_t>(*at));
+    return options.program() + (all.empty() ? "" : ' ' + history_line(all));
+}
+
+}  // namespace
+
+CommonOptions::CommonOptions(std::string name, OptionDefaults program)
+    : command(std::move(name)), settings(default_render_settings(program)) {
+    set_threads(hardware_threads());
+    request.source.trim_heap = true;  // the process is all ours
+    request.options.executor = kDefaultExecutor;
+    request.options.stop = &interrupt_flag();
+}
+
+std::vector<OptionRow> common_option_rows(CommonOptions& o) {
+    RenderOptions& light = o.settings.light;
+    RendererOptions& renderer = o.request.options;
+    std::vector<OptionRow> rows{
         {"Threads, random numbers, light samples", SectionTitle{"render"}},
-        {"-n N", &o.workers, "threads |",
-         With{.least = 1, .most = 4096, .expected = kThreads, .shown = "all cores"}},
+        {"-n N", &renderer.threads, "threads |",
+         With{.least = 1,
+              .most = 4096,
+              .expected = "1 to 4096 threads",
+              .shown = "all cores",
+              .then = [&o] { o.set_threads(o.request.options.threads); }}},
         {"--seed N", &light.seed,
          "random seed | other random numbers; the same seed gives the same bytes (with -ab: see "
          "--deterministic)"},
@@ -63,9 +88,9 @@ std::vector<OptionRow> own_rows(CommonOptions& o, RenderOptions& light) {
          "noise; 0: all are tested",
          With{.least = 0, .expected = "a number, 0 for all"}},
         {"--executor WHAT",
-         choice(o.executor, {{"serial", ExecutorKind::serial},
-                             {"threads", ExecutorKind::threads},
-                             {"tbb", ExecutorKind::tbb}}),
+         choice(renderer.executor, {{"serial", ExecutorKind::serial},
+                                    {"threads", ExecutorKind::threads},
+                                    {"tbb", ExecutorKind::tbb}}),
          "what runs the work: serial: one thread; threads: the standard library's; tbb: oneTBB"},
         {"Messages and statistics", SectionTitle{"render"}},
         {"-e FILE", error_file(o.error_file), "append messages to FILE"},
@@ -73,46 +98,40 @@ std::vector<OptionRow> own_rows(CommonOptions& o, RenderOptions& light) {
          "seconds to read, build and render, rays by kind, rays per second, memory"},
         {"--quiet", &o.quiet, "no progress, no warnings; -w- alone: no warnings"},
         {"Scene", SectionTitle{"render"}},
-        {"--allow-commands", &o.allow_commands,
+        {"--allow-commands", &o.request.source.allow_commands,
          "run commands in scene files that Lightwalk does not replace by its own generators"},
-        {"--stale", &o.stale_allowed,
+        {"--stale", &o.request.source.allow_stale,
          "take a frozen scene whose files have changed since it was frozen"},
-        {"--ablate WORDS", ablated(o, light), "do without techniques that change the speed only",
+        {"--ablate WORDS", ablated(o), "do without techniques that change the speed only",
          With{.hidden = true}}};
-}
-
-}  // namespace
-
-std::vector<OptionRow> common_option_rows(CommonOptions& options, RenderSettings& settings,
-                                          bool* show_defaults) {
-    std::vector<OptionRow> rows = own_rows(options, settings.light);
-    for (OptionRow& row : rank_option_rows(options.ranks)) rows.push_back(std::move(row));
+    for (OptionRow& row : rank_option_rows(o.ranks)) rows.push_back(std::move(row));
     const Action answered{[] {}};  // by main, wherever they stand
-    rows.push_back({"Help", SectionTitle{}});
-    if (show_defaults != nullptr)
-        rows.push_back({"-defaults", show_defaults,
-                        "print all options with their values, as the words before it set them"});
-    rows.push_back({"--help", answered, "this text"});
-    rows.push_back({"--version", answered, "the version of Lightwalk"});
+    rows.insert(rows.end(),
+                {{"Help", SectionTitle{}},
+                 {"-defaults", &o.show_defaults,
+                  "print all options with their values, as the words before it set them",
+                  With{.commands = kRender | kAnimate | kWalk | kTrace}},
+                 {"--help", answered, "this text"},
+                 {"--version", answered, "the version of Lightwalk"}});
     return rows;
 }
 
-void parse_options(OptionWords& words, const OptionTable& table, CommonOptions& options,
-                   const bool& stop) {
-    while (!stop && words.at_option()) {
+void read_command_line(OptionWords words, const OptionTable& table, CommonOptions& options) {
+    while (!options.show_defaults && words.at_option()) {
         const std::string& word = words.option();
         if (word.empty() || word.front() != '-' || word == "-") {
             options.scene_positions.push_back(words.position());
-            options.scene_files.push_back(word);
+            options.request.source.files.push_back(word);
             words.skip(1);
         } else if (!table.take(words)) {
             table.refuse(words);
         }
     }
+    options.request.history = command_history(words, options);
 }
 
 void resolve_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& input) {
-    std::vector<std::string>& files = options.scene_files;
+    std::vector<std::string>& files = options.request.source.files;
     if (!taken_by.empty()) {
         if (files.empty()) {
             throw UsageError("no scene: name an octree or scene files; standard input holds " +
@@ -131,25 +150,6 @@ void resolve_scene_files(CommonOptions& options, const std::string& taken_by, Fi
     if (state == "empty")
         throw UsageError("no scene: none is named, and standard input holds nothing");
     files.emplace_back("-");
-}
-
-void redirect_messages(const CommonOptions& options, const std::string& history) {
-    if (options.error_file.empty()) return;
-    if (std::freopen(options.error_file.c_str(), "a", stderr) == nullptr) {
-        throw InputError({options.error_file, 0}, "cannot open the error file");
-    }
-    std::fprintf(stderr, "**************\n*** PID %ld: %s\n", static_cast<long>(getpid()),
-                 history.c_str());
-}
-
-std::string command_history(const std::string& command, const OptionWords& words,
-                            const CommonOptions& options) {
-    std::vector<std::string> all = words.expanded();
-    for (auto at = options.scene_positions.rbegin(); at != options.scene_positions.rend(); ++at) {
-        all.erase(all.begin() + static_cast<std::ptrdiff_t>(*at));
-    }
-    return history_line(std::vector<std::string>{"lightwalk", command}) +
-           (all.empty() ? std::string() : ' ' + history_line(all));
 }
 
 }  // namespace lightwalk

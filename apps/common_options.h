@@ -1,56 +1,50 @@
 #pragma once
-// What all commands share: options, the scene's files, the header lines of results.
-#include <optional>
-#include <span>
+// What the command lines of all commands share: options, and the scene's files.
 #include <string>
 #include <vector>
 
-#include "apps/rank_options.h"
-#include "core/ablation.h"
+#include "apps/renderer_request.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
 #include "io/options/render_options.h"
-#include "parallel/executor.h"
 
 namespace lightwalk {
 
 struct CommonOptions {
-    int workers = hardware_threads();  ///< -n
-    RankOptions ranks;
-    ExecutorKind executor = kDefaultExecutor;  ///< --executor
-    bool allow_commands = false;               ///< --allow-commands
-    bool stale_allowed = false;                ///< --stale
+    /// @param program  whose defaults the rendering options have
+    explicit CommonOptions(std::string command, OptionDefaults program = OptionDefaults::rpict);
+
+    std::string command;                       ///< name of the command
+    RendererRequest request;                   ///< the scene's files, -n --executor ...
+    RenderSettings settings;                   ///< how light is followed
+    RankOptions ranks;                         ///< --variant --block ...
     bool quiet = false;                        ///< --quiet
-    Ablation ablation;                         ///< --ablate, for tests and benchmarks
+    bool show_defaults = false;                ///< -defaults
     std::string stats_file;                    ///< --stats
     std::string error_file;                    ///< -e: where messages go, "" for standard error
-    std::vector<std::string> scene_files;      ///< words that are no options, in order
-    std::vector<std::size_t> scene_positions;  ///< where they stand among the expanded words
+    std::vector<std::size_t> scene_positions;  ///< of the scene's files among the expanded words
+
+    /// How messages name the program.
+    [[nodiscard]] std::string program() const { return "lightwalk " + command; }
+    [[nodiscard]] const std::vector<std::string>& scene_files() const {
+        return request.source.files;
+    }
+    /// Threads that compile the scene and render.
+    void set_threads(int threads) { request.source.threads = request.options.threads = threads; }
 };
 
-/// The rows of these options, and of those on ranks.
-/// @param show_defaults  what -defaults sets; null: the command has none
-/// All that they set must outlive the rows.
-[[nodiscard]] std::vector<OptionRow> common_option_rows(CommonOptions& options,
-                                                        RenderSettings& settings,
-                                                        bool* show_defaults);
+/// The rows of the options that all commands share, and of those on ranks. `options` must outlive
+/// the rows.
+[[nodiscard]] std::vector<OptionRow> common_option_rows(CommonOptions& options);
 
-/// Take the words of a command line: options, and names of scene files, which `options` collects.
-/// Throws UsageError for a word that is no option of the table, with the nearest one.
-/// @param stop  ends it when an option has set it
-void parse_options(OptionWords& words, const OptionTable& table, CommonOptions& options,
-                   const bool& stop);
+/// Read a command line: options of the table, and names of scene files, which `options` collects
+/// with the line's history. Stops behind -defaults. Throws UsageError for a word that is no option
+/// of the table, with the nearest one.
+void read_command_line(OptionWords words, const OptionTable& table, CommonOptions& options);
 
 /// Without a scene on the command line, standard input is the scene, as for Radiance's rpict: adds
 /// "-". `taken_by`: what standard input holds for the command already, "the rays"; "" for nothing.
 /// Throws UsageError when there is no scene: standard input is taken, a terminal or empty.
 void resolve_scene_files(CommonOptions& options, const std::string& taken_by, FileSource& files);
-
-/// Append messages to the file that -e names, from here on. Throws InputError.
-void redirect_messages(const CommonOptions& options, const std::string& history);
-
-/// "program command option ..." without the scene's files, as history lines have it.
-[[nodiscard]] std::string command_history(const std::string& command, const OptionWords& words,
-                                          const CommonOptions& options);
 
 }  // namespace lightwalk

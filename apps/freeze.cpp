@@ -4,35 +4,32 @@
 #include <system_error>
 
 #include "apps/commands.h"
-#include "apps/renderer_request.h"
+#include "apps/common_options.h"
 #include "apps/session/lightwalk/scene.h"
 #include "apps/warnings.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr const char* kFreezeProgram = "lightwalk freeze";
-
 struct FreezeCommand {
-    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
-    CommonOptions common;
+    CommonOptions common{"freeze"};
     std::string output;  ///< -o
 };
 
-OptionTable table_of(FreezeCommand& c) {
+OptionTable freeze_table(FreezeCommand& c) {
     const std::vector<OptionRow> own{
         {"Output", SectionTitle{}},
         {"-o FILE", &c.output,
          "the frozen scene; a file of that name is replaced when the new one is whole"}};
-    return {{"freeze", kFreeze},
-            {own, common_option_rows(c.common, c.settings, nullptr)},
+    return {{c.common.command, kFreeze},
+            {own, common_option_rows(c.common)},
             {"-n", "--allow-commands", "--quiet"}};
 }
 
 /// Throws UsageError unless the file may be written.
-void check_frozen_output(const std::string& output, const CommonOptions& options) {
+void check_frozen_output(const std::string& output, const std::vector<std::string>& scene_files) {
     if (output.empty()) throw UsageError("name the frozen scene's file with -o");
-    for (const std::string& scene : options.scene_files) {
+    for (const std::string& scene : scene_files) {
         std::error_code none;
         if (std::filesystem::equivalent(scene, output, none))
             throw UsageError("option -o: " + output + " is a file of the scene");
@@ -42,20 +39,18 @@ void check_frozen_output(const std::string& output, const CommonOptions& options
 }  // namespace
 
 OptionTable freeze_option_table() {
-    return owning_table(FreezeCommand{}, table_of);
+    return owning_table(FreezeCommand{}, freeze_table);
 }
 
 int run_freeze(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     FreezeCommand command;
-    const CommonOptions& options = command.common;
-    const std::string& output = command.output;
-    OptionWords words(line);
-    parse_options(words, table_of(command), command.common, false);
-    check_frozen_output(output, options);
-    StderrWarnings warnings(kFreezeProgram);
+    CommonOptions& options = command.common;
+    read_command_line(OptionWords(line), freeze_table(command), options);
+    check_frozen_output(command.output, options.scene_files());
+    StderrWarnings warnings(options.program());
     warnings.enable(!options.quiet);
-    resolve_scene_files(command.common, "", *real_files());
-    freeze_scene(scene_source(options), output,
+    resolve_scene_files(options, "", *real_files());
+    freeze_scene(options.request.source, command.output,
                  [&](const std::string& message) { warnings.warn(message); });
     return kSuccessStatus;
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/commands.h"
-#include "apps/renderer_request.h"
+#include "apps/common_options.h"
 #include "apps/session/scene_session.h"
 #include "apps/warnings.h"
 #include "core/light/light_sources.h"
@@ -15,8 +15,11 @@
 namespace lightwalk {
 namespace {
 
-void print_vector(const char* label, const Vec3& v) {
-    std::printf("  %-12s %g %g %g\n", label, v.x, v.y, v.z);
+void print_bounds(const Bounds& bounds) {
+    std::printf("bounds [m]%s\n", bounds.empty() ? "     empty" : "");
+    if (bounds.empty()) return;
+    for (const auto& [label, v] : {std::pair{"lower", bounds.lower}, {"upper", bounds.upper}})
+        std::printf("  %-12s %g %g %g\n", label, v.x, v.y, v.z);
 }
 
 void print_counts(const Model& model) {
@@ -52,13 +55,10 @@ void print_unsupported(const Model& model) {
 
 void print_geometry(const Scene& scene) {
     const Bounds bounds = scene.geometry().bounds();
-    std::printf("bounds [m]%s\n", bounds.empty() ? "     empty" : "");
-    if (!bounds.empty()) {
-        print_vector("lower", bounds.lower);
-        print_vector("upper", bounds.upper);
+    print_bounds(bounds);
+    if (!bounds.empty())
         std::printf("  %-12s %g at %g %g %g\n", "cube", scene.cube().size, scene.cube().origin.x,
                     scene.cube().origin.y, scene.cube().origin.z);
-    }
     const std::size_t own = scene.own_surfaces();
     const std::size_t all =
         scene.surfaces().size() - 1;  // without the one that stands for a sensor
@@ -136,46 +136,37 @@ void print_ambient_file(const std::string& path) {
     for (const auto& [level, count] : levels) std::printf("  level %-6d %zu\n", level, count);
     if (!file.records.empty()) {
         std::printf("radii [m]      %g to %g\n", least, most);
-        std::printf("bounds [m]\n");
-        print_vector("lower", bounds.lower);
-        print_vector("upper", bounds.upper);
+        print_bounds(bounds);
     }
     if (!file.damage.empty()) std::printf("damage         %s\n", printable(file.damage).c_str());
 }
 
-struct InfoCommand {
-    RenderSettings settings = default_render_settings(OptionDefaults::rpict);
-    CommonOptions common;
-};
-
-OptionTable table_of(InfoCommand& c) {
-    return {{"info", kInfo},
-            {render_option_rows(c.settings, LibraryPath::from_environment()),
-             common_option_rows(c.common, c.settings, nullptr)},
+OptionTable info_table(CommonOptions& options) {
+    return {{options.command, kInfo},
+            {render_option_rows(options.settings, LibraryPath::from_environment()),
+             common_option_rows(options)},
             {"-dr", "-n", "-w", "--allow-commands", "--stale", "--quiet"}};
 }
 
 }  // namespace
 
 OptionTable info_option_table() {
-    return owning_table(InfoCommand{}, table_of);
+    return owning_table(CommonOptions("info"), info_table);
 }
 
 int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
-    InfoCommand command;
-    RenderSettings& settings = command.settings;
-    CommonOptions& options = command.common;
-    OptionWords words(line);
-    parse_options(words, table_of(command), options, false);
+    CommonOptions options("info");
+    read_command_line(OptionWords(line), info_table(options), options);
+    RenderSettings& settings = options.settings;
     settings.light.shadow_threshold = 0;  // no statistics of shadows: nothing is rendered
-    StderrWarnings warnings("lightwalk info");
+    StderrWarnings warnings(options.program());
     warnings.enable(settings.warnings && !options.quiet);
-    if (options.scene_files.size() == 1 && options.scene_files[0].ends_with(".amb")) {
-        print_ambient_file(options.scene_files[0]);
+    if (options.scene_files().size() == 1 && options.scene_files()[0].ends_with(".amb")) {
+        print_ambient_file(options.scene_files()[0]);
         return kSuccessStatus;
     }
     resolve_scene_files(options, "", *real_files());
-    const auto scene = std::make_shared<CompiledScene>(scene_source(options), warnings);
+    const auto scene = std::make_shared<CompiledScene>(options.request.source, warnings);
     if (scene->frozen() != nullptr) print_origin(*scene->frozen());
     print_counts(scene->model());
     print_unsupported(scene->model());

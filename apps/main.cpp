@@ -37,10 +37,9 @@ int dispatch(const std::vector<std::string>& words, Communicator* ranks) {
         return kUsageStatus;
     }
     const std::string& name = words.front();
-    for (const Command& command : commands()) {
-        if (name != command.name) continue;
+    if (const Command* const command = find_command(name)) {
         const std::vector<std::string> rest(words.begin() + 1, words.end());
-        return answer_questions(name, rest) ? kSuccessStatus : command.run(rest, ranks);
+        return answer_questions(name, rest) ? kSuccessStatus : command->run(rest, ranks);
     }
     if (name == "help") {
         std::fputs(help_text(words.size() > 1 ? words[1] : "").c_str(), stdout);
@@ -53,27 +52,18 @@ int dispatch(const std::vector<std::string>& words, Communicator* ranks) {
     throw UsageError("unknown command " + name + (meant ? ", did you mean " + *meant + "?" : ""));
 }
 
-/// How messages name the program: with its command, if there is such a command.
-std::string program_name(const std::vector<std::string>& words) {
-    for (const Command& command : commands()) {
-        if (!words.empty() && words.front() == command.name) return "lightwalk " + words.front();
-    }
-    return "lightwalk";
-}
-
 /// Runs the command; what is wrong is said on standard error, by rank 0 alone where all ranks see
 /// it.
 int run(const std::vector<std::string>& words) {
-    const std::string program = program_name(words);
+    const Command* const command = words.empty() ? nullptr : find_command(words.front());
+    const std::string program = std::string("lightwalk") + (command ? ' ' + words.front() : "");
     std::unique_ptr<Communicator> ranks;
     const auto say = [&](const std::string& text) {
         if (!ranks || ranks->rank() == 0) std::fprintf(stderr, "%s\n", text.c_str());
     };
     try {
         if (started_by_mpi()) ranks = open_mpi();
-        // Only pictures and rays are shared out: rank 0 answers everything else.
-        const std::vector<std::string> work{"render", "animate", "walk", "trace"};
-        const bool shared = !words.empty() && std::ranges::find(work, words[0]) != work.end();
+        const bool shared = command != nullptr && command->shared;
         if (ranks && ranks->rank() != 0 && !shared) return kSuccessStatus;
         return dispatch(words, ranks.get());
     } catch (const UsageError& error) {

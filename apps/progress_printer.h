@@ -1,11 +1,20 @@
 #pragma once
 // How far a picture is, on standard error.
 #include <string>
+#include <utility>
 
 #include "apps/session/lightwalk/renderer.h"
 #include "apps/warnings.h"
 
 namespace lightwalk {
+
+/// A bar, the share done, the speed and the time left, in at most columns - 1 characters, because
+/// terminals wrap what fills their last column. What does not fit is left out: the speed first,
+/// then the bar, then the time.
+[[nodiscard]] std::string progress_line(const RenderProgress& progress, int columns);
+
+/// Hours, minutes and seconds: "0:07", "12:30", "1:00:00".
+[[nodiscard]] std::string time_text(double seconds);
 
 struct ProgressOptions {
     bool bar = false;            ///< a line that is overwritten, on a terminal
@@ -28,7 +37,6 @@ class ProgressPrinter {
     void print(const RenderProgress& progress);
 
   private:
-    void print_bar(const RenderProgress& progress) const;
     void print_report(const RenderProgress& progress) const;
 
     ProgressOptions options_;

@@ -1,30 +1,17 @@
 #pragma once
 // A renderer's work by ranks that share it, and how all commands come to a renderer.
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "apps/rank_link.h"
-#include "apps/rank_options.h"
 #include "apps/rank_work.h"
+#include "apps/renderer_request.h"
 #include "apps/session/render_backend.h"
-#include "io/files/file_source.h"
 #include "parallel/executor.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
-
-/// What a renderer is opened for.
-struct RendererRequest {
-    SceneSource source;
-    RendererOptions options;
-    SceneFrom scene_from = SceneFrom::shared;
-    int projectors = 0;   ///< ranks that keep points of a walk, at most
-    std::string history;  ///< the command line, which must be the same on all ranks
-    std::shared_ptr<FileSource> files = real_files();
-    std::function<void()> when_read;  ///< called before what was read is compiled; none: nobody
-};
 
 /// Reads and compiles the scene. By all ranks, all of which go on, or none: throws AgreedProblem;
 /// where there is one process InputError.

@@ -17,11 +17,12 @@ std::unique_ptr<RankLink> link_ranks(Communicator* communicator, CommonOptions& 
     check_launch(wanted, communicator != nullptr);
     if (communicator == nullptr) return nullptr;
     const bool ambient = work.ambient_values && wanted.ambient_batch > 0;
-    const Variant variant = resolve_variant(wanted, communicator->size(), options.workers, ambient);
+    const Variant variant =
+        resolve_variant(wanted, communicator->size(), options.request.options.threads, ambient);
     if (variant == Variant::threads) return nullptr;
-    if (variant == Variant::ranks) options.workers = 1;
+    if (variant == Variant::ranks) options.set_threads(1);
     RankSettings settings;
-    settings.slots = options.workers;
+    settings.slots = options.request.options.threads;
     settings.ahead = std::max(1, settings.slots / 2);
     settings.block = wanted.block;
     settings.stride = wanted.stride;
@@ -34,7 +35,7 @@ std::unique_ptr<RankLink> link_ranks(Communicator* communicator, CommonOptions& 
     const int masters = work.rays || work.projectors > 0 ? 1 : wanted.masters;
     return std::make_unique<RankLink>(
         *communicator, make_topology(variant, communicator->size(), ambient, masters), settings,
-        work.program, !wanted.timeline.empty());
+        options.program(), !wanted.timeline.empty());
 }
 
 void parse_on_ranks(Communicator* communicator, const std::string& program,

@@ -12,7 +12,6 @@ namespace lightwalk {
 
 /// What a command shares out.
 struct SharedWork {
-    std::string program;          ///< how messages name the command
     bool ambient_values = false;  ///< ranks gain from each other's
     bool rays = false;            ///< chunks of rays, not blocks of pictures
     int projectors = 0;           ///< frames of a walk, drawn from points: see RankSettings
@@ -27,7 +26,7 @@ void parse_on_ranks(Communicator* communicator, const std::string& program,
                     FunctionRef<void(const std::shared_ptr<FileSource>&)> parse);
 
 /// The link to the other ranks; null where there are none to share with. In variant `ranks` each
-/// has one thread: options.workers.
+/// has one thread, as `options` then say.
 [[nodiscard]] std::unique_ptr<RankLink> link_ranks(Communicator* communicator,
                                                    CommonOptions& options, const SharedWork& work);
 

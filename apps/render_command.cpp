@@ -1,5 +1,6 @@
 #include "apps/render_command.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "apps/commands.h"
@@ -25,8 +26,10 @@ bool parse_view(OptionWords& words, RenderCommand& command, FileSource& files) {
             throw;  // the file is at fault, not the command line
         throw UsageError(error.what());
     }
-    if (command.serve && words.option() == "-vf")
-        command.serve->views.push_back({view_title(rest[1]), command.view});
+    if (command.serve && words.option() == "-vf") {
+        const std::string title = std::filesystem::path(rest[1]).stem().string();
+        command.serve->page.views.push_back({title, command.view});
+    }
     if (used > 0) command.view_given = true;
     words.skip(used);
     return used > 0;
@@ -63,7 +66,7 @@ std::vector<OptionRow> view_rows(RenderCommand& c, const Files& files) {
 }
 
 std::vector<OptionRow> pixel_rows(RenderCommand& c) {
-    PixelOptions& p = c.pixels;
+    PixelOptions& p = c.common.request.options.pixels;
     return {
         {"Pixels", SectionTitle{"render"}},
         {"-x N", &c.x, "largest width [pixels] |"},
@@ -116,59 +119,63 @@ CustomOption exposure(ToneMapping& tone) {
     return {take, [&tone] { return tone.automatic ? "auto" : std::to_string(tone.ev); }};
 }
 
-CustomOption primaries(RenderCommand& c) {
-    return {[&c](OptionWords& words) {
-        c.xyz = false;
-        c.primaries.emplace();
-        for (double& value : *c.primaries) value = words.real();
+CustomOption primaries(SeriesOutput& output) {
+    return {[&output](OptionWords& words) {
+        output.xyz = false;
+        output.primaries.emplace();
+        for (double& value : *output.primaries) value = words.real();
     }};
 }
 
 /// What the pixels of a Radiance picture hold.
-Action channels(RenderCommand& c, bool xyz) {
-    return {[&c, xyz] {
-        c.primaries.reset();
-        c.xyz = xyz;
+Action channels(SeriesOutput& output, bool xyz) {
+    return {[&output, xyz] {
+        output.primaries.reset();
+        output.xyz = xyz;
     }};
 }
 
 std::vector<OptionRow> output_rows(RenderCommand& c) {
+    SeriesOutput& output = c.output;
     return {
         {"Output", SectionTitle{"render"}},
-        {"-o FILE", &c.output,
+        {"-o FILE", &output.picture,
          ".hdr .pic: Radiance picture; .exr: float; .png .jpg: for the screen. Without -o a "
          "Radiance picture goes to standard output. A file of that name is replaced when the new "
          "one is whole",
          With{.commands = kRender}},
-        {"-o FILE", &c.output,
+        {"-o FILE", &output.picture,
          "name of the frames' files, with %d or %04d for their numbers, from 1: frame%04d.hdr .exr "
          ".png .jpg. Pictures for the screen are all exposed as the first one (--exposure EV: "
          "fixed). FILE.mp4: a film, by the program ffmpeg where it is installed",
          With{.commands = kAnimate}},
-        {"-z FILE", &c.depth,
+        {"-z FILE", &output.depth,
          "distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing "
          "there",
-         With{.commands = kRender | kAnimate}},
-        {"-pRGB", channels(c, false), "a Radiance picture holds radiance (unless -pXYZ)"},
-        {"-pXYZ", channels(c, true), "a Radiance picture holds CIE XYZ, Y in cd/m2"},
-        {"-pc RX RY GX GY BX BY WX WY", primaries(c),
+         With{.then = [&c] { c.common.request.options.use_distances = !c.output.depth.empty(); },
+              .commands = kRender | kAnimate}},
+        {"-pRGB", channels(output, false), "a Radiance picture holds radiance (unless -pXYZ)"},
+        {"-pXYZ", channels(output, true), "a Radiance picture holds CIE XYZ, Y in cd/m2"},
+        {"-pc RX RY GX GY BX BY WX WY", primaries(output),
          "CIE chromaticities of the channels and of white, as a Radiance picture's header has "
          "them"},
-        {"--exposure auto|EV", exposure(c.tone),
+        {"--exposure auto|EV", exposure(output.tone),
          "for .png and .jpg: average brightness, or a fixed number of stops"},
         {"--tone CURVE",
-         choice(c.tone.curve, {{"curve", ToneCurve::highlights}, {"linear", ToneCurve::linear}}),
+         choice(output.tone.curve,
+                {{"curve", ToneCurve::highlights}, {"linear", ToneCurve::linear}}),
          "for .png and .jpg: curve: compress what is brighter than middle grey, so that windows "
          "and lamps keep their drawing; linear: cut off at white"}};
 }
 
 std::vector<OptionRow> run_rows(RenderCommand& c) {
     const RefusedOption frames{": a walk's frames are kept as files, one by one"};
+    RendererOptions& renderer = c.common.request.options;
     return {
         {"Cache of indirect light, beside -af", SectionTitle{"render"}},
-        {"--overture WHEN", choice(c.prepass, {{"auto", true}, {"off", false}}),
+        {"--overture WHEN", choice(renderer.cache_prepass, {{"auto", true}, {"off", false}}),
          "auto: with -ab fill the cache by a coarse picture first"},
-        {"--deterministic", &c.deterministic,
+        {"--deterministic", &renderer.deterministic,
          "the same bytes with any number of threads also with -ab: the cache is filled in rounds"},
         {"Interrupted runs", SectionTitle{"render"}},
         {"--checkpoint FILE", &c.checkpoint,
@@ -193,97 +200,77 @@ std::vector<OptionRow> refused_rows() {
     return rows;
 }
 
-OptionTable table_of(RenderCommand& c, const Files& files) {
-    const std::vector<std::vector<OptionRow>> rows{
-        c.serve ? serve_option_rows(*c.serve, *c.walk) : std::vector<OptionRow>(),
-        c.walk ? walk_option_rows(*c.walk) : std::vector<OptionRow>(),
-        output_rows(c),
-        view_rows(c, files),
-        pixel_rows(c),
-        render_option_rows(c.settings, LibraryPath::from_environment(files)),
-        run_rows(c),
-        refused_rows(),
-        common_option_rows(c.common, c.settings, &c.show_defaults)};
-    if (c.serve) return {{c.name, kWalk}, rows, {"-vf", "--check"}};
-    if (c.walk) return {{c.name, kAnimate}, rows, {"-o"}};
-    return {{c.name, kRender}, rows};
-}
-
-OptionTable own_table(RenderCommand& c) {
-    return table_of(c, real_files());
-}
-
-/// The command before its options are known.
-RenderCommand initial_command(const std::string& name) {
-    RenderCommand command;
-    command.name = name;
-    if (name != "render") command.walk.emplace();
-    if (name == "walk") {
-        command.serve.emplace();
-        command.walk->rate = 30;
-        command.walk->cloud.check = CloudCheck::rotating;  // frames are seen for a moment only
-    }
-    command.settings = default_render_settings(OptionDefaults::rpict);
-    return command;
-}
-
-void check(const RenderCommand& command) {
-    if (command.xyz && !command.output.empty() && !is_radiance_picture(command.output))
+void check_outputs(const RenderCommand& command) {
+    const SeriesOutput& output = command.output;
+    if (output.xyz && !output.picture.empty() && !is_radiance_picture(output.picture))
         throw UsageError("option -pXYZ: only Radiance pictures (.hdr, .pic) hold CIE XYZ");
     if (command.resume && command.checkpoint.empty())
         throw UsageError("option --resume: name the file with --checkpoint");
-    (void)frame_name(command.output, 0);
-    (void)frame_name(command.depth, 0);
+    (void)frame_name(output.picture, 0);
+    (void)frame_name(output.depth, 0);
 }
 
 /// Options of `lightwalk animate` that do not go together.
 void check_animate(const RenderCommand& command) {
-    if (command.output.empty() || (!varies_by_frame(command.output) && !is_film(command.output)))
+    const SeriesOutput& output = command.output;
+    const PixelOptions& pixels = command.common.request.options.pixels;
+    if (output.picture.empty() || (!varies_by_frame(output.picture) && !is_film(output.picture)))
         throw UsageError(
             "name the frames' files with -o, with %d for their numbers: -o f%04d.hdr; or a film: "
             "-o walk.mp4");
-    if (!command.depth.empty() && !varies_by_frame(command.depth))
+    if (!output.depth.empty() && !varies_by_frame(output.depth))
         throw UsageError("option -z: expected %d in the name, for the frames' numbers");
-    if (command.walk->reuse && (command.pixels.aperture > 0 || command.pixels.motion > 0))
+    if (command.walk->reuse && (pixels.aperture > 0 || pixels.motion > 0))
         throw UsageError("options -pd and -pm blur what points show sharp: say --reuse off");
 }
 
 /// Options of `lightwalk walk` that do not go together.
 void check_walk(const RenderCommand& command) {
+    const PixelOptions& pixels = command.common.request.options.pixels;
     if (!command.walk->reuse)
         throw UsageError(
             "option --reuse: a walk in a browser cannot do without: off is for animate");
-    if (command.pixels.aperture > 0 || command.pixels.motion > 0)
+    if (pixels.aperture > 0 || pixels.motion > 0)
         throw UsageError("options -pd and -pm blur what points show sharp");
-    if (command.pixels.samples > 1)
+    if (pixels.samples > 1)
         throw UsageError("option --samples: say --edge-samples, for where a view rests");
 }
 
 }  // namespace
 
-RenderCommand parse_render_command(const std::string& name, const std::vector<std::string>& line,
-                                   const Files& files) {
-    RenderCommand command = initial_command(name);
-    OptionWords words(line, files);
-    parse_options(words, table_of(command, files), command.common, command.show_defaults);
-    check(command);
-    if (command.serve) {
-        check_walk(command);
-    } else if (command.walk && !command.show_defaults) {
-        check_animate(command);
-        resolve_walk(*command.walk, command.view, *files);
-    }
-    command.history = command_history(name, words, command.common);
-    return command;
+RenderCommand::RenderCommand(const std::string& name) : common(name) {
+    if (name == "render") return;
+    walk.emplace();
+    common.request.projectors = 32;
+    if (name != "walk") return;
+    serve.emplace();
+    serve->page.max_size = {1920, 1200};
+    walk->cloud.check = CloudCheck::rotating;  // frames are seen for a moment only
 }
 
-std::string describe(const RenderCommand& command) {
-    RenderCommand shown = command;
-    return own_table(shown).defaults();
+OptionTable option_table(RenderCommand& c, const Files& files) {
+    const std::vector<std::vector<OptionRow>> rows{
+        c.serve ? serve_option_rows(*c.serve) : std::vector<OptionRow>(),
+        c.walk ? walk_option_rows(*c.walk, c.common.request.projectors) : std::vector<OptionRow>(),
+        output_rows(c),
+        view_rows(c, files),
+        pixel_rows(c),
+        render_option_rows(c.common.settings, LibraryPath::from_environment(files)),
+        run_rows(c),
+        refused_rows(),
+        common_option_rows(c.common)};
+    const std::string& name = c.common.command;
+    if (c.serve) return {{name, kWalk}, rows, {"-vf", "--check"}};
+    if (c.walk) return {{name, kAnimate}, rows, {"-o"}};
+    return {{name, kRender}, rows};
 }
 
-OptionTable render_option_table(const std::string& name) {
-    return owning_table(initial_command(name), own_table);
+void check_render_command(RenderCommand& command, FileSource& files) {
+    check_outputs(command);
+    if (command.serve) return check_walk(command);
+    if (!command.walk) return;
+    check_animate(command);
+    resolve_walk(*command.walk, command.view, files);
 }
 
 }  // namespace lightwalk

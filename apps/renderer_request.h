@@ -1,23 +1,23 @@
 #pragma once
-// From what command lines say to what a renderer is asked for.
-#include "apps/common_options.h"
-#include "apps/interrupt.h"
-#include "apps/rank_backend.h"
-#include "apps/render_command.h"
-#include "apps/warnings.h"
+// What a renderer is opened for, by this process or by ranks.
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "apps/rank_options.h"
+#include "apps/session/lightwalk/renderer.h"
+#include "io/files/file_source.h"
 
 namespace lightwalk {
 
-/// Of the options that all commands share; renderers warn through `warnings`, and stop when an
-/// interrupt is requested.
-[[nodiscard]] RendererRequest renderer_request(const CommonOptions& common,
-                                               const RenderSettings& settings,
-                                               const std::string& history,
-                                               StderrWarnings& warnings);
-/// Of the command line of `lightwalk render`, `animate` or `walk`.
-[[nodiscard]] RendererRequest renderer_request(const RenderCommand& command,
-                                               StderrWarnings& warnings);
-/// Of the scene alone.
-[[nodiscard]] SceneSource scene_source(const CommonOptions& common);
+struct RendererRequest {
+    SceneSource source;
+    RendererOptions options;
+    SceneFrom scene_from = SceneFrom::shared;
+    int projectors = 0;   ///< ranks that keep points of a walk, at most
+    std::string history;  ///< the command line, which must be the same on all ranks
+    std::shared_ptr<FileSource> files = real_files();
+    std::function<void()> when_read;  ///< called before what was read is compiled; none: nobody
+};
 
 }  // namespace lightwalk

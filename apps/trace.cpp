@@ -3,66 +3,52 @@
 
 #include <cstdio>
 #include <deque>
-#include <memory>
 #include <optional>
 
-#include "apps/commands.h"
+#include "apps/command_run.h"
 #include "apps/interrupt.h"
+#include "apps/rank_backend.h"
 #include "apps/rank_report.h"
-#include "apps/rank_session.h"
-#include "apps/renderer_request.h"
 #include "apps/session/run_header.h"
 #include "apps/session/stopwatch.h"
 #include "apps/trace_command.h"
-#include "apps/warnings.h"
-#include "io/files/atomic_file.h"
-#include "parallel/ray_query.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr const char* kProgram = "lightwalk trace";
 constexpr std::size_t kEnough = 1 << 16;  ///< bytes of output that are worth writing
 
-class TraceRun {
+class TraceRun final : CommandRun {
   public:
-    TraceRun(TraceCommand command, Communicator* communicator, FileSource& files)
-        : command_(std::move(command)),
-          communicator_(communicator),
-          warnings_(kProgram),
-          reader_(STDIN_FILENO, command_.formats.input) {
+    TraceRun(TraceCommand& command, Communicator* communicator, FileSource& files)
+        : CommandRun(command.common, communicator),
+          command_(command),
+          options_(command.common.request.options.rays),
+          reader_(STDIN_FILENO, command.formats.input) {
         prepare_output();
-        redirect_messages(command_.common, command_.history);
-        const bool speaks = communicator_ == nullptr || communicator_->rank() == 0;
-        warnings_.enable(command_.settings.warnings && !command_.common.quiet && speaks);
-        check_render_settings(command_.settings);
-        check(files);
-        options_ = {shades() || command_.sensor, command_.sensor, command_.limit_by_length,
-                    command_.settings.light.seed};
-        if (!options_.shade) {  // nothing is lit: do not prepare light sources
-            command_.settings.light.redirections = 0;
-            command_.settings.light.shadow_threshold = 0;
-        }
+        resolve_scene_files(command_.common, "the rays", files);
+        check();
+        options_.shade = shades() || options_.sensor;
+        if (options_.shade) return;
+        // Nothing is lit: do not prepare light sources.
+        light().redirections = 0;
+        light().shadow_threshold = 0;
     }
 
     int run() {
         // Values that are not computed are not exchanged. Trees are told one after the other: rank
         // 0 has all the work, the others wait.
-        const bool ambient =
-            options_.shade && caches_ambient_values(command_.settings.light) && !tree_;
-        link_ = link_ranks(communicator_, command_.common, {kProgram, ambient, true, 0});
-        if (!link_) return trace(nullptr);
-        const auto body = [this] {
-            if (!tree_) return trace(link_.get());
-            return link_->leads() ? trace_trees() : wait();
-        };
-        return link_->run(body, interrupt_flag());
+        const bool ambient = options_.shade && caches_ambient_values(light()) && !tree_;
+        return share_out({ambient, true, 0}, [this] {
+            if (!tree_ || link() == nullptr) return trace(link());
+            return link()->leads() ? trace_trees() : wait();
+        });
     }
 
   private:
-    /// @param link  the other ranks, whose number of threads takes part; null: there are none
-    int trace(RankLink* link) {
-        Renderer& renderer = renderer_.emplace(open_renderer(link, request(), warnings_));
+    /// @param ranks  the other ranks, whose number of threads takes part; null: there are none
+    int trace(RankLink* ranks) {
+        Renderer& renderer = renderer_.emplace(open_renderer(ranks, task(), warnings()));
         if (renderer.leads() && options_.shade) renderer.session().warn_of_darkness();
         if (tree_) tree_->watch(renderer.session().tracer());
         scene_ = &renderer.session().scene();
@@ -71,39 +57,43 @@ class TraceRun {
             const Stopwatch watch;
             put_header(renderer.session().compiled().model());
             answer_all(renderer);
-            finish();
+            if (expected_ > 0 && read_ < expected_) warnings().warn("unexpected EOF on input");
+            flush();
             seconds = watch.seconds();
         });
-        if (renderer.leads()) save_statistics(renderer.statistics(), seconds, link != nullptr);
+        if (!renderer.leads()) return kSuccessStatus;
+        RunStatistics statistics = renderer.statistics();
+        statistics.render_seconds = seconds;
+        save_statistics(std::move(statistics));
         return kSuccessStatus;
     }
 
-    [[nodiscard]] RendererRequest request() {
-        RendererRequest request =
-            renderer_request(command_.common, command_.settings, command_.history, warnings_);
-        RendererOptions& options = request.options;
-        options.answers_rays = true;
-        options.rays = options_;
-        if (tree_) options.observer = &*tree_;
-        options.record = [this](const RayQuery& query, const Ray& ray, const Hit& first,
-                                std::string& bytes) {
+    [[nodiscard]] RendererRequest task() {
+        RendererRequest task = request();
+        task.options.answers_rays = true;
+        if (tree_) task.options.observer = &*tree_;
+        task.options.record = [this](const RayQuery& query, const Ray& ray, const Hit& first,
+                                     std::string& bytes) {
             if (tree_) bytes += tree_->take();
-            append_record(query, ray, first, bytes);
+            const bool sensor = options_.sensor && length_squared(query.direction) > 0;
+            if (records_) records_->append({ray, first, sensor}, *scene_, bytes);
         };
-        return request;
+        return task;
     }
+
+    [[nodiscard]] RenderOptions& light() { return command_.common.settings.light; }
 
     /// Rank 0 works alone, and then tells the others.
     int trace_trees() {
         const int status = trace(nullptr);
-        (void)link_->finish(interrupt_flag());
+        (void)link()->finish(interrupt_flag());
         return status;
     }
 
     /// While rank 0 works alone.
     int wait() {
-        link_->wait_for_end(interrupt_flag());
-        link_->report(rank_report(*link_, 1, {}, {}));
+        link()->wait_for_end(interrupt_flag());
+        link()->report(rank_report(*link(), 1, {}, {}));
         return kSuccessStatus;
     }
 
@@ -150,43 +140,37 @@ class TraceRun {
         if (!fields.record.empty() || !fields.has_tree())
             records_.emplace(fields.record, format, command_.color);
         if (!fields.has_tree()) return;
-        tree_.emplace(fields, format, command_.color, command_.tree, command_.sensor);
-        command_.common.workers = 1;  // trees are told one after the other
-        command_.common.executor = ExecutorKind::serial;
+        tree_.emplace(fields, format, command_.color, command_.tree, options_.sensor);
+        command_.common.set_threads(1);  // trees are told one after the other
+        command_.common.request.options.executor = ExecutorKind::serial;
     }
 
     [[nodiscard]] bool shades() const { return tree_ || records_->shades(); }
 
-    void check(FileSource& files) {
-        resolve_scene_files(command_.common, "the rays", files);
-        const bool irradiance = command_.sensor || command_.settings.light.irradiance;
+    void check() {
+        const bool irradiance = options_.sensor || light().irradiance;
         if (irradiance && !shades())
             throw UsageError("-I+ and -i+ options require some value output");
         if (irradiance && records_ && records_->splits())
-            warnings_.warn("-or -oR -ox -oX say nothing with -i or -I");
+            warnings().warn("-or -oR -ox -oX say nothing with -i or -I");
         if (records_ && records_->asks_for_coefficients())
-            warnings_.warn("-oVW options require trace mode");
-        if (tree_) check_coefficients();
-        if (command_.y > 0) {
+            warnings().warn("-oVW options require trace mode");
+        // Values from the cache or by differences are not the sum of what the rays brought.
+        const bool exact = light().ambient_bounces <= 0 || (light().ambient_accuracy <= kEpsilon &&
+                                                            light().ambient_super_samples <= 0);
+        if (tree_ && !exact && tree_->asks_for_coefficients())
+            warnings().warn("-otV and -otW are only accurate with -aa 0 -as 0");
+        if (command_.y > 0)
             expected_ =
                 static_cast<std::uint64_t>(command_.y) *
                 (command_.x > 1 && command_.y > 1 ? static_cast<std::uint64_t>(command_.x) : 1);
-        }
-    }
-
-    /// Values from the cache or by differences are not the sum of what the rays brought.
-    void check_coefficients() {
-        const RenderOptions& light = command_.settings.light;
-        const bool exact = light.ambient_bounces <= 0 ||
-                           (light.ambient_accuracy <= kEpsilon && light.ambient_super_samples <= 0);
-        if (!exact && tree_->asks_for_coefficients())
-            warnings_.warn("-otV and -otW are only accurate with -aa 0 -as 0");
     }
 
     void put_header(const Model& model) {
         if (command_.header) {
             std::string text = "#?RADIANCE\n";
-            for (const std::string& line : history_header(model.header, command_.history))
+            for (const std::string& line :
+                 history_header(model.header, command_.common.request.history))
                 text += line + '\n';
             for (const std::string& line : date_lines()) text += line + '\n';
             output_ += text;
@@ -218,41 +202,16 @@ class TraceRun {
         return !queries_.empty();
     }
 
-    void append_record(const RayQuery& query, const Ray& ray, const Hit& first,
-                       std::string& text) const {
-        const bool sensor = options_.sensor && length_squared(query.direction) > 0;
-        if (records_) records_->append({ray, first, sensor}, *scene_, text);
-    }
-
-    void finish() {
-        if (expected_ > 0 && read_ < expected_) warnings_.warn("unexpected EOF on input");
-        flush();
-    }
-
     void flush() {
-        const bool whole = std::fwrite(output_.data(), 1, output_.size(), stdout) == output_.size();
-        if (!whole || std::fflush(stdout) != 0) throw InputError("cannot write standard output");
+        write_to_stdout(output_);
         output_.clear();
     }
 
-    void save_statistics(RunStatistics statistics, double seconds, bool on_ranks) {
-        statistics.command = "trace";
-        statistics.render_seconds = seconds;
-        const CommonOptions& common = command_.common;
-        if (!common.stats_file.empty())
-            write_file_atomically(common.stats_file, statistics_json(statistics));
-        if (on_ranks && !common.ranks.timeline.empty())
-            write_file_atomically(common.ranks.timeline, timeline_json(statistics.reports));
-    }
-
-    TraceCommand command_;
-    Communicator* communicator_;  ///< to the other ranks; null: there are none
-    StderrWarnings warnings_;
+    TraceCommand& command_;
+    RayListOptions& options_;            ///< of the command
     std::optional<RayRecords> records_;  ///< not with trees alone
     std::optional<RayTree> tree_;        ///< -ot -oT
     RayReader reader_;
-    RayListOptions options_;
-    std::unique_ptr<RankLink> link_;
     const Scene* scene_ = nullptr;  ///< that records name parts of
     std::vector<RayQuery> queries_;
     std::deque<Ticket<RayBytes>> lists_;  ///< that were started
@@ -266,15 +225,7 @@ class TraceRun {
 }  // namespace
 
 int run_trace(const std::vector<std::string>& words, Communicator* ranks) {
-    std::unique_ptr<TraceRun> run;
-    parse_on_ranks(ranks, kProgram, [&](const std::shared_ptr<FileSource>& files) {
-        TraceCommand command = parse_trace_command(words, files);
-        if (!command.show_defaults)
-            run = std::make_unique<TraceRun>(std::move(command), ranks, *files);
-        else if (ranks == nullptr || ranks->rank() == 0)
-            std::fputs(describe(command).c_str(), stdout);
-    });
-    return run ? run->run() : kSuccessStatus;
+    return run_command<TraceRun>(TraceCommand{}, words, ranks);
 }
 
 }  // namespace lightwalk

@@ -37,10 +37,11 @@ std::vector<OptionRow> record_rows(TraceCommand& c) {
              "traced: children first, a\n      tab for each generation, -n 1. T also tells shadow "
              "rays that reach\n      their light source unhindered\n"},
             {"-h[+-]", &c.header, "output header | write a header before the records"},
-            {"-I[+-]", &c.sensor,
+            {"-I[+-]", &c.common.request.options.rays.sensor,
              "rays are points and normals: irradiance | irradiance: rays are points and the "
              "normals there"},
-            {"-ld[+-]", &c.limit_by_length, "a direction's length limits its ray |"},
+            {"-ld[+-]", &c.common.request.options.rays.limit_by_length,
+             "a direction's length limits its ray |"},
             {"-x N", &c.x, "flush interval | picture width: flush the output after N rays"},
             {"-y N", &c.y,
              "rows | picture height: stop after -x times -y rays; a resolution line goes before "
@@ -66,54 +67,28 @@ std::vector<OptionRow> color_rows(TraceCommand& c) {
 
 std::vector<OptionRow> tree_rows(TreeSelection& tree, const LibraryPath& library) {
     using Kind = TreeSelection::Kind;
-    const auto one = [&tree](Kind kind) {
-        return CustomOption{[&tree, kind](OptionWords& words) { tree.add(kind, {words.text()}); }};
+    const auto adds = [&tree](Kind kind) {
+        return [&tree, kind](const std::vector<std::string>& names) { tree.add(kind, names); };
     };
-    const auto file = [&tree, library](Kind kind) {
-        return CustomOption{[&tree, library, kind](OptionWords& words) {
-            tree.add(kind, names_in_file(words.text(), library));
-        }};
-    };
-    return {
-        {"Rays of trees (-ot, -oT)", SectionTitle{}},
-        {"-te MODIFIER", one(Kind::exclude), "leave out rays that meet this modifier; repeatable"},
-        {"-ti MODIFIER", one(Kind::include), "only rays that meet this modifier; repeatable"},
-        {"-tE FILE", file(Kind::exclude), "leave out rays that meet the modifiers that FILE names"},
-        {"-tI FILE", file(Kind::include), "only rays that meet the modifiers that FILE names"}};
-}
-
-OptionTable table_of(TraceCommand& c, const std::shared_ptr<FileSource>& files) {
-    const LibraryPath library = LibraryPath::from_environment(files);
-    return {{"trace", kTrace},
-            {record_rows(c), color_rows(c), tree_rows(c.tree, library),
-             render_option_rows(c.settings, library),
-             common_option_rows(c.common, c.settings, &c.show_defaults)},
-            {"-i", "-n", "--seed"}};
-}
-
-OptionTable own_table(TraceCommand& c) {
-    return table_of(c, real_files());
+    return {{"Rays of trees (-ot, -oT)", SectionTitle{}},
+            {"-te MODIFIER", name_option(adds(Kind::exclude)),
+             "leave out rays that meet this modifier; repeatable"},
+            {"-ti MODIFIER", name_option(adds(Kind::include)),
+             "only rays that meet this modifier; repeatable"},
+            {"-tE FILE", names_option(adds(Kind::exclude), library),
+             "leave out rays that meet the modifiers that FILE names"},
+            {"-tI FILE", names_option(adds(Kind::include), library),
+             "only rays that meet the modifiers that FILE names"}};
 }
 
 }  // namespace
 
-TraceCommand parse_trace_command(const std::vector<std::string>& line,
-                                 const std::shared_ptr<FileSource>& files) {
-    TraceCommand command;
-    OptionWords words(line, files);
-    parse_options(words, table_of(command, files), command.common, command.show_defaults);
-    command.history = command_history("trace", words, command.common);
-    return command;
-}
-
-std::string describe(const TraceCommand& command) {
-    TraceCommand shown = command;
-    return own_table(shown).defaults();
-}
-
-OptionTable trace_option_table() {
-    TraceCommand usual;
-    return owning_table(std::move(usual), own_table);
+OptionTable option_table(TraceCommand& c, const std::shared_ptr<FileSource>& files) {
+    const LibraryPath library = LibraryPath::from_environment(files);
+    return {{c.common.command, kTrace},
+            {record_rows(c), color_rows(c), tree_rows(c.tree, library),
+             render_option_rows(c.common.settings, library), common_option_rows(c.common)},
+            {"-i", "-n", "--seed"}};
 }
 
 }  // namespace lightwalk

@@ -1,7 +1,7 @@
 #pragma once
 // The options of `lightwalk trace`, read from a command line.
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "apps/common_options.h"
 #include "io/rays/ray_reader.h"
@@ -11,28 +11,18 @@
 namespace lightwalk {
 
 struct TraceCommand {
-    CommonOptions common;
-    RenderSettings settings = default_render_settings(OptionDefaults::rtrace);
+    CommonOptions common{"trace", OptionDefaults::rtrace};
     bool header = true;         ///< -h
     RayFormats formats;         ///< -f
     std::string letters = "v";  ///< -o
     TreeSelection tree;         ///< -te -ti -tE -tI
     ColorOutput color = ColorOutput::rgb;
-    bool sensor = false;           ///< -I
-    bool limit_by_length = false;  ///< -ld
-    int x = 0, y = 0;              ///< -x -y
-    bool show_defaults = false;    ///< -defaults
-    std::string history;           ///< the command line for the output's header
+    int x = 0, y = 0;  ///< -x -y
 };
 
-/// Throws UsageError, and InputError for files that options name.
-[[nodiscard]] TraceCommand parse_trace_command(const std::vector<std::string>& words,
-                                               const std::shared_ptr<FileSource>& files);
-
-/// What -defaults prints: every option with its value.
-[[nodiscard]] std::string describe(const TraceCommand& command);
-
-/// The options of trace, with their defaults.
-[[nodiscard]] OptionTable trace_option_table();
+/// The options of trace, which set the command's members; must not outlive it.
+/// @param files  where those are that options name
+[[nodiscard]] OptionTable option_table(TraceCommand& command,
+                                       const std::shared_ptr<FileSource>& files);
 
 }  // namespace lightwalk

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/commands.h"
+#include "core/model/transform_args.h"
 #include "core/scene/scene.h"
 #include "io/options/view_keys.h"
 
@@ -72,7 +73,7 @@ Choice drop_choice(ReuseRules& rules) {
             [&rules] { return (rules.drop_hidden ? 0U : 2U) + (rules.drop_lonely ? 0U : 1U); }};
 }
 
-std::vector<OptionRow> reuse_rows(WalkCommand& walk) {
+std::vector<OptionRow> reuse_rows(WalkCommand& walk, int& projectors) {
     CloudOptions& cloud = walk.cloud;
     ReuseRules& rules = cloud.rules;
     return {{"Reuse. Every traced pixel leaves a point: where its light came from, and how much. "
@@ -110,7 +111,7 @@ std::vector<OptionRow> reuse_rows(WalkCommand& walk) {
             {"--contrast PERCENT", &rules.contrast,
              "with --look back: points agree when the darkest and the brightest differ by no more",
              kPercentage},
-            {"--projectors N", &walk.projectors,
+            {"--projectors N", &projectors,
              "number of ranks that keep points, at most; further ranks trace what is missing",
              With{.least = 1, .most = 4096}}};
 }
@@ -140,13 +141,62 @@ std::vector<OptionRow> quality_rows(CloudOptions& cloud) {
              kPercentage}};
 }
 
+CustomOption size_option(WalkSizeLimit& size) {
+    const auto read_side = [](const std::string& word, int& side) {
+        long number = 0;
+        const bool good = parse_integer(word, number) && number >= 1 && number <= kLargestWalkSize;
+        if (good) side = static_cast<int>(number);
+        return good;
+    };
+    const auto take = [&size, read_side](OptionWords& words) {
+        const std::string word = words.text();
+        const std::size_t by = std::min(word.find('x'), word.size());
+        if (by == word.size() || !read_side(word.substr(0, by), size.width) ||
+            !read_side(word.substr(by + 1), size.height))
+            refuse_argument(
+                "--max-size",
+                "WIDTHxHEIGHT of at most " + std::to_string(kLargestWalkSize) + " pixels",
+                '"' + word + '"');
+    };
+    return {take,
+            [&size] { return std::to_string(size.width) + 'x' + std::to_string(size.height); }};
+}
+
 }  // namespace
 
-std::vector<OptionRow> walk_option_rows(WalkCommand& walk) {
+std::vector<OptionRow> walk_option_rows(WalkCommand& walk, int& projectors) {
     std::vector<OptionRow> rows = way_rows(walk);
-    for (const auto& more : {reuse_rows(walk), quality_rows(walk.cloud)})
+    for (const auto& more : {reuse_rows(walk, projectors), quality_rows(walk.cloud)})
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
+}
+
+std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
+    return {{"The page, and who may open it", SectionTitle{}},
+            {"--port N", &serve.server.port, "port of the page; 0: any that is free",
+             With{.least = 0, .most = 65535}},
+            {"--bind ADDRESS", &serve.server.address,
+             "address that the page is served on. 127.0.0.1: to this machine alone. Anything else "
+             "demands the token in the printed address"},
+            {"--clients N", &serve.server.limits.clients,
+             "number of browsers at once: the first drives, others watch",
+             With{.least = 1, .most = 256}},
+            {"--fps N", &serve.page.fps,
+             "frames a second while moving. A frame's time goes to its worst pixels; the others "
+             "are interpolated now, and traced in a later frame",
+             With{.least = .1, .most = 1000}},
+            {"--max-size WxH", size_option(serve.page.max_size),
+             "largest size of pictures; larger windows show them enlarged"},
+            {"--ambient WHEN",
+             choice(serve.page.settings.ambient, {{"rest", WalkAmbient::rest},
+                                                  {"always", WalkAmbient::always},
+                                                  {"off", WalkAmbient::off}}),
+             "when there is indirect light, with -ab: rest: when the view rests; always; off. The "
+             "page may change it"},
+            {"--edge-samples N", &serve.edge_samples,
+             "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
+             "render`",
+             With{.least = 1, .most = 255}}};
 }
 
 void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {
@@ -163,27 +213,24 @@ std::size_t walk_length(const WalkCommand& walk) {
 }
 
 std::vector<View> walk_views(const WalkCommand& walk, const View& view, const Scene& scene) {
-    std::vector<View> views;
-    if (walk.way == WalkCommand::Way::path && walk.frames == 0) {
-        for (const ViewKey& key : walk.keys) views.push_back(key.view);
-        return views;
-    }
-    if (walk.way == WalkCommand::Way::path) {
+    using Way = WalkCommand::Way;
+    std::vector<View> views(walk_length(walk));
+    const int steps = std::max(walk.frames - 1, 1);
+    int i = 0;
+    if (walk.way == Way::path && walk.frames == 0) {
+        std::ranges::transform(walk.keys, views.begin(), &ViewKey::view);
+    } else if (walk.way == Way::path) {
         const ViewPath path(walk.keys);
-        const double pace = (path.end() - path.begin()) / std::max(walk.frames - 1, 1);
-        for (int i = 0; i < walk.frames; ++i) views.push_back(path.at(path.begin() + i * pace));
-        return views;
+        const double pace = (path.end() - path.begin()) / steps;
+        for (View& frame : views) frame = path.at(path.begin() + i++ * pace);
+    } else if (walk.way == Way::rotate) {
+        for (View& frame : views) frame = turned_view(view, i++ * walk.degrees / steps);
+    } else {
+        const Camera camera(view);
+        const Hit middle = scene.geometry().intersect({view.position, camera.forward()});
+        const double distance = middle.exists() ? middle.t : length(view.direction);
+        for (View& frame : views) frame = walked_view(view, walk.move, i++, walk.step, distance);
     }
-    if (walk.way == WalkCommand::Way::rotate) {
-        for (int i = 0; i < walk.frames; ++i)
-            views.push_back(turned_view(view, i * walk.degrees / std::max(walk.frames - 1, 1)));
-        return views;
-    }
-    const Camera camera(view);
-    const Hit middle = scene.geometry().intersect({view.position, camera.forward()});
-    const double distance = middle.exists() ? middle.t : length(view.direction);
-    for (int i = 0; i < walk.frames; ++i)
-        views.push_back(walked_view(view, walk.move, i, walk.step, distance));
     return views;
 }
 

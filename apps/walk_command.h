@@ -1,11 +1,13 @@
 #pragma once
-// The options of `lightwalk animate` that `lightwalk render` does not have: the path of the camera,
-// and the reuse of earlier frames.
+// The options of `lightwalk animate` and `walk` that `lightwalk render` does not have: the path of
+// the camera, the reuse of earlier frames, and the page.
 #include <string>
 #include <vector>
 
+#include "apps/session/lightwalk/renderer.h"
 #include "core/view/view_path.h"
-#include "io/files/file_source.h"
+#include "io/net/walk_reply.h"
+#include "io/net/web_server.h"
 #include "io/options/option_rows.h"
 #include "parallel/walk/cloud_frames.h"
 
@@ -17,21 +19,29 @@ struct WalkCommand {
     /// How the views of the frames come about.
     enum class Way { none, path, rotate, walk };
     Way way = Way::none;
-    std::string path;                   ///< --path
-    std::vector<ViewKey> keys;          ///< what that file holds
-    double degrees = 0;                 ///< --rotate: of the whole turn, to the right
-    WalkMove move = WalkMove::forward;  ///< --walk
-    double step = 0.01;                 ///< --step: share of the field of view
-    int frames = 0;                     ///< --frames; 0: one for each view of the path
-    double rate = 25;                   ///< --fps: of a film's frames [1/s]
-    bool reuse = true;                  ///< --reuse off: every frame is traced
-    int projectors = 32;                ///< --projectors: ranks that keep points, at most
-    /// The other values of --reuse, and what goes with it.
-    CloudOptions cloud{.audit = 0.01, .audit_limit = 0.1, .refine = 0.1};
+    std::string path;                       ///< --path
+    std::vector<ViewKey> keys;              ///< what that file holds
+    double degrees = 0;                     ///< --rotate: of the whole turn, to the right
+    WalkMove move = WalkMove::forward;      ///< --walk
+    double step = 0.01;                     ///< --step: share of the field of view
+    int frames = 0;                         ///< --frames; 0: one for each view of the path
+    double rate = 25;                       ///< --fps: of a film's frames [1/s]
+    bool reuse = true;                      ///< --reuse off: every frame is traced
+    CloudOptions cloud = *default_reuse();  ///< the other values of --reuse, and what goes with it
+};
+
+/// What `lightwalk walk` serves.
+struct ServeCommand {
+    WebServerOptions server;  ///< --bind --port --clients
+    WelcomeReply page;        ///< --fps --max-size --ambient -vf: what browsers are told
+    int edge_samples = 8;     ///< --edge-samples: rays a pixel at an edge gets at rest
 };
 
 /// The rows of animate's own options, which walk takes as well but for those on the path.
-[[nodiscard]] std::vector<OptionRow> walk_option_rows(WalkCommand& walk);
+/// @param projectors  see RendererRequest
+[[nodiscard]] std::vector<OptionRow> walk_option_rows(WalkCommand& walk, int& projectors);
+/// The rows of walk's own options.
+[[nodiscard]] std::vector<OptionRow> serve_option_rows(ServeCommand& serve);
 
 /// What can only be told when all options are known; reads the path file.
 /// @param view  of the command line: what the path's first line starts from

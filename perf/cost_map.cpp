@@ -13,7 +13,6 @@
 #include <thread>
 
 #include "apps/render_command.h"
-#include "apps/renderer_request.h"
 #include "apps/session/scene_session.h"
 #include "apps/warnings.h"
 #include "core/error.h"
@@ -69,7 +68,7 @@ double sum(const std::vector<double>& list) {
 
 std::shared_ptr<const CompiledScene> compiled_scene(CommonOptions& options, WarningSink& warnings) {
     resolve_scene_files(options, "", *real_files());
-    auto scene = std::make_shared<CompiledScene>(scene_source(options), warnings);
+    auto scene = std::make_shared<CompiledScene>(options.request.source, warnings);
     scene->compile();
     return scene;
 }
@@ -80,7 +79,7 @@ class Measurement {
         : command_(std::move(command)),
           warnings_("cost_map"),
           session_(compiled_scene(command_.common, warnings_),
-                   {command_.settings.light, command_.settings.ambient_file}, warnings_) {}
+                   {light().light, light().ambient_file}, warnings_) {}
 
     Json run() {
         const Camera camera(command_.view);
@@ -89,16 +88,16 @@ class Measurement {
         FrameOptions options;
         options.width = size.width;
         options.height = size.height;
-        options.pixels = command_.pixels;
-        options.seed = command_.settings.light.seed;
-        const int threads = command_.common.workers;
+        options.pixels = renderer_options().pixels;
+        options.seed = light().light.seed;
+        const int threads = renderer_options().threads;
         WorkerContexts contexts(session_.tracer(), warnings_, threads);
         const double before = processor_seconds();
         const BlockRenderer renderer(session_.tracer(), camera, options, contexts, stop_);
         (void)contexts[0];
         const double setup = processor_seconds() - before;
         std::optional<BlockRenderer> coarse;
-        if (session_.ambient && command_.prepass)
+        if (session_.ambient && renderer_options().cache_prepass)
             coarse.emplace(session_.tracer(), camera, quick_prepass(options), contexts, stop_);
         // What comes first fills the cache.
         const Json fills_prepass = coarse ? fill(*coarse, 8) : Json();
@@ -113,6 +112,11 @@ class Measurement {
     }
 
   private:
+    [[nodiscard]] const RenderSettings& light() const { return command_.common.settings; }
+    [[nodiscard]] const RendererOptions& renderer_options() const {
+        return command_.common.request.options;
+    }
+
     static int cell_of(const BlockRenderer& renderer) {
         return (7 + renderer.alignment()) / renderer.alignment() * renderer.alignment();
     }
@@ -215,8 +219,10 @@ class Measurement {
 
 int main(int count, char** words) {
     try {
-        Measurement measurement(
-            parse_render_command("render", {words + 1, words + count}, real_files()));
+        RenderCommand command("render");
+        read_command_line(OptionWords({words + 1, words + count}),
+                          option_table(command, real_files()), command.common);
+        Measurement measurement(std::move(command));
         std::printf("%s\n", measurement.run().dump().c_str());
         return 0;
     } catch (const std::exception& error) {

@@ -32,42 +32,38 @@ std::vector<WalkAck> ClientInbox::pop_acks() {
     return std::exchange(inbox_.acks, {});
 }
 
-void ClientInbox::announce(const LoadingReply& reply) {
-    announce_text(walk_text(reply));
+void ClientInbox::send_to_others(std::optional<ClientId> one, const std::string& text) {
+    for (const ClientId client : driver_lock_.clients())
+        if (client != one) sender_->send_text(client, text);
 }
 
-void ClientInbox::announce(const FailedReply& reply) {
-    announce_text(walk_text(reply));
-}
-
-void ClientInbox::announce(const LoadedReply& reply) {
-    {
-        const std::lock_guard lock(mutex_);
-        welcome_.views = reply.views;
-    }
-    announce_text(walk_text(reply));
-}
-
-void ClientInbox::announce_text(std::string text) {
+void ClientInbox::announce(std::string text) {
     const std::lock_guard lock(mutex_);
-    for (const ClientId client : driver_lock_.clients()) sender_->send_text(client, text);
+    send_to_others(std::nullopt, text);
     stage_ = std::move(text);
 }
 
 void ClientInbox::tell_all(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    for (const ClientId client : driver_lock_.clients()) sender_->send_text(client, text);
+    send_to_others(std::nullopt, text);
 }
 
 void ClientInbox::tell_watchers(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    for (const ClientId client : driver_lock_.clients())
-        if (!driver_lock_.drives(client)) sender_->send_text(client, text);
+    send_to_others(driver_lock_.driver(), text);
 }
 
-void ClientInbox::set_home(const View& view) {
+void ClientInbox::refuse(const InboxContents& contents, const std::string& why) {
+    for (const WebReply& reply : contents.saves)
+        reply({503, "text/plain; charset=utf-8", why + '\n', {}});
+    for (const WalkQuestion& question : contents.questions)
+        tell(question.client, walk_text(RefusedReply{why, question.id()}));
+}
+
+void ClientInbox::set_views(const View& home, std::vector<NamedView> views) {
     const std::lock_guard lock(mutex_);
-    welcome_.view = view;
+    welcome_.view = home;
+    welcome_.views = std::move(views);
 }
 
 void ClientInbox::opened(ClientId) {}
@@ -130,8 +126,7 @@ void ClientInbox::accept(ClientId client, const AckRequest& request) {
 void ClientInbox::accept(ClientId client, const DisplayRequest& request) {
     if (!driver_lock_.drives(client)) return;
     inbox_.wish.display = request;
-    for (const ClientId other : driver_lock_.clients())
-        if (other != client) sender_->send_text(other, walk_text(DisplayReply{request}));
+    send_to_others(client, walk_text(DisplayReply{request}));
 }
 
 void ClientInbox::accept(ClientId client, const SettingsRequest& request) {
@@ -159,13 +154,10 @@ void ClientInbox::accept(ClientId client, const HandRequest& request) {
 }
 
 void ClientInbox::ask(WalkQuestion question) {
-    if (inbox_.questions.size() < kMostQuestions) {
-        inbox_.questions.push_back(question);
-        return;
-    }
-    const std::uint32_t id = std::visit([](const auto& ask) { return ask.id; }, question.ask);
-    sender_->send_text(question.client,
-                       walk_text(RefusedReply{"too many requests are waiting for an answer", id}));
+    if (inbox_.questions.size() < kMostQuestions) return inbox_.questions.push_back(question);
+    sender_->send_text(
+        question.client,
+        walk_text(RefusedReply{"too many requests are waiting for an answer", question.id()}));
 }
 
 void ClientInbox::announce_roles() {

@@ -27,6 +27,9 @@ struct WalkWish {
 struct WalkQuestion {
     ClientId client;
     std::variant<PickRequest, MeanRequest, GlareRequest> ask;
+    [[nodiscard]] std::uint32_t id() const {
+        return std::visit([](const auto& request) { return request.id; }, ask);
+    }
 };
 
 /// A frame is on a client's screen.
@@ -46,14 +49,6 @@ struct InboxContents {
     std::vector<WebReply> saves;  ///< who waits for the picture as a file
 };
 
-/// How messages reach clients. A client that is gone is no error: nothing happens.
-class ClientSender {
-  public:
-    virtual ~ClientSender() = default;
-    virtual void send_text(ClientId client, std::string text) = 0;
-    virtual void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) = 0;
-};
-
 /// Answers by itself who drives, and greets; everything else waits in the inbox.
 class ClientInbox final : public WebHandler {
   public:
@@ -61,7 +56,7 @@ class ClientInbox final : public WebHandler {
     explicit ClientInbox(WelcomeReply welcome);
 
     /// Before the server runs; it must outlive the inbox's use.
-    void attach(ClientSender& sender) { sender_ = &sender; }
+    void attach(WebSender& sender) { sender_ = &sender; }
 
     // For the drawing thread.
     /// Waits for something, so long at most.
@@ -69,17 +64,18 @@ class ClientInbox final : public WebHandler {
     /// Only the acknowledgements.
     [[nodiscard]] std::vector<WalkAck> pop_acks();
     /// What becomes of the scene: all are told, and those who come later.
-    void announce(const LoadingReply& reply);
-    void announce(const FailedReply& reply);
-    void announce(const LoadedReply& reply);
+    void announce(std::string text);
     void tell(ClientId client, std::string text) { sender_->send_text(client, std::move(text)); }
     void tell_all(const std::string& text);
     void tell_watchers(const std::string& text);
     void send(ClientId client, std::shared_ptr<const std::string> frame) {
         sender_->send_binary(client, std::move(frame));
     }
-    /// To go on from after the scene was read again, or until somebody asks for another.
-    void set_home(const View& view);
+    /// Who asks, or waits for a file, is told why there is none.
+    void refuse(const InboxContents& contents, const std::string& why);
+    /// What newcomers are told of the scene.
+    /// @param home  to go on from after it was read again, or until somebody asks for another view
+    void set_views(const View& home, std::vector<NamedView> views);
 
     // For the server's.
     void opened(ClientId client) override;
@@ -100,10 +96,11 @@ class ClientInbox final : public WebHandler {
     void accept(ClientId client, const TakeRequest& request);
     void accept(ClientId client, const HandRequest& request);
     void ask(WalkQuestion question);
-    void announce_text(std::string text);
+    /// To all but one, who may be nobody. Under the mutex.
+    void send_to_others(std::optional<ClientId> one, const std::string& text);
     void announce_roles();
 
-    ClientSender* sender_ = nullptr;
+    WebSender* sender_ = nullptr;
     mutable std::mutex mutex_;
     std::condition_variable news_;
     bool has_news_ = false;

@@ -26,37 +26,8 @@ double eye_height_of(const Scene& scene, const View& view) {
     return height && *height < kTwoStoreys ? *height : kUsualEyeHeight;
 }
 
-DisplaySettings display_settings(const DisplayRequest& request) {
-    DisplaySettings settings;
-    settings.mode =
-        request.false_colour ? DisplaySettings::Mode::false_colour : DisplaySettings::Mode::tone;
-    settings.automatic = request.automatic;
-    settings.ev = request.ev;
-    settings.human = request.human;
-    settings.low = request.low;
-    settings.high = request.high;
-    settings.logarithmic = request.logarithmic;
-    return settings;
-}
-
 bool same_picture(const ViewRequest& a, const ViewRequest& b) {
     return a.view == b.view && a.walk == b.walk && a.width == b.width && a.height == b.height;
-}
-
-WalkPhase phase_name(LivePhase phase) {
-    switch (phase) {
-        case LivePhase::moving:
-            return WalkPhase::moving;
-        case LivePhase::filling:
-            return WalkPhase::filling;
-        case LivePhase::ambient:
-            return WalkPhase::ambient;
-        case LivePhase::refining:
-            return WalkPhase::refining;
-        case LivePhase::done:
-            break;
-    }
-    return WalkPhase::done;
 }
 
 }  // namespace
@@ -81,11 +52,10 @@ void RenderLoop::step(const StopFlag& stop) {
     const Clock::time_point begin = Clock::now();
     draw(stop);
     const Clock::time_point now = Clock::now();
-    const bool hurries = live_.picture().phase == LivePhase::moving;
+    const bool hurries = live_.picture().phase == WalkPhase::moving;
     const bool shows = drawn_ && (hurries || now - shown_at_ >= kProgressiveInterval);
     if (shows) show(now);
-    screen_.acked(
-        client_inbox_.pop_acks());  // that came meanwhile: they tell who may be sent a frame
+    screen_.acked(client_inbox_.pop_acks());  // of meanwhile: they tell who may be sent a frame
     screen_.send(client_inbox_, Clock::now());
     if (shows && hurries) note_pace(begin);
     report(now);
@@ -101,14 +71,12 @@ std::chrono::milliseconds RenderLoop::patience() const {
 }
 
 bool RenderLoop::has_work() const {
-    return !drawn_ || live_.picture().phase != LivePhase::done || glare_.is_asked();
+    return !drawn_ || live_.picture().phase != WalkPhase::done || glare_.is_asked();
 }
 
 void RenderLoop::answer(const InboxContents& inbox) {
-    for (const ClientId client : inbox.joined) screen_.join(client);
+    screen_.update_clients(inbox);
     if (!inbox.joined.empty()) told_.reset();
-    for (const ClientId client : inbox.left) screen_.leave(client);
-    screen_.acked(inbox.acks);
     const Clock::time_point now = Clock::now();
     if (inbox.wish.display != wish_.display) {
         shown_ = false;
@@ -126,8 +94,11 @@ void RenderLoop::answer(const InboxContents& inbox) {
     }
     if (moved || other_light) drawn_ = false;
     if (inbox.new_probes) measured_at_ = {};
-    for (const WalkQuestion& question : inbox.questions) ask(question);
-    save(inbox);
+    if (!view_ || live_.picture().radiance.empty())
+        return client_inbox_.refuse(inbox, "there is no picture yet");
+    for (const WalkQuestion& question : inbox.questions)
+        std::visit([&](const auto& request) { reply(question.client, request); }, question.ask);
+    for (const WebReply& file : inbox.saves) save(file);
 }
 
 View RenderLoop::on_the_ground(const ViewRequest& request) const {
@@ -140,29 +111,16 @@ View RenderLoop::on_the_ground(const ViewRequest& request) const {
     return view;
 }
 
-AmbientUse RenderLoop::ambient_use() const {
-    if (!has_indirect_) return AmbientUse::off;
-    switch (wish_.settings.ambient) {
-        case WalkAmbient::rest:
-            return AmbientUse::rest;
-        case WalkAmbient::always:
-            return AmbientUse::always;
-        case WalkAmbient::off:
-            return AmbientUse::off;
-    }
-    return AmbientUse::off;
-}
-
 void RenderLoop::draw(const StopFlag& stop) {
     const double budget = std::max(1 / options_.rate - aside_seconds_, 0.001);
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;
-    if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient_use(), budget, stop))
-        return;
+    const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
+    if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient, budget, stop)) return;
     drawn_ = true;
     shown_ = false;
     pace_.rays += live_.picture().rays;
-    if (live_.picture().phase == LivePhase::moving) {
+    if (live_.picture().phase == WalkPhase::moving) {
         pace_.reused += static_cast<double>(live_.picture().report.reused);
         pace_.pixels += static_cast<double>(live_.picture().report.pixels);
     }
@@ -172,9 +130,9 @@ void RenderLoop::draw(const StopFlag& stop) {
 void RenderLoop::show(Clock::time_point now) {
     if (shown_ && now - moved_ > kAdaptationTime) return;
     const ShownView view{wish_.view->id, view_->position,
-                         live_.picture().phase != LivePhase::moving,
-                         live_.picture().phase == LivePhase::done};
-    screen_.show(live_.picture(), display_settings(wish_.display), view, now);
+                         live_.picture().phase != WalkPhase::moving,
+                         live_.picture().phase == WalkPhase::done};
+    screen_.show(live_.picture(), wish_.display, view, now);
     if (told_ != view_) client_inbox_.tell_watchers(walk_text(ViewReply{*view_}));
     told_ = view_;
     shown_ = true;
@@ -199,53 +157,43 @@ void RenderLoop::report(Clock::time_point now) {
     state.fps = pace_.frames / seconds;
     state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1;
     state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
-    state.phase = phase_name(live_.picture().phase);
+    state.phase = live_.picture().phase;
     state.share = live_.picture().share;
-    state.ranks = ranks_;
+    state.ranks = options_.ranks;
     state.threads = threads_;
     state.points = live_.picture().report.points;
     client_inbox_.tell_all(walk_text(state));
     pace_ = {now, 0, 0, 0, 0};
 }
 
-void RenderLoop::ask(const WalkQuestion& question) {
-    if (!view_ || live_.picture().radiance.empty()) {
-        const std::uint32_t id =
-            std::visit([](const auto& asked) { return asked.id; }, question.ask);
-        client_inbox_.tell(question.client, walk_text(RefusedReply{"there is no picture yet", id}));
-        return;
-    }
-    if (const auto* pick = std::get_if<PickRequest>(&question.ask)) {
-        const std::pair<double, double> pixel{1.0 / live_.picture().width,
-                                              1.0 / live_.picture().height};
-        client_inbox_.tell(question.client, walk_text(answers_.pick(*pick, Camera(*view_), pixel)));
-    } else if (const auto* mean = std::get_if<MeanRequest>(&question.ask)) {
-        client_inbox_.tell(question.client, walk_text(WalkAnswers::mean(*mean, live_.picture())));
-    } else if (const auto* glare = std::get_if<GlareRequest>(&question.ask)) {
-        glare_.ask(question.client, *glare, *view_);
-    }
+void RenderLoop::reply(ClientId client, const PickRequest& request) {
+    const std::pair<double, double> pixel{1.0 / live_.picture().width,
+                                          1.0 / live_.picture().height};
+    client_inbox_.tell(client, walk_text(answers_.pick(request, Camera(*view_), pixel)));
 }
 
-void RenderLoop::save(const InboxContents& inbox) {
-    for (const WebReply& reply : inbox.saves) {
-        if (!view_ || live_.picture().radiance.empty()) {
-            reply({503, "text/plain; charset=utf-8", "there is no picture yet\n", {}});
-            continue;
-        }
-        PictureHeader header{history_header(session_.compiled().model().header, options_.history)};
-        header.lines.push_back("VIEW= " + view_text(*view_));
-        for (const std::string& line : date_lines()) header.lines.push_back(line);
-        const Picture picture{live_.picture().width, live_.picture().height,
-                              live_.picture().radiance};
-        reply({200, "image/vnd.radiance", encode_hdr(picture, header), "picture.hdr"});
-    }
+void RenderLoop::reply(ClientId client, const MeanRequest& request) {
+    client_inbox_.tell(client, walk_text(WalkAnswers::mean(request, live_.picture())));
+}
+
+void RenderLoop::reply(ClientId client, const GlareRequest& request) {
+    glare_.ask(client, request, *view_);
+}
+
+void RenderLoop::save(const WebReply& reply) {
+    PictureHeader header{history_header(session_.compiled().model().header, options_.history)};
+    header.lines.push_back("VIEW= " + view_text(*view_));
+    for (const std::string& line : date_lines()) header.lines.push_back(line);
+    const LivePicture& shown = live_.picture();
+    reply({200, "image/vnd.radiance",
+           encode_hdr({shown.width, shown.height, shown.radiance}, header), "picture.hdr"});
 }
 
 void RenderLoop::measure_probes() {
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
         reply.probes.push_back(answers_.measure(probe, view_->position));
-    reply.settled = live_.picture().phase == LivePhase::done ? 1 : live_.picture().share;
+    reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
     client_inbox_.tell_all(walk_text(reply));
     measured_at_ = Clock::now();
 }

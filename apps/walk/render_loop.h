@@ -19,6 +19,7 @@ struct RenderLoopOptions {
     double rate = 30;      ///< frames while the view moves [1/s]
     int edge_samples = 8;  ///< rays a pixel at an edge gets at rest
     std::string history;   ///< the command line, for headers of pictures that are saved
+    int ranks = 1;         ///< that draw it, for the page's numbers
 };
 
 /// Draws until it is told to stop. For one thread.
@@ -29,12 +30,6 @@ class RenderLoop {
     RenderLoop(RenderLoopOptions options, const SceneSession& session, const View& home,
                LiveFrames& frames, Executor& executor, WarningSink& warnings,
                ClientInbox& client_inbox, WalkScreen& screen);
-
-    /// Who draws it, for the page's numbers.
-    void set_company(int ranks, int threads) {
-        ranks_ = ranks;
-        threads_ = threads;
-    }
 
     /// Answer what has come, and draw the next picture, if there is one to draw; otherwise wait for
     /// a moment.
@@ -54,15 +49,16 @@ class RenderLoop {
     };
 
     void answer(const InboxContents& inbox);
-    void ask(const WalkQuestion& question);
-    void save(const InboxContents& inbox);
+    void reply(ClientId client, const PickRequest& request);
+    void reply(ClientId client, const MeanRequest& request);
+    void reply(ClientId client, const GlareRequest& request);
+    void save(const WebReply& reply);
     void measure_probes();
     void draw(const StopFlag& stop);
     void show(Clock::time_point now);
     void note_pace(Clock::time_point begin);
     void report(Clock::time_point now);
     [[nodiscard]] View on_the_ground(const ViewRequest& request) const;
-    [[nodiscard]] AmbientUse ambient_use() const;
     [[nodiscard]] bool has_work() const;
     [[nodiscard]] std::chrono::milliseconds patience() const;
 
@@ -70,7 +66,7 @@ class RenderLoop {
     const SceneSession& session_;
     ClientInbox& client_inbox_;
     WalkScreen& screen_;
-    int ranks_ = 1, threads_;
+    int threads_;
     bool has_indirect_;
     LiveWalk live_;
     WalkAnswers answers_;

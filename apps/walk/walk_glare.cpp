@@ -30,17 +30,6 @@ FrameOptions picture_options() {
     return options;
 }
 
-/// Rows from the top.
-std::vector<Rgb> from_the_top(const std::vector<Rgb>& rows) {
-    std::vector<Rgb> turned;
-    turned.reserve(rows.size());
-    for (int y = kFieldSide - 1; y >= 0; --y) {
-        const auto row = rows.begin() + static_cast<std::ptrdiff_t>(y) * kFieldSide;
-        turned.insert(turned.end(), row, row + kFieldSide);
-    }
-    return turned;
-}
-
 }  // namespace
 
 void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& view) {
@@ -86,7 +75,8 @@ void WalkGlare::tell(GlareReply reply, ClientInbox& client_inbox) const {
 }
 
 GlareReply WalkGlare::evaluate() const {
-    const std::vector<Rgb> radiance = from_the_top(picture_->picture());
+    const std::vector<Rgb> radiance =
+        turned_rows(std::span<const Rgb>(picture_->picture()), kFieldSide);
     const GlareReport report = analyse_glare({kFieldSide, kFieldSide, radiance}, field_of(view_));
     const Camera camera(view_);
     GlareReply reply;

@@ -18,6 +18,12 @@ constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how brigh
 WalkScreen::WalkScreen(Executor& executor)
     : executor_(executor), compressors_(static_cast<std::size_t>(executor.concurrency())) {}
 
+void WalkScreen::update_clients(const InboxContents& news) {
+    for (const ClientId client : news.joined) clients_.try_emplace(client);
+    for (const ClientId client : news.left) clients_.erase(client);
+    acked(news.acks);
+}
+
 void WalkScreen::acked(std::span<const WalkAck> acks) {
     for (const WalkAck& ack : acks) {
         const auto found = clients_.find(ack.client);
@@ -33,11 +39,7 @@ void WalkScreen::cut(int width, int height) {
     for (int y = 0; y < height; y += kPieceHeight)
         for (int x = 0; x < width; x += kPieceWidth)
             pieces_.push_back(
-                {{x, y, std::min(x + kPieceWidth, width), std::min(y + kPieceHeight, height)},
-                 0,
-                 0,
-                 false,
-                 {}});
+                {{x, y, std::min(x + kPieceWidth, width), std::min(y + kPieceHeight, height)}});
     contents_.assign(pieces_.size(), 0);
 }
 
@@ -93,12 +95,6 @@ void WalkScreen::compress(std::span<const std::size_t> pieces) {
     });
 }
 
-std::vector<std::size_t> WalkScreen::missing(const Client& client) const {
-    const auto layout =
-        static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
-    return client.flow.missing(layout, contents_);
-}
-
 WalkScreen::Time WalkScreen::next_chance() const {
     Time soonest = Time::max();
     for (const auto& [id, client] : clients_)
@@ -130,8 +126,6 @@ std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::siz
 
 void WalkScreen::send(ClientInbox& client_inbox, Time now) {
     if (pieces_.empty()) return;
-    const auto layout =
-        static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
     ++frame_;
     std::map<std::vector<std::size_t>, std::shared_ptr<const std::string>> made;
     for (auto& [id, client] : clients_) {
@@ -143,7 +137,7 @@ void WalkScreen::send(ClientInbox& client_inbox, Time now) {
             frame = frame_of(pieces);
         }
         client_inbox.send(id, frame);
-        client.flow.sent(frame_, layout, contents_, frame->size(), now);
+        client.flow.sent(frame_, layout(), contents_, frame->size(), now);
         client.shown = view_;
         client.has_shown = true;
     }

@@ -34,8 +34,8 @@ class WalkScreen {
     /// The executor must outlive this.
     explicit WalkScreen(Executor& executor);
 
-    void join(ClientId client) { clients_.try_emplace(client); }
-    void leave(ClientId client) { clients_.erase(client); }
+    /// Who has joined, left, and drawn frames.
+    void update_clients(const InboxContents& news);
     /// Clients have drawn frames. What was never sent to them counts for nothing.
     void acked(std::span<const WalkAck> acks);
 
@@ -53,7 +53,7 @@ class WalkScreen {
         std::uint64_t content = 0;
         int quality = 0;
         bool compressed = false;
-        std::string bytes;
+        std::string bytes = "";
     };
     struct Client {
         FrameFlow flow;
@@ -64,7 +64,13 @@ class WalkScreen {
     void cut(int width, int height);
     void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
     void compress(std::span<const std::size_t> pieces);
-    [[nodiscard]] std::vector<std::size_t> missing(const Client& client) const;
+    /// How the picture is divided into pieces.
+    [[nodiscard]] std::uint64_t layout() const {
+        return static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
+    }
+    [[nodiscard]] std::vector<std::size_t> missing(const Client& client) const {
+        return client.flow.missing(layout(), contents_);
+    }
     [[nodiscard]] bool lacks(const Client& client) const {
         return !client.has_shown || client.shown != view_ || !missing(client).empty();
     }

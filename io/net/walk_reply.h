@@ -83,7 +83,6 @@ struct GlareReply {
     double dgp = 0;
     std::vector<GlareOutline> sources;
 };
-enum class WalkPhase { moving, filling, refining, ambient, done };
 struct StateReply {
     double fps = 0;
     double reuse = 0;  ///< share of the pixels that points of earlier frames answered

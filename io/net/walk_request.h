@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/view/view.h"
+#include "core/view/walk_state.h"
+#include "io/picture/display.h"
 
 namespace lightwalk {
 
@@ -30,18 +32,9 @@ struct ViewRequest {
 struct AckRequest {
     std::uint32_t frame = 0;
 };
-/// `display`: how radiance becomes colours.
-struct DisplayRequest {
-    bool false_colour = false;
-    bool automatic = true;         ///< exposure follows the picture
-    double ev = 0;                 ///< exposure when not automatic [stops], -40 to 40
-    bool human = false;            ///< tone mapping that models human vision
-    double low = 1, high = 10000;  ///< scale of false colours [cd/m²], 0 <= low < high <= 1e12
-    bool logarithmic = true;       ///< the scale is logarithmic, which requires low > 0
-    friend bool operator==(const DisplayRequest&, const DisplayRequest&) = default;
-};
+/// `display`: how radiance becomes colours. Within -40 to 40 stops and 1e12 cd/m².
+using DisplayRequest = DisplaySettings;
 /// `settings`: when indirect light is calculated.
-enum class WalkAmbient { rest, always, off };
 struct SettingsRequest {
     WalkAmbient ambient = WalkAmbient::rest;
     friend bool operator==(const SettingsRequest&, const SettingsRequest&) = default;

@@ -44,7 +44,7 @@ tcp::endpoint endpoint_of(const WebServerOptions& options) {
     if (error) {
         throw InputError(place_of(options) + ": expected an address in numbers, as 127.0.0.1");
     }
-    return {address, options.port};
+    return {address, static_cast<std::uint16_t>(options.port)};
 }
 
 }  // namespace

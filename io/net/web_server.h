@@ -46,7 +46,7 @@ struct WebLimits {
 
 struct WebServerOptions {
     std::string address = "127.0.0.1";  ///< numeric, or "localhost"
-    std::uint16_t port = 8080;          ///< 0: any free port
+    int port = 8080;                    ///< 0: any free port; at most 65535
     std::string token;                  ///< see make_token(); with an empty one none is demanded
     WebLimits limits;
 };
@@ -87,14 +87,23 @@ class WebHandler {
     virtual void save(const std::string& path, WebReply reply) = 0;
 };
 
+/// Sends messages to browsers, from any thread. For a client that has disconnected nothing happens.
+class WebSender {
+  public:
+    virtual ~WebSender() = default;
+    virtual void send_text(ClientId client, std::string text) = 0;
+    /// The bytes are shared, not copied, as one frame is sent to many clients.
+    virtual void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) = 0;
+};
+
 /// Listens from construction on; serves in run().
-class WebServer {
+class WebServer final : public WebSender {
   public:
     /// `handler` must outlive the server. Throws InputError "address:port: why" when it cannot
     /// listen there.
     WebServer(WebServerOptions options, const std::vector<WebAsset>& assets, WebHandler& handler);
     /// run() must have returned.
-    ~WebServer();
+    ~WebServer() override;
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
 
@@ -109,9 +118,8 @@ class WebServer {
     // nothing.
     /// Close all connections and let run() return, after WebLimits::close_timeout at the latest.
     void stop(std::string reason = "the server ends");
-    void send_text(ClientId client, std::string text);
-    /// The bytes are shared, not copied, as one frame is sent to many clients.
-    void send_binary(ClientId client, std::shared_ptr<const std::string> bytes);
+    void send_text(ClientId client, std::string text) override;
+    void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) override;
     /// Disconnect a client, after the texts in its queue and a `bye` with the reason; frames in its
     /// queue are dropped.
     void close(ClientId client, std::string reason);

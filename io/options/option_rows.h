@@ -140,8 +140,8 @@ class OptionTable {
 };
 
 /// A table that keeps what it sets.
-template <class Command>
-OptionTable owning_table(Command command, OptionTable (*table_of)(Command&)) {
+template <class Command, class TableOf>
+OptionTable owning_table(Command command, TableOf table_of) {
     const auto owner = std::make_shared<Command>(std::move(command));
     OptionTable table = table_of(*owner);
     table.owner = owner;

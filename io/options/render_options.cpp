@@ -1,6 +1,7 @@
 #include "io/options/render_options.h"
 
 #include <sstream>
+#include <utility>
 
 namespace lightwalk {
 namespace {
@@ -20,23 +21,19 @@ void select(AmbientSelection& selection, Kind kind, const std::vector<std::strin
 
 /// -ae, -ai, -aE, -aI. They come first: the nearest name of a misspelt "-a?" is one of them.
 std::vector<OptionRow> ambient_lists(AmbientSelection& selection, const LibraryPath& library) {
-    const auto one = [&selection](Kind kind) {
-        return CustomOption{
-            [&selection, kind](OptionWords& words) { select(selection, kind, {words.text()}); }};
-    };
-    const auto file = [&selection, library](Kind kind) {
-        return CustomOption{[&selection, library, kind](OptionWords& words) {
-            select(selection, kind, names_in_file(words.text(), library));
-        }};
+    const auto adds = [&selection](Kind kind) {
+        return [&selection, kind](const std::vector<std::string>& names) {
+            select(selection, kind, names);
+        };
     };
     return {{"Surfaces with indirect light", SectionTitle{"render"}},
-            {"-ae MODIFIER", one(Kind::exclude),
+            {"-ae MODIFIER", name_option(adds(Kind::exclude)),
              "no indirect light is calculated on surfaces of this modifier; repeatable"},
-            {"-ai MODIFIER", one(Kind::include),
+            {"-ai MODIFIER", name_option(adds(Kind::include)),
              "indirect light is calculated on surfaces of this modifier alone; repeatable"},
-            {"-aE FILE", file(Kind::exclude),
+            {"-aE FILE", names_option(adds(Kind::exclude), library),
              "no indirect light on surfaces of the modifiers that FILE names"},
-            {"-aI FILE", file(Kind::include),
+            {"-aI FILE", names_option(adds(Kind::include), library),
              "indirect light on surfaces of the modifiers that FILE names, and no others"}};
 }
 
@@ -168,11 +165,18 @@ std::vector<OptionRow> foreign_options() {
 
 }  // namespace
 
-std::vector<std::string> names_in_file(const std::string& name, const LibraryPath& library) {
-    std::istringstream text(library.files().read(library.locate(name, "modifier list")));
-    std::vector<std::string> names;
-    for (std::string word; text >> word;) names.push_back(word);
-    return names;
+CustomOption name_option(AddNames add) {
+    return {[add = std::move(add)](OptionWords& words) { add({words.text()}); }};
+}
+
+CustomOption names_option(AddNames add, const LibraryPath& library) {
+    return {[add = std::move(add), library](OptionWords& words) {
+        std::istringstream text(
+            library.files().read(library.locate(words.text(), "modifier list")));
+        std::vector<std::string> names;
+        for (std::string word; text >> word;) names.push_back(word);
+        add(names);
+    }};
 }
 
 RenderSettings default_render_settings(OptionDefaults program) {

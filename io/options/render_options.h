@@ -1,6 +1,7 @@
 #pragma once
 // Radiance's rendering options: how light is followed, as rpict and rtrace take it from the command
 // line.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,13 @@ enum class OptionDefaults { rpict, rtrace };
 /// What can only be told when all options are known: throws UsageError for -lr <= 0 with -lw <= 0.
 void check_render_settings(const RenderSettings& settings);
 
-/// The white-space separated words of a file along the library path, as -aE and its like name
-/// modifiers. Throws InputError when it cannot be read.
-[[nodiscard]] std::vector<std::string> names_in_file(const std::string& name,
-                                                     const LibraryPath& library);
+/// Adds the names of modifiers to a list.
+using AddNames = std::function<void(const std::vector<std::string>& names)>;
+/// An option, as -ae, whose argument is such a name.
+[[nodiscard]] CustomOption name_option(AddNames add);
+/// An option, as -aE, whose argument is a file along the library path: its white-space separated
+/// words are names. Taking it throws InputError when the file cannot be read.
+[[nodiscard]] CustomOption names_option(AddNames add, const LibraryPath& library);
 
 /// The lines of these options as `-defaults` prints them.
 [[nodiscard]] std::string describe_render_settings(const RenderSettings& settings);

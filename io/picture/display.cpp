@@ -94,7 +94,7 @@ Display::Display(const DisplaySettings& settings, const Adaptation& eye,
     exposure_ = !settings.automatic ? std::exp2(settings.ev)
                 : eye.average() > 0 ? kMiddleGrey / eye.average()
                                     : 1;
-    if (settings.mode == DisplaySettings::Mode::false_colour) {
+    if (settings.false_colour) {
         colours_.resize(place_of(kMost) + 1);
         for (std::size_t i = 0; i < colours_.size(); ++i)
             colours_[i] = false_colour(double{kEfficacy} * static_cast<double>(value_at(i)));

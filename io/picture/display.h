@@ -14,11 +14,8 @@ namespace lightwalk {
 
 /// The settings that a viewer chooses.
 struct DisplaySettings {
-    enum class Mode : std::uint8_t {
-        tone,          ///< as on a photograph, or to a person's eye
-        false_colour,  ///< luminance as colours of a scale
-    };
-    Mode mode = Mode::tone;
+    /// Luminance as colours of a scale; false: as on a photograph, or to a person's eye.
+    bool false_colour = false;
     bool automatic = true;  ///< exposure adapts to the pictures
     double ev = 0;          ///< when not automatic [stops]: radiance 2^-ev W/(m² sr) becomes 1
     bool human = false;     ///< tone mapping that models human vision (see HumanTone)

@@ -9,30 +9,17 @@ namespace {
 // Of the pixels, to be chosen for the first step at rest; twice what was traced for each next one.
 constexpr double kFirstShare = 0.02, kLeastShare = 0.001;
 
-/// Rows the other way round.
-template <class Value>
-std::vector<Value> turned(std::span<const Value> rows, int width) {
-    std::vector<Value> result;
-    result.reserve(rows.size());
-    const auto row = static_cast<std::size_t>(width);
-    for (std::size_t end = rows.size(); end >= row && row > 0; end -= row) {
-        const std::span<const Value> line = rows.subspan(end - row, row);
-        result.insert(result.end(), line.begin(), line.end());
-    }
-    return result;
-}
-
 }  // namespace
 
-void LiveWalk::begin(int width, int height, AmbientUse use) {
+void LiveWalk::begin(int width, int height, WalkAmbient use) {
     width_ = width;
     height_ = height;
     use_ = use;
-    frames_.begin(width, height, use == AmbientUse::always && frames_.has_indirect());
+    frames_.begin(width, height, use == WalkAmbient::always && frames_.has_indirect());
     view_.reset();
 }
 
-bool LiveWalk::next(const View& view, int width, int height, AmbientUse use, double budget,
+bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, double budget,
                     const StopFlag& stop) {
     if (width_ != width || height_ != height || use_ != use) begin(width, height, use);
     if (view_ != view) {
@@ -46,16 +33,16 @@ bool LiveWalk::next(const View& view, int width, int height, AmbientUse use, dou
     if (progressive_) return add_light(budget, stop);
     const ProgressivePicture* picture = frames_.progressive(stop);
     if (stop.requested()) return false;
-    const bool adds_light = use_ == AmbientUse::rest && frames_.has_indirect();
+    const bool adds_light = use_ == WalkAmbient::rest && frames_.has_indirect();
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
         progressive_ = std::make_unique<ProgressiveLight>(width, height, samples_);
-        progressive_->begin(turned(std::span<const Rgb>(picture_.radiance), width),
-                            turned(std::span<const float>(picture_.distance), width));
+        progressive_->begin(turned_rows(std::span<const Rgb>(picture_.radiance), width),
+                            turned_rows(std::span<const float>(picture_.distance), width));
         return add_light(budget, stop);
     }
     if (picture != nullptr && !picture->next(1).places.empty())
         return draw(view, true, budget, stop);
-    picture_.phase = LivePhase::done;
+    picture_.phase = WalkPhase::done;
     picture_.share = 1;
     picture_.rays = 0;
     return true;
@@ -70,7 +57,7 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     picture_.distance = std::move(drawn.frame.distance);
     picture_.rays = frames_.rays();
     picture_.report = std::move(drawn.report);
-    picture_.phase = LivePhase::moving;
+    picture_.phase = WalkPhase::moving;
     picture_.share = 0;
     if (!rests) return true;
     const auto pixels = static_cast<double>(picture_.radiance.size());
@@ -80,7 +67,7 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     const ProgressivePicture* progressive = frames_.progressive(stop);
     const std::size_t open = progressive != nullptr ? progressive->open_pixels() : 0;
     picture_.share = 1 - static_cast<double>(open) / pixels;
-    picture_.phase = open > 0 ? LivePhase::filling : LivePhase::refining;
+    picture_.phase = open > 0 ? WalkPhase::filling : WalkPhase::refining;
     return true;
 }
 
@@ -90,16 +77,16 @@ bool LiveWalk::add_light(double budget, const StopFlag& stop) {
     Frame frame;
     frame.width = width_;
     frame.height = height_;
-    frame.radiance = turned(std::span<const Rgb>(progressive_->picture()), width_);
-    frame.distance = turned(progressive_->distance(), width_);
+    frame.radiance = turned_rows(std::span<const Rgb>(progressive_->picture()), width_);
+    frame.distance = turned_rows(progressive_->distance(), width_);
     frames_.add_small_sources(*view_, frame);
     picture_.radiance = std::move(frame.radiance);
     picture_.distance = std::move(frame.distance);
     picture_.rays = worked ? frames_.rays() : 0;
     picture_.share = progressive_->share();
-    picture_.phase = !worked              ? LivePhase::done
-                     : picture_.share < 1 ? LivePhase::ambient
-                                          : LivePhase::refining;
+    picture_.phase = !worked              ? WalkPhase::done
+                     : picture_.share < 1 ? WalkPhase::ambient
+                                          : WalkPhase::refining;
     return true;
 }
 

@@ -6,33 +6,18 @@
 #include <vector>
 
 #include "core/view/view.h"
+#include "core/view/walk_state.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/live_frames.h"
 #include "parallel/walk/progressive_light.h"
 
 namespace lightwalk {
 
-/// When indirect light is traced.
-enum class AmbientUse {
-    off,
-    rest,  ///< while the view rests
-    always,
-};
-
-/// What is being done to the picture.
-enum class LivePhase {
-    moving,    ///< the view is new
-    filling,   ///< pixels that were guessed or carried on are traced
-    ambient,   ///< indirect light is added
-    refining,  ///< edges get more rays
-    done,      ///< it is as good as it gets
-};
-
 struct LivePicture {
     int width = 0, height = 0;
     std::vector<Rgb> radiance;    ///< rows from the top [W/(m² sr)]
     std::vector<float> distance;  ///< along the pixels' rays [m]
-    LivePhase phase = LivePhase::moving;
+    WalkPhase phase = WalkPhase::moving;
     double share = 0;  ///< of that phase's work that is done, 0 ... 1
     CloudReport report;
     std::uint64_t rays = 0;  ///< that it took
@@ -47,20 +32,20 @@ class LiveWalk {
     /// The picture of a view: the next better one where it is the view of the call before.
     /// @param budget  after which it should be there, and something of it at least will [s]
     /// Throws what the tracers throw. False: stopped; the picture is the one before.
-    [[nodiscard]] bool next(const View& view, int width, int height, AmbientUse use, double budget,
+    [[nodiscard]] bool next(const View& view, int width, int height, WalkAmbient use, double budget,
                             const StopFlag& stop);
     /// The last one; empty before the first.
     [[nodiscard]] const LivePicture& picture() const { return picture_; }
 
   private:
-    void begin(int width, int height, AmbientUse use);
+    void begin(int width, int height, WalkAmbient use);
     [[nodiscard]] bool draw(const View& view, bool rests, double budget, const StopFlag& stop);
     [[nodiscard]] bool add_light(double budget, const StopFlag& stop);
 
     LiveFrames& frames_;
     int samples_;
     int width_ = 0, height_ = 0;
-    AmbientUse use_ = AmbientUse::off;
+    WalkAmbient use_ = WalkAmbient::off;
     double refine_ = 0;         ///< see LiveFrames::draw
     std::optional<View> view_;  ///< of the last picture
     std::unique_ptr<ProgressiveLight> progressive_;

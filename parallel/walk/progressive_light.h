@@ -11,6 +11,19 @@
 
 namespace lightwalk {
 
+/// Rows of pixels from the bottom as rows from the top, or the other way round.
+template <class Value>
+std::vector<Value> turned_rows(std::span<const Value> rows, int width) {
+    std::vector<Value> result;
+    result.reserve(rows.size());
+    const auto row = static_cast<std::size_t>(width);
+    for (std::size_t end = rows.size(); end >= row && row > 0; end -= row) {
+        const std::span<const Value> line = rows.subspan(end - row, row);
+        result.insert(result.end(), line.begin(), line.end());
+    }
+    return result;
+}
+
 /// A picture that starts as one tracer drew it, and ends as another one draws it. Meanwhile pixels
 /// that are not traced yet get what the difference is around them.
 class ProgressiveLight {

@@ -86,8 +86,8 @@ TEST_CASE("inbox: the wheel is handed over, and free when the driver leaves") {
 TEST_CASE("inbox: what becomes of the scene is told to all who are there, and to those who come") {
     Inbox all;
     all.join(kFirst);
-    all.inbox.announce(LoadingReply{"reading a.rad", 0.1});
-    all.inbox.announce(FailedReply{{"a.rad:3: wrong"}});
+    all.inbox.announce(walk_text(LoadingReply{"reading a.rad", 0.1}));
+    all.inbox.announce(walk_text(FailedReply{{"a.rad:3: wrong"}}));
     CHECK(all.clients.got(kFirst, "loading", "reading a.rad"));
     CHECK(all.clients.got(kFirst, "failed", "a.rad:3: wrong"));
     all.join(kSecond);

@@ -12,7 +12,7 @@
 
 namespace lightwalk::test {
 
-class RecordedClients final : public ClientSender {
+class RecordedClients final : public WebSender {
   public:
     void send_text(ClientId client, std::string text) override {
         texts[client].push_back(std::move(text));

@@ -28,7 +28,17 @@ struct Screen {
     Screen() {
         inbox.attach(clients);
         fixed.automatic = false;
-        screen.join(kFirst);
+        join(kFirst);
+    }
+    void join(ClientId client) {
+        InboxContents news;
+        news.joined = {client};
+        screen.update_clients(news);
+    }
+    void leave(ClientId client) {
+        InboxContents news;
+        news.left = {client};
+        screen.update_clients(news);
     }
     void show(const LivePicture& picture, std::uint32_t id, bool at_rest = true) {
         screen.show(picture, fixed, {id, {0, 0, 1}, at_rest, false}, now);
@@ -89,13 +99,13 @@ TEST_CASE("walk screen: only pieces that have changed are sent, a new view also 
 
 TEST_CASE("walk screen: clients that lack the same share a frame, newcomers get all of it") {
     Screen all;
-    all.screen.join(kSecond);
+    all.join(kSecond);
     all.show(picture_of(0.5f), 1);
     all.send();
     REQUIRE(all.clients.frames_of(kSecond) == 1);
     CHECK(all.clients.frames[kFirst][0] == all.clients.frames[kSecond][0]);
-    all.screen.leave(kSecond);
-    all.screen.join(kSecond);
+    all.leave(kSecond);
+    all.join(kSecond);
     all.send();
     CHECK(all.clients.frames_of(kFirst) == 1);
     REQUIRE(all.clients.frames_of(kSecond) == 2);

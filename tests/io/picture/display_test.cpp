@@ -95,7 +95,7 @@ TEST_CASE("what is not a number, or less than nothing, is black on any display")
 
 TEST_CASE("false colours: the ends of the scale, its middle, and what is beyond") {
     DisplaySettings settings;
-    settings.mode = DisplaySettings::Mode::false_colour;
+    settings.false_colour = true;
     settings.low = 10;
     settings.high = 1000;
     const auto of = [&](double luminance) {

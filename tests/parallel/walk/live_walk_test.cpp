@@ -70,16 +70,16 @@ struct Walker {
         options.pixels.spacing = 1;
         return options;
     }
-    LivePicture next(const View& view, AmbientUse use, double budget = 1e-9) {
+    LivePicture next(const View& view, WalkAmbient use, double budget = 1e-9) {
         REQUIRE(live.next(view, kLiveWidth, kLiveHeight, use, budget, stop));
         return live.picture();
     }
     /// The picture when nothing more comes; with what was said meanwhile.
-    LivePicture rest(const View& view, AmbientUse use, std::vector<LivePicture>* all = nullptr) {
+    LivePicture rest(const View& view, WalkAmbient use, std::vector<LivePicture>* all = nullptr) {
         for (int i = 0; i < 20000; ++i) {
             LivePicture picture = next(view, use, 1e-3);
             if (all != nullptr) all->push_back(picture);
-            if (picture.phase == LivePhase::done) return picture;
+            if (picture.phase == WalkPhase::done) return picture;
         }
         FAIL("it does not end");
         return {};
@@ -103,8 +103,8 @@ struct Walker {
 TEST_CASE("a view that rests ends as the picture that is rendered of it, whatever came before") {
     Walker walker(0);
     for (const double turned : {-0.1, -0.05, 0.0})
-        (void)walker.next(view_at(turned), AmbientUse::off);
-    const LivePicture rested = walker.rest(view_at(0), AmbientUse::off);
+        (void)walker.next(view_at(turned), WalkAmbient::off);
+    const LivePicture rested = walker.rest(view_at(0), WalkAmbient::off);
     CHECK(rested.radiance == walker.rendered(walker.direct, view_at(0)).radiance);
     CHECK(rested.distance == walker.rendered(walker.direct, view_at(0)).distance);
 }
@@ -115,7 +115,7 @@ TEST_CASE("indirect light comes while a view rests, and ends as the picture that
     const Frame truth = walker.rendered(walker.full, view);
     const Frame direct = walker.rendered(walker.direct, view);
     std::vector<LivePicture> all;
-    CHECK(walker.rest(view, AmbientUse::rest, &all).radiance == truth.radiance);
+    CHECK(walker.rest(view, WalkAmbient::rest, &all).radiance == truth.radiance);
     const auto error = [&](const std::vector<Rgb>& radiance) {
         double sum = 0;
         for (std::size_t i = 0; i < radiance.size(); ++i)
@@ -125,7 +125,7 @@ TEST_CASE("indirect light comes while a view rests, and ends as the picture that
     };
     // Long before all pixels are traced they look more like it than what the frames had.
     const auto early = std::find_if(all.begin(), all.end(), [](const LivePicture& picture) {
-        return picture.phase == LivePhase::ambient && picture.share > 0.1;
+        return picture.phase == WalkPhase::ambient && picture.share > 0.1;
     });
     REQUIRE(early != all.end());
     CHECK(early->share < 0.5);
@@ -134,27 +134,27 @@ TEST_CASE("indirect light comes while a view rests, and ends as the picture that
 
 TEST_CASE("indirect light is always there, or never, where that is asked for") {
     Walker walker(1);
-    CHECK(walker.rest(view_at(0), AmbientUse::always).radiance ==
+    CHECK(walker.rest(view_at(0), WalkAmbient::always).radiance ==
           walker.rendered(walker.full, view_at(0)).radiance);
-    CHECK(walker.rest(view_at(0), AmbientUse::off).radiance ==
+    CHECK(walker.rest(view_at(0), WalkAmbient::off).radiance ==
           walker.rendered(walker.direct, view_at(0)).radiance);
 }
 
 TEST_CASE("a view that moves on leaves what it was doing, and is told from one that rests") {
     Walker walker(1);
-    (void)walker.rest(view_at(0), AmbientUse::rest);
-    const LivePicture moved = walker.next(view_at(0.05), AmbientUse::rest);
-    CHECK(moved.phase == LivePhase::moving);
+    (void)walker.rest(view_at(0), WalkAmbient::rest);
+    const LivePicture moved = walker.next(view_at(0.05), WalkAmbient::rest);
+    CHECK(moved.phase == WalkPhase::moving);
     CHECK(moved.radiance.size() == kLiveWidth * kLiveHeight);
-    CHECK(walker.next(view_at(0.05), AmbientUse::rest).phase != LivePhase::moving);
-    REQUIRE(walker.live.next(view_at(0.05), 40, 30, AmbientUse::rest, 1, walker.stop));
+    CHECK(walker.next(view_at(0.05), WalkAmbient::rest).phase != WalkPhase::moving);
+    REQUIRE(walker.live.next(view_at(0.05), 40, 30, WalkAmbient::rest, 1, walker.stop));
     CHECK(walker.live.picture().radiance.size() == 1200);
 }
 
 TEST_CASE("edges get more rays where a view rests, other pixels do not") {
     Walker once(0), often(0, 4);
-    const LivePicture plain = once.rest(view_at(0), AmbientUse::off);
-    const LivePicture smooth = often.rest(view_at(0), AmbientUse::off);
+    const LivePicture plain = once.rest(view_at(0), WalkAmbient::off);
+    const LivePicture smooth = often.rest(view_at(0), WalkAmbient::off);
     std::size_t changed = 0;
     for (std::size_t i = 0; i < plain.radiance.size(); ++i)
         changed += plain.radiance[i] == smooth.radiance[i] ? 0 : 1;

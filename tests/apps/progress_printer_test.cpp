@@ -1,17 +1,28 @@
-#include "apps/progress_line.h"
+#include "apps/progress_printer.h"
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <string>
 
 using namespace lightwalk;
 
+namespace {
+
+/// A second after the work began.
+RenderProgress progress_of(double done, std::uint64_t rays, std::optional<double> seconds_left) {
+    return {RenderProgress::Stage::running, done, rays, 1, seconds_left};
+}
+
+}  // namespace
+
 TEST_CASE("a progress line never fills the terminal's last column, whatever its width") {
-    for (const double rate : {0.0, 999e3, 123.45e6}) {
+    for (const std::uint64_t rate :
+         {std::uint64_t{0}, std::uint64_t{999'000}, std::uint64_t{123'450'000}}) {
         for (const double left : {0.0, 59.0, 3.6e6}) {
             for (int columns = 0; columns <= 300; ++columns) {
                 for (const double done : {0.0, 0.5, 1.0}) {
-                    const std::string line = progress_line({done, rate, left}, columns);
+                    const std::string line = progress_line(progress_of(done, rate, left), columns);
                     CAPTURE(line);
                     CHECK(static_cast<int>(line.size()) <= (columns > 0 ? columns - 1 : 0));
                 }
@@ -21,7 +32,7 @@ TEST_CASE("a progress line never fills the terminal's last column, whatever its 
 }
 
 TEST_CASE("a wide terminal shows all, a narrow one what matters most") {
-    const ProgressState state{0.25, 1.5e6, 75.0};
+    const RenderProgress state = progress_of(0.25, 1'500'000, 75);
     CHECK(progress_line(state, 200) ==
           "[##########..............................]  25.0 %  1.50 Mrays/s  1:15 left");
     CHECK(progress_line(state, 60) ==
@@ -33,8 +44,8 @@ TEST_CASE("a wide terminal shows all, a narrow one what matters most") {
 }
 
 TEST_CASE("before the time left is known nothing is said of it") {
-    CHECK(progress_line({0, 500, {}}, 20) == "[.........]   0.0 %");
-    CHECK(progress_line({0, 500, {}}, 80).find("left") == std::string::npos);
+    CHECK(progress_line(progress_of(0, 500, {}), 20) == "[.........]   0.0 %");
+    CHECK(progress_line(progress_of(0, 500, {}), 80).find("left") == std::string::npos);
 }
 
 TEST_CASE("times are minutes and seconds, and hours where there are any") {

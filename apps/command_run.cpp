@@ -1,0 +1,57 @@
+#include "apps/command_run.h"
+
+#include <unistd.h>
+
+#include "apps/interrupt.h"
+#include "apps/rank_report.h"
+#include "io/files/atomic_file.h"
+
+namespace lightwalk {
+namespace {
+
+/// Append messages to the file that -e names.
+void redirect_messages(const std::string& file, const std::string& history) {
+    if (file.empty()) return;
+    if (std::freopen(file.c_str(), "a", stderr) == nullptr)
+        throw InputError({file, 0}, "cannot open the error file");
+    std::fprintf(stderr, "**************\n*** PID %ld: %s\n", static_cast<long>(getpid()),
+                 history.c_str());
+}
+
+}  // namespace
+
+CommandRun::CommandRun(CommonOptions& options, Communicator* communicator)
+    : options_(options), communicator_(communicator), warnings_(options.program()) {
+    redirect_messages(options.error_file, options.request.history);
+    warnings_.enable(options.settings.warnings && !options.quiet && speaks());
+    check_render_settings(options.settings);
+}
+
+int CommandRun::share_out(const SharedWork& work, FunctionRef<int()> body) {
+    link_ = link_ranks(communicator_, options_, work);
+    return link_ ? link_->run(body, interrupt_flag()) : body();
+}
+
+RendererRequest CommandRun::request() {
+    RendererRequest request = options_.request;
+    request.scene_from = options_.ranks.scene_from;
+    request.options.light = options_.settings.light;
+    request.options.ambient_file = options_.settings.ambient_file;
+    request.options.warn = [this](const std::string& message) { warnings_.warn(message); };
+    return request;
+}
+
+void CommandRun::save_statistics(RunStatistics statistics) const {
+    statistics.command = options_.command;
+    if (!options_.stats_file.empty())
+        write_file_atomically(options_.stats_file, statistics_json(statistics));
+    if (!statistics.reports.empty() && !options_.ranks.timeline.empty())
+        write_file_atomically(options_.ranks.timeline, timeline_json(statistics.reports));
+}
+
+void write_to_stdout(const std::string& bytes) {
+    const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (!whole || std::fflush(stdout) != 0) throw InputError("cannot write standard output");
+}
+
+}  // namespace lightwalk
