@@ -15,32 +15,13 @@
 
 #include "parallel/cache_prepass.h"
 #include "parallel/concurrent_cache.h"
+#include "tests/parallel/ambient_values.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
-using lightwalk::test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
-
-const std::string kRoom = R"(
-void plastic paint 0 0 5 .6 .5 .4 0 0
-void glow sky 0 0 4 1 1 2 0
-sky source dome 0 0 4 0 -1 0 180
-paint polygon ground 0 0 12  -3 -3 0  3 -3 0  3 3 0  -3 3 0
-paint polygon ceiling 0 0 12  -3 -3 3  -3 3 3  3 3 3  3 -3 3
-paint polygon back 0 0 12  -3 3 0  3 3 0  3 3 3  -3 3 3
-paint sphere ball 0 0 4 0 1 1 .7
-)";
-
-RenderOptions indirect(int bounces) {
-    RenderOptions options;
-    options.ambient_bounces = bounces;
-    options.ambient_divisions = 32;
-    options.ambient_super_samples = 0;
-    options.ambient_accuracy = 0.3;
-    options.ambient_resolution = 16;
-    return options;
-}
 
 /// A cache that knows whether it changes while tasks run.
 class WatchedCache final : public AmbientCache {
@@ -124,7 +105,7 @@ class MeetingExchange final : public Group {
 /// One process: a scene with a cache and workers of its own.
 struct Process {
     Process(int bounces, int workers)
-        : scene(kRoom, indirect(bounces)),
+        : scene(kAmbientRoom, ambient_options(bounces, 0.3, 16)),
           shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.3, 16)),
           watched(shared),
           cache(watched),
@@ -135,12 +116,6 @@ struct Process {
         options.width = 40;
         options.height = 30;
         options.pixels.spacing = 1;
-    }
-    static Camera eye() {
-        View view;
-        view.position = {0.5, -5, 1.4};
-        view.direction = {0, 1, 0};
-        return Camera(view);
     }
     CachePrepassResult play(Group* exchange = nullptr) {
         return fill_ambient_cache(
@@ -161,7 +136,7 @@ struct Process {
     std::unique_ptr<Executor> pool;
     WatchedExecutor executor;
     WorkerContexts contexts;
-    Camera camera = eye();
+    Camera camera = ambient_eye();
     FrameOptions options;
     StopFlag stop;
     std::function<void()> told = [] {};

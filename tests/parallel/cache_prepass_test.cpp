@@ -9,40 +9,19 @@
 #include <vector>
 
 #include "parallel/concurrent_cache.h"
+#include "tests/parallel/ambient_values.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
-using lightwalk::test::Silence;
-using lightwalk::test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
-
-/// A room with a block in it, open to a sky on one side.
-const std::string kPrepassRoom = R"(
-void plastic paint 0 0 5 .6 .5 .4 0 0
-void glow sky 0 0 4 1 1 2 0
-sky source dome 0 0 4 0 -1 0 180
-paint polygon ground 0 0 12  -3 -3 0  3 -3 0  3 3 0  -3 3 0
-paint polygon ceiling 0 0 12  -3 -3 3  -3 3 3  3 3 3  3 -3 3
-paint polygon back 0 0 12  -3 3 0  3 3 0  3 3 3  -3 3 3
-paint sphere ball 0 0 4 0 1 1 .7
-)";
-
-RenderOptions with_prepass(int bounces) {
-    RenderOptions options;
-    options.ambient_bounces = bounces;
-    options.ambient_divisions = 32;
-    options.ambient_super_samples = 0;
-    options.ambient_accuracy = 0.5;
-    options.ambient_resolution = 8;
-    return options;
-}
 
 /// A scene with a cache of its own, the prepass played and a picture made after it.
 struct Played {
     explicit Played(CachePrepass prepass, int workers = 1, const FrameOptions& frame = small(),
                     int bounces = 1, const std::string& more = "")
-        : scene(kPrepassRoom + more, with_prepass(bounces)),
+        : scene(kAmbientRoom + more, ambient_options(bounces, 0.5, 8)),
           shared(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.5, 8)),
           cache(shared),
           executor(make_executor(ExecutorKind::threads, workers)),
@@ -59,13 +38,6 @@ struct Played {
         options.pixels.spacing = 1;  // every pixel, however refinement chooses
         return options;
     }
-    static Camera camera() {
-        View view;
-        view.position = {0.5, -5, 1.4};
-        view.direction = {0, 1, 0};
-        return Camera(view);
-    }
-
     CachePrepassResult play(CachePrepass prepass, TakeProgress progress) {
         return fill_ambient_cache(scene.tracer, eye, options, prepass, cache, *executor, contexts,
                                   stop, progress);
@@ -81,7 +53,7 @@ struct Played {
     std::unique_ptr<Executor> executor;
     WorkerContexts contexts;
     FrameOptions options;
-    Camera eye = camera();
+    Camera eye = ambient_eye();
     StopFlag stop;
     CachePrepassResult result;
 };

@@ -6,18 +6,12 @@
 #include <vector>
 
 #include "core/ambient/serial_cache.h"
+#include "tests/parallel/ambient_values.h"
 
 using namespace lightwalk;
+using lightwalk::test::record_at;
 
 namespace {
-
-AmbientRecord record_at(float x) {
-    AmbientRecord record;
-    record.position = {x, 0, 0};
-    record.radius = {.1F, .1F};
-    record.value = {1, 1, 1};
-    return record;
-}
 
 /// Writes down whom it was told of, behind its own name.
 class Listener final : public AmbientListener {

@@ -4,19 +4,10 @@
 
 #include <vector>
 
+#include "tests/parallel/ambient_values.h"
+
 using namespace lightwalk;
-
-namespace {
-
-AmbientRecord record_at(float x) {
-    AmbientRecord record;
-    record.position = {x, 0, 0};
-    record.radius = {.1F, .1F};
-    record.value = {1, 1, 1};
-    return record;
-}
-
-}  // namespace
+using lightwalk::test::record_at;
 
 TEST_CASE("new ambient values go out by the batch, and what makes no batch is handed over") {
     std::vector<std::size_t> batches;

@@ -54,8 +54,8 @@ class PictureNetwork final : public RankNetwork {
               make_topology(options.variant, options.ranks, options.batch > 0, options.masters),
               settings_of(options), options.longest_delay, seed),
           options_(options),
+          threads_(options.ranks, options.slots, schedule()),
           tracers_(static_cast<std::size_t>(options.ranks)) {
-        for (Tracer& tracer : tracers_) tracer.free_slots = options.slots;
         begin();
     }
 
@@ -86,8 +86,6 @@ class PictureNetwork final : public RankNetwork {
 
   private:
     struct Tracer {
-        int free_slots = 0;
-        std::deque<JobBlock> blocks;
         std::map<JobId, PictureJob> jobs;
         std::vector<std::uint32_t> values;
     };
@@ -97,8 +95,10 @@ class PictureNetwork final : public RankNetwork {
         if (auto* job = std::get_if<PictureJob>(&news)) tracer.jobs[job->job] = *job;
         if (auto* grant = std::get_if<WorkGrant>(&news))
             for (const Work& piece : grant->pieces)
-                tracer.blocks.push_back(std::get<JobBlock>(piece));
-        trace(rank);
+                threads_.waiting(rank).push_back(std::get<JobBlock>(piece));
+        threads_.trace(
+            rank, options_.longest_block,
+            [this, rank](const JobBlock& work, double seconds) { finish(rank, work, seconds); });
     }
     void take(ProgramNews news) override {
         if (auto* picture = std::get_if<FinishedPicture>(&news))
@@ -111,20 +111,8 @@ class PictureNetwork final : public RankNetwork {
             tracers_[static_cast<std::size_t>(rank)].values.push_back(record.normal);
     }
 
-    void trace(int rank) {
-        Tracer& tracer = tracers_[static_cast<std::size_t>(rank)];
-        while (tracer.free_slots > 0 && !tracer.blocks.empty()) {
-            --tracer.free_slots;
-            const JobBlock work = tracer.blocks.front();
-            tracer.blocks.pop_front();
-            const double seconds = schedule().uniform(options_.longest_block);
-            schedule().after(seconds, [this, rank, work, seconds] { finish(rank, work, seconds); });
-        }
-    }
-
     void finish(int rank, const JobBlock& work, double seconds) {
         Tracer& tracer = tracers_[static_cast<std::size_t>(rank)];
-        ++tracer.free_slots;
         Pixels pixels{work, {}};
         const bool keep = tracer.jobs.at(work.job).keep;
         for (int y = work.block.y0; y < work.block.y1; ++y) {
@@ -143,10 +131,10 @@ class PictureNetwork final : public RankNetwork {
             tracer.values.push_back(record.normal);
             roles.ambient_client()->offer({{record}}, out);
         });
-        trace(rank);
     }
 
     NetworkOptions options_;
+    TracingThreads<JobBlock> threads_;
     std::vector<Tracer> tracers_;
 };
 

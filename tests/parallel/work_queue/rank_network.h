@@ -2,6 +2,7 @@
 // The roles of all ranks in one thread, on a random schedule: messages between ranks are delayed
 // and reordered.
 #include <cstring>
+#include <deque>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -74,6 +75,44 @@ class RankNetwork {
     RandomSchedule schedule_;
     double longest_delay_;
     std::vector<RankRoles> roles_;
+};
+
+/// The threads of ranks that trace: pieces of work wait for a free one, and take random times.
+template <class Piece>
+class TracingThreads {
+  public:
+    /// @param slots  threads of each rank
+    TracingThreads(int ranks, int slots, RandomSchedule& schedule)
+        : ranks_(static_cast<std::size_t>(ranks), Rank{slots, {}}), schedule_(schedule) {}
+    /// Pieces at a rank that no thread has begun.
+    [[nodiscard]] std::deque<Piece>& waiting(int rank) {
+        return ranks_[static_cast<std::size_t>(rank)].waiting;
+    }
+    /// Free threads of a rank begin what waits; `finish(piece, seconds)` comes up to `longest`
+    /// later.
+    template <class Finish>
+    void trace(int rank, double longest, Finish finish) {
+        Rank& own = ranks_[static_cast<std::size_t>(rank)];
+        while (own.free_slots > 0 && !own.waiting.empty()) {
+            --own.free_slots;
+            const auto piece = std::make_shared<Piece>(std::move(own.waiting.front()));
+            own.waiting.pop_front();
+            const double seconds = schedule_.uniform(longest);
+            schedule_.after(seconds, [this, rank, longest, finish, piece, seconds] {
+                ++ranks_[static_cast<std::size_t>(rank)].free_slots;
+                finish(*piece, seconds);
+                trace(rank, longest, finish);
+            });
+        }
+    }
+
+  private:
+    struct Rank {
+        int free_slots = 1;
+        std::deque<Piece> waiting;
+    };
+    std::vector<Rank> ranks_;
+    RandomSchedule& schedule_;
 };
 
 /// One of a list, for random options.

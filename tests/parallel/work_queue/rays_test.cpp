@@ -36,8 +36,7 @@ class Stream final : public RankNetwork {
         : RankNetwork(make_topology(Variant::hybrid, options.workers, false, 1),
                       settings_of(options), options.longest_delay, seed),
           options_(options),
-          workers_(static_cast<std::size_t>(options.workers)) {
-        for (Worker& worker : workers_) worker.free_slots = options.slots;
+          threads_(options.workers, options.slots, schedule()) {
         begin();
     }
 
@@ -48,17 +47,14 @@ class Stream final : public RankNetwork {
     std::uint32_t window = 0;  ///< chunks that were wanted at first
 
   private:
-    struct Worker {
-        std::deque<RayChunk> chunks;
-        int free_slots = 0;
-    };
-
     void take(int rank, TracerNews news) override {
-        Worker& worker = workers_[static_cast<std::size_t>(rank)];
+        std::deque<RayChunk>& waiting = threads_.waiting(rank);
         for (Work& piece : std::get<WorkGrant>(news).pieces)
-            worker.chunks.push_back(std::get<RayChunk>(std::move(piece)));
-        most_waiting = std::max(most_waiting, worker.chunks.size());
-        trace(rank);
+            waiting.push_back(std::get<RayChunk>(std::move(piece)));
+        most_waiting = std::max(most_waiting, waiting.size());
+        threads_.trace(
+            rank, options_.longest_chunk,
+            [this, rank](const RayChunk& chunk, double seconds) { finish(rank, chunk, seconds); });
     }
 
     void take(ProgramNews news) override {
@@ -87,30 +83,19 @@ class Stream final : public RankNetwork {
             schedule().after(schedule().uniform(options_.longest_pause), [this] { read(); });
     }
 
-    void trace(int rank) {
-        Worker& worker = workers_[static_cast<std::size_t>(rank)];
-        while (worker.free_slots > 0 && !worker.chunks.empty()) {
-            --worker.free_slots;
-            const RayChunk chunk = std::move(worker.chunks.front());
-            worker.chunks.pop_front();
-            const FinishedWork finished{FinishedWork::Payload::rays, 0,
-                                        static_cast<std::uint32_t>(chunk.rays()),
-                                        schedule().uniform(options_.longest_chunk)};
-            RayAnswer answer{chunk.number, {}};
-            for (std::uint64_t i = 0; i < chunk.rays(); ++i)
-                answer.bytes += std::to_string(chunk.first + i) + ' ';
-            schedule().after(finished.seconds, [this, rank, finished, answer] {
-                ++workers_[static_cast<std::size_t>(rank)].free_slots;
-                step(rank, [&](RankRoles& roles, Outbox& out) {
-                    roles.worker().finish(finished, answer, out);
-                });
-                trace(rank);
-            });
-        }
+    void finish(int rank, const RayChunk& chunk, double seconds) {
+        RayAnswer answer{chunk.number, {}};
+        for (std::uint64_t i = 0; i < chunk.rays(); ++i)
+            answer.bytes += std::to_string(chunk.first + i) + ' ';
+        const auto count = static_cast<std::uint32_t>(chunk.rays());
+        step(rank, [&](RankRoles& roles, Outbox& out) {
+            roles.worker().finish({FinishedWork::Payload::rays, 0, count, seconds},
+                                  std::move(answer), out);
+        });
     }
 
     StreamOptions options_;
-    std::vector<Worker> workers_;
+    TracingThreads<RayChunk> threads_;
     std::uint64_t read_ = 0;
     std::uint32_t wanted_ = 0;
 };

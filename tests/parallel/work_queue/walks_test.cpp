@@ -42,8 +42,8 @@ class Walk final : public RankNetwork {
         : RankNetwork(make_topology(Variant::hybrid, options.workers, false, 1),
                       settings_of(options), 1, seed),
           options_(options),
+          threads_(options.workers, options.slots, schedule()),
           ranks_(static_cast<std::size_t>(options.workers)) {
-        for (Rank& rank : ranks_) rank.free_slots = options.slots;
         begin();
         order();
         run();
@@ -58,8 +58,6 @@ class Walk final : public RankNetwork {
 
   private:
     struct Rank {
-        std::deque<PixelRun> runs;
-        int free_slots = 1;
         // Of the frame at hand; mail of the next one may come before it.
         FrameNumber frame = 0;
         bool projected = false, answered = false, told = false, gathered = false;
@@ -88,21 +86,24 @@ class Walk final : public RankNetwork {
 
     void take(int number, TracerNews news) override {
         Rank& rank = ranks_[static_cast<std::size_t>(number)];
-        std::visit(Overloaded{[](PictureJob&) { FAIL("nobody asked for a picture"); },
-                              [&](FrameOrder& order) { project(number, order.number); },
-                              [&](WorkGrant& grant) {
-                                  for (Work& piece : grant.pieces)
-                                      rank.runs.push_back(std::get<PixelRun>(std::move(piece)));
-                                  ends += grant.frame_over ? 1 : 0;
-                                  trace(number);
-                              },
-                              [&](PointExchange& exchange) {
-                                  const bool points =
-                                      std::holds_alternative<SharedPoints>(exchange.points);
-                                  ++(points ? rank.points : rank.used)[exchange.frame];
-                              },
-                              [&](TracedRun& run) { rank.arrived[run.frame] += run.count; }},
-                   news);
+        std::visit(
+            Overloaded{
+                [](PictureJob&) { FAIL("nobody asked for a picture"); },
+                [&](FrameOrder& order) { project(number, order.number); },
+                [&](WorkGrant& grant) {
+                    for (Work& piece : grant.pieces)
+                        threads_.waiting(number).push_back(std::get<PixelRun>(std::move(piece)));
+                    ends += grant.frame_over ? 1 : 0;
+                    threads_.trace(number, 1, [this, number](const PixelRun& run, double) {
+                        finish(number, run);
+                    });
+                },
+                [&](PointExchange& exchange) {
+                    const bool points = std::holds_alternative<SharedPoints>(exchange.points);
+                    ++(points ? rank.points : rank.used)[exchange.frame];
+                },
+                [&](TracedRun& run) { rank.arrived[run.frame] += run.count; }},
+            news);
         look_on(number);
     }
 
@@ -162,27 +163,17 @@ class Walk final : public RankNetwork {
                          [this, from, to, message] { post(from, to, message); });
     }
 
-    void trace(int number) {
-        Rank& rank = ranks_[static_cast<std::size_t>(number)];
-        while (rank.free_slots > 0 && !rank.runs.empty()) {
-            --rank.free_slots;
-            const PixelRun run = std::move(rank.runs.front());
-            rank.runs.pop_front();
-            const auto count = static_cast<std::uint32_t>(run.places.size());
-            for (std::size_t i = 0; i < count; ++i) ++traced[{run.owner, run.frame, run.first + i}];
-            schedule().after(schedule().uniform(1), [this, number, run, count] {
-                step(number, [&](RankRoles& roles, Outbox& out) {
-                    roles.worker().finish({FinishedWork::Payload::pixels, 0, count, 0},
-                                          TracedRun{run.frame, run.owner, run.first, count, {}},
-                                          out);
-                });
-                ++ranks_[static_cast<std::size_t>(number)].free_slots;
-                trace(number);
-            });
-        }
+    void finish(int number, const PixelRun& run) {
+        const auto count = static_cast<std::uint32_t>(run.places.size());
+        for (std::size_t i = 0; i < count; ++i) ++traced[{run.owner, run.frame, run.first + i}];
+        step(number, [&](RankRoles& roles, Outbox& out) {
+            roles.worker().finish({FinishedWork::Payload::pixels, 0, count, 0},
+                                  TracedRun{run.frame, run.owner, run.first, count, {}}, out);
+        });
     }
 
     WalkOptions options_;
+    TracingThreads<PixelRun> threads_;
     std::vector<Rank> ranks_;
 };
 
