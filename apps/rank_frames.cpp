@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "apps/rank_pictures.h"
-#include "parallel/walk/walk_frame.h"
 
 namespace lightwalk {
 
@@ -57,9 +56,9 @@ WalkFrame RankFrames::draw(const View& view, double budget, double refine, const
         finish(lead_->order(view, payload(view, walks_by_indirect_)), stop);
     WalkFrame result;
     if (!drawn) return result;
-    lead_->complete(drawn->frame, drawn->known, drawn->refined, executor_);
+    lead_->complete(drawn->frame, drawn->refined, executor_);
     last_ = Last{view, std::move(drawn->frame)};
-    result.frame = turned_over(last_->frame, options_.width, options_.height, executor_);
+    result.frame = turned_over(last_->frame, executor_);
     result.report = last_->frame.report;
     WorkerContexts& contexts = walks_by_indirect_ ? *indirect_contexts_ : direct_contexts_;
     contexts.reset_counters();
@@ -74,7 +73,7 @@ const ProgressivePicture* RankFrames::progressive(const StopFlag& stop) {
     const std::optional<AssembledFrame> told =
         finish(lead_->origins_order(payload(last_->view, walks_by_indirect_)), stop);
     if (!told) return nullptr;
-    lead_->begin_progressive(last_->frame, told->origins);
+    lead_->begin_progressive(last_->frame, told->frame.origins);
     return lead_->progressive();
 }
 

@@ -4,38 +4,8 @@
 
 #include "apps/rank_pictures.h"
 #include "parallel/walk/scene_caster.h"
-#include "parallel/walk/walk_frame.h"
 
 namespace lightwalk {
-namespace {
-
-/// A view of the scene, and its rays.
-class SceneRays final : public WalkRays {
-  public:
-    SceneRays(const View& view, const Tracer& tracer, const VisibilityProbe& visibility,
-              const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop)
-        : camera_(view),
-          contexts_(contexts),
-          caster_(tracer, visibility, camera_, options, contexts, stop) {}
-    [[nodiscard]] const Camera& camera() const override { return camera_; }
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int worker) override {
-        caster_.probe(places, visibility, worker);
-    }
-    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
-               int worker) override {
-        caster_.trace(places, pixels, sample, worker);
-    }
-    [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
-
-  private:
-    Camera camera_;
-    const WorkerContexts& contexts_;
-    SceneCaster caster_;
-};
-
-}  // namespace
-
 std::unique_ptr<LiveFrames> LeadWalk::make_frames(const FrameOptions& options) {
     return std::make_unique<RankFrames>(link_, tracer_, nullptr, this->options(), options,
                                         *executor_, warnings_);
@@ -47,16 +17,17 @@ void RankWalk::trace(Executor& executor) {
         [&](const FrameOrder& order) { return make_rays(order, executor); }, stop_);
 }
 
-std::unique_ptr<WalkRays> RankWalk::make_rays(const FrameOrder& order, Executor& executor) {
+std::unique_ptr<SceneCaster> RankWalk::make_rays(const FrameOrder& order, Executor& executor) {
     FrameOptions options = options_;
     options.width = order.width;
     options.height = order.height;
     const PictureOrder picture = decode_order(order.payload);
     if (direct_ != nullptr && !picture.indirect)
-        return std::make_unique<SceneRays>(picture.view, direct_->tracer, direct_->visibility,
-                                           options, direct_->contexts, stop_);
-    auto rays = std::make_unique<SceneRays>(picture.view, session_.tracer(), probe_, options,
-                                            contexts_, stop_);
+        return std::make_unique<SceneCaster>(direct_->tracer, direct_->visibility,
+                                             Camera(picture.view), options, direct_->contexts,
+                                             stop_);
+    auto rays = std::make_unique<SceneCaster>(session_.tracer(), probe_, Camera(picture.view),
+                                              options, contexts_, stop_);
     if (order.rules.empty || prepass_ == CachePrepass::deterministic)
         run_prepass(rays->camera(), options, executor);
     return rays;

@@ -63,7 +63,8 @@ class RankWalk final : public RankWork {
     [[nodiscard]] AmbientCounters ambient() const override;
 
   private:
-    [[nodiscard]] std::unique_ptr<WalkRays> make_rays(const FrameOrder& order, Executor& executor);
+    [[nodiscard]] std::unique_ptr<SceneCaster> make_rays(const FrameOrder& order,
+                                                         Executor& executor);
     void run_prepass(const Camera& camera, FrameOptions options, Executor& executor);
 
     RankLink& link_;

@@ -152,36 +152,40 @@ AmbientRounds::AmbientRounds(const Tracer& tracer, PublishedCache& cache, Execut
     cache_.freeze(true);
 }
 
-/// All-gather of bytes. Each process adds whether it was requested to stop, so that all stop at the
-/// same place, and whether it left points out.
-std::vector<std::string> AmbientRounds::gather(std::string mine) {
-    constexpr char kStop = 1, kLeftOut = 2;
-    mine.push_back(static_cast<char>((stop_.requested() ? kStop : 0) | (left_out_ ? kLeftOut : 0)));
-    std::vector<std::string> all = exchange_.all_gather(std::move(mine));
-    for (std::string& bytes : all) {
-        if (bytes.empty()) throw InputError("another rank takes no part in a round");
-        stopped_ = stopped_ || (bytes.back() & kStop) != 0;
-        left_out_ = left_out_ || (bytes.back() & kLeftOut) != 0;
-        bytes.pop_back();
+/// Each process adds whether it was requested to stop, so that all stop at the same place, and
+/// whether it left points out.
+std::vector<RoundShare> AmbientRounds::gather(RoundShare mine) {
+    mine.stop = stop_.requested();
+    mine.left_out = left_out_;
+    std::vector<RoundShare> all;
+    if (exchange_.size() == 1) {
+        all.push_back(std::move(mine));
+    } else {
+        for (const std::string& bytes : exchange_.all_gather(wire::encode(mine))) {
+            if (bytes.empty()) throw InputError("another rank takes no part in a round");
+            all.push_back(wire::decode<RoundShare>(bytes));
+        }
+    }
+    for (const RoundShare& share : all) {
+        stopped_ = stopped_ || share.stop;
+        left_out_ = left_out_ || share.left_out;
     }
     return all;
 }
 
 std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
-    std::vector<AmbientPoint> points;
+    RoundShare mine;
     {
         const Collecting collecting(contexts_);
         trace();
-        points = collecting.points();
+        mine.points = collecting.points();
         left_out_ = left_out_ || collecting.left_out();
     }
-    const bool alone = exchange_.size() == 1;
-    const std::vector<std::string> all = gather(alone ? std::string() : encode_points(points));
-    if (stopped_) return {};
-    if (alone) return points;
-    points.clear();
-    for (const std::string& bytes : all) decode_points(bytes, points);
-    return points;
+    const std::vector<RoundShare> all = gather(std::move(mine));
+    std::vector<AmbientPoint> points;
+    for (const RoundShare& share : all)
+        points.insert(points.end(), share.points.begin(), share.points.end());
+    return stopped_ ? std::vector<AmbientPoint>() : points;
 }
 
 /// Whether the cache has a usable value for each of some points.
@@ -230,23 +234,23 @@ void AmbientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
 
 /// The values of the points, in their order; after a stop, nothing.
 std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& chosen) {
-    std::vector<RoundValue> made(chosen.size());
+    RoundShare mine;
+    mine.values.resize(chosen.size());
     const auto make = [&](std::size_t task, int worker) {
         if (!exchange_.does(task)) return;
         RecordCollector collector(contexts_[worker]);
-        if (const auto record = calculation_.record_at(chosen[task], contexts_[worker]))
-            made[task].record.push_back(*record);
-        made[task].new_records = collector.take();
+        mine.values[task].record = calculation_.record_at(chosen[task], contexts_[worker]);
+        mine.values[task].new_records = collector.take();
     };
     executor_.for_each(chosen.size(), make, stop_);
-    const bool alone = exchange_.size() == 1;
-    const std::vector<std::string> all = gather(alone ? std::string() : encode_values(made));
+    std::vector<RoundShare> all = gather(std::move(mine));
     if (stopped_) return {};
-    for (std::size_t other = 0; !alone && other < all.size(); ++other) {
-        std::vector<RoundValue> theirs = decode_values(all[other]);
-        if (theirs.size() != chosen.size())
+    std::vector<RoundValue> made(chosen.size());
+    for (std::size_t other = 0; other < all.size(); ++other) {
+        std::vector<RoundValue>& theirs = all[other].values;
+        if (theirs.size() != made.size())
             throw InputError("another rank computes other ambient values");
-        for (std::size_t i = other; i < theirs.size(); i += all.size())
+        for (std::size_t i = other; i < made.size(); i += all.size())
             made[i] = std::move(theirs[i]);
     }
     return made;
@@ -265,9 +269,9 @@ void AmbientRounds::store(const std::vector<AmbientPoint>& chosen,
             ++counts_.at(static_cast<std::size_t>(find.point.query.level)).new_records;
             if (!calculation_.is_served(find.point)) store(find.record);
         }
-        if (values[i].record.empty()) continue;
+        if (!values[i].record) continue;
         if (calculation_.is_served(chosen[i])) ++counts.needless;
-        store(values[i].record.front());
+        store(*values[i].record);
     }
     cache_.freeze(true);
 }

@@ -7,12 +7,12 @@
 
 #include "core/ambient/ambient_calculation.h"
 #include "core/ambient/ambient_point.h"
+#include "core/ambient/spacing_guess.h"
 #include "core/math/function_ref.h"
 #include "parallel/comm/group.h"
 #include "parallel/executor.h"
 #include "parallel/published_cache.h"
 #include "parallel/round_bytes.h"
-#include "parallel/spacing_guess.h"
 #include "parallel/stop_flag.h"
 #include "parallel/worker_contexts.h"
 
@@ -62,7 +62,7 @@ class AmbientRounds {
 
   private:
     class Waiting;
-    [[nodiscard]] std::vector<std::string> gather(std::string mine);
+    [[nodiscard]] std::vector<RoundShare> gather(RoundShare mine);
     [[nodiscard]] std::vector<char> served(const AmbientPoint* points, std::size_t count);
     void prepare(const std::vector<AmbientPoint>& chosen);
     [[nodiscard]] std::vector<RoundValue> compute(const std::vector<AmbientPoint>& chosen);

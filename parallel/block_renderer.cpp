@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "parallel/refine.h"
+#include "core/view/refine.h"
 
 namespace lightwalk {
 namespace {

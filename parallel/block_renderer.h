@@ -6,10 +6,10 @@
 
 #include "core/light/small_sources.h"
 #include "core/trace/tracer.h"
+#include "core/view/pixel_rays.h"
 #include "core/view/pixels.h"
 #include "parallel/blocks.h"
 #include "parallel/frame_options.h"
-#include "parallel/pixel_rays.h"
 #include "parallel/pixel_tracer.h"
 #include "parallel/stop_flag.h"
 #include "parallel/worker_contexts.h"
@@ -22,11 +22,7 @@ struct BlockPixels {
     std::vector<PixelValue> values;
     std::vector<PixelHit> hits;  ///< empty unless asked for
 
-    [[nodiscard]] std::size_t index(const PixelPlace& place) const {
-        return static_cast<std::size_t>(place.y - block.y0) *
-                   static_cast<std::size_t>(block.width()) +
-               static_cast<std::size_t>(place.x - block.x0);
-    }
+    [[nodiscard]] std::size_t index(const PixelPlace& place) const { return block.index(place); }
 };
 
 /// Renders any block of a picture, including refinement and small light sources. Deterministic:

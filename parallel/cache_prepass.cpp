@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -48,131 +47,129 @@ FrameOptions coarse_options(const FrameOptions& options, CachePrepass prepass, i
     return coarse;
 }
 
-/// Progress of a prepass over its coarse pictures. A finer picture has more pixels, but fewer
-/// missing values for each: its share of the work is taken as the root of its pixel density.
-class CachePrepassSum {
+/// The prepass of one picture: its arguments, and what it took so far. A finer picture has more
+/// pixels, but fewer missing values for each: its share of the work is taken as the root of its
+/// pixel density.
+class PrepassRun {
   public:
-    CachePrepassSum(const std::vector<int>& steps, TakeProgress progress) : progress_(progress) {
-        for (const int step : steps) all_ += share_of(step);
+    PrepassRun(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+               CachePrepass prepass, PublishedCache& cache, Executor& executor,
+               WorkerContexts& contexts, const StopFlag& stop, TakeProgress progress)
+        : tracer_(tracer),
+          camera_(camera),
+          options_(options),
+          prepass_(prepass),
+          cache_(cache),
+          executor_(executor),
+          contexts_(contexts),
+          stop_(stop),
+          progress_(progress) {
+        for (const int step : steps_of(prepass)) all_ += share_of(step);
     }
 
-    /// Report progress of the present picture, of every `step`-th pixel.
-    void tell(int step, const FrameProgress& now) {
-        progress_({std::min(1.0, (before_ + now.done * share_of(step)) / all_),
-                   result_.rays.total() + now.rays, result_.ambient.computed + now.ambient_values});
+    /// The coarse pictures fill the cache as they go. False: stopped.
+    [[nodiscard]] bool fill_by_pictures() {
+        for (const int step : steps_of(prepass_)) {
+            const auto tell_progress = [&](const FrameProgress& now) { tell(step, now); };
+            const Frame frame = render_frame(tracer_, camera_, coarse(step), executor_, contexts_,
+                                             stop_, tell_progress);
+            add(frame.rays, frame.ambient);
+            if (!frame.complete) return false;
+            before_ += share_of(step);
+        }
+        return true;
     }
-    void add(int step, const RayCounters& rays, const AmbientCounters& ambient) {
-        add(rays, ambient);
-        before_ += share_of(step);
+
+    /// For one coarse picture after another, finds the ambient values that its pixels lack, and
+    /// computes them in rounds. False: stopped.
+    [[nodiscard]] bool fill_in_rounds(Group& exchange) {
+        int step = 1;            // of the present picture
+        std::size_t points = 0;  // without a value that its pixels found
+        double told = 0;
+        const auto tell_done = [&](double done) {
+            told = done;
+            tell(step, {done, contexts_.rays().total(), contexts_.ambient().computed});
+        };
+        AmbientRounds rounds(
+            tracer_, cache_, executor_, contexts_, exchange, stop_, [&](std::size_t left) {
+                tell_done(1 -
+                          (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points));
+            });
+        for (const int next_step : steps_of(prepass_)) {
+            step = next_step;
+            contexts_.reset_counters();
+            std::vector<AmbientPoint> found = rounds.collect([&] { look_at(step, exchange); });
+            points = found.size();
+            if (!rounds.stopped()) tell_done(found.empty() ? 1 : kLooked);
+            rounds.compute_in_rounds(std::move(found));
+            if (!rounds.stopped() && told < 1) tell_done(1);  // the last got values of others
+            add(contexts_.rays(), contexts_.ambient());
+            if (rounds.stopped()) return false;
+            before_ += share_of(step);
+        }
+        return !rounds.left_out() || fill_left_out();
     }
-    void add(const RayCounters& rays, const AmbientCounters& ambient) {
-        result_.rays += rays;
-        result_.ambient += ambient;
-    }
-    [[nodiscard]] CachePrepassResult result(bool complete) const {
-        CachePrepassResult result = result_;
-        result.complete = complete;
-        return result;
-    }
+
+    [[nodiscard]] const CachePrepassResult& result() const { return result_; }
 
   private:
+    static constexpr double kLooked = 0.1;  ///< share of the work that is finding the points
     static double share_of(int step) { return 1 / std::sqrt(step); }
+    [[nodiscard]] FrameOptions coarse(int step) const {
+        return coarse_options(options_, prepass_, step);
+    }
 
-    TakeProgress progress_;
-    double all_ = 0, before_ = 0;
-    CachePrepassResult result_;
-};
-
-/// Arguments of rendering coarse pictures.
-struct Players {
-    const Tracer& tracer;
-    const Camera& camera;
-    PublishedCache& cache;
-    Executor& executor;
-    WorkerContexts& contexts;
-    Group& exchange;
-    const StopFlag& stop;
-};
-
-/// For one coarse picture after another, finds the ambient values that its pixels lack, and
-/// computes them in rounds.
-class DeterministicPrepass {
-  public:
-    DeterministicPrepass(const Players& players, CachePrepassSum& sum)
-        : players_(players),
-          sum_(sum),
-          rounds_(players.tracer, players.cache, players.executor, players.contexts,
-                  players.exchange, players.stop,
-                  [this](std::size_t left) { tell_of_round(left); }) {}
-
-    /// False: stopped.
-    [[nodiscard]] bool play(const FrameOptions& coarse) {
-        step_ = coarse.step;
-        players_.contexts.reset_counters();
-        std::vector<AmbientPoint> points = rounds_.collect([&] { look_at(coarse); });
-        points_ = points.size();
-        if (!rounds_.stopped()) tell(points.empty() ? 1 : kLooked);
-        rounds_.compute_in_rounds(std::move(points));
-        if (!rounds_.stopped() && told_ < 1) tell(1);  // the last points got values of others
-        sum_.add(step_, players_.contexts.rays(), players_.contexts.ambient());
-        return !rounds_.stopped();
+    /// Trace this process's share of the pixels, to find missing values.
+    void look_at(int step, const Group& exchange) const {
+        const BlockRenderer renderer(tracer_, camera_, coarse(step), contexts_, stop_);
+        const PixelRectangle area = renderer.options().area();
+        const int workers = executor_.concurrency() * exchange.size();
+        const std::vector<Block> all = make_blocks(
+            area, block_side(area.width(), area.height(), workers, renderer.alignment()));
+        std::vector<Block> mine;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (exchange.does(i)) mine.push_back(all[i]);
+        }
+        render_blocks(renderer, mine, executor_, stop_, [](const BlockPixels&, int) {});
     }
 
     /// After all pictures: values at points inside clipped matter or a scattering mist, which
     /// rounds cannot compute. One worker computes them, in each process the same ones. False:
     /// stopped.
-    [[nodiscard]] bool play_left_out(const FrameOptions& options) {
-        if (!rounds_.left_out()) return true;
+    [[nodiscard]] bool fill_left_out() {
         const std::unique_ptr<Executor> one = make_executor(ExecutorKind::serial, 1);
-        players_.cache.freeze(false);
+        cache_.freeze(false);
         for (const int step : {16, 8, 4, 2}) {
-            const Frame frame =
-                render_frame(players_.tracer, players_.camera,
-                             coarse_options(options, CachePrepass::deterministic, step), *one,
-                             players_.contexts, players_.stop, [](const FrameProgress&) {});
-            sum_.add(frame.rays, frame.ambient);
+            const Frame frame = render_frame(tracer_, camera_, coarse(step), *one, contexts_, stop_,
+                                             [](const FrameProgress&) {});
+            add(frame.rays, frame.ambient);
             if (!frame.complete) return false;
         }
-        players_.cache.freeze(true);
+        cache_.freeze(true);
         return true;
     }
 
-  private:
-    static constexpr double kLooked = 0.1;  ///< share of the work that is finding the points
-
-    /// Trace this process's share of the pixels, to find missing values.
-    void look_at(const FrameOptions& coarse) {
-        const BlockRenderer renderer(players_.tracer, players_.camera, coarse, players_.contexts,
-                                     players_.stop);
-        const PixelRectangle area = coarse.area();
-        const int workers = players_.executor.concurrency() * players_.exchange.size();
-        const std::vector<Block> all = make_blocks(
-            area, block_side(area.width(), area.height(), workers, renderer.alignment()));
-        std::vector<Block> mine;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (players_.exchange.does(i)) mine.push_back(all[i]);
-        }
-        BlockQueue blocks(std::move(mine));
-        render_blocks(renderer, blocks, players_.executor, players_.stop,
-                      [](const BlockPixels&, int) {});
+    /// Report progress of the present picture, of every `step`-th pixel.
+    void tell(int step, const FrameProgress& now) const {
+        progress_({std::min(1.0, (before_ + now.done * share_of(step)) / all_),
+                   result_.rays.total() + now.rays, result_.ambient.computed + now.ambient_values});
+    }
+    void add(const RayCounters& rays, const AmbientCounters& ambient) {
+        result_.rays += rays;
+        result_.ambient += ambient;
     }
 
-    /// @param left  points that the round has left
-    void tell_of_round(std::size_t left) {
-        tell(1 - (1 - kLooked) * static_cast<double>(left) / static_cast<double>(points_));
-    }
-    void tell(double done) {
-        told_ = done;
-        sum_.tell(step_,
-                  {done, players_.contexts.rays().total(), players_.contexts.ambient().computed});
-    }
-
-    Players players_;
-    CachePrepassSum& sum_;
-    int step_ = 1;            ///< of the present picture
-    std::size_t points_ = 0;  ///< points without a value that its pixels found
-    double told_ = 0;
-    AmbientRounds rounds_;
+    const Tracer& tracer_;
+    const Camera& camera_;
+    const FrameOptions& options_;
+    CachePrepass prepass_;
+    PublishedCache& cache_;
+    Executor& executor_;
+    WorkerContexts& contexts_;
+    const StopFlag& stop_;
+    TakeProgress progress_;
+    double all_ = 0, before_ = 0;  ///< shares of all pictures, and of those that are done
+    CachePrepassResult result_;
 };
 
 }  // namespace
@@ -193,34 +190,16 @@ CachePrepassResult fill_ambient_cache(const Tracer& tracer, const Camera& camera
                                       PublishedCache& cache, Executor& executor,
                                       WorkerContexts& contexts, const StopFlag& stop,
                                       TakeProgress progress, Group* exchange) {
-    const std::vector<int> steps = steps_of(prepass);
-    CachePrepassSum sum(steps, progress);
+    PrepassRun run(tracer, camera, options, prepass, cache, executor, contexts, stop, progress);
     GroupOfOne alone;
-    std::optional<DeterministicPrepass> rounds;
     cache.freeze(false);
-    if (prepass == CachePrepass::deterministic) {
-        const Players players{tracer,   camera,   cache,
-                              executor, contexts, exchange != nullptr ? *exchange : alone,
-                              stop};
-        rounds.emplace(players, sum);
-    }
-    bool complete = true;
-    for (const int step : steps) {
-        const FrameOptions coarse = coarse_options(options, prepass, step);
-        if (rounds) {
-            complete = rounds->play(coarse);
-        } else {
-            const auto tell = [&](const FrameProgress& now) { sum.tell(step, now); };
-            const Frame frame =
-                render_frame(tracer, camera, coarse, executor, contexts, stop, tell);
-            sum.add(step, frame.rays, frame.ambient);
-            complete = frame.complete;
-        }
-        if (!complete) break;
-    }
-    if (rounds && complete) complete = rounds->play_left_out(options);
+    const bool complete = prepass == CachePrepass::deterministic
+                              ? run.fill_in_rounds(exchange != nullptr ? *exchange : alone)
+                              : run.fill_by_pictures();
     if (!complete) cache.freeze(false);
-    return sum.result(complete);
+    CachePrepassResult result = run.result();
+    result.complete = complete;
+    return result;
 }
 
 }  // namespace lightwalk

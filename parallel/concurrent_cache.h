@@ -26,7 +26,6 @@ class ConcurrentCache final : public AmbientCache {
         return claims_.claim(query);
     }
     void release(const AmbientClaim& claim) override { claims_.release(claim); }
-    [[nodiscard]] std::size_t open_claims() const { return claims_.open(); }
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     /// Bytes of everything that is allocated.
     [[nodiscard]] std::size_t memory_bytes() const {

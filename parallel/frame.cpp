@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstddef>
 #include <mutex>
-#include <optional>
 
 namespace lightwalk {
 namespace {
@@ -77,28 +76,21 @@ std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Bloc
         store(pixels, area, frame);
         known.push_back(pixels.block);
     }
-    return blocks_left(wanted, known, alignment).left;
+    return blocks_left(wanted, known, alignment);
 }
 
 }  // namespace
 
-void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor& executor,
+void render_blocks(const BlockRenderer& renderer, std::span<const Block> blocks, Executor& executor,
                    const StopFlag& stop, TakeBlock take) {
-    StopFlag failed;
-    const auto work = [&](std::size_t, int worker) {
-        try {
-            BlockPixels pixels;
-            while (!stop.requested() && !failed.requested()) {
-                const std::optional<Block> block = source.next();
-                if (!block || !renderer.render(*block, worker, pixels)) return;
-                take(pixels, worker);
-            }
-        } catch (...) {
-            failed.request();
-            throw;
-        }
-    };
-    executor.for_each(static_cast<std::size_t>(executor.concurrency()), work, stop);
+    std::vector<BlockPixels> pixels(static_cast<std::size_t>(executor.concurrency()));
+    executor.for_each(
+        blocks.size(),
+        [&](std::size_t i, int worker) {
+            BlockPixels& own = pixels[static_cast<std::size_t>(worker)];
+            if (renderer.render(blocks[i], worker, own)) take(own, worker);
+        },
+        stop);
 }
 
 Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
@@ -113,12 +105,11 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     const BlockRenderer renderer(tracer, camera, options, contexts, stop);
     const int side =
         block_side(area.width(), area.height(), executor.concurrency(), renderer.alignment());
-    std::vector<Block> wanted = make_blocks(area, side);
+    std::vector<Block> blocks = make_blocks(area, side);
     if (checkpoint != nullptr)
-        wanted = take_known(*checkpoint, wanted, renderer.alignment(), area, frame);
+        blocks = take_known(*checkpoint, blocks, renderer.alignment(), area, frame);
     std::size_t pixels_wanted = 0;
-    for (const Block& block : wanted) pixels_wanted += block.pixels();
-    BlockQueue blocks(std::move(wanted));
+    for (const Block& block : blocks) pixels_wanted += block.pixels();
     ProgressSum sum(contexts, pixels_wanted, progress);
     render_blocks(renderer, blocks, executor, stop, [&](const BlockPixels& pixels, int worker) {
         store(pixels, area, frame);

@@ -1,6 +1,7 @@
 #pragma once
 // Rendering of a frame: every pixel of a view, or of a window of it, by all workers of an executor.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/math/function_ref.h"
@@ -31,10 +32,10 @@ struct Frame {
 /// Takes a finished block from the worker that rendered it; called by many workers at once.
 using TakeBlock = FunctionRef<void(const BlockPixels& pixels, int worker)>;
 
-/// Every worker of the executor pulls blocks and renders them until the source has none left, or
-/// `stop` (the renderer's own) is requested. Only whole blocks are handed on. The first exception
-/// ends the others' work after their block and is thrown again here.
-void render_blocks(const BlockRenderer& renderer, BlockSource& source, Executor& executor,
+/// Render blocks by all workers, until `stop` (the renderer's own) is requested. Only whole blocks
+/// are handed on. The first exception ends the others' work after their block and is thrown again
+/// here.
+void render_blocks(const BlockRenderer& renderer, std::span<const Block> blocks, Executor& executor,
                    const StopFlag& stop, TakeBlock take);
 
 /// Render a frame. Light sources smaller than a pixel are drawn by their coverage (unless a lens or

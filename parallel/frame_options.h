@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/view/pixel_rays.h"
 #include "core/view/pixels.h"
 #include "core/view/view.h"
-#include "parallel/pixel_rays.h"
 
 namespace lightwalk {
 

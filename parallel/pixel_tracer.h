@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/trace/tracer.h"
+#include "core/view/pixel_rays.h"
 #include "core/view/pixels.h"
-#include "parallel/pixel_rays.h"
 #include "parallel/stop_flag.h"
 
 namespace lightwalk {

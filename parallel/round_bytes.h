@@ -1,28 +1,69 @@
 #pragma once
-// Serialisation of points and values of a round for other processes; hashes of points.
+// Points and values of a round of ambient values on the wire (see wire.h); hashes of points.
 #include <cstdint>
-#include <string>
+#include <cstring>
+#include <optional>
 #include <vector>
 
 #include "core/ambient/ambient_point.h"
+#include "core/math/random.h"
+#include "parallel/comm/core_fields.h"
 
 namespace lightwalk {
 
 /// A value of a round, and those that were computed on the way to it.
 struct RoundValue {
     std::vector<NewAmbientRecord> new_records;
-    std::vector<AmbientRecord> record;  ///< one record, or none where it cannot be stored
+    std::optional<AmbientRecord> record;  ///< none where it cannot be stored
 };
 
-[[nodiscard]] std::string encode_points(const std::vector<AmbientPoint>& points);
-/// Append the decoded points. Throws InputError for bytes that are not the output of encode_points,
-/// as the other decoders do.
-void decode_points(const std::string& bytes, std::vector<AmbientPoint>& points);
+/// What a process tells the others at the end of a step, or no values or no points.
+struct RoundShare {
+    bool stop = false;      ///< it was requested to stop
+    bool left_out = false;  ///< it has left points out
+    std::vector<AmbientPoint> points;
+    std::vector<RoundValue> values;
+};
 
-[[nodiscard]] std::string encode_values(const std::vector<RoundValue>& values);
-[[nodiscard]] std::vector<RoundValue> decode_values(const std::string& bytes);
+template <class Wire>
+void visit_fields(Wire& wire, AmbientPoint& p) {
+    AmbientQuery& q = p.query;
+    Medium& m = p.medium;
+    wire(q.position, q.normal, q.shading_normal, q.level, q.weight, m.extinction, m.albedo,
+         m.eccentricity, p.distance, p.path_length, p.limit, p.ray_level, p.target, p.history,
+         p.far_side);
+}
+template <class Wire>
+void visit_fields(Wire& wire, NewAmbientRecord& found) {
+    wire(found.point, found.record);
+}
+template <class Wire>
+void visit_fields(Wire& wire, RoundValue& value) {
+    wire(value.new_records, value.record);
+}
+template <class Wire>
+void visit_fields(Wire& wire, RoundShare& share) {
+    wire(share.stop, share.left_out, share.points, share.values);
+}
+
+/// Mixes the numbers of a value.
+class FieldHasher final : public wire::Wire<FieldHasher> {
+  public:
+    static constexpr bool kReads = false, kOwnSizeOnly = false;
+    void raw(const void* data, std::size_t size) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, data, size);
+        hash = mix_bits(hash ^ bits);
+    }
+    std::uint64_t hash = 0;
+};
 
 /// A hash of all members of a point.
-[[nodiscard]] std::uint64_t hash_of(const AmbientPoint& point);
+[[nodiscard]] inline std::uint64_t hash_of(const AmbientPoint& point) {
+    AmbientPoint copy = point;
+    FieldHasher hasher;
+    hasher(copy);
+    return hasher.hash;
+}
 
 }  // namespace lightwalk

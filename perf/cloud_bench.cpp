@@ -65,6 +65,26 @@ FrameOptions picture(int width) {
     return options;
 }
 
+/// Traces nothing: what it looks at is grey.
+class UnshadedCaster final : public PixelCaster {
+  public:
+    explicit UnshadedCaster(SceneCaster& caster) : caster_(caster) {}
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+               int worker) override {
+        caster_.probe(places, visibility, worker);
+    }
+    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int,
+               int worker) override {
+        std::vector<PixelVisibility> visibility(places.size());
+        caster_.probe(places, visibility, worker);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            pixels[i] = {visibility[i], Rgb::grey(1), {}, visibility[i].ahead.distance};
+    }
+
+  private:
+    SceneCaster& caster_;
+};
+
 /// A turn there and back. What has to be traced is not shaded: the time is that of the cloud.
 void frames_of_a_turn(benchmark::State& state) {
     LodgeScene scene;
@@ -74,19 +94,10 @@ void frames_of_a_turn(benchmark::State& state) {
     const StopFlag stop;
     CloudFrames frames(options.width, options.height, {});
     const auto draw = [&](int step) {
-        const Camera camera(turned_view(living_room(), 0.6 * step));
-        SceneCaster caster(scene.tracer(), scene.visibility(), camera, options, contexts, stop);
-        const auto probe = [&](std::span<const PixelPlace> places,
-                               std::span<PixelVisibility> visibility,
-                               int worker) { caster.probe(places, visibility, worker); };
-        const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
-                               int, int worker) {
-            std::vector<PixelVisibility> visibility(places.size());
-            caster.probe(places, visibility, worker);
-            for (std::size_t i = 0; i < places.size(); ++i)
-                pixels[i] = {visibility[i], Rgb::grey(1), {}, visibility[i].ahead.distance};
-        };
-        return frames.draw(camera, {probe, trace}, *executor, stop);
+        SceneCaster caster(scene.tracer(), scene.visibility(),
+                           Camera(turned_view(living_room(), 0.6 * step)), options, contexts, stop);
+        UnshadedCaster unshaded(caster);
+        return frames.draw(caster.camera(), unshaded, *executor, stop);
     };
     (void)draw(0);
     double project = 0, check = 0, keep = 0, points = 0, reused = 0;

@@ -36,15 +36,6 @@ double processor_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-std::vector<Block> squares(const PixelRectangle& area, int side) {
-    std::vector<Block> found;
-    for (int y = 0; y < area.y1; y += side) {
-        for (int x = 0; x < area.x1; x += side)
-            found.push_back({x, y, std::min(x + side, area.x1), std::min(y + side, area.y1)});
-    }
-    return found;
-}
-
 /// Seconds of each block, in their order.
 std::vector<double> time_blocks(const BlockRenderer& renderer, const std::vector<Block>& blocks,
                                 int worker) {

@@ -4,11 +4,11 @@
 #include "apps/session/lightwalk/picture.h"
 #include "apps/session/lightwalk/renderer.h"
 #include "apps/session/lightwalk/scene.h"
+#include "core/cloud/cloud_frame.h"
 #include "io/files/file_manifest.h"
 #include "io/picture/picture.h"
 #include "io/picture/tone.h"
 #include "io/scene/freezing_resources.h"
-#include "parallel/walk/cloud_frame.h"
 
 namespace lightwalk {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/walk/cloud_frame.h"
+#include "core/cloud/cloud_frame.h"
 
 namespace lightwalk {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "apps/walk/client_inbox.h"
+#include "core/cloud/progressive_light.h"
 #include "core/trace/tracer.h"
 #include "parallel/executor.h"
-#include "parallel/walk/progressive_light.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {

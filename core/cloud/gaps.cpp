@@ -36,6 +36,17 @@ struct GapLevel {
     [[nodiscard]] GapPicture picture() { return {width, height, radiance, known}; }
 };
 
+/// Calls part(first, last) for ranges of rows that make up [0, rows).
+template <class Part>
+void for_rows(const TaskRunner& task_runner, int rows, Part part) {
+    constexpr int kRowsATask = 32;
+    const int tasks = (rows + kRowsATask - 1) / kRowsATask;
+    task_runner.run(static_cast<std::size_t>(tasks), [&](std::size_t task) {
+        const int first = static_cast<int>(task) * kRowsATask;
+        part(first, std::min(first + kRowsATask, rows));
+    });
+}
+
 /// The mean of the known ones among the four pixels below a coarse one. Returns 0 where none is
 /// known.
 std::uint8_t mean_below(const GapPicture& fine, int x, int y, Rgb& mean) {
@@ -53,10 +64,10 @@ std::uint8_t mean_below(const GapPicture& fine, int x, int y, Rgb& mean) {
     return 1;
 }
 
-GapLevel halved(const GapPicture& fine, ForRows by_rows) {
+GapLevel halved(const GapPicture& fine, const TaskRunner& task_runner) {
     GapLevel level((fine.width + 1) / 2, (fine.height + 1) / 2);
     const GapPicture coarse = level.picture();
-    by_rows(coarse.height, [&](int first, int last) {
+    for_rows(task_runner, coarse.height, [&](int first, int last) {
         for (int y = first; y < last; ++y)
             for (int x = 0; x < coarse.width; ++x)
                 level.known[coarse.at(x, y)] =
@@ -76,8 +87,8 @@ Rgb between(const GapPicture& coarse, int x, int y) {
            (1.0f / 16) * value(x1, y1);
 }
 
-void fill_from(const GapPicture& coarse, const GapPicture& fine, ForRows by_rows) {
-    by_rows(fine.height, [&](int first, int last) {
+void fill_from(const GapPicture& coarse, const GapPicture& fine, const TaskRunner& task_runner) {
+    for_rows(task_runner, fine.height, [&](int first, int last) {
         for (int y = first; y < last; ++y) {
             for (int x = 0; x < fine.width; ++x) {
                 const std::size_t i = fine.at(x, y);
@@ -90,22 +101,16 @@ void fill_from(const GapPicture& coarse, const GapPicture& fine, ForRows by_rows
 }  // namespace
 
 void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const std::uint8_t> known,
-               ForRows by_rows) {
+               const TaskRunner& task_runner) {
     std::vector<GapPicture> levels{{width, height, radiance, known}};
     std::deque<GapLevel> coarser;  // levels refer to them
     while (!levels.back().full()) {
         if (levels.back().known.size() <= 1) return;  // no pixel is known
-        coarser.push_back(halved(levels.back(), by_rows));
+        coarser.push_back(halved(levels.back(), task_runner));
         levels.push_back(coarser.back().picture());
     }
     for (std::size_t i = levels.size() - 1; i > 0; --i)
-        fill_from(levels[i], levels[i - 1], by_rows);
-}
-
-void fill_gaps(int width, int height, std::span<Rgb> radiance,
-               std::span<const std::uint8_t> known) {
-    fill_gaps(width, height, radiance, known,
-              [](int rows, FunctionRef<void(int, int)> part) { part(0, rows); });
+        fill_from(levels[i], levels[i - 1], task_runner);
 }
 
 }  // namespace lightwalk

@@ -3,14 +3,10 @@
 #include <cstdint>
 #include <span>
 
-#include "core/math/function_ref.h"
 #include "core/math/rgb.h"
+#include "core/math/task_runner.h"
 
 namespace lightwalk {
-
-/// A parallel loop over rows: calls part(first, last) for ranges that make up [0, rows), possibly
-/// from many threads at once.
-using ForRows = FunctionRef<void(int rows, FunctionRef<void(int first, int last)> part)>;
 
 /// Fill the unknown pixels of a picture: means of ever larger neighbourhoods are taken until one
 /// holds a known pixel, and spread back by bilinear interpolation. Smooth, and linear in the number
@@ -20,8 +16,6 @@ using ForRows = FunctionRef<void(int rows, FunctionRef<void(int first, int last)
 /// @param known     for each pixel: not 0 where it is known
 /// Source: Gortler et al., "The Lumigraph", SIGGRAPH 1996, section 3.4 (pull-push).
 void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const std::uint8_t> known,
-               ForRows by_rows);
-/// Fill the unknown pixels in the calling thread.
-void fill_gaps(int width, int height, std::span<Rgb> radiance, std::span<const std::uint8_t> known);
+               const TaskRunner& task_runner = SerialTaskRunner());
 
 }  // namespace lightwalk

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "core/cloud/point.h"
-#include "core/math/function_ref.h"
 #include "core/view/pixels.h"
 
 namespace lightwalk {
@@ -45,19 +44,19 @@ struct TracedPixel {
     float distance = 0;  ///< along the ray [m]
 };
 
-/// Callbacks that cast rays. Many workers may call them at once, each with its own number.
-struct PixelCaster {
+/// Casts the rays of a frame. Many workers may call it at once, each with its own number.
+class PixelCaster {
+  public:
+    virtual ~PixelCaster() = default;
     /// Find what the pixels' rays see, without shading (cheap). Slopes need only be right where
     /// they are kNeverReuse.
-    FunctionRef<void(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                     int worker)>
-        probe;
+    virtual void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+                       int worker) = 0;
     /// Trace the pixels, with all of their visibility (expensive).
     /// @param sample  0: the rays that `probe` casts; 1, 2, ...: other rays of the same pixels,
     /// equally distributed
-    FunctionRef<void(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
-                     int worker)>
-        trace;
+    virtual void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
+                       int sample, int worker) = 0;
 };
 
 /// The points that a traced pixel leaves: at most two.

@@ -18,9 +18,10 @@ bool is_step(const Rgb& a, const Rgb& b) {
 
 }  // namespace
 
-void ProgressivePicture::begin(std::span<const Rgb> radiance,
+void ProgressivePicture::begin(std::span<const Rgb> radiance, std::span<const float> distance,
                                std::span<const PixelOrigin> origins) {
     radiance_.assign(radiance.begin(), radiance.end());
+    distance_.assign(distance.begin(), distance.end());
     origins_.assign(origins.begin(), origins.end());
 }
 
@@ -109,13 +110,17 @@ ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
     return work;
 }
 
-void ProgressivePicture::record(const ProgressiveWork& work, std::span<const Rgb> traced) {
+void ProgressivePicture::record(const ProgressiveWork& work,
+                                std::span<const std::optional<PixelValue>> traced) {
     for (std::size_t i = 0; i < traced.size(); ++i) {
+        if (!traced[i]) continue;
         const std::size_t pixel = at(work.places[i].x, work.places[i].y);
         const auto before = static_cast<float>(work.sample);
+        const Rgb& radiance = traced[i]->radiance;
         radiance_[pixel] = work.sample == 0
-                               ? traced[i]
-                               : (before * radiance_[pixel] + traced[i]) * (1 / (before + 1));
+                               ? radiance
+                               : (before * radiance_[pixel] + radiance) * (1 / (before + 1));
+        if (work.sample == 0) distance_[pixel] = traced[i]->distance;
         origins_[pixel] = {PixelOrigin::Kind::traced, static_cast<std::uint8_t>(work.sample + 1),
                            0};
     }

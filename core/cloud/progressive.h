@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,7 +52,8 @@ class ProgressivePicture {
         : width_(width), height_(height), most_samples_(samples) {}
 
     /// Start to refine a new picture, given row by row.
-    void begin(std::span<const Rgb> radiance, std::span<const PixelOrigin> origins);
+    void begin(std::span<const Rgb> radiance, std::span<const float> distance,
+               std::span<const PixelOrigin> origins);
 
     /// The next pixels to trace, at most `most`: first interpolated ones (coarse grids first), then
     /// guessed ones, then reused ones (oldest points first), then further rays, one at a time, for
@@ -65,11 +67,12 @@ class ProgressivePicture {
     /// The picture; its interpolated pixels are filled from all that is known by now.
     [[nodiscard]] std::vector<Rgb> picture() const;
 
-    /// Record the radiances of the first traced.size() pixels of `work`; the others were not
-    /// traced.
-    void record(const ProgressiveWork& work, std::span<const Rgb> traced);
+    /// Record the values of the pixels of `work`; none: there was no time for it.
+    void record(const ProgressiveWork& work, std::span<const std::optional<PixelValue>> traced);
 
     [[nodiscard]] std::span<const Rgb> radiance() const { return radiance_; }
+    /// Along the pixels' first rays [m].
+    [[nodiscard]] std::span<const float> distance() const { return distance_; }
     [[nodiscard]] std::span<const PixelOrigin> origins() const { return origins_; }
 
   private:
@@ -83,6 +86,7 @@ class ProgressivePicture {
 
     int width_, height_, most_samples_;
     std::vector<Rgb> radiance_;
+    std::vector<float> distance_;
     std::vector<PixelOrigin> origins_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Types for pixels: places, values and rectangles. In all of them x counts from the left and y from
 // the bottom of the picture.
+#include <algorithm>
 #include <cstddef>
 
 #include "core/math/rgb.h"
@@ -47,7 +48,25 @@ struct PixelRectangle {
     [[nodiscard]] bool contains(const PixelPlace& place) const {
         return x0 <= place.x && place.x < x1 && y0 <= place.y && place.y < y1;
     }
+    /// Index of a pixel inside, row by row from the bottom, left to right.
+    [[nodiscard]] std::size_t index(const PixelPlace& place) const {
+        return static_cast<std::size_t>(place.y - y0) * static_cast<std::size_t>(width()) +
+               static_cast<std::size_t>(place.x - x0);
+    }
     friend bool operator==(const PixelRectangle&, const PixelRectangle&) = default;
 };
+
+/// The pixels that lie in both; empty where there are none.
+[[nodiscard]] inline PixelRectangle intersection(const PixelRectangle& a, const PixelRectangle& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+/// A rectangle with `by` more pixels on each side, inside a picture; empty where it is.
+[[nodiscard]] inline PixelRectangle widened(const PixelRectangle& area, int by, int width,
+                                            int height) {
+    if (area.empty()) return {};
+    return intersection({area.x0 - by, area.y0 - by, area.x1 + by, area.y1 + by},
+                        {0, 0, width, height});
+}
 
 }  // namespace lightwalk

@@ -28,12 +28,7 @@ class MemoryCommunicator final : public Communicator {
     [[nodiscard]] bool on_one_machine() const override { return true; }
 
     void send(int to, std::string bytes) override {
-        Inbox& inbox = of(to);
-        {
-            const std::lock_guard lock(inbox.mutex);
-            inbox.packets.push_back({rank_, std::move(bytes)});
-        }
-        inbox.changed.notify_one();
+        change(to, [&](Inbox& inbox) { inbox.packets.push_back({rank_, std::move(bytes)}); });
     }
 
     [[nodiscard]] std::optional<Packet> receive() override {
@@ -55,22 +50,13 @@ class MemoryCommunicator final : public Communicator {
     }
 
     void wake() override {
-        Inbox& inbox = of(rank_);
-        {
-            const std::lock_guard lock(inbox.mutex);
-            inbox.woken = true;
-        }
-        inbox.changed.notify_one();
+        change(rank_, [](Inbox& inbox) { inbox.woken = true; });
     }
 
     [[nodiscard]] std::string broadcast(std::string bytes) override {
         if (rank_ == 0) {
-            for (int to = 1; to < size(); ++to) {
-                Inbox& inbox = of(to);
-                const std::lock_guard lock(inbox.mutex);
-                inbox.broadcasts.push_back(bytes);
-                inbox.changed.notify_one();
-            }
+            for (int to = 1; to < size(); ++to)
+                change(to, [&](Inbox& inbox) { inbox.broadcasts.push_back(bytes); });
             return bytes;
         }
         Inbox& inbox = of(rank_);
@@ -85,16 +71,23 @@ class MemoryCommunicator final : public Communicator {
     void flush() override {}
 
     [[noreturn]] void abort(int status) override {
-        for (Inbox& inbox : *inboxes_) {
-            const std::lock_guard lock(inbox.mutex);
-            inbox.aborted = status;
-            inbox.changed.notify_one();
-        }
+        for (int rank = 0; rank < size(); ++rank)
+            change(rank, [&](Inbox& inbox) { inbox.aborted = status; });
         throw Aborted{status};
     }
 
   private:
     [[nodiscard]] Inbox& of(int rank) const { return (*inboxes_)[static_cast<std::size_t>(rank)]; }
+    /// Change a rank's inbox, and wake it where it waits.
+    template <class Change>
+    void change(int rank, Change change_inbox) const {
+        Inbox& inbox = of(rank);
+        {
+            const std::lock_guard lock(inbox.mutex);
+            change_inbox(inbox);
+        }
+        inbox.changed.notify_one();
+    }
 
     std::shared_ptr<std::vector<Inbox>> inboxes_;
     int rank_;

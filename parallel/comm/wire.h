@@ -140,10 +140,11 @@ class Writer final : public Wire<Writer> {
     std::string bytes;
 };
 
-/// Bytes that a value takes, without making them.
-class Counter final : public Wire<Counter> {
+/// Bytes that a value takes, without making them; `kLeast`: of an alternative only its index.
+template <bool kLeast>
+class Counter final : public Wire<Counter<kLeast>> {
   public:
-    static constexpr bool kReads = false, kOwnSizeOnly = false;
+    static constexpr bool kReads = false, kOwnSizeOnly = kLeast;
     void raw(const void*, std::size_t size) { bytes += size; }
     template <class List>
     void length(const List&) {
@@ -152,24 +153,14 @@ class Counter final : public Wire<Counter> {
     std::size_t bytes = 0;
 };
 
-/// Bytes that any value of a type takes at least: of an alternative its index.
-class LeastCounter final : public Wire<LeastCounter> {
-  public:
-    static constexpr bool kReads = false, kOwnSizeOnly = true;
-    void raw(const void*, std::size_t size) { bytes += size; }
-    template <class List>
-    void length(const List&) {
-        bytes += sizeof(std::uint64_t);
-    }
-    template <class T>
-    [[nodiscard]] static std::size_t of() {
-        T value{};
-        LeastCounter counter;
-        counter(value);
-        return counter.bytes;
-    }
-    std::size_t bytes = 0;
-};
+/// Bytes that any value of a type takes at least.
+template <class T>
+[[nodiscard]] std::size_t least_size() {
+    T value{};
+    Counter<true> counter;
+    counter(value);
+    return counter.bytes;
+}
 
 class Reader final : public Wire<Reader> {
   public:
@@ -183,7 +174,7 @@ class Reader final : public Wire<Reader> {
     /// A length that promises more elements than there are bytes for cannot be.
     template <class List>
     void length(List& list) {
-        static const std::size_t least = LeastCounter::of<typename List::value_type>();
+        static const std::size_t least = least_size<typename List::value_type>();
         std::uint64_t size = 0;
         raw(&size, sizeof size);
         if (size > left_.size() / least) refuse("promise more than they hold");
@@ -197,7 +188,7 @@ class Reader final : public Wire<Reader> {
 
 template <class T>
 [[nodiscard]] std::size_t size_of(const T& value) {
-    Counter counter;
+    Counter<false> counter;
     counter(const_cast<T&>(value));  // fields are listed for readers as well; this one only looks
     return counter.bytes;
 }

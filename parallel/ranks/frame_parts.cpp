@@ -73,7 +73,7 @@ void put_together(const Parts& parts, int width, AssembledFrame& whole) {
         for_pixels(part->area, width, [&](std::size_t at, std::size_t i) {
             whole.frame.radiance[at] = values[i].radiance;
             whole.frame.distance[at] = values[i].distance;
-            whole.known[at] = known[i];
+            whole.frame.known[at] = known[i];
         });
     }
 }
@@ -110,18 +110,19 @@ std::vector<std::optional<PixelValue>> refined_of(const Parts& parts, const Fram
 AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
                               std::size_t most_points) {
     const Parts parts = sorted_parts(order, finished);
-    const std::size_t pixels = PixelRectangle{0, 0, order.width, order.height}.pixels();
     AssembledFrame whole;
+    whole.frame.area = {0, 0, order.width, order.height};
+    const std::size_t pixels = whole.frame.area.pixels();
     whole.frame.radiance.resize(pixels);
     whole.frame.distance.resize(pixels);
-    whole.known.resize(pixels);
+    whole.frame.known.resize(pixels);
     CloudReport& report = whole.frame.report;
     report.pixels = pixels;
     report.tightness = order.rules.tightness;
     for (const FramePart* part : parts) add_report(part->report, report);
     report.points = std::min(most_points, report.points);
     if (!order.rests) put_together(parts, order.width, whole);
-    if (order.tells_origins) whole.origins = origins_of(parts, order.width, pixels);
+    if (order.tells_origins) whole.frame.origins = origins_of(parts, order.width, pixels);
     whole.refined = refined_of(parts, order);
     return whole;
 }

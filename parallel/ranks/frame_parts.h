@@ -4,18 +4,17 @@
 #include <optional>
 #include <vector>
 
-#include "parallel/walk/cloud_frame.h"
+#include "core/cloud/cloud_frame.h"
 #include "parallel/walk/frame_order.h"
 
 namespace lightwalk {
 
 /// A frame from its parts. In its report seconds are those of the slowest rank in each step; the
 /// points are those that there is room for, of which a few less are kept where there was too little
-/// (see age_limit). It says of no pixel why it was traced.
+/// (see age_limit). It says of no pixel why it was traced, and where pixels come from
+/// only where the order asked for that.
 struct AssembledFrame {
     CloudFrame frame;
-    std::vector<std::uint8_t> known;   ///< for each pixel: not 0 where something is known of it
-    std::vector<PixelOrigin> origins;  ///< where the order asked for them
     /// Values of the order's refined pixels, in its order.
     std::vector<std::optional<PixelValue>> refined;
 };

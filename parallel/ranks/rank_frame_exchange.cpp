@@ -12,7 +12,7 @@ namespace {
 class RankFrameExchange final : public FrameExchange {
   public:
     RankFrameExchange(RankLoop& loop, TracerInbox& inbox, const WalkPartOptions& options,
-                      const FrameOrder& order, const WalkRays& rays, double last_keep_seconds,
+                      const FrameOrder& order, const SceneCaster& rays, double last_keep_seconds,
                       Timeline* timeline)
         : loop_(loop),
           inbox_(inbox),
@@ -26,7 +26,7 @@ class RankFrameExchange final : public FrameExchange {
 
     [[nodiscard]] bool exchange_points(CloudRegion& region, const StopFlag& stop) override {
         std::vector<SharedPoints> leaving(options_.owners);
-        region.leaving([&](const CloudPoint& point, const PixelPlace& place) {
+        region.points().leaving([&](const CloudPoint& point, const PixelPlace& place) {
             const PixelRectangle near = widened({place.x, place.y, place.x + 1, place.y + 1}, 1,
                                                 order_.width, order_.height);
             for (const std::size_t owner : parts_.overlapping(near))
@@ -44,17 +44,16 @@ class RankFrameExchange final : public FrameExchange {
     }
 
     void send_used(const CloudRegion& region) override {
-        const UsedPixels used = region.used_beside();
+        const UsedPixels used = region.points().used_beside();
         for (const std::size_t i : beside())
             loop_.post(options_.workers[i], PointExchange{order_.number, used});
     }
 
     [[nodiscard]] bool trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
                              Executor& executor, const StopFlag& stop) override {
-        const std::span<const std::uint32_t> pairs = region.noise_pairs();
-        UncachedPixels pixels{order_.number, static_cast<std::uint32_t>(pairs.size()), {}};
-        for (const UncachedPixel& pixel : region.uncached()) pixels.places.push_back(pixel.place);
-        for (const std::uint32_t i : pairs) pixels.places.push_back(region.uncached()[i].place);
+        const TraceList& to_trace = region.to_trace();
+        UncachedPixels pixels{order_.number, static_cast<std::uint32_t>(to_trace.noise_pairs()),
+                              to_trace.places()};
         const std::size_t expected = pixels.places.size();
         loop_.post(0, std::move(pixels));
         trace_runs(tracer, sample, executor, stop);
@@ -62,7 +61,7 @@ class RankFrameExchange final : public FrameExchange {
         const std::size_t lists = order_.rests ? 0 : beside().size();
         const auto mail = inbox_.mail(order_.number, expected, lists, stop);
         if (!mail) return false;
-        for (const UsedPixels& used : mail->used) region.mark_used(used);
+        for (const UsedPixels& used : mail->used) region.points().mark_used(used);
         record(mail->runs, expected, region);
         return true;
     }
@@ -83,13 +82,12 @@ class RankFrameExchange final : public FrameExchange {
     void deliver(const FrameOrder&, CloudRegion& region) override {
         FramePart part;
         part.frame = order_.number;
-        part.area = region.area();
+        part.area = region.frame().area;
         if (order_.rests)
-            part.refined = refined_values(region);
+            part.refined = region.to_trace().values();
         else
             encode(region, part);
-        if (order_.tells_origins)
-            part.origins.assign(region.origins().begin(), region.origins().end());
+        if (order_.tells_origins) part.origins = region.frame().origins;
         part.report = region.frame().report;
         part.report.rays = rays_.traced() - rays_before_;
         part.report.keep_seconds = last_keep_seconds_;
@@ -139,7 +137,7 @@ class RankFrameExchange final : public FrameExchange {
 
     /// Each pixel must have been dealt with, and once.
     static void record(std::span<const TracedRun> runs, std::size_t expected, CloudRegion& region) {
-        const std::size_t uncached = region.uncached().size();
+        const std::size_t uncached = region.to_trace().pixels().size();
         std::vector<bool> there(expected);
         for (const TracedRun& run : runs) {
             const std::size_t end = std::size_t{run.first} + run.count;
@@ -152,11 +150,7 @@ class RankFrameExchange final : public FrameExchange {
             if (!sound) throw InputError("a rank has traced pixels that it should not have");
             std::fill(there.begin() + run.first, there.begin() + static_cast<std::ptrdiff_t>(end),
                       true);
-            if (!run.traced) continue;
-            if (run.first >= uncached)
-                region.record_noise_pairs(run.first - uncached, *run.traced);
-            else
-                region.record(run.first, *run.traced);
+            if (run.traced) region.to_trace().record(run.first, *run.traced);
         }
     }
 
@@ -166,18 +160,17 @@ class RankFrameExchange final : public FrameExchange {
         for (std::size_t i = 0; i < values.size(); ++i)
             values[i] = {frame.radiance[i], frame.distance[i]};
         if (frame.report.filled > 0) {
-            const std::span<const std::uint8_t> known = region.known();
-            for (std::size_t i = 0; i < known.size(); ++i)
-                if (known[i] == 0) part.unknown.push_back(static_cast<std::uint32_t>(i));
+            for (std::size_t i = 0; i < frame.known.size(); ++i)
+                if (frame.known[i] == 0) part.unknown.push_back(static_cast<std::uint32_t>(i));
         }
-        part.pixels = options_.encode(region.area(), std::move(values));
+        part.pixels = options_.encode(frame.area, std::move(values));
     }
 
     RankLoop& loop_;
     TracerInbox& inbox_;
     const WalkPartOptions& options_;
     const FrameOrder& order_;
-    const WalkRays& rays_;
+    const SceneCaster& rays_;
     std::uint64_t rays_before_;
     double last_keep_seconds_;
     Timeline* timeline_;
@@ -195,24 +188,17 @@ void draw_frames(RankLoop& loop, TracerInbox& inbox, const WalkPartOptions& opti
         return inbox.next_order(stop);
     };
     while (const std::optional<FrameOrder> order = next()) {
-        const std::unique_ptr<WalkRays> rays = make(*order);
-        const auto probe = [&](std::span<const PixelPlace> places,
-                               std::span<PixelVisibility> visibility,
-                               int worker) { rays->probe(places, visibility, worker); };
-        const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
-                               int sample,
-                               int worker) { rays->trace(places, pixels, sample, worker); };
-        const PixelCaster caster{probe, trace};
+        const std::unique_ptr<SceneCaster> rays = make(*order);
         RankFrameExchange exchange(loop, inbox, options, *order, *rays, frames.keep_seconds(),
                                    timeline);
         if (options.index < options.owners) {
-            (void)frames.draw(*order, rays->camera(), caster, exchange, executor, stop);
+            (void)frames.draw(*order, rays->camera(), *rays, exchange, executor, stop);
             continue;
         }
         // A rank that owns no part has nothing to do before others have found what to trace.
         const auto deadline = order->budget > 0 ? deadline_of(order->budget)
                                                 : UncachedPixelTracer::Clock::time_point::max();
-        exchange.trace_runs(UncachedPixelTracer(caster, options.cloud.tolerance,
+        exchange.trace_runs(UncachedPixelTracer(*rays, options.cloud.tolerance,
                                                 tracing_deadline(deadline, order->budget, 0)),
                             order->sample, executor, stop);
     }

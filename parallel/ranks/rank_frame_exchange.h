@@ -9,23 +9,12 @@
 #include "parallel/ranks/trace_work.h"
 #include "parallel/sub_images.h"
 #include "parallel/walk/frame_loop.h"
+#include "parallel/walk/scene_caster.h"
 
 namespace lightwalk {
 
-/// What a frame is seen by: its camera, and its rays (see PixelCaster).
-class WalkRays {
-  public:
-    virtual ~WalkRays() = default;
-    [[nodiscard]] virtual const Camera& camera() const = 0;
-    virtual void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                       int worker) = 0;
-    virtual void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
-                       int sample, int worker) = 0;
-    /// Rays that were traced so far, for this frame and those before.
-    [[nodiscard]] virtual std::uint64_t traced() const = 0;
-};
 /// Makes the rays of an order. Called once a frame on every rank that traces.
-using MakeWalkRays = std::function<std::unique_ptr<WalkRays>(const FrameOrder&)>;
+using MakeWalkRays = std::function<std::unique_ptr<SceneCaster>(const FrameOrder&)>;
 
 struct WalkPartOptions {
     std::vector<int> workers;  ///< ranks that trace

@@ -2,8 +2,8 @@
 
 namespace lightwalk {
 
-const CloudFrame& CloudFrames::draw(const Camera& camera, const PixelCaster& caster,
-                                    Executor& executor, const StopFlag& stop) {
+const CloudFrame& CloudFrames::draw(const Camera& camera, PixelCaster& caster, Executor& executor,
+                                    const StopFlag& stop) {
     if (lead_.rests(camera.view())) (void)progressive();  // before the last frame is forgotten
     const FrameOrder order = lead_.order(camera.view(), {});
     NoFrameExchange alone;
@@ -13,14 +13,16 @@ const CloudFrame& CloudFrames::draw(const Camera& camera, const PixelCaster& cas
     }
     CloudRegion& region = *loop_.region();
     std::vector<std::optional<PixelValue>> refined;
-    if (order.rests) refined = refined_values(region);
-    lead_.complete(region.frame(), region.known(), refined, executor);
+    if (order.rests) refined = region.to_trace().values();
+    lead_.complete(region.frame(), refined, executor);
     return region.frame();
 }
 
 const ProgressivePicture* CloudFrames::progressive() {
-    if (lead_.wants_origins())
-        lead_.begin_progressive(loop_.region()->frame(), loop_.region()->origins());
+    if (lead_.wants_origins()) {
+        const CloudFrame& last = loop_.region()->frame();
+        lead_.begin_progressive(last, last.origins);
+    }
     return lead_.progressive();
 }
 

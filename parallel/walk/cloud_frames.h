@@ -21,11 +21,12 @@ class CloudFrames {
 
     /// The next frame. Throws what the caster throws; then, and when stopped, the cloud is as it
     /// was before. The frame is there until the next one is drawn.
-    [[nodiscard]] const CloudFrame& draw(const Camera& camera, const PixelCaster& caster,
+    [[nodiscard]] const CloudFrame& draw(const Camera& camera, PixelCaster& caster,
                                          Executor& executor, const StopFlag& stop);
 
     [[nodiscard]] std::span<const CloudPoint> points() const {
-        return loop_.region() != nullptr ? loop_.region()->points() : std::span<const CloudPoint>();
+        return loop_.region() != nullptr ? loop_.region()->points().all()
+                                         : std::span<const CloudPoint>();
     }
     /// The last frame as one to be refined; nothing before the first one, and without `refine`.
     [[nodiscard]] const ProgressivePicture* progressive();

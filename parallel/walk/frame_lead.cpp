@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/cloud/gaps.h"
+#include "parallel/executor_task_runner.h"
 
 namespace lightwalk {
 
@@ -57,19 +58,20 @@ FrameOrder FrameLead::trace_order(const ProgressiveWork& work, std::string paylo
 }
 
 void FrameLead::begin_progressive(const CloudFrame& last, std::span<const PixelOrigin> origins) {
-    progressive_.begin(last.radiance, origins);
-    distance_ = last.distance;
+    progressive_.begin(last.radiance, last.distance, origins);
     begun_ = true;
 }
 
-void FrameLead::complete(CloudFrame& frame, std::span<const std::uint8_t> known,
-                         std::span<const std::optional<PixelValue>> refined, Executor& executor) {
+void FrameLead::complete(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined,
+                         Executor& executor) {
     empty_ = frame.report.points == 0;
     if (rests_) {
         refine(frame, refined);
     } else {
         error_controller_.record(frame.report.audit_errors, frame.report.audit_floors);
-        if (frame.report.filled > 0) fill(frame, known, executor);
+        // Pixels that there was no time for, from what lies around them.
+        if (frame.report.filled > 0)
+            fill_gaps(width_, height_, frame.radiance, frame.known, ExecutorTaskRunner(executor));
         if (options_.refine > 0) view_ = ordered_;
         begun_ = false;
     }
@@ -77,36 +79,20 @@ void FrameLead::complete(CloudFrame& frame, std::span<const std::uint8_t> known,
     frame.complete = true;
 }
 
-/// Pixels that there was no time for, from what lies around them.
-void FrameLead::fill(CloudFrame& frame, std::span<const std::uint8_t> known,
-                     Executor& executor) const {
-    const auto by_rows = [&](int rows, FunctionRef<void(int, int)> part) {
-        constexpr int kRowsATask = 32;
-        const int tasks = (rows + kRowsATask - 1) / kRowsATask;
-        executor.for_each(static_cast<std::size_t>(tasks), [&](std::size_t task, int) {
-            const int first = static_cast<int>(task) * kRowsATask;
-            part(first, std::min(first + kRowsATask, rows));
-        });
-    };
-    fill_gaps(width_, height_, frame.radiance, known, by_rows);
-}
-
 /// Put what was traced into the picture of a resting view.
 void FrameLead::refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined) {
-    ProgressiveWork done{work_.sample, {}};
-    std::vector<Rgb> radiance;
+    progressive_.record(work_, refined);
+    const std::span<const float> distance = progressive_.distance();
+    frame.radiance = progressive_.picture();
+    frame.distance.assign(distance.begin(), distance.end());
+    std::size_t traced = 0;
     for (std::size_t i = 0; i < refined.size(); ++i) {
         if (!refined[i]) continue;
-        const PixelPlace& place = work_.places[i];
-        done.places.push_back(place);
-        radiance.push_back(refined[i]->radiance);
-        if (!frame.causes.empty()) frame.causes[pixel(place)] = TraceCause::refined;
-        if (work_.sample == 0) distance_[pixel(place)] = refined[i]->distance;
+        ++traced;
+        if (!frame.causes.empty())
+            frame.causes[frame.area.index(work_.places[i])] = TraceCause::refined;
     }
-    progressive_.record(done, radiance);
-    frame.radiance = progressive_.picture();
-    frame.distance = distance_;
-    frame.report.uncached[static_cast<std::size_t>(TraceCause::refined)] = radiance.size();
+    frame.report.uncached[static_cast<std::size_t>(TraceCause::refined)] = traced;
     frame.report.filled = progressive_.guessed_pixels();
     frame.report.reused = frame.report.pixels - frame.report.filled;
 }

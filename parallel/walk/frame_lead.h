@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/cloud/cloud_frame.h"
 #include "core/cloud/progressive.h"
 #include "core/cloud/reuse_error_controller.h"
 #include "core/view/view.h"
 #include "parallel/executor.h"
-#include "parallel/walk/cloud_frame.h"
 #include "parallel/walk/frame_order.h"
 
 namespace lightwalk {
@@ -27,10 +27,9 @@ class FrameLead {
     [[nodiscard]] FrameOrder order(const View& view, std::string payload);
     /// The frame that was ordered is drawn: fills its gaps, or puts what was refined into the
     /// picture of the resting view.
-    /// @param known    see CloudRegion::known
     /// @param refined  values of the order's refined pixels; none: there was no time
-    void complete(CloudFrame& frame, std::span<const std::uint8_t> known,
-                  std::span<const std::optional<PixelValue>> refined, Executor& executor);
+    void complete(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined,
+                  Executor& executor);
     /// It was not drawn, as somebody stopped it.
     void abandon() { view_.reset(); }
 
@@ -56,12 +55,7 @@ class FrameLead {
 
   private:
     [[nodiscard]] FrameOrder new_order(std::string payload) const;
-    void fill(CloudFrame& frame, std::span<const std::uint8_t> known, Executor& executor) const;
     void refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined);
-    [[nodiscard]] std::size_t pixel(const PixelPlace& place) const {
-        return static_cast<std::size_t>(place.y) * static_cast<std::size_t>(width_) +
-               static_cast<std::size_t>(place.x);
-    }
 
     int width_, height_;
     CloudOptions options_;
@@ -76,7 +70,6 @@ class FrameLead {
     std::optional<View> view_;
     bool begun_ = false;  ///< to be refined: what follows is of it
     ProgressivePicture progressive_;
-    std::vector<float> distance_;
 };
 
 }  // namespace lightwalk

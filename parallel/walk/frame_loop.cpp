@@ -1,6 +1,7 @@
 #include "parallel/walk/frame_loop.h"
 
 #include <numeric>
+#include <vector>
 
 #include "core/error.h"
 #include "parallel/sub_images.h"
@@ -8,7 +9,7 @@
 
 namespace lightwalk {
 
-bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, const PixelCaster& caster,
+bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster& caster,
                      FrameExchange& exchange, Executor& executor, const StopFlag& stop) {
     using Clock = UncachedPixelTracer::Clock;
     const Clock::time_point deadline =
@@ -62,33 +63,24 @@ void FrameLoop::refine(std::span<const PixelPlace> places) {
     const StepTimer timer(region_->frame().report.check_seconds);
     std::vector<PixelPlace> own;
     for (const PixelPlace& place : places)
-        if (region_->area().contains(place)) own.push_back(place);
+        if (region_->frame().area.contains(place)) own.push_back(place);
     region_->refine(own);
 }
 
 bool NoFrameExchange::trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
                             Executor& executor, const StopFlag& stop) {
-    const std::span<const UncachedPixel> pixels = region.uncached();
-    tracer.trace(
-        pixels.size(), [&](std::size_t i) { return pixels[i].place; }, sample, executor, stop,
-        [&](std::size_t first, std::span<const TracedPixelResult> traced) {
-            region.record(first, traced);
-        });
-    const std::span<const std::uint32_t> pairs = region.noise_pairs();
-    tracer.trace(
-        pairs.size(), [&](std::size_t pair) { return pixels[pairs[pair]].place; }, 1, executor,
-        stop,
-        [&](std::size_t first, std::span<const TracedPixelResult> traced) {
-            region.record_noise_pairs(first, traced);
-        });
+    TraceList& to_trace = region.to_trace();
+    const std::vector<PixelPlace> places = to_trace.places();
+    const std::size_t own = places.size() - to_trace.noise_pairs();
+    const auto trace = [&](std::size_t begin, std::size_t count, int by_sample) {
+        tracer.trace(std::span(places).subspan(begin, count), by_sample, executor, stop,
+                     [&](std::size_t first, std::span<const TracedPixelResult> traced) {
+                         to_trace.record(begin + first, traced);
+                     });
+    };
+    trace(0, own, sample);
+    trace(own, to_trace.noise_pairs(), 1);
     return !stop.requested();
-}
-
-std::vector<std::optional<PixelValue>> refined_values(CloudRegion& region) {
-    std::vector<std::optional<PixelValue>> values(region.uncached().size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (region.is_traced(i)) values[i] = region.traced(i).value;
-    return values;
 }
 
 }  // namespace lightwalk

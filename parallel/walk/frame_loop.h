@@ -2,7 +2,7 @@
 // A frame of a walk, or the part of it that one process owns: one function, for one process and for
 // many.
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "core/cloud/primary_visibility.h"
 #include "parallel/executor.h"
@@ -56,9 +56,8 @@ class FrameLoop {
 
     /// The next frame. False: stopped; then, and when the caster throws, the cloud is as it was
     /// before. Throws InputError for orders that cannot be.
-    [[nodiscard]] bool draw(const FrameOrder& order, const Camera& camera,
-                            const PixelCaster& caster, FrameExchange& exchange, Executor& executor,
-                            const StopFlag& stop);
+    [[nodiscard]] bool draw(const FrameOrder& order, const Camera& camera, PixelCaster& caster,
+                            FrameExchange& exchange, Executor& executor, const StopFlag& stop);
 
     /// The part of the last frame; null before the first one.
     [[nodiscard]] CloudRegion* region() { return region_ ? &*region_ : nullptr; }
@@ -76,8 +75,5 @@ class FrameLoop {
     int width_ = 0, height_ = 0;  ///< of the picture that the region is a part of
     double keep_seconds_ = 0;
 };
-
-/// The values of the pixels that a resting view refines, in their order; none: there was no time.
-[[nodiscard]] std::vector<std::optional<PixelValue>> refined_values(CloudRegion& region);
 
 }  // namespace lightwalk

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/cloud/cloud_frame.h"
 #include "core/cloud/progressive.h"
 #include "core/view/pixels.h"
-#include "parallel/walk/cloud_frame.h"
 
 namespace lightwalk {
 

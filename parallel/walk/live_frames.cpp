@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/light/small_sources.h"
 #include "parallel/pixel_tracer.h"
 #include "parallel/walk/scene_caster.h"
 #include "parallel/walk/uncached_pixel_tracer.h"
@@ -37,6 +38,45 @@ TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts, const 
     return values;
 }
 
+Frame turned_over(const CloudFrame& drawn, Executor& executor) {
+    constexpr int kRowsATask = 32;
+    Frame frame;
+    const int width = frame.width = drawn.area.width();
+    const int height = frame.height = drawn.area.height();
+    frame.radiance.resize(drawn.radiance.size());
+    frame.distance.resize(drawn.distance.size());
+    const auto copy_row = [&](int y, const auto& from, auto& to) {
+        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * width, width,
+                    to.begin() + static_cast<std::ptrdiff_t>(height - 1 - y) * width);
+    };
+    const auto tasks = static_cast<std::size_t>((height + kRowsATask - 1) / kRowsATask);
+    executor.for_each(tasks, [&](std::size_t task, int) {
+        const int first = static_cast<int>(task) * kRowsATask;
+        for (int y = first; y < std::min(first + kRowsATask, height); ++y) {
+            copy_row(y, drawn.radiance, frame.radiance);
+            copy_row(y, drawn.distance, frame.distance);
+        }
+    });
+    return frame;
+}
+
+void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                        Executor& executor, WorkerContexts& contexts, Frame& frame) {
+    if (options.pixels.samples > 1) return;
+    const SmallSources sources(tracer, camera, options.width, options.height, 1);
+    if (sources.empty()) return;
+    const std::vector<Block> blocks = make_blocks(options.whole(), 64);
+    executor.for_each(blocks.size(), [&](std::size_t i, int worker) {
+        sources.draw(blocks[i], contexts[worker], [&](const SourcePixel& source) {
+            const std::size_t at = static_cast<std::size_t>(frame.height - 1 - source.y) *
+                                       static_cast<std::size_t>(frame.width) +
+                                   static_cast<std::size_t>(source.x);
+            blend_source(source, frame.radiance[at],
+                         options.use_distances ? &frame.distance[at] : nullptr);
+        });
+    });
+}
+
 LocalFrames::LocalFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
                          const FrameOptions& options, Executor& executor, WarningSink& warnings)
     : cloud_(cloud),
@@ -59,10 +99,20 @@ void LocalFrames::begin(int width, int height, bool indirect, std::uint64_t firs
 WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
     frames_->set_budget(budget);
     frames_->set_refine(refine);
-    WalkFrame drawn = draw_walk_frame(*frames_, walking_->tracer, walking_->visibility,
-                                      Camera(view), options_, executor_, walking_->contexts, stop);
-    rays_ = drawn.frame.rays.total();
-    return drawn;
+    WorkerContexts& contexts = walking_->contexts;
+    contexts.reset_counters();
+    SceneCaster caster(walking_->tracer, walking_->visibility, Camera(view), options_, contexts,
+                       stop);
+    const CloudFrame& drawn = frames_->draw(caster.camera(), caster, executor_, stop);
+    WalkFrame result{turned_over(drawn, executor_), drawn.report};
+    if (drawn.complete)
+        draw_small_sources(walking_->tracer, caster.camera(), options_, executor_, contexts,
+                           result.frame);
+    result.frame.rays = contexts.rays();
+    result.frame.ambient = contexts.ambient();
+    result.frame.complete = drawn.complete && !stop.requested();
+    rays_ = result.frame.rays.total();
+    return result;
 }
 
 TracedValues LocalFrames::trace(const View& view, const ProgressiveWork& work, double seconds,

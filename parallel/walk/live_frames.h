@@ -1,8 +1,10 @@
 #pragma once
 // Who draws what a walk that is steered wants: the threads of this process, or many ranks.
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/cloud/visibility_probe.h"
@@ -12,10 +14,15 @@
 #include "parallel/frame_options.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_frames.h"
-#include "parallel/walk/walk_frame.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
+
+/// A frame, and what it took.
+struct WalkFrame {
+    Frame frame;
+    CloudReport report;
+};
 
 /// Values of pixels in their order; none: there was no time.
 using TracedValues = std::vector<std::optional<PixelValue>>;
@@ -36,7 +43,9 @@ class LiveFrames {
 
     // After that; all throw what the tracers throw.
 
-    /// The next frame, see draw_walk_frame.
+    /// The next frame of a walk: the picture that render_frame makes of the same view when it
+    /// traces every pixel, as far as the points of the frames before it tell the truth; the first
+    /// frame is that to the bit.
     /// @param budget  see CloudOptions
     /// @param refine  the same
     [[nodiscard]] virtual WalkFrame draw(const View& view, double budget, double refine,
@@ -48,7 +57,7 @@ class LiveFrames {
     /// @param seconds  after which no more are begun, but some are at once
     [[nodiscard]] virtual TracedValues trace(const View& view, const ProgressiveWork& work,
                                              double seconds, const StopFlag& stop) = 0;
-    /// See walk_frame.h; by all light there is.
+    /// See draw_small_sources(); by all light there is.
     virtual void add_small_sources(const View& view, Frame& frame) = 0;
     /// That the last frame took, or the last pixels.
     [[nodiscard]] virtual std::uint64_t rays() const = 0;
@@ -61,6 +70,14 @@ class LiveFrames {
                                         const Camera& camera, const FrameOptions& options,
                                         const ProgressiveWork& work, double seconds,
                                         Executor& executor, const StopFlag& stop);
+
+/// The picture of a drawn frame, with its rows from the top.
+[[nodiscard]] Frame turned_over(const CloudFrame& drawn, Executor& executor);
+
+/// Draw light sources that are too small for the pixel grid into a frame, with their coverage: they
+/// are no part of the points, for they cover more or less of a pixel from frame to frame.
+void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
+                        Executor& executor, WorkerContexts& contexts, Frame& frame);
 
 /// A tracer of a scene, and what goes with it.
 struct WalkLight {
@@ -76,7 +93,8 @@ class LocalFrames final : public LiveFrames {
   public:
     /// All must outlive this.
     /// @param indirect  knows indirect light; null: there is none
-    /// @param options   of all pictures, but for their size
+    /// @param options   of all pictures, but for their size; without lens, motion, window and step;
+    ///                  the spacing does not count
     LocalFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
                 const FrameOptions& options, Executor& executor, WarningSink& warnings);
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "core/cloud/progressive_light.h"
 #include "core/view/view.h"
 #include "core/view/walk_state.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/live_frames.h"
-#include "parallel/walk/progressive_light.h"
 
 namespace lightwalk {
 

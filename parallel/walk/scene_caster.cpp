@@ -22,7 +22,7 @@ SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility
       probe_(visibility),
       camera_(camera),
       options_(options),
-      rays_(rays_of_sample(camera, options, 0)),
+      rays_(rays_of_sample(camera_, options, 0)),
       contexts_(contexts),
       stop_(stop),
       scratch_(static_cast<std::size_t>(contexts.size())) {}

@@ -5,8 +5,8 @@
 
 #include "core/cloud/primary_visibility.h"
 #include "core/cloud/visibility_probe.h"
+#include "core/view/pixel_rays.h"
 #include "parallel/frame_options.h"
-#include "parallel/pixel_rays.h"
 #include "parallel/pixel_tracer.h"
 #include "parallel/stop_flag.h"
 #include "parallel/worker_contexts.h"
@@ -19,19 +19,24 @@ namespace lightwalk {
 [[nodiscard]] PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options,
                                        int sample);
 
-/// The rays of one frame: those that a picture with the same options has, to the bit.
-class SceneCaster {
+/// The camera of one frame, and its rays: those that a picture with the same options has, to the
+/// bit.
+class SceneCaster final : public PixelCaster {
   public:
-    /// All must outlive this.
+    /// All but the camera must outlive this.
     SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
                 const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop);
+    SceneCaster(const SceneCaster&) = delete;
+    SceneCaster& operator=(const SceneCaster&) = delete;
 
-    /// What the pixels' (first) rays see; see PixelCaster.
+    /// What the pixels' first rays see.
     void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int worker);
-    /// The pixels traced, with the same visibility; see PixelCaster.
+               int worker) override;
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
-               int worker);
+               int worker) override;
+    [[nodiscard]] const Camera& camera() const { return camera_; }
+    /// Rays that its contexts have traced so far, for this frame and those before.
+    [[nodiscard]] std::uint64_t traced() const { return contexts_.rays().total(); }
 
   private:
     /// Of one worker.
@@ -56,7 +61,7 @@ class SceneCaster {
 
     const Tracer& tracer_;
     const VisibilityProbe& probe_;
-    const Camera& camera_;
+    Camera camera_;
     FrameOptions options_;
     PixelRays rays_;  ///< of sample 0
     WorkerContexts& contexts_;

@@ -43,18 +43,15 @@ void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sam
     }
 }
 
-void UncachedPixelTracer::trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at,
-                                int sample, Executor& executor, const StopFlag& stop,
-                                Take take) const {
-    executor.for_each((count + kPixelsARun - 1) / kPixelsARun,
+void UncachedPixelTracer::trace(std::span<const PixelPlace> places, int sample, Executor& executor,
+                                const StopFlag& stop, Take take) const {
+    executor.for_each((places.size() + kPixelsARun - 1) / kPixelsARun,
                       [&](std::size_t task, int worker) {
                           if (task > 0 && is_late()) return;
                           const std::size_t begin = task * kPixelsARun;
-                          std::array<PixelPlace, kPixelsARun> places;
-                          const std::size_t some = std::min(kPixelsARun, count - begin);
-                          for (std::size_t i = 0; i < some; ++i) places[i] = at(begin + i);
+                          const std::size_t count = std::min(kPixelsARun, places.size() - begin);
                           trace_part(
-                              {places.data(), some}, sample, worker,
+                              places.subspan(begin, count), sample, worker,
                               [&](std::size_t first, std::span<const TracedPixelResult> traced) {
                                   take(begin + first, traced);
                               });

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "core/cloud/primary_visibility.h"
+#include "core/cloud/trace_list.h"
 #include "core/math/function_ref.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
-#include "parallel/walk/cloud_region.h"
 
 namespace lightwalk {
 
@@ -34,20 +34,18 @@ class UncachedPixelTracer {
 
     /// @param tolerance  see points_of
     /// The caster must outlive this.
-    UncachedPixelTracer(const PixelCaster& caster, double tolerance, Clock::time_point deadline)
+    UncachedPixelTracer(PixelCaster& caster, double tolerance, Clock::time_point deadline)
         : caster_(caster), tolerance_(tolerance), deadline_(deadline) {}
 
-    /// Trace uncached pixels by all threads. After the deadline no more are begun, but some are at
-    /// once.
-    /// @param at  the place of each one
-    void trace(std::size_t count, FunctionRef<PixelPlace(std::size_t)> at, int sample,
-               Executor& executor, const StopFlag& stop, Take take) const;
+    /// Trace pixels by all threads. After the deadline no more are begun, but some are at once.
+    void trace(std::span<const PixelPlace> places, int sample, Executor& executor,
+               const StopFlag& stop, Take take) const;
     /// Trace pixels by one thread, some tens at a time, whatever the time is.
     void trace_part(std::span<const PixelPlace> places, int sample, int worker, Take take) const;
     [[nodiscard]] bool is_late() const { return Clock::now() > deadline_; }
 
   private:
-    const PixelCaster& caster_;
+    PixelCaster& caster_;
     double tolerance_;
     Clock::time_point deadline_;
 };

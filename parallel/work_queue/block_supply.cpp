@@ -17,19 +17,6 @@ constexpr double kLeastSeconds = 0.002;
 /// (Polychronopoulos and Kuck, "Guided Self-Scheduling", IEEE Transactions on Computers 1987).
 constexpr double kShareAtOnce = 1.0 / 4;
 
-/// `area` in squares of `side`, from the lower left, row by row.
-std::vector<PixelRectangle> squares(const PixelRectangle& area, int side) {
-    std::vector<PixelRectangle> found;
-    if (area.empty()) return found;
-    for (int y = area.y0 / side * side; y < area.y1; y += side) {
-        for (int x = area.x0 / side * side; x < area.x1; x += side) {
-            found.push_back({std::max(x, area.x0), std::max(y, area.y0),
-                             std::min(x + side, area.x1), std::min(y + side, area.y1)});
-        }
-    }
-    return found;
-}
-
 /// Every stride-th of the list, from the first, then from the second, and so on.
 std::deque<PixelRectangle> in_strides(const std::vector<PixelRectangle>& list, std::size_t stride) {
     std::deque<PixelRectangle> order;
@@ -53,7 +40,7 @@ void BlockSupply::start(const PictureJob& start, Outbox& out) {
     job.blocks = in_strides(squares(start.area, rounded_to(side, start.alignment)), stride);
     if (!start.known.empty()) {
         const std::vector<Block> all(job.blocks.begin(), job.blocks.end());
-        const std::vector<Block> left = blocks_left(all, start.known, start.alignment).left;
+        const std::vector<Block> left = blocks_left(all, start.known, start.alignment);
         job.blocks.assign(left.begin(), left.end());
     }
     for (const PixelRectangle& block : job.blocks)

@@ -7,8 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/cloud/region_points.h"
+#include "core/cloud/trace_list.h"
 #include "core/view/pixels.h"
-#include "parallel/walk/cloud_region.h"
 #include "parallel/walk/frame_order.h"
 
 namespace lightwalk {

@@ -6,26 +6,21 @@
 namespace lightwalk {
 namespace {
 
-PixelRectangle common(const PixelRectangle& a, const PixelRectangle& b) {
-    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 /// Calls `row(from, to, width)` with indices into the row-by-row pixels of `a` and `b` for each row
 /// of `part`, which lies in both.
 template <class Row>
 void for_rows(const PixelRectangle& part, const PixelRectangle& a, const PixelRectangle& b,
               Row row) {
-    const auto index = [](const PixelRectangle& r, int x, int y) {
-        return static_cast<std::ptrdiff_t>(y - r.y0) * r.width() + (x - r.x0);
+    const auto index = [&](const PixelRectangle& of, int y) {
+        return static_cast<std::ptrdiff_t>(of.index({part.x0, y}));
     };
-    for (int y = part.y0; y < part.y1; ++y)
-        row(index(a, part.x0, y), index(b, part.x0, y), part.width());
+    for (int y = part.y0; y < part.y1; ++y) row(index(a, y), index(b, y), part.width());
 }
 
 }  // namespace
 
 Pixels cut_pixels(const Pixels& pixels, const PixelRectangle& part) {
-    Pixels cut{{pixels.work.job, common(pixels.work.block, part)}, {}};
+    Pixels cut{{pixels.work.job, intersection(pixels.work.block, part)}, {}};
     if (pixels.values.empty() || cut.work.block.empty()) return cut;
     cut.values.resize(cut.work.block.pixels());
     for_rows(cut.work.block, pixels.work.block, cut.work.block,
@@ -81,7 +76,7 @@ void Worker::share_out(Pixels pixels, Outbox& out) {
         if (i != options_.index)
             send((*options_.workers)[i], WorkResult{cut_pixels(pixels, parts[i])}, out);
     }
-    const PixelRectangle own = common(pixels.work.block, parts[options_.index]);
+    const PixelRectangle own = intersection(pixels.work.block, parts[options_.index]);
     if (own.empty()) return;
     const bool whole = own.pixels() == pixels.work.block.pixels();
     store(whole ? std::move(pixels) : cut_pixels(pixels, parts[options_.index]), out);

@@ -29,33 +29,31 @@ TEST_CASE("points and values of a round come back from their bytes as they were"
     record.position = {1, 2, 3};
     record.value = {4, 5, 6};
     record.level = 2;
-    const std::vector<RoundValue> values{{}, {{{some_point(), record}}, {record}}};
-    const std::string bytes = encode_values(values);
-    const std::vector<RoundValue> back = decode_values(bytes);
+    const std::vector<RoundValue> values{{}, {{{some_point(), record}}, record}};
+    const std::string bytes = wire::encode(values);
+    const auto back = wire::decode<std::vector<RoundValue>>(bytes);
     REQUIRE(back.size() == 2);
-    CHECK(back[0].record.empty());
+    CHECK_FALSE(back[0].record);
     REQUIRE(back[1].new_records.size() == 1);
     CHECK(hash_of(back[1].new_records[0].point) == hash_of(some_point()));
-    CHECK(back[1].record.at(0).value == record.value);
-    CHECK(encode_values(back) == bytes);
+    CHECK(back[1].record.value().value == record.value);
+    CHECK(wire::encode(back) == bytes);
 
-    std::vector<AmbientPoint> points;
-    decode_points(encode_points({some_point()}), points);
-    decode_points(encode_points({some_point()}), points);  // appends
-    REQUIRE(points.size() == 2);
-    CHECK(encode_points({points[1]}) == encode_points({some_point()}));
+    const auto point = wire::decode<AmbientPoint>(wire::encode(some_point()));
+    CHECK(wire::encode(point) == wire::encode(some_point()));
 }
 
 TEST_CASE("bytes that are no points or values of a round are refused") {
-    const std::string points = encode_points({some_point()}),
-                      values = encode_values({{{{some_point(), {}}}, {AmbientRecord()}}});
-    std::vector<AmbientPoint> taken;
+    using Points = std::vector<AmbientPoint>;
+    using Values = std::vector<RoundValue>;
+    const std::string points = wire::encode(Points{some_point()});
+    const std::string values = wire::encode(Values{{{{some_point(), {}}}, AmbientRecord()}});
     for (std::size_t size = 0; size < points.size(); ++size)
-        CHECK_THROWS_AS(decode_points(points.substr(0, size), taken), InputError);
-    CHECK_THROWS_AS(decode_points(points + 'x', taken), InputError);
+        CHECK_THROWS_AS((void)wire::decode<Points>(points.substr(0, size)), InputError);
+    CHECK_THROWS_AS((void)wire::decode<Points>(points + 'x'), InputError);
     for (std::size_t size = 0; size < values.size(); ++size)
-        CHECK_THROWS_AS((void)decode_values(values.substr(0, size)), InputError);
-    CHECK_THROWS_AS((void)decode_values(std::string(8, '\xff')), InputError);
+        CHECK_THROWS_AS((void)wire::decode<Values>(values.substr(0, size)), InputError);
+    CHECK_THROWS_AS((void)wire::decode<Values>(std::string(8, '\xff')), InputError);
 }
 
 TEST_CASE("a point's hash depends on all that it holds") {

@@ -223,7 +223,7 @@ def ambient_error(program, data):
 
 def rpict_rays(picture, spacing, threshold):
     """How many pixels rpict's pattern traces where tracing gives `picture` (rows from the top); the same as
-    tests/parallel/rpict_pattern.h, where its rules are."""
+    tests/core/view/rpict_pattern.h, where its rules are."""
     pixel = [[tuple(p) for p in row] for row in picture[::-1].tolist()]
     height, width, rays = len(pixel), len(pixel[0]), 0
     across, up = (140 * spacing + 49) // 99, (99 * spacing + 70) // 140

@@ -17,10 +17,10 @@
 #include "apps/session/lightwalk/picture.h"
 #include "apps/session/lightwalk/scene.h"
 #include "core/math/function_ref.h"
+#include "core/trace/ray_query.h"
 #include "core/transport/options.h"
+#include "core/view/pixel_options.h"
 #include "core/view/view.h"
-#include "parallel/pixel_options.h"
-#include "parallel/ray_query.h"
 #include "parallel/stop_flag.h"
 
 namespace lightwalk {

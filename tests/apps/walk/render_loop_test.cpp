@@ -7,9 +7,9 @@
 
 #include "apps/session/lightwalk/renderer.h"
 #include "apps/session/scene_session.h"
+#include "core/cloud/cloud_frame.h"
 #include "core/error.h"
 #include "io/picture/picture.h"
-#include "parallel/walk/cloud_frame.h"
 #include "tests/apps/walk/recorded_clients.h"
 #include "tests/test_scene.h"
 

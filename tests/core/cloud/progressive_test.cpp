@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <vector>
 
 using namespace lightwalk;
@@ -15,8 +16,15 @@ ProgressivePicture row(const std::vector<float>& light, const std::vector<PixelO
     std::vector<Rgb> radiance;
     for (const float l : light) radiance.push_back(Rgb::grey(l));
     ProgressivePicture picture(static_cast<int>(light.size()), 1);
-    picture.begin(radiance, origins);
+    picture.begin(radiance, std::vector<float>(light.size()), origins);
     return picture;
+}
+
+/// So many pixels were traced.
+std::vector<std::optional<PixelValue>> grey_values(const std::vector<float>& light) {
+    std::vector<std::optional<PixelValue>> values;
+    for (const float l : light) values.push_back(PixelValue{Rgb::grey(l), 5});
+    return values;
 }
 
 std::vector<int> places(const ProgressiveWork& work) {
@@ -39,10 +47,15 @@ TEST_CASE(
     ProgressiveWork work = picture.next(3);
     CHECK(work.sample == 0);
     CHECK(places(work) == std::vector<int>{4, 2, 3});
-    picture.record(work, std::vector<Rgb>(2, Rgb::grey(1)));  // there was time for two only
+    auto values = grey_values({1, 1, 1});
+    values[1].reset();  // there was time for two only
+    picture.record(work, values);
+    CHECK(picture.distance()[4] == 5);
+    CHECK(picture.distance()[2] == 0);
+    CHECK(picture.distance()[3] == 5);
     work = picture.next(3);
-    CHECK(places(work) == std::vector<int>{3, 0});
-    picture.record(work, std::vector<Rgb>(2, Rgb::grey(1)));
+    CHECK(places(work) == std::vector<int>{2, 0});
+    picture.record(work, grey_values({1, 1}));
     CHECK(picture.next(3).places.empty());  // nothing is steep
 }
 
@@ -52,14 +65,15 @@ TEST_CASE("progressive view: at steps pixels get further rays, and show their me
     ProgressiveWork work = picture.next(9);
     CHECK(work.sample == 1);
     CHECK(places(work) == std::vector<int>{1, 2});
-    picture.record(work, std::vector{Rgb::grey(3), Rgb::grey(1)});
+    picture.record(work, grey_values({3, 1}));
+    CHECK(picture.distance()[1] == 0);  // is that of the first ray
     CHECK(picture.radiance()[1].g == doctest::Approx(2));
     CHECK(picture.radiance()[2].g == doctest::Approx(2));
     CHECK(places(picture.next(9)) == std::vector<int>{0, 3});  // steps, too, and with fewer rays
     int rounds = 0;
     for (work = picture.next(9); !work.places.empty() && rounds < 99;
          work = picture.next(9), ++rounds)
-        picture.record(work, std::vector<Rgb>(work.places.size(), Rgb::grey(2)));
+        picture.record(work, grey_values(std::vector<float>(work.places.size(), 2)));
     CHECK(rounds < 99);  // it comes to an end
     for (const PixelOrigin& origin : picture.origins())
         CHECK(origin.samples <= ProgressivePicture::kMostSamples);

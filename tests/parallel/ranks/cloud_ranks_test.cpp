@@ -111,29 +111,10 @@ struct Room {
     StopFlag stop;
 };
 
-class RoomRays final : public WalkRays {
-  public:
-    RoomRays(Room& room, const View& view, WorkerContexts& contexts)
-        : camera_(view),
-          contexts_(contexts),
-          caster_(room.scene.tracer, room.visibility, camera_, frame_options(), contexts,
-                  room.stop) {}
-    [[nodiscard]] std::uint64_t traced() const override { return contexts_.rays().total(); }
-    [[nodiscard]] const Camera& camera() const override { return camera_; }
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int worker) override {
-        caster_.probe(places, visibility, worker);
-    }
-    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
-               int worker) override {
-        caster_.trace(places, pixels, sample, worker);
-    }
-
-  private:
-    Camera camera_;
-    const WorkerContexts& contexts_;
-    SceneCaster caster_;
-};
+std::unique_ptr<SceneCaster> rays_of(Room& room, const View& view, WorkerContexts& contexts) {
+    return std::make_unique<SceneCaster>(room.scene.tracer, room.visibility, Camera(view),
+                                         frame_options(), contexts, room.stop);
+}
 
 /// What a frame of a walk shows, and what it took.
 struct Drawn {
@@ -156,13 +137,8 @@ std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
     CloudFrames frames(kWidth, kHeight, options);
     std::vector<Drawn> result;
     for (const View& view : views) {
-        RoomRays rays(room, view, contexts);
-        const auto probe = [&](auto places, auto seen, int w) { rays.probe(places, seen, w); };
-        const auto trace = [&](auto places, auto pixels, int sample, int w) {
-            rays.trace(places, pixels, sample, w);
-        };
-        const CloudFrame frame = frames.draw(rays.camera(), {probe, trace}, *executor, room.stop);
-        result.push_back(to_drawn(frame));
+        const auto rays = rays_of(room, view, contexts);
+        result.push_back(to_drawn(frames.draw(rays->camera(), *rays, *executor, room.stop)));
     }
     return result;
 }
@@ -223,9 +199,9 @@ std::vector<Drawn> lead(RankLoop& loop, End& end, const std::vector<View>& views
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::string payload = std::to_string(i);
         if (walk.rests(views[i]) && walk.wants_origins())
-            walk.begin_progressive(last, finished(walk.origins_order(payload)).origins);
+            walk.begin_progressive(last, finished(walk.origins_order(payload)).frame.origins);
         AssembledFrame drawn = finished(walk.order(views[i], payload));
-        walk.complete(drawn.frame, drawn.known, drawn.refined, *executor);
+        walk.complete(drawn.frame, drawn.refined, *executor);
         last = std::move(drawn.frame);
         result.push_back(to_drawn(last));
     }
@@ -259,8 +235,8 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
             own.cloud = options;
             own.encode = encode_piece;
             const auto make = [&](const FrameOrder& order) {
-                return std::make_unique<RoomRays>(
-                    room, views.at(static_cast<std::size_t>(std::stoi(order.payload))), contexts);
+                return rays_of(room, views.at(static_cast<std::size_t>(std::stoi(order.payload))),
+                               contexts);
             };
             std::thread drawing;
             if (topology.traces(rank)) {

@@ -75,6 +75,30 @@ CloudOptions rotating() {
     return options;
 }
 
+/// The rays of a scene, and a list of who has looked where.
+class WatchedCaster final : public PixelCaster {
+  public:
+    WatchedCaster(SceneCaster& caster, std::atomic<std::size_t>& looked,
+                  std::vector<std::uint8_t>& seen)
+        : caster_(caster), looked_(looked), seen_(seen) {}
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+               int worker) override {
+        looked_ += places.size();
+        for (const PixelPlace& place : places)
+            seen_[static_cast<std::size_t>(place.y * kWidth + place.x)] = 1;
+        caster_.probe(places, visibility, worker);
+    }
+    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
+               int worker) override {
+        caster_.trace(places, pixels, sample, worker);
+    }
+
+  private:
+    SceneCaster& caster_;
+    std::atomic<std::size_t>& looked_;
+    std::vector<std::uint8_t>& seen_;
+};
+
 struct Room {
     TestScene scene{kRoom};
     VisibilityProbe visibility{scene.tracer};
@@ -85,19 +109,9 @@ struct Room {
 
     CloudFrame draw(CloudFrames& frames, const View& view, Executor& executor) {
         WorkerContexts contexts(scene.tracer, scene.warnings, executor.concurrency());
-        const Camera camera(view);
-        SceneCaster caster(scene.tracer, visibility, camera, frame_options(), contexts, stop);
-        return frames.draw(camera,
-                           {[&](auto places, auto sees, int w) {
-                                looked += places.size();
-                                for (const PixelPlace& place : places)
-                                    seen[static_cast<std::size_t>(place.y * kWidth + place.x)] = 1;
-                                caster.probe(places, sees, w);
-                            },
-                            [&](auto places, auto out, int sample, int w) {
-                                caster.trace(places, out, sample, w);
-                            }},
-                           executor, stop);
+        SceneCaster caster(scene.tracer, visibility, Camera(view), frame_options(), contexts, stop);
+        WatchedCaster watched(caster, looked, seen);
+        return frames.draw(caster.camera(), watched, executor, stop);
     }
 
     /// All of the frame traced, row by row from the bottom.

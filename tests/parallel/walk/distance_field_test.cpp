@@ -43,7 +43,9 @@ Rgb shade(const Vec3& p, Body body) {
 constexpr int kFieldWidth = 96, kFieldHeight = 64;
 
 /// A ray caster of thirty lines.
-struct FieldCaster {
+class FieldCaster final : public PixelCaster {
+  public:
+    explicit FieldCaster(const Camera& eye) : camera(eye) {}
     const Camera& camera;
 
     /// @param aside  from the pixel's centre, to the right and up [pixels]
@@ -76,17 +78,13 @@ struct FieldCaster {
         return pixel;
     }
 
-    CloudFrame draw(CloudFrames& frames, Executor& executor) const {
-        const auto probe = [&](std::span<const PixelPlace> places,
-                               std::span<PixelVisibility> visibility, int) {
-            for (std::size_t i = 0; i < places.size(); ++i)
-                visibility[i] = cast(places[i]).visibility;
-        };
-        const auto trace = [&](std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
-                               int, int) {
-            for (std::size_t i = 0; i < places.size(); ++i) pixels[i] = cast(places[i]);
-        };
-        return frames.draw(camera, {probe, trace}, executor, StopFlag{});
+    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+               int) override {
+        for (std::size_t i = 0; i < places.size(); ++i) visibility[i] = cast(places[i]).visibility;
+    }
+    void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int,
+               int) override {
+        for (std::size_t i = 0; i < places.size(); ++i) pixels[i] = cast(places[i]);
     }
 };
 
@@ -110,8 +108,8 @@ TEST_CASE("cloud: another ray caster's frames are true, turning and walking back
         for (int i = 0; i < 12; ++i) {
             CAPTURE(i);
             const Camera camera(step(i, turns));
-            const FieldCaster caster{camera};
-            const CloudFrame frame = caster.draw(frames, *executor);
+            FieldCaster caster(camera);
+            const CloudFrame frame = frames.draw(camera, caster, *executor, StopFlag());
             CHECK(frame.complete);
             int wrong = 0, floor = 0;  // of the frame, and of one moved by half a pixel
             for (int y = 0; y < kFieldHeight; ++y) {

@@ -50,7 +50,7 @@ struct Lead {
 
     CloudFrame complete(const FrameOrder& order, const FinishedFrame& finished) {
         AssembledFrame whole = assemble_frame(order, finished, kMostPoints);
-        lead.complete(whole.frame, whole.known, whole.refined, *executor);
+        lead.complete(whole.frame, whole.refined, *executor);
         return whole.frame;
     }
 };
@@ -134,7 +134,7 @@ TEST_CASE(
     for (FramePart& part : told.parts)
         part.origins.assign(part.area.pixels(), {PixelOrigin::Kind::filled, 0, 0});
     SUBCASE("it is") {
-        lead.begin_progressive(drawn, assemble_frame(ask, told, kMostPoints).origins);
+        lead.begin_progressive(drawn, assemble_frame(ask, told, kMostPoints).frame.origins);
         REQUIRE(lead.progressive() != nullptr);
         CHECK(lead.progressive()->open_pixels() == std::size_t{kSide} * kSide);
         const FrameOrder order = lead.order(view, "");

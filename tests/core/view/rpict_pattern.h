@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "parallel/refine.h"
+#include "core/view/refine.h"
 
 namespace lightwalk {
 

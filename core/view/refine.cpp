@@ -1,4 +1,4 @@
-#include "parallel/refine.h"
+#include "core/view/refine.h"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/math/random.h"
+#include "core/view/pixel_options.h"
 #include "core/view/pixel_samples.h"
 #include "core/view/view.h"
-#include "parallel/pixel_options.h"
 
 namespace lightwalk {
 

@@ -9,6 +9,7 @@
 #include "core/cloud/progressive.h"
 #include "core/cloud/reuse.h"
 #include "core/math/rgb.h"
+#include "core/view/pixels.h"
 
 namespace lightwalk {
 
@@ -60,9 +61,13 @@ struct CloudReport {
 
 /// A drawn frame, or a part of it, row by row from the bottom.
 struct CloudFrame {
+    PixelRectangle area;             ///< of the picture
     std::vector<Rgb> radiance;       ///< [W/(m² sr)]
     std::vector<float> distance;     ///< along the pixels' rays; 0 where there is no ray [m]
     std::vector<TraceCause> causes;  ///< why each pixel was traced or filled; none: it was not
+    /// Not 0 where a pixel shows something that is better than what its neighbours tell.
+    std::vector<std::uint8_t> known;
+    std::vector<PixelOrigin> origins;  ///< where pixels come from, where somebody wants to know
     CloudReport report;
     bool complete = false;  ///< false: stopped early
 };

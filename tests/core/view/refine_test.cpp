@@ -1,4 +1,4 @@
-#include "parallel/refine.h"
+#include "core/view/refine.h"
 
 #include <doctest/doctest.h>
 

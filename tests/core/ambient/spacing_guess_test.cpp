@@ -1,4 +1,4 @@
-#include "parallel/spacing_guess.h"
+#include "core/ambient/spacing_guess.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "parallel/walk/progressive_light.h"
+#include "core/cloud/progressive_light.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,7 +13,6 @@ constexpr std::size_t kMostPixels = 65536;
 
 void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const float> distance) {
     before_.assign(radiance.begin(), radiance.end());
-    distance_.assign(distance.begin(), distance.end());
     left_.assign(kGridLevels, 0);
     std::vector<PixelOrigin> origins(radiance.size());
     for (int y = 0; y < height_; ++y) {
@@ -23,7 +22,7 @@ void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const floa
             ++left_[static_cast<std::size_t>(level)];
         }
     }
-    work_.begin(radiance, origins);
+    work_.begin(radiance, distance, origins);
     chosen_ = {};
 }
 
@@ -33,21 +32,14 @@ bool ProgressiveLight::step(Trace trace) {
     const ProgressiveWork work = std::move(chosen_);
     chosen_ = {work.sample, {}};
     const std::vector<std::optional<PixelValue>> values = trace(work);
-    ProgressiveWork finished{work.sample, {}};
-    std::vector<Rgb> radiance;
+    work_.record(work, values);
     for (std::size_t i = 0; i < work.places.size(); ++i) {
         const PixelPlace& place = work.places[i];
-        if (!values[i]) {
+        if (!values[i])
             chosen_.places.push_back(place);
-            continue;
-        }
-        finished.places.push_back(place);
-        radiance.push_back(values[i]->radiance);
-        if (work.sample > 0) continue;
-        distance_[at(place.x, place.y)] = values[i]->distance;
-        --left_[static_cast<std::size_t>(grid_level(place))];
+        else if (work.sample == 0)
+            --left_[static_cast<std::size_t>(grid_level(place))];
     }
-    work_.record(finished, radiance);
     return true;
 }
 

@@ -44,7 +44,7 @@ class ProgressiveLight {
 
     /// The picture as far as it is known, row by row from the bottom.
     [[nodiscard]] std::vector<Rgb> picture() const;
-    [[nodiscard]] std::span<const float> distance() const { return distance_; }
+    [[nodiscard]] std::span<const float> distance() const { return work_.distance(); }
     /// Share of the pixels that are traced, 0 ... 1.
     [[nodiscard]] double share() const;
 
@@ -62,7 +62,6 @@ class ProgressiveLight {
     int width_, height_;
     ProgressivePicture work_;
     std::vector<Rgb> before_;
-    std::vector<float> distance_;
     std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
     ProgressiveWork chosen_;         ///< of them those that come next
 };

@@ -1,0 +1,141 @@
+#include "core/cloud/region_points.h"
+
+#include <algorithm>
+
+#include "core/cloud/point_order.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr int kHalo = 1;  ///< pixels around the region whose points may answer its own
+
+}  // namespace
+
+RegionPoints::RegionPoints(const PixelRectangle& area, int width, int height)
+    : area_(area), width_(width), height_(height), grids_(widened(area, kHalo, width, height)) {}
+
+void RegionPoints::begin(const Camera& camera) {
+    projector_.emplace(camera, width_, height_);
+    fresh_.clear();
+}
+
+void RegionPoints::project(const TaskRunner& task_runner) {
+    places_.resize(points_.size());
+    used_.assign(points_.size(), 0);
+    for_each_part(task_runner, grids_.ahead.size(),
+                  [&](std::size_t, std::size_t first, std::size_t last) {
+                      grids_.ahead.clear(first, last);
+                      grids_.mirrored.clear(first, last);
+                  });
+    for_each_part(task_runner, points_.size(),
+                  [&](std::size_t, std::size_t first, std::size_t last) {
+                      project_points(*projector_, points_, first, last, grids_, places_);
+                  });
+}
+
+/// Of these pixels no other region needs points.
+PixelRectangle RegionPoints::inside_of_area() const {
+    PixelRectangle inner = area_;
+    if (area_.x0 > 0) inner.x0 += kHalo;
+    if (area_.y0 > 0) inner.y0 += kHalo;
+    if (area_.x1 < width_) inner.x1 -= kHalo;
+    if (area_.y1 < height_) inner.y1 -= kHalo;
+    return inner;
+}
+
+void RegionPoints::add(std::span<const CloudPoint> points) {
+    const std::size_t first = points_.size();
+    points_.insert(points_.end(), points.begin(), points.end());
+    places_.resize(points_.size());
+    used_.resize(points_.size());
+    project_points(*projector_, points_, first, points_.size(), grids_, places_);
+}
+
+UsedPixels RegionPoints::used_beside() const {
+    UsedPixels used;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (used_[i] == 0) continue;
+        const PixelPlace place = pixel_of(places_[i], width_, height_);
+        if (area_.contains(place)) continue;
+        const bool mirrored = points_[i].kind == PointKind::mirrored;
+        (mirrored ? used.mirrored : used.ahead).push_back(place);
+    }
+    return used;
+}
+
+void RegionPoints::mark_used(const UsedPixels& used) {
+    const auto mark_winners = [&](const std::vector<PixelPlace>& places, const DepthGrid& grid) {
+        for (const PixelPlace& place : places) {
+            if (!area_.contains(place)) continue;
+            const std::uint32_t index = grid.winner(place.x, place.y);
+            if (index != kNoPoint) used_[index] = 1;
+        }
+    };
+    mark_winners(used.ahead, grids_.ahead);
+    mark_winners(used.mirrored, grids_.mirrored);
+}
+
+AgeCounts RegionPoints::age(const CloudLife& life, const TaskRunner& task_runner) {
+    kept_.resize(points_.size());
+    std::vector<AgeCounts> counts(part_count(points_.size()));
+    const bool whole = area_ == PixelRectangle{0, 0, width_, height_};
+    for_each_part(
+        task_runner, points_.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last && !whole; ++i) {
+                // What lies outside is another region's.
+                if (!(places_[i].distance > 0) ||
+                    area_.contains(pixel_of(places_[i], width_, height_)))
+                    continue;
+                places_[i] = {};
+                used_[i] = 0;
+            }
+            const auto own = [&](auto& of_all) {
+                return std::span(of_all).subspan(first, last - first);
+            };
+            counts[part] = age_points(own(points_), own(used_), own(places_), life, own(kept_));
+        });
+    AgeCounts sum{};
+    sum[0] = fresh_.size();
+    for (const AgeCounts& one : counts)
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i];
+    return sum;
+}
+
+AgeCounts RegionPoints::rest() {
+    kept_.assign(points_.size(), 1);
+    AgeCounts counts{};
+    counts[0] = fresh_.size();
+    for (const CloudPoint& point : points_) ++counts[point.age];
+    return counts;
+}
+
+/// New points take the places of those that go, and then the last ones do.
+void RegionPoints::keep(const AgeLimit& room, std::uint64_t frame, const TaskRunner& task_runner) {
+    const auto stays = [&](const CloudPoint& point) {
+        return point.age < room.age || (point.age == room.age && lot(point, frame) >= room.share);
+    };
+    if (room.age == 0) std::erase_if(fresh_, [&](const CloudPoint& p) { return !stays(p); });
+    std::vector<std::vector<std::uint32_t>> going(part_count(points_.size()));
+    for_each_part(task_runner, points_.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      for (std::size_t i = first; i < last; ++i)
+                          if (kept_[i] == 0 || !stays(points_[i]))
+                              going[part].push_back(static_cast<std::uint32_t>(i));
+                  });
+    std::vector<std::uint32_t> gaps;
+    for (const std::vector<std::uint32_t>& part : going)
+        gaps.insert(gaps.end(), part.begin(), part.end());
+    const std::size_t filled = std::min(gaps.size(), fresh_.size());
+    for (std::size_t i = 0; i < filled; ++i) points_[gaps[i]] = fresh_[i];
+    std::size_t end = points_.size(), last_gap = gaps.size();
+    for (std::size_t i = filled; i < last_gap; ++i) {
+        while (last_gap > i && gaps[last_gap - 1] == end - 1) --last_gap, --end;
+        if (i < last_gap) points_[gaps[i]] = points_[--end];
+    }
+    points_.resize(end);
+    points_.insert(points_.end(), fresh_.begin() + static_cast<std::ptrdiff_t>(filled),
+                   fresh_.end());
+    fresh_.clear();
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,147 @@
+#include "core/cloud/trace_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lightwalk {
+namespace {
+
+/// Of the audited pixels a second ray tells how much two rays differ.
+constexpr double kFloorShare = 0.25;
+
+float relative_error(const Rgb& value, const Rgb& truth) {
+    const float is = brightness(value), should = brightness(truth);
+    return std::abs(is - should) / std::max(should, 1e-9f);
+}
+
+}  // namespace
+
+void TraceList::begin() {
+    finest_ = next_finest_grid();
+    uncached_.clear();
+    noise_pairs_.clear();
+    unanswered_ = left_ = answered_ = 0;
+    expect();
+}
+
+int TraceList::next_finest_grid() const {
+    constexpr std::size_t kEnough = 1024, kMoreThanTraced = 3;
+    if (!(options_.budget > 0)) return kGridLevels - 1;
+    int level = 0;
+    for (std::size_t noted = left_ >> (2 * (kGridLevels - 1));
+         noted < kEnough + kMoreThanTraced * answered_ && level < kGridLevels - 1; noted *= 4)
+        ++level;
+    return level;
+}
+
+/// None of them is traced. What earlier frames left in `traced_` does no harm, and clearing it
+/// takes a millisecond.
+void TraceList::expect() {
+    if (traced_.size() < uncached_.size()) traced_.resize(uncached_.size());
+    done_.assign(uncached_.size(), 0);
+    pair_radiance_.resize(noise_pairs_.size());
+    pair_done_.assign(noise_pairs_.size(), 0);
+}
+
+void TraceList::gather(std::span<BlockUncachedPixels> blocks, std::uint64_t frame,
+                       const TaskRunner& task_runner) {
+    const bool time_is_short = options_.budget > 0;
+    const std::size_t first = time_is_short && !blocks.empty() ? frame % blocks.size() : 0;
+    std::size_t count = 0;
+    for (std::size_t rank = 0; rank < kTraceRanks; ++rank) {
+        for (std::size_t k = 0; k < blocks.size(); ++k) {
+            std::uint32_t& of_block = blocks[(first + k) % blocks.size()].ranked[rank];
+            count += std::exchange(of_block, static_cast<std::uint32_t>(count));
+        }
+    }
+    for (const BlockUncachedPixels& block : blocks) {
+        unanswered_ += block.unanswered;
+        left_ += block.left;
+    }
+    uncached_.resize(count);
+    task_runner.run(blocks.size(), [&](std::size_t k) {
+        BlockUncachedPixels& block = blocks[k];
+        for (const UncachedPixel& pixel : block.uncached)
+            uncached_[block.ranked[trace_rank(pixel, time_is_short)]++] = pixel;
+    });
+    choose_noise_pairs(frame);
+    expect();
+}
+
+void TraceList::choose_noise_pairs(std::uint64_t frame) {
+    for (std::size_t i = 0; i < uncached_.size(); ++i) {
+        if (uncached_[i].cause != TraceCause::audited) continue;
+        RandomStream random = audit_stream(options_.seed, frame, uncached_[i].place);
+        (void)random.next();  // has decided that it is audited
+        if (random.next() < kFloorShare) noise_pairs_.push_back(static_cast<std::uint32_t>(i));
+    }
+}
+
+void TraceList::refine(std::span<const PixelPlace> places) {
+    for (const PixelPlace& place : places) uncached_.push_back({place, TraceCause::refined});
+    expect();
+}
+
+std::vector<PixelPlace> TraceList::places() const {
+    std::vector<PixelPlace> places;
+    places.reserve(uncached_.size() + noise_pairs_.size());
+    for (const UncachedPixel& pixel : uncached_) places.push_back(pixel.place);
+    for (const std::uint32_t i : noise_pairs_) places.push_back(uncached_[i].place);
+    return places;
+}
+
+void TraceList::record(std::size_t first, std::span<const TracedPixelResult> traced) {
+    if (first < uncached_.size()) {
+        const auto at = static_cast<std::ptrdiff_t>(first);
+        std::copy(traced.begin(), traced.end(), traced_.begin() + at);
+        std::fill_n(done_.begin() + at, traced.size(), std::uint8_t{1});
+        return;
+    }
+    std::size_t pair = first - uncached_.size();
+    for (const TracedPixelResult& one : traced) {
+        pair_radiance_[pair] = one.value.radiance;
+        pair_done_[pair++] = 1;
+    }
+}
+
+std::vector<std::optional<PixelValue>> TraceList::values() const {
+    std::vector<std::optional<PixelValue>> values(uncached_.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (done_[i] != 0) values[i] = traced_[i].value;
+    return values;
+}
+
+void TraceList::show(CloudFrame& frame) {
+    CloudReport& report = frame.report;
+    report.reused = report.pixels - unanswered_;
+    for (std::size_t i = 0; i < noise_pairs_.size(); ++i) {
+        if (pair_done_[i] == 0 || done_[noise_pairs_[i]] == 0) continue;
+        report.audit_floors.push_back(
+            relative_error(pair_radiance_[i], traced_[noise_pairs_[i]].value.radiance));
+    }
+    for (std::size_t i = 0; i < uncached_.size(); ++i) {
+        if (done_[i] == 0) continue;
+        const UncachedPixel& pixel = uncached_[i];
+        const std::size_t at = frame.area.index(pixel.place);
+        const PixelValue& traced = traced_[i].value;
+        if (pixel.cause == TraceCause::audited)
+            report.audit_errors.push_back(relative_error(frame.radiance[at], traced.radiance));
+        else
+            ++answered_;
+        frame.radiance[at] = traced.radiance;
+        frame.distance[at] = traced.distance;
+        frame.causes[at] = pixel.cause;
+        frame.known[at] = 1;
+        if (!frame.origins.empty()) frame.origins[at] = {PixelOrigin::Kind::traced, 1, 0};
+        ++report.uncached[static_cast<std::size_t>(pixel.cause)];
+    }
+    report.filled = unanswered_ - answered_;
+}
+
+void TraceList::leave_points(RegionPoints& points) const {
+    for (std::size_t i = 0; i < uncached_.size(); ++i)
+        if (done_[i] != 0) points.leave(traced_[i].points);
+}
+
+}  // namespace lightwalk
