@@ -62,7 +62,8 @@ WalkFrame RankFrames::draw(const View& view, double budget, double refine, const
     result.report = last_->frame.report;
     WorkerContexts& contexts = walks_by_indirect_ ? *indirect_contexts_ : direct_contexts_;
     contexts.reset_counters();
-    add_small_sources(view, walks_by_indirect_ ? *indirect_ : direct_, contexts, result.frame);
+    draw_small_sources(walks_by_indirect_ ? *indirect_ : direct_, Camera(view), options_, executor_,
+                       contexts, result.frame);
     result.frame.rays = contexts.rays();
     result.frame.complete = true;
     return result;
@@ -86,12 +87,7 @@ TracedValues RankFrames::trace(const View& view, const ProgressiveWork& work, do
 }
 
 void RankFrames::add_small_sources(const View& view, Frame& frame) {
-    add_small_sources(view, *indirect_, *indirect_contexts_, frame);
-}
-
-void RankFrames::add_small_sources(const View& view, const Tracer& tracer, WorkerContexts& contexts,
-                                   Frame& frame) {
-    draw_small_sources(tracer, Camera(view), options_, executor_, contexts, frame);
+    draw_small_sources(*indirect_, Camera(view), options_, executor_, *indirect_contexts_, frame);
 }
 
 }  // namespace lightwalk

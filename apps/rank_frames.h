@@ -33,8 +33,6 @@ class RankFrames final : public LiveFrames {
   private:
     [[nodiscard]] std::string payload(const View& view, bool indirect) const;
     [[nodiscard]] std::optional<AssembledFrame> finish(FrameOrder order, const StopFlag& stop);
-    void add_small_sources(const View& view, const Tracer& tracer, WorkerContexts& contexts,
-                           Frame& frame);
 
     RankLink& link_;
     const Tracer& direct_;

@@ -1,4 +1,5 @@
-// Executor implemented by a oneTBB arena.
+#include "parallel/tbb_arena.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -6,14 +7,13 @@
 
 #include <atomic>
 
-#include "parallel/executors.h"
-
 namespace lightwalk {
 namespace {
 
 /// Nested rays (Tracer::kMaxDepth) need more stack than TBB gives its threads.
 constexpr std::size_t kStackBytes = std::size_t{32} << 20;
 
+/// Executor implemented by a oneTBB arena.
 class TbbArena final : public Executor {
   public:
     using Executor::for_each;

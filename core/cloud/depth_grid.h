@@ -95,10 +95,7 @@ class DepthGrid {
         const auto off = static_cast<std::uint64_t>(apart * 65535.0f);
         return depth << kDepthShift | off << 32 | index;
     }
-    [[nodiscard]] std::size_t at(int x, int y) const {
-        return static_cast<std::size_t>(y - area_.y0) * static_cast<std::size_t>(area_.width()) +
-               static_cast<std::size_t>(x - area_.x0);
-    }
+    [[nodiscard]] std::size_t at(int x, int y) const { return area_.index({x, y}); }
 
     PixelRectangle area_;
     std::size_t cells_;
