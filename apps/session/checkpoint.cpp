@@ -52,16 +52,7 @@ class Checkpoint::Picture final : public CheckpointSink {
 Checkpoint::Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings) {
     log_ = std::make_unique<RecordLog>(
         path, header, [&](std::string_view record) { take(record); }, warnings);
-    writer_ = std::thread([this] { write(); });
-}
-
-Checkpoint::~Checkpoint() {
-    {
-        const std::lock_guard lock(mutex_);
-        ending_ = true;
-    }
-    changed_.notify_all();
-    writer_.join();
+    writer_ = std::jthread([this](const std::stop_token& ending) { write(ending); });
 }
 
 void Checkpoint::take(std::string_view record) {
@@ -87,12 +78,12 @@ void Checkpoint::keep(int frame, const BlockPixels& pixels) {
     if (kept_.size() == 1) changed_.notify_all();
 }
 
-void Checkpoint::write() {
+void Checkpoint::write(const std::stop_token& ending) {
     std::unique_lock lock(mutex_);
     std::chrono::steady_clock::time_point next{};
     while (true) {
-        changed_.wait(lock, [&] { return ending_ || !kept_.empty(); });
-        changed_.wait_until(lock, next, [&] { return ending_; });
+        changed_.wait(lock, ending, [&] { return !kept_.empty(); });
+        changed_.wait_until(lock, ending, next, [] { return false; });
         if (kept_.empty()) return;
         next = std::chrono::steady_clock::now() + kOften;
         std::deque<Kept> kept;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,7 +24,8 @@ class Checkpoint {
     /// @param header  what the blocks depend on, one line each: a file with other lines is refused
     /// Throws InputError.
     Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings);
-    ~Checkpoint();
+    /// What was kept is on disk when this is over.
+    ~Checkpoint() = default;
     Checkpoint(const Checkpoint&) = delete;
     Checkpoint& operator=(const Checkpoint&) = delete;
 
@@ -48,16 +50,15 @@ class Checkpoint {
     };
     void take(std::string_view record);
     void keep(int frame, const BlockPixels& pixels);
-    void write();
+    void write(const std::stop_token& ending);
 
     std::map<int, std::vector<Known>> known_;  ///< by frame
     std::unique_ptr<RecordLog> log_;
     std::mutex mutex_;  ///< guards what follows
-    std::condition_variable changed_;
-    std::deque<Kept> kept_;  ///< to be written
-    bool ending_ = false;
+    std::condition_variable_any changed_;
+    std::deque<Kept> kept_;       ///< to be written
     std::exception_ptr problem_;  ///< why it could not be written
-    std::thread writer_;
+    std::jthread writer_;
 };
 
 }  // namespace lightwalk
