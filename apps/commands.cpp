@@ -83,34 +83,12 @@ cannot be rendered; what could be found out is printed all the same.
      "", false},
 };
 
-/// Text in a cell of a table in Markdown.
-std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find_first_of("|\n<", at)) != std::string::npos; at += 2)
-        text.replace(at, 1, text[at] == '\n' ? "; " : std::string("\\") + text[at]);
-    return text;
-}
-
-/// All options of all commands; one that several take alike, with the same default, stands once.
-std::string option_reference() {
-    std::vector<std::pair<std::string, std::string>> lines;  // of an option, and who takes it
-    for (const Command& command : kCommands) {
-        const OptionTable table = command.options();
-        for (const OptionRow& row : table.rows()) {
-            if (!row.offered()) continue;
-            const std::string line = "| `" + cell(row.words) + "` | " + row.default_text() + " | " +
-                                     cell(row.help()) + " | ";
-            auto found =
-                std::ranges::find(lines, line, &std::pair<std::string, std::string>::first);
-            if (found == lines.end()) found = lines.insert(found, {line, ""});
-            found->second += (found->second.empty() ? "" : ", ") + std::string(command.name);
-        }
-    }
-    std::string text =
-        "# Options\n\nAll options of all commands. After a change of one:\n\n"
-        "    lightwalk help options > apps/OPTIONS.md\n\n"
-        "| option | default | what it does | commands |\n| --- | --- | --- | --- |\n";
-    for (const auto& [line, takers] : lines) text += line + takers + " |\n";
-    return text;
+std::string options_document() {
+    std::vector<OptionTable> tables;
+    for (const Command& command : kCommands) tables.push_back(command.options());
+    return "# Options\n\nAll options of all commands. After a change of one:\n\n"
+           "    lightwalk help options > apps/OPTIONS.md\n\n" +
+           option_reference(tables);
 }
 
 std::string program_help() {
@@ -136,7 +114,7 @@ const Command* find_command(const std::string& name) {
 }
 
 std::string help_text(const std::string& name) {
-    if (name == "options") return option_reference();
+    if (name == "options") return options_document();
     const Command* const command = find_command(name);
     if (command == nullptr) return program_help();
     const std::string summary = command->summary;

@@ -14,11 +14,11 @@
 #include "apps/rank_backend.h"
 #include "apps/render_command.h"
 #include "apps/session/checkpoint.h"
-#include "apps/session/film.h"
 #include "apps/session/picture_series.h"
 #include "apps/session/run_header.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
+#include "io/picture/film.h"
 
 namespace lightwalk {
 namespace {

@@ -4,64 +4,38 @@
 #include <utility>
 
 #include "apps/commands.h"
-#include "apps/session/film.h"
 #include "core/model/transform_args.h"
 #include "io/options/frame_name.h"
-#include "io/options/view_text.h"
+#include "io/options/view_options.h"
+#include "io/picture/film.h"
 
 namespace lightwalk {
 namespace {
 
 using Files = std::shared_ptr<FileSource>;
 
-bool parse_view(OptionWords& words, RenderCommand& command, FileSource& files) {
+/// A view of a walk's list is read alone, not as a change of the one before it.
+void take_view_file(OptionWords& words, RenderCommand& command, FileSource& files) {
     const std::vector<std::string> rest = words.rest();
-    std::size_t used = 0;
-    try {
-        // Each view of a walk's list is read alone, not as a change of the one before it.
-        if (command.serve && words.option() == "-vf") command.view = {};
-        used = parse_view_option(rest, command.view, files);
-    } catch (const InputError& error) {
-        if (words.option() == "-vf" && rest.size() > 1)
-            throw;  // the file is at fault, not the command line
-        throw UsageError(error.what());
-    }
-    if (command.serve && words.option() == "-vf") {
-        const std::string title = std::filesystem::path(rest[1]).stem().string();
-        command.serve->page.views.push_back({title, command.view});
-    }
-    if (used > 0) command.view_given = true;
-    words.skip(used);
-    return used > 0;
+    if (command.serve) command.view = {};
+    (void)take_view_option(words, command.view, files);
+    if (!command.serve) return;
+    const std::string title = std::filesystem::path(rest[1]).stem().string();
+    command.serve->page.views.push_back({title, command.view});
 }
 
 std::vector<OptionRow> view_rows(RenderCommand& c, const Files& files) {
-    View& v = c.view;
-    const auto parse = [&c, files](OptionWords& words) { return parse_view(words, c, *files); };
-    const CustomOption file;  // as all of these, by `parse`
-    std::vector<OptionRow> rows{
-        {"View", SectionTitle{"render"}},
-        {"-vtv|l|c|h|a|s", AttachedOption{"-vt", parse, [&v] { return std::string(1, v.type); }},
-         "view type | perspective, parallel, cylindrical, hemispherical, angular or stereographic "
-         "view"},
-        {"-vp X Y Z", &v.position, "view point [m] |"},
-        {"-vd X Y Z", &v.direction, "view direction |"},
-        {"-vu X Y Z", &v.up, "view up | direction that is up in the picture"},
-        {"-vh H", &v.horizontal,
-         "view horizontal size | horizontal size [degrees; of parallel views m]"},
-        {"-vv V", &v.vertical, "view vertical size | vertical size [degrees; of parallel views m]"},
-        {"-vo D", &v.fore, "view fore clipping [m] | nothing nearer than this is seen [m]"},
-        {"-va D", &v.aft,
-         "view aft clipping [m] | nothing farther than this is seen [m]; 0: no limit"},
-        {"-vs S", &v.shift, "view shift | shift of the picture to the right, in its widths"},
-        {"-vl L", &v.lift, "view lift | lift of the picture, in its heights"},
-        {"-vf FILE", file, "read the view from a view file or a picture",
-         With{.commands = kRender | kAnimate}},
-        {"-vf FILE", file,
-         "a view for the page's list, named as the file; repeatable. The first is where the walk "
-         "begins, and its height above the ground is that of the eyes",
-         With{.commands = kWalk}}};
-    for (OptionRow& row : rows) row.with.take = parse;
+    const CustomOption file{[&c, files](OptionWords& words) { take_view_file(words, c, *files); }};
+    std::vector<OptionRow> rows = view_option_rows(c.view, files);
+    rows.insert(
+        rows.end(),
+        {{"-vf FILE", file, "read the view from a view file or a picture",
+          With{.commands = kRender | kAnimate}},
+         {"-vf FILE", file,
+          "a view for the page's list, named as the file; repeatable. The first is where the walk "
+          "begins, and its height above the ground is that of the eyes",
+          With{.commands = kWalk}}});
+    for (OptionRow& row : rows) row.with.then = [&c] { c.view_given = true; };
     return rows;
 }
 

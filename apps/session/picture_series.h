@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "apps/session/checkpoint.h"
-#include "apps/session/film.h"
 #include "apps/session/lightwalk/renderer.h"
 #include "core/view/view.h"
+#include "io/picture/film.h"
 #include "io/picture/picture.h"
 #include "io/picture/tone.h"
 #include "parallel/stop_flag.h"

@@ -168,6 +168,13 @@ std::string help_entry(const std::string& left, const std::string& text) {
     return entry + '\n';
 }
 
+/// Text in a cell of a table in Markdown.
+std::string cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find_first_of("|\n<", at)) != std::string::npos; at += 2)
+        text.replace(at, 1, text[at] == '\n' ? "; " : std::string("\\") + text[at]);
+    return text;
+}
+
 }  // namespace
 
 void refuse_argument(const std::string& option, const std::string& expected,
@@ -288,6 +295,25 @@ std::string OptionTable::help() const {
         const std::string title_only = section.title.substr(0, section.title.find_first_of(".,:"));
         text += help_entry(title_only + ':', section.names.substr(1));
     }
+    return text;
+}
+
+std::string option_reference(const std::vector<OptionTable>& tables) {
+    std::vector<std::pair<std::string, std::string>> lines;  // of an option, and who takes it
+    for (const OptionTable& table : tables) {
+        for (const OptionRow& row : table.rows()) {
+            if (!row.offered()) continue;
+            const std::string line = "| `" + cell(row.words) + "` | " + row.default_text() + " | " +
+                                     cell(row.help()) + " | ";
+            auto found =
+                std::ranges::find(lines, line, &std::pair<std::string, std::string>::first);
+            if (found == lines.end()) found = lines.insert(found, {line, ""});
+            found->second += (found->second.empty() ? "" : ", ") + table.command();
+        }
+    }
+    std::string text =
+        "| option | default | what it does | commands |\n| --- | --- | --- | --- |\n";
+    for (const auto& [line, takers] : lines) text += line + takers + " |\n";
     return text;
 }
 

@@ -129,6 +129,7 @@ class OptionTable {
     [[nodiscard]] std::string defaults() const;
     /// The options as --help prints them.
     [[nodiscard]] std::string help() const;
+    [[nodiscard]] const std::string& command() const { return command_; }
     [[nodiscard]] const std::vector<OptionRow>& rows() const { return rows_; }
 
     std::shared_ptr<void> owner;  ///< keeps alive what the rows set, where nobody else does
@@ -147,6 +148,10 @@ OptionTable owning_table(Command command, TableOf table_of) {
     table.owner = owner;
     return table;
 }
+
+/// A table in Markdown of the options of several commands; one that some take alike, with the same
+/// default, stands once.
+[[nodiscard]] std::string option_reference(const std::vector<OptionTable>& tables);
 
 /// A line of -defaults: `left`, tabs to a common column, "# ", `comment`.
 [[nodiscard]] std::string defaults_line(const std::string& left, const std::string& comment);

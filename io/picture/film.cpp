@@ -1,4 +1,4 @@
-#include "apps/session/film.h"
+#include "io/picture/film.h"
 
 #include <fcntl.h>
 #include <spawn.h>

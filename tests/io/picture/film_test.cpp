@@ -1,4 +1,4 @@
-#include "apps/session/film.h"
+#include "io/picture/film.h"
 
 #include <doctest/doctest.h>
 #include <stdlib.h>
