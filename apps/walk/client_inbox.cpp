@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/math/overloaded.h"
 
 namespace lightwalk {
 namespace {
@@ -73,9 +74,56 @@ void ClientInbox::message(ClientId client, std::string_view text) {
     const std::lock_guard lock(mutex_);
     if (!std::holds_alternative<HelloRequest>(request) && !driver_lock_.is_here(client))
         throw InputError("the first message must be hello");
-    std::visit([&](const auto& message) { accept(client, message); }, request);
+    accept(client, request);
     has_news_ = true;
     news_.notify_one();
+}
+
+/// What steers the walk counts from the driver alone.
+void ClientInbox::accept(ClientId client, const WalkRequest& request) {
+    WalkWish& wish = inbox_.wish;
+    const bool drives = driver_lock_.drives(client);
+    std::visit(Overloaded{[&](const HelloRequest& hello) { greet(client, hello); },
+                          [&](const ViewRequest& view) {
+                              if (!drives) return;
+                              wish.view = view;
+                              driver_lock_.remember(client, view.view);
+                          },
+                          [&](const DisplayRequest& display) {
+                              if (!drives) return;
+                              wish.display = display;
+                              send_to_others(client, walk_text(DisplayReply{display}));
+                          },
+                          [&](const SettingsRequest& settings) {
+                              if (drives) wish.settings = settings;
+                          },
+                          [&](const ProbesRequest& pins) {
+                              if (!drives) return;
+                              wish.probes = pins.probes;
+                              inbox_.new_probes = true;
+                          },
+                          [&](const AckRequest& ack) {
+                              const auto now = std::chrono::steady_clock::now();
+                              inbox_.acks.push_back({client, ack.frame, now});
+                          },
+                          [&](const PickRequest& pick) {
+                              ask({client, pick});
+                          },
+                          [&](const MeanRequest& mean) {
+                              ask({client, mean});
+                          },
+                          [&](const GlareRequest& glare) {
+                              ask({client, glare});
+                          },
+                          [&](const TakeRequest&) {
+                              change_roles(client, driver_lock_.acquire(client),
+                                           "somebody else drives");
+                          },
+                          [&](const HandRequest& hand) {
+                              change_roles(client, driver_lock_.hand(client, ClientId{hand.to}),
+                                           "only the driver hands over");
+                          }},
+               request);
 }
 
 void ClientInbox::closed(ClientId client) {
@@ -99,7 +147,7 @@ void ClientInbox::save(const std::string& path, WebReply reply) {
     news_.notify_one();
 }
 
-void ClientInbox::accept(ClientId client, const HelloRequest& request) {
+void ClientInbox::greet(ClientId client, const HelloRequest& request) {
     if (!driver_lock_.join(client, request.session)) throw InputError("hello was sent before");
     WelcomeReply welcome = welcome_;
     welcome.you = static_cast<std::uint32_t>(client);
@@ -113,44 +161,11 @@ void ClientInbox::accept(ClientId client, const HelloRequest& request) {
     inbox_.joined.push_back(client);
 }
 
-void ClientInbox::accept(ClientId client, const ViewRequest& request) {
-    if (!driver_lock_.drives(client)) return;
-    inbox_.wish.view = request;
-    driver_lock_.remember(client, request.view);
-}
-
-void ClientInbox::accept(ClientId client, const AckRequest& request) {
-    inbox_.acks.push_back({client, request.frame, std::chrono::steady_clock::now()});
-}
-
-void ClientInbox::accept(ClientId client, const DisplayRequest& request) {
-    if (!driver_lock_.drives(client)) return;
-    inbox_.wish.display = request;
-    send_to_others(client, walk_text(DisplayReply{request}));
-}
-
-void ClientInbox::accept(ClientId client, const SettingsRequest& request) {
-    if (driver_lock_.drives(client)) inbox_.wish.settings = request;
-}
-
-void ClientInbox::accept(ClientId client, const ProbesRequest& request) {
-    if (!driver_lock_.drives(client)) return;
-    inbox_.wish.probes = request.probes;
-    inbox_.new_probes = true;
-}
-
-void ClientInbox::accept(ClientId client, const TakeRequest&) {
-    if (driver_lock_.acquire(client))
+void ClientInbox::change_roles(ClientId client, bool allowed, const std::string& why_not) {
+    if (allowed)
         announce_roles();
     else
-        sender_->send_text(client, walk_text(RefusedReply{"somebody else drives", {}}));
-}
-
-void ClientInbox::accept(ClientId client, const HandRequest& request) {
-    if (driver_lock_.hand(client, ClientId{request.to}))
-        announce_roles();
-    else
-        sender_->send_text(client, walk_text(RefusedReply{"only the driver hands over", {}}));
+        sender_->send_text(client, walk_text(RefusedReply{why_not, {}}));
 }
 
 void ClientInbox::ask(WalkQuestion question) {

@@ -84,17 +84,10 @@ class ClientInbox final : public WebHandler {
     void save(const std::string& path, WebReply reply) override;
 
   private:
-    void accept(ClientId client, const HelloRequest& request);
-    void accept(ClientId client, const ViewRequest& request);
-    void accept(ClientId client, const AckRequest& request);
-    void accept(ClientId client, const DisplayRequest& request);
-    void accept(ClientId client, const SettingsRequest& request);
-    void accept(ClientId client, const ProbesRequest& request);
-    void accept(ClientId client, const PickRequest& request) { ask({client, request}); }
-    void accept(ClientId client, const MeanRequest& request) { ask({client, request}); }
-    void accept(ClientId client, const GlareRequest& request) { ask({client, request}); }
-    void accept(ClientId client, const TakeRequest& request);
-    void accept(ClientId client, const HandRequest& request);
+    void accept(ClientId client, const WalkRequest& request);
+    void greet(ClientId client, const HelloRequest& request);
+    /// After a request to drive: all are told who does, or the client why nothing changes.
+    void change_roles(ClientId client, bool allowed, const std::string& why_not);
     void ask(WalkQuestion question);
     /// To all but one, who may be nobody. Under the mutex.
     void send_to_others(std::optional<ClientId> one, const std::string& text);

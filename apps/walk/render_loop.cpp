@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/session/run_header.h"
+#include "core/math/overloaded.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
 
@@ -96,8 +97,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     if (inbox.new_probes) measured_at_ = {};
     if (!view_ || live_.picture().radiance.empty())
         return client_inbox_.refuse(inbox, "there is no picture yet");
-    for (const WalkQuestion& question : inbox.questions)
-        std::visit([&](const auto& request) { reply(question.client, request); }, question.ask);
+    for (const WalkQuestion& question : inbox.questions) reply(question);
     for (const WebReply& file : inbox.saves) save(file);
 }
 
@@ -166,18 +166,19 @@ void RenderLoop::report(Clock::time_point now) {
     pace_ = {now, 0, 0, 0, 0};
 }
 
-void RenderLoop::reply(ClientId client, const PickRequest& request) {
-    const std::pair<double, double> pixel{1.0 / live_.picture().width,
-                                          1.0 / live_.picture().height};
-    client_inbox_.tell(client, walk_text(answers_.pick(request, Camera(*view_), pixel)));
-}
-
-void RenderLoop::reply(ClientId client, const MeanRequest& request) {
-    client_inbox_.tell(client, walk_text(WalkAnswers::mean(request, live_.picture())));
-}
-
-void RenderLoop::reply(ClientId client, const GlareRequest& request) {
-    glare_.ask(client, request, *view_);
+void RenderLoop::reply(const WalkQuestion& question) {
+    const LivePicture& shown = live_.picture();
+    const auto tell = [&](const auto& answer) {
+        client_inbox_.tell(question.client, walk_text(answer));
+    };
+    std::visit(
+        Overloaded{
+            [&](const PickRequest& pick) {
+                tell(answers_.pick(pick, Camera(*view_), {1.0 / shown.width, 1.0 / shown.height}));
+            },
+            [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
+            [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); }},
+        question.ask);
 }
 
 void RenderLoop::save(const WebReply& reply) {

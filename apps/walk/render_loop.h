@@ -49,9 +49,7 @@ class RenderLoop {
     };
 
     void answer(const InboxContents& inbox);
-    void reply(ClientId client, const PickRequest& request);
-    void reply(ClientId client, const MeanRequest& request);
-    void reply(ClientId client, const GlareRequest& request);
+    void reply(const WalkQuestion& question);
     void save(const WebReply& reply);
     void measure_probes();
     void draw(const StopFlag& stop);

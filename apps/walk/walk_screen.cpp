@@ -139,7 +139,6 @@ void WalkScreen::send(ClientInbox& client_inbox, Time now) {
         client_inbox.send(id, frame);
         client.flow.sent(frame_, layout(), contents_, frame->size(), now);
         client.shown = view_;
-        client.has_shown = true;
     }
 }
 

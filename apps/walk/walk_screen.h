@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,8 +58,7 @@ class WalkScreen {
     };
     struct Client {
         FrameFlow flow;
-        ShownView shown;
-        bool has_shown = false;
+        std::optional<ShownView> shown;  ///< nothing: no picture yet
     };
 
     void cut(int width, int height);
@@ -72,7 +72,7 @@ class WalkScreen {
         return client.flow.missing(layout(), contents_);
     }
     [[nodiscard]] bool lacks(const Client& client) const {
-        return !client.has_shown || client.shown != view_ || !missing(client).empty();
+        return client.shown != view_ || !missing(client).empty();
     }
     [[nodiscard]] std::shared_ptr<const std::string> frame_of(
         std::span<const std::size_t> pieces) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/ambient/ambient_record.h"
+#include "core/math/overloaded.h"
 #include "parallel/work_queue/work.h"
 
 namespace lightwalk {
@@ -131,14 +132,5 @@ struct Envelope {
 
 /// Bytes of the message on the wire, without making them: for models of the time it takes.
 [[nodiscard]] std::size_t message_bytes(const Message& message);
-
-/// Calls that one of several functions that takes what a variant holds; a kind that none takes does
-/// not compile.
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
-template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;
 
 }  // namespace lightwalk
