@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "apps/interrupt.h"
-#include "apps/rank_report.h"
 #include "io/files/atomic_file.h"
 
 namespace lightwalk {
@@ -27,14 +26,20 @@ CommandRun::CommandRun(CommonOptions& options, Communicator* communicator)
     check_render_settings(options.settings);
 }
 
-int CommandRun::share_out(const SharedWork& work, FunctionRef<int()> body) {
-    link_ = link_ranks(communicator_, options_, work);
-    return link_ ? link_->run(body, interrupt_flag()) : body();
+void CommandRun::join(const RendererOptions& work) {
+    ranks_ = join_ranks(communicator_, options_.ranks, options_.program(), work);
+    if (ranks_) options_.set_threads(ranks_->threads());
+}
+
+int CommandRun::share_out(FunctionRef<int()> body) {
+    if (!ranks_) return body();
+    int status = kFailureStatus;
+    ranks_->run([&] { status = body(); });
+    return status;
 }
 
 RendererRequest CommandRun::request() {
     RendererRequest request = options_.request;
-    request.scene_from = options_.ranks.scene_from;
     request.options.light = options_.settings.light;
     request.options.ambient_file = options_.settings.ambient_file;
     request.options.warn = [this](const std::string& message) { warnings_.warn(message); };

@@ -8,7 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
-#include "apps/rank_session.h"
+#include "apps/rank_options.h"
 #include "apps/session/run_statistics.h"
 #include "apps/warnings.h"
 #include "parallel/comm/communicator.h"
@@ -32,11 +32,12 @@ class CommandRun {
     [[nodiscard]] bool speaks() const {
         return communicator_ == nullptr || communicator_->rank() == 0;
     }
-    /// Calls `body` on every rank, where link() then leads to the others; null: this process is
-    /// alone.
-    /// @return  what body returned, or the status of a run that has ended before
-    int share_out(const SharedWork& work, FunctionRef<int()> body);
-    [[nodiscard]] RankLink* link() const { return link_.get(); }
+    /// This process becomes one of several, if there are others to share such work with.
+    void join(const RendererOptions& work);
+    /// After join(): calls `body` on every rank.
+    int share_out(FunctionRef<int()> body);
+    /// Null: this process is alone.
+    [[nodiscard]] Ranks* ranks() const { return ranks_.get(); }
     /// What the options ask for.
     [[nodiscard]] RendererRequest request();
     [[nodiscard]] StderrWarnings& warnings() { return warnings_; }
@@ -47,7 +48,7 @@ class CommandRun {
     CommonOptions& options_;
     Communicator* communicator_;
     StderrWarnings warnings_;
-    std::unique_ptr<RankLink> link_;
+    std::unique_ptr<Ranks> ranks_;
 };
 
 /// Bytes to standard output, at once. Throws InputError.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/renderer_request.h"
+#include "apps/rank_options.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
 #include "io/options/render_options.h"
@@ -17,7 +17,7 @@ struct CommonOptions {
     std::string command;                       ///< name of the command
     RendererRequest request;                   ///< the scene's files, -n --executor ...
     RenderSettings settings;                   ///< how light is followed
-    RankOptions ranks;                         ///< --variant --block ...
+    RankCommand ranks;                         ///< --variant --block ...
     bool quiet = false;                        ///< --quiet
     bool show_defaults = false;                ///< -defaults
     std::string stats_file;                    ///< --stats

@@ -171,7 +171,7 @@ int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     print_counts(scene->model());
     print_unsupported(scene->model());
     scene->compile();
-    const SceneSession session(scene, {settings.light, settings.ambient_file}, warnings);
+    const SceneSession session(scene, settings.light, settings.ambient_file, warnings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());
     print_memory(session);

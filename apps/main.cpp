@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/commands.h"
-#include "apps/rank_options.h"
 #include "apps/session/heap.h"
+#include "apps/session/lightwalk/ranks.h"
 #include "core/error.h"
 #include "io/options/option_words.h"
 

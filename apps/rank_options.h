@@ -1,47 +1,52 @@
 #pragma once
-// Options of runs on many ranks, and whether this process is one of several.
+// Options of runs on many ranks.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/session/lightwalk/ranks.h"
+#include "core/math/function_ref.h"
+#include "io/files/file_source.h"
 #include "io/options/option_rows.h"
-#include "parallel/comm/communicator.h"
-#include "parallel/ranks/topology.h"
 
 namespace lightwalk {
 
-/// Who reads a scene's files.
-enum class SceneFrom {
-    shared,  ///< rank 0 alone where all are on one machine, and they share its memory; else each
-    each,    ///< every rank its own copy of them
-    rank0,   ///< rank 0 alone, for all
-};
-
-struct RankOptions {
+struct RankCommand {
     std::optional<Variant> variant;  ///< --variant; nothing: follows from how we were started
-    int block = 0;                   ///< --block [pixels]; 0: auto
-    int stride = 0;                  ///< --stride; 0: auto
-    int masters = 0;                 ///< --masters; 0: auto
-    int ambient_batch = 16;          ///< --ambient-batch; 0: no values are exchanged
-    SceneFrom scene_from = SceneFrom::shared;  ///< --scene-from
-    std::string timeline;  ///< --timeline: file for the spans of all threads; "" is none
+    RankOptions options;             ///< --block --stride --masters --ambient-batch --scene-from
+    std::string timeline;            ///< --timeline: file for the spans of all threads; "" is none
 };
 
-[[nodiscard]] std::vector<OptionRow> rank_option_rows(RankOptions& options);
+[[nodiscard]] std::vector<OptionRow> rank_option_rows(RankCommand& command);
 
-/// Whether mpirun or srun started this process.
-[[nodiscard]] bool started_by_mpi();
-/// The wire to the other ranks. Throws InputError when MPI cannot be loaded or started.
-[[nodiscard]] std::unique_ptr<Communicator> open_mpi();
-
-/// Throws UsageError for --variant ranks or hybrid in a process that nothing but a shell started.
-void check_launch(const RankOptions& options, bool by_mpi);
+/// Understands the command line: rank 0 first, by the files, environment and standard input it has;
+/// then the others, by what rank 0 has read of these. `parse` throws UsageError or InputError for
+/// what is wrong; when that is so on rank 0, the others throw the same without a text, and when on
+/// another, it says so and ends the run.
+/// @param communicator  null: this process is alone
+void parse_on_ranks(Communicator* communicator, const std::string& program,
+                    FunctionRef<void(const std::shared_ptr<FileSource>&)> parse);
 
 /// The variant that runs: the one asked for, or else `hybrid` where ranks have several threads or
 /// are too few to spare any, and `ranks` otherwise. Throws UsageError where it cannot be.
 /// @param threads  of each rank
-[[nodiscard]] Variant resolve_variant(const RankOptions& options, int ranks, int threads,
+[[nodiscard]] Variant resolve_variant(const RankCommand& command, int ranks, int threads,
                                       bool ambient);
+
+/// This process among those that mpirun started; null: it works alone. Throws UsageError for a
+/// variant that cannot be, and for --variant ranks or hybrid in a process that nothing but a shell
+/// started.
+/// @param program  how messages name it
+[[nodiscard]] std::unique_ptr<Ranks> join_ranks(Communicator* communicator,
+                                                const RankCommand& command,
+                                                const std::string& program,
+                                                const RendererOptions& work);
+
+/// By all ranks, or by this process where it is alone.
+[[nodiscard]] inline Renderer open_renderer(Ranks* ranks, const RendererRequest& request) {
+    return ranks != nullptr ? ranks->open(request) : open_renderer(request);
+}
 
 }  // namespace lightwalk

@@ -11,10 +11,10 @@
 #include "apps/command_run.h"
 #include "apps/interrupt.h"
 #include "apps/progress_printer.h"
-#include "apps/rank_backend.h"
 #include "apps/render_command.h"
 #include "apps/session/checkpoint.h"
 #include "apps/session/picture_series.h"
+#include "apps/session/render_backend.h"
 #include "apps/session/run_header.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
@@ -54,22 +54,21 @@ class RenderRun final : CommandRun {
 
     int run() {
         handle_interrupts();
-        // A deterministic run exchanges values in rounds, among all who trace.
-        const bool ambient = caches_ambient_values(light()) && !options().deterministic;
-        const int projectors = reuses() ? command_.common.request.projectors : 0;
-        return share_out({ambient, false, projectors}, [this] { return draw(); });
+        join(task().options);
+        return share_out([this] { return draw(); });
     }
 
   private:
     /// On every rank, where there are several.
     int draw() {
-        Renderer& renderer = renderer_.emplace(open_renderer(link(), task(), warnings()));
-        if (renderer.leads()) renderer.session().warn_of_darkness();
+        Renderer renderer = open_renderer(ranks(), task());
+        const RenderBackend& backend = renderer.backend();
+        if (backend.leads()) backend.session().warn_of_darkness();
         bool whole = false;
         renderer.run([&] { whole = render_all(renderer); });
-        if (!renderer.leads()) return kSuccessStatus;
+        if (!backend.leads()) return kSuccessStatus;
         if (!whole) return kInterruptedStatus;
-        RunStatistics statistics = renderer.statistics();
+        RunStatistics statistics = backend.statistics();
         statistics.render_seconds = made_.seconds;
         statistics.width = made_.width;
         statistics.height = made_.height;
@@ -207,7 +206,7 @@ class RenderRun final : CommandRun {
 
     /// False: interrupted.
     bool render_all(Renderer& renderer) {
-        const SceneSession& session = renderer.session();
+        const SceneSession& session = renderer.backend().session();
         open_checkpoint(session);
         PictureSeries series(output(session.compiled().model()), observer(), interrupt_flag(),
                              checkpoint_.get());
@@ -222,7 +221,6 @@ class RenderRun final : CommandRun {
     std::string kept_values_;  ///< file of ambient values that goes with the checkpoint; "": none
     ProgressPrinter printer_;
     SeriesResult made_;
-    std::optional<Renderer> renderer_;  ///< lasts: values for its cache come until all ranks end
 };
 
 }  // namespace

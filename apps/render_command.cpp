@@ -215,7 +215,6 @@ void check_walk(const RenderCommand& command) {
 RenderCommand::RenderCommand(const std::string& name) : common(name) {
     if (name == "render") return;
     walk.emplace();
-    common.request.projectors = 32;
     if (name != "walk") return;
     serve.emplace();
     serve->page.max_size = {1920, 1200};
@@ -225,7 +224,8 @@ RenderCommand::RenderCommand(const std::string& name) : common(name) {
 OptionTable option_table(RenderCommand& c, const Files& files) {
     const std::vector<std::vector<OptionRow>> rows{
         c.serve ? serve_option_rows(*c.serve) : std::vector<OptionRow>(),
-        c.walk ? walk_option_rows(*c.walk, c.common.request.projectors) : std::vector<OptionRow>(),
+        c.walk ? walk_option_rows(*c.walk, c.common.ranks.options.projectors)
+               : std::vector<OptionRow>(),
         output_rows(c),
         view_rows(c, files),
         pixel_rows(c),

@@ -7,8 +7,7 @@
 
 #include "apps/command_run.h"
 #include "apps/interrupt.h"
-#include "apps/rank_backend.h"
-#include "apps/rank_report.h"
+#include "apps/session/render_backend.h"
 #include "apps/session/run_header.h"
 #include "apps/session/stopwatch.h"
 #include "apps/trace_command.h"
@@ -36,33 +35,30 @@ class TraceRun final : CommandRun {
     }
 
     int run() {
-        // Values that are not computed are not exchanged. Trees are told one after the other: rank
-        // 0 has all the work, the others wait.
-        const bool ambient = options_.shade && caches_ambient_values(light()) && !tree_;
-        return share_out({ambient, true, 0}, [this] {
-            if (!tree_ || link() == nullptr) return trace(link());
-            return link()->leads() ? trace_trees() : wait();
-        });
+        join(task().options);
+        if (!tree_) return share_out([this] { return trace(ranks()); });
+        return speaks() ? trace(nullptr) : kSuccessStatus;  // trees are told one after the other
     }
 
   private:
-    /// @param ranks  the other ranks, whose number of threads takes part; null: there are none
-    int trace(RankLink* ranks) {
-        Renderer& renderer = renderer_.emplace(open_renderer(ranks, task(), warnings()));
-        if (renderer.leads() && options_.shade) renderer.session().warn_of_darkness();
-        if (tree_) tree_->watch(renderer.session().tracer());
-        scene_ = &renderer.session().scene();
+    /// @param ranks  that share the rays; null: this process does all
+    int trace(Ranks* ranks) {
+        Renderer renderer = open_renderer(ranks, task());
+        const RenderBackend& backend = renderer.backend();
+        if (backend.leads() && options_.shade) backend.session().warn_of_darkness();
+        if (tree_) tree_->watch(backend.session().tracer());
+        scene_ = &backend.session().scene();
         double seconds = 0;
         renderer.run([&] {
             const Stopwatch watch;
-            put_header(renderer.session().compiled().model());
+            put_header(backend.session().compiled().model());
             answer_all(renderer);
             if (expected_ > 0 && read_ < expected_) warnings().warn("unexpected EOF on input");
             flush();
             seconds = watch.seconds();
         });
-        if (!renderer.leads()) return kSuccessStatus;
-        RunStatistics statistics = renderer.statistics();
+        if (!backend.leads()) return kSuccessStatus;
+        RunStatistics statistics = backend.statistics();
         statistics.render_seconds = seconds;
         save_statistics(std::move(statistics));
         return kSuccessStatus;
@@ -82,20 +78,6 @@ class TraceRun final : CommandRun {
     }
 
     [[nodiscard]] RenderOptions& light() { return command_.common.settings.light; }
-
-    /// Rank 0 works alone, and then tells the others.
-    int trace_trees() {
-        const int status = trace(nullptr);
-        (void)link()->finish(interrupt_flag());
-        return status;
-    }
-
-    /// While rank 0 works alone.
-    int wait() {
-        link()->wait_for_end(interrupt_flag());
-        link()->report(rank_report(*link(), 1, {}, {}));
-        return kSuccessStatus;
-    }
 
     /// All rays to the renderer, as many at a time as it asks for; their answers to the output.
     void answer_all(Renderer& renderer) {
@@ -219,7 +201,6 @@ class TraceRun final : CommandRun {
     std::uint64_t read_ = 0, expected_ = 0;
     int in_row_ = 0;
     bool flush_due_ = false;
-    std::optional<Renderer> renderer_;  ///< lasts: values for its cache come until all ranks end
 };
 
 }  // namespace

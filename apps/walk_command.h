@@ -38,7 +38,7 @@ struct ServeCommand {
 };
 
 /// The rows of animate's own options, which walk takes as well but for those on the path.
-/// @param projectors  see RendererRequest
+/// @param projectors  see RankOptions
 [[nodiscard]] std::vector<OptionRow> walk_option_rows(WalkCommand& walk, int& projectors);
 /// The rows of walk's own options.
 [[nodiscard]] std::vector<OptionRow> serve_option_rows(ServeCommand& serve);

@@ -1,7 +1,7 @@
 // What a message costs between ranks of this machine: the parameters of the scaling model.
 //   mpirun -n 2 message_bench > costs.json
 // Two ranks and the communicator of the program. L, o, g and G (LogGP) where both ranks look for
-// messages all the time; then what sleeping between two looks, as RankLoop does, adds.
+// messages all the time; then what sleeping between two looks, as RankLink does, adds.
 #include <time.h>
 
 #include <algorithm>

@@ -57,6 +57,18 @@ void CallbackWarnings::warn(const std::string& message) {
     take_(message);
 }
 
+namespace {
+
+struct WarningScene {
+    WarningScene(const SceneSource& source, TakeWarning warn, std::shared_ptr<FileRecorder> files,
+                 const std::string& shared_by)
+        : warnings(std::move(warn)), scene(source, warnings, std::move(files), shared_by) {}
+    CallbackWarnings warnings;
+    CompiledScene scene;
+};
+
+}  // namespace
+
 CompiledScene::CompiledScene(const SceneSource& source, WarningSink& warnings,
                              std::shared_ptr<FileRecorder> files, const std::string& shared_by)
     : warnings_(warnings),
@@ -177,6 +189,14 @@ void CompiledScene::compile(Resources& asked) {
 
 void CompiledScene::trim_heap() const {
     if (trim_heap_ && peak_memory_bytes() > kLarge) give_back_heap();
+}
+
+std::shared_ptr<CompiledScene> read_compiled_scene(const SceneSource& source, TakeWarning warn,
+                                                   std::shared_ptr<FileRecorder> files,
+                                                   const std::string& shared_by) {
+    const auto made =
+        std::make_shared<WarningScene>(source, std::move(warn), std::move(files), shared_by);
+    return {made, &made->scene};
 }
 
 }  // namespace lightwalk

@@ -95,4 +95,10 @@ class CompiledScene {
     SceneCost cost_;
 };
 
+/// A scene that keeps whom it warns. Parameters and errors as those of CompiledScene.
+[[nodiscard]] std::shared_ptr<CompiledScene> read_compiled_scene(
+    const SceneSource& source, TakeWarning warn,
+    std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>(),
+    const std::string& shared_by = {});
+
 }  // namespace lightwalk

@@ -13,14 +13,6 @@
 namespace lightwalk {
 namespace {
 
-/// A scene that keeps whom it warns.
-struct WarningScene {
-    WarningScene(const SceneSource& source, TakeWarning warn)
-        : warnings(std::move(warn)), scene(source, warnings) {}
-    CallbackWarnings warnings;
-    CompiledScene scene;
-};
-
 SceneSource source_of(const std::vector<std::string>& files) {
     SceneSource source;
     source.files = files;
@@ -30,9 +22,9 @@ SceneSource source_of(const std::vector<std::string>& files) {
 }  // namespace
 
 LoadedScene::LoadedScene(const SceneSource& source, TakeWarning warn) {
-    const auto made = std::make_shared<WarningScene>(source, std::move(warn));
-    made->scene.compile();
-    compiled_ = {made, &made->scene};
+    const std::shared_ptr<CompiledScene> made = read_compiled_scene(source, std::move(warn));
+    made->compile();
+    compiled_ = made;
 }
 
 LoadedScene::LoadedScene(const std::vector<std::string>& files, TakeWarning warn)

@@ -1,61 +1,86 @@
 #include "apps/session/local_backend.h"
 
 #include <utility>
+#include <vector>
 
-#include "apps/session/cloud_pictures.h"
-#include "apps/session/local_pictures.h"
-#include "apps/session/local_rays.h"
+#include "parallel/ray_list.h"
+#include "parallel/time_estimate.h"
 
 namespace lightwalk {
 
-std::unique_ptr<Executor> make_executor(const RendererOptions& options) {
-    return make_executor(options.executor.value_or(kDefaultExecutor),
-                         options.threads > 0 ? options.threads : hardware_threads());
-}
-
 LocalBackend::LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options)
-    : RenderBackend(std::move(options)),
-      session_(std::move(scene), light(), warnings()),
-      executor_(make_executor(this->options())),
-      contexts_(session_.tracer(), warnings(), executor_->concurrency()) {}
-
-PictureMaker& LocalBackend::pictures() {
-    if (pictures_) return *pictures_;
-    const LocalWorkers workers{session_, *executor_, contexts_, stop(), statistics_};
-    if (options().reuse)
-        pictures_ = std::make_unique<CloudPictures>(workers, prepass(), *options().reuse,
-                                                    options().frames, listener(), warnings());
-    else
-        pictures_ = std::make_unique<LocalPictures>(workers, prepass(), listener());
-    return *pictures_;
+    : RenderBackend(std::move(scene), std::move(options), true) {
+    if (options_.observer != nullptr) contexts_[0].observer = options_.observer;
 }
 
-RayMaker& LocalBackend::rays() {
-    if (!rays_)
-        rays_ = std::make_unique<LocalRays>(session_.tracer(), *executor_, contexts_, options(),
-                                            stop());
-    return *rays_;
+std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
+    if (options_.reuse) return draw_frame(request, executor_->concurrency());
+    const std::vector<WorkPhase> phases =
+        plan_picture(request.options, prepass(), executor_->concurrency());
+    const std::size_t picture = phases.size() - 1;
+    const std::uint64_t before = statistics_.rays.total();
+    ProgressReporter reporter(listener(), phases);
+    Frame frame;
+    if (fill_cache(request, [&](const FrameProgress& made) { reporter.update(0, made); })) {
+        frame = render_frame(
+            session_.tracer(), request.camera, request.options, *executor_, contexts_, stop(),
+            [&](const FrameProgress& made) { reporter.update(picture, made); },
+            request.checkpoint.get());
+    }
+    statistics_.rays += frame.rays;
+    statistics_.ambient += frame.ambient;
+    reporter.finish(frame.complete, statistics_.rays.total() - before);
+    if (!frame.complete) return std::nullopt;
+    return frame;
+}
+
+/// False: stopped.
+bool LocalBackend::fill_cache(const PictureRequest& request, TakeProgress progress) {
+    if (!session_.freezable) return true;
+    const CachePrepassResult filled =
+        fill_ambient_cache(session_.tracer(), request.camera, request.options, prepass(),
+                           *session_.freezable, *executor_, contexts_, stop(), progress);
+    statistics_.rays += filled.rays;
+    statistics_.ambient += filled.ambient;
+    return filled.complete;
+}
+
+/// The first frame fills the ambient cache for all; a deterministic walk has each do so, whose rays
+/// find the cache frozen.
+bool LocalBackend::prepare(const PictureRequest& request, bool first) {
+    if (!first && prepass() != CachePrepass::deterministic) return true;
+    return fill_cache(request, [](const FrameProgress&) {});
 }
 
 LiveFrames& LocalBackend::frames() {
     if (frames_) return *frames_;
-    direct_ = without_indirect(session_, warnings());
     const Tracer& tracer = direct_ ? *direct_ : session_.tracer();
     const Tracer* const indirect = direct_ ? &session_.tracer() : nullptr;
-    frames_ = std::make_unique<LocalFrames>(tracer, indirect, *options().reuse, frame_options(0, 0),
-                                            *executor_, warnings());
+    frames_ = std::make_unique<LocalFrames>(tracer, indirect, *options_.reuse, frame_options(0, 0),
+                                            *executor_, warnings_);
     return *frames_;
 }
 
-RunStatistics LocalBackend::statistics() const {
-    RunStatistics statistics = statistics_;
-    if (rays_) {
-        statistics.rays = contexts_.rays();
-        statistics.ambient = contexts_.ambient();
-    }
-    statistics.threads = executor_->concurrency();
-    statistics.add_session(session_);
-    return statistics;
+std::optional<std::string> LocalBackend::finish(const RayTask& list) {
+    if (stop().requested()) return std::nullopt;
+    std::vector<std::string> records((list.rays.size() + kRaysPerTask - 1) / kRaysPerTask);
+    contexts_.reset_counters();
+    trace_ray_list(session_.tracer(), contexts_, list.rays, list.first, ray_options(), *executor_,
+                   [&](std::size_t i, const Ray& ray, const Hit& first) {
+                       options_.record(list.rays[i], ray, first, records[i / kRaysPerTask]);
+                   });
+    statistics_.rays += contexts_.rays();
+    statistics_.ambient += contexts_.ambient();
+    std::string all;
+    for (const std::string& record : records) all += record;
+    return all;
+}
+
+RayDemand LocalBackend::ray_demand(bool /*wait*/, bool begun) {
+    constexpr std::size_t kRaysAList = 16384;  // that are worth the while of many threads
+    // A ray that is watched may be told at length: one at a time.
+    const std::size_t rays = options_.observer != nullptr ? 1 : kRaysAList;
+    return {begun ? std::size_t{0} : std::size_t{1}, rays, begun};
 }
 
 }  // namespace lightwalk

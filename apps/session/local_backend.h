@@ -1,10 +1,6 @@
 #pragma once
 // A renderer's work by the threads of this process.
-#include <memory>
-
 #include "apps/session/render_backend.h"
-#include "parallel/executor.h"
-#include "parallel/worker_contexts.h"
 
 namespace lightwalk {
 
@@ -14,27 +10,17 @@ class LocalBackend final : public RenderBackend {
     /// @param scene  after compile()
     LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options);
 
-    void run(FunctionRef<void()> lead) override { lead(); }
-    [[nodiscard]] bool leads() const override { return true; }
-    [[nodiscard]] const SceneSession& session() const override { return session_; }
-    [[nodiscard]] PictureMaker& pictures() override;
-    [[nodiscard]] RayMaker& rays() override;
+    [[nodiscard]] std::optional<Frame> finish(const PictureRequest& request) override;
+    [[nodiscard]] std::optional<std::string> finish(const RayTask& list) override;
+    /// The work is done by finish(): there is nothing to wait for.
+    [[nodiscard]] RayDemand ray_demand(bool wait, bool begun) override;
     [[nodiscard]] LiveFrames& frames() override;
-    [[nodiscard]] RunStatistics statistics() const override;
 
   private:
-    SceneSession session_;
-    std::unique_ptr<Executor> executor_;
-    WorkerContexts contexts_;
-    RunStatistics statistics_;
-    std::unique_ptr<const Tracer> direct_;  ///< of frames(): without indirect light; null: as usual
-    // One of these, when it is first asked for.
-    std::unique_ptr<PictureMaker> pictures_;
-    std::unique_ptr<RayMaker> rays_;
-    std::unique_ptr<LiveFrames> frames_;
-};
+    [[nodiscard]] bool prepare(const PictureRequest& request, bool first) override;
+    [[nodiscard]] bool fill_cache(const PictureRequest& request, TakeProgress progress);
 
-/// The threads that a renderer's options ask for.
-[[nodiscard]] std::unique_ptr<Executor> make_executor(const RendererOptions& options);
+    std::unique_ptr<LiveFrames> frames_;  ///< null: not asked for yet
+};
 
 }  // namespace lightwalk

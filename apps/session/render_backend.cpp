@@ -1,9 +1,12 @@
 #include "apps/session/render_backend.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "core/trace/trace_rays.h"
 #include "core/transport/ray.h"
 
 namespace lightwalk {
@@ -15,12 +18,22 @@ constexpr std::size_t kAnswerBytes = kAnswerNumbers * sizeof(double);
 
 }  // namespace
 
-RenderBackend::RenderBackend(RendererOptions options)
-    : options_(std::move(options)), warnings_(options_.warn) {
-    if (options_.record) return;
-    options_.record = [](const RayQuery&, const Ray& ray, const Hit& first, std::string& bytes) {
-        append_ray_answer(ray, first, bytes);
-    };
+RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options,
+                             bool leads)
+    : options_(std::move(options)),
+      warnings_(options_.warn),
+      session_(std::move(scene), options_.light, leads ? options_.ambient_file : std::string(),
+               warnings_),
+      executor_(make_executor(options_.executor.value_or(kDefaultExecutor),
+                              options_.threads > 0 ? options_.threads : hardware_threads())),
+      contexts_(session_.tracer(), warnings_, executor_->concurrency()) {
+    if (!options_.record)
+        options_.record = [](const RayQuery&, const Ray& ray, const Hit& first,
+                             std::string& bytes) { append_ray_answer(ray, first, bytes); };
+    RenderOptions direct = session_.tracer().options();
+    if (!options_.steered || direct.ambient_bounces == 0) return;
+    direct.ambient_bounces = 0;
+    direct_ = std::make_unique<const Tracer>(session_.scene(), direct, warnings_);
 }
 
 FrameOptions RenderBackend::frame_options(int width, int height) const {
@@ -51,16 +64,68 @@ ProgressListener RenderBackend::listener() {
 }
 
 CachePrepass RenderBackend::prepass() const {
-    if (!session().freezable) return CachePrepass::none;
+    if (!session_.freezable) return CachePrepass::none;
     if (options_.deterministic) return CachePrepass::deterministic;
     return options_.cache_prepass ? CachePrepass::quick : CachePrepass::none;
 }
 
-std::unique_ptr<const Tracer> without_indirect(const SceneSession& session, WarningSink& warnings) {
-    RenderOptions options = session.tracer().options();
-    if (options.ambient_bounces == 0) return nullptr;
-    options.ambient_bounces = 0;
-    return std::make_unique<const Tracer>(session.scene(), options, warnings);
+std::optional<Frame> RenderBackend::draw_frame(const PictureRequest& request, int workers) {
+    const FrameOptions& options = request.options;
+    const bool anew = width_ != options.width || height_ != options.height;
+    if (anew) frames().begin(options.width, options.height, false, frames_done_);
+    width_ = options.width;
+    height_ = options.height;
+    if (!walk_reporter_) {
+        WorkPhase all;
+        all.pixels = static_cast<double>(options.whole().pixels() *
+                                         std::max(options_.frames, std::size_t{1}));
+        all.workers = workers;
+        walk_reporter_.emplace(listener(), std::vector{all});
+    }
+    WalkFrame drawn;
+    if (prepare(request, anew))
+        drawn = frames().draw(request.camera.view(), options_.reuse->budget, options_.reuse->refine,
+                              stop());
+    const Frame& frame = drawn.frame;
+    statistics_.rays += frame.rays;
+    statistics_.ambient += frame.ambient;
+    if (frame.complete) {
+        statistics_.walk.add(std::move(drawn.report));
+        ++frames_done_;
+        if (options_.frames > 0)
+            walk_reporter_->update(
+                0, {static_cast<double>(frames_done_) / static_cast<double>(options_.frames),
+                    statistics_.rays.total(), statistics_.ambient.computed});
+    }
+    // Where it is not known how many frames there will be, each is reported by itself.
+    if (!frame.complete || options_.frames == 0 || frames_done_ == options_.frames) {
+        walk_reporter_->finish(frame.complete, statistics_.rays.total());
+        walk_reporter_.reset();
+    }
+    if (!frame.complete) return std::nullopt;
+    return std::move(drawn.frame);
+}
+
+RayListOptions RenderBackend::ray_options() const {
+    RayListOptions list = options_.rays;
+    list.seed = options_.light.seed;
+    return list;
+}
+
+std::string RenderBackend::answer_rays(const RayTask& list, int worker) {
+    std::string all;
+    trace_rays(session_.tracer(), contexts_[worker], list.rays, list.first, ray_options(),
+               [&](std::size_t i, const Ray& ray, const Hit& first) {
+                   options_.record(list.rays[i], ray, first, all);
+               });
+    return all;
+}
+
+RunStatistics RenderBackend::statistics() const {
+    RunStatistics statistics = statistics_;
+    statistics.threads = executor_->concurrency();
+    statistics.add_session(session_);
+    return statistics;
 }
 
 void append_ray_answer(const Ray& ray, const Hit& first, std::string& bytes) {

@@ -1,30 +1,56 @@
 #pragma once
 // What does a renderer's work: the threads of this process, or ranks that share it.
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 
 #include "apps/session/compiled_scene.h"
 #include "apps/session/lightwalk/renderer.h"
-#include "apps/session/picture_maker.h"
 #include "apps/session/progress_reporter.h"
-#include "apps/session/ray_maker.h"
 #include "apps/session/run_statistics.h"
 #include "apps/session/scene_session.h"
 #include "core/math/function_ref.h"
+#include "core/view/view.h"
 #include "parallel/cache_prepass.h"
+#include "parallel/executor.h"
+#include "parallel/frame.h"
 #include "parallel/frame_options.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/live_frames.h"
+#include "parallel/worker_contexts.h"
 
 namespace lightwalk {
 
+/// A picture that is wanted, with all that its options refer to.
+struct PictureRequest {
+    /// @param before  the view of the frame before, for motion blur; null or unusable: none
+    PictureRequest(const View& view, const View* before, const FrameOptions& wanted)
+        : camera(view), options(wanted) {
+        if (before != nullptr && !Camera::problem(*before)) previous.emplace(*before);
+        options.previous = previous ? &*previous : nullptr;
+    }
+    PictureRequest(const PictureRequest&) = delete;
+    PictureRequest& operator=(const PictureRequest&) = delete;
+
+    Camera camera;
+    std::optional<Camera> previous;
+    FrameOptions options;
+    std::shared_ptr<CheckpointSink> checkpoint;  ///< null: none
+};
+
 class RenderBackend {
   public:
-    explicit RenderBackend(RendererOptions options);
+    /// Throws InputError.
+    /// @param scene  after compile()
+    /// @param leads  whether this process is the one that keeps the ambient file
+    RenderBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options, bool leads);
     virtual ~RenderBackend() = default;
     RenderBackend(const RenderBackend&) = delete;
     RenderBackend& operator=(const RenderBackend&) = delete;
 
     [[nodiscard]] const RendererOptions& options() const { return options_; }
+    [[nodiscard]] const SceneSession& session() const { return session_; }
     /// Of pictures of a size; a walk that is steered traces every pixel.
     [[nodiscard]] FrameOptions frame_options(int width, int height) const;
     /// Requested: ends what is under way.
@@ -33,37 +59,62 @@ class RenderBackend {
     [[nodiscard]] RenderProgress progress() const;
 
     /// See Renderer::run.
-    virtual void run(FunctionRef<void()> lead) = 0;
+    virtual void run(FunctionRef<void()> lead) { lead(); }
     /// Whether this process gives out the work.
-    [[nodiscard]] virtual bool leads() const = 0;
-    [[nodiscard]] virtual const SceneSession& session() const = 0;
-    // Of these three one is used, as the options say; where this process leads.
-    [[nodiscard]] virtual PictureMaker& pictures() = 0;
-    [[nodiscard]] virtual RayMaker& rays() = 0;
+    [[nodiscard]] virtual bool leads() const { return true; }
+
+    // Where this process leads. Tasks are finished in the order in which they were begun; nothing:
+    // stopped.
+
+    /// Others may work on it from now on.
+    virtual void begin(const PictureRequest& /*request*/) {}
+    virtual void begin(const RayTask& /*list*/) {}
+    [[nodiscard]] virtual std::optional<Frame> finish(const PictureRequest& request) = 0;
+    /// The records of the rays, one after the other.
+    [[nodiscard]] virtual std::optional<std::string> finish(const RayTask& list) = 0;
+    /// See Renderer.
+    [[nodiscard]] virtual std::size_t pictures_ahead() const { return 1; }
+    /// @param begun  whether a list was begun that is not finished
+    [[nodiscard]] virtual RayDemand ray_demand(bool wait, bool begun) = 0;
     [[nodiscard]] virtual LiveFrames& frames() = 0;
     /// What the work has taken so far; on ranks, after run(), that of all of them.
-    [[nodiscard]] virtual RunStatistics statistics() const = 0;
+    [[nodiscard]] virtual RunStatistics statistics() const;
 
   protected:
-    [[nodiscard]] WarningSink& warnings() { return warnings_; }
     /// Whom makers of pictures tell.
     [[nodiscard]] ProgressListener listener();
     /// How the cache of indirect light is filled before a picture.
     [[nodiscard]] CachePrepass prepass() const;
-    [[nodiscard]] LightSettings light() const { return {options_.light, options_.ambient_file}; }
+    /// The next frame of a walk, drawn from the points of those before it; one of another size
+    /// starts anew.
+    /// @param workers  that draw it, for estimates of the time it takes
+    [[nodiscard]] std::optional<Frame> draw_frame(const PictureRequest& request, int workers);
+    /// Before a frame of a walk, the first one of its size or a later one. False: stopped.
+    [[nodiscard]] virtual bool prepare(const PictureRequest& /*request*/, bool /*first*/) {
+        return true;
+    }
+    /// The records of a list's rays, by one thread.
+    [[nodiscard]] std::string answer_rays(const RayTask& list, int worker);
+    [[nodiscard]] RayListOptions ray_options() const;
 
-  private:
     RendererOptions options_;
     CallbackWarnings warnings_;
     StopFlag own_stop_;
+    SceneSession session_;
+    std::unique_ptr<const Tracer> direct_;  ///< of walks that are steered: without indirect light;
+                                            ///< null: there is none anyway
+    std::unique_ptr<Executor> executor_;
+    WorkerContexts contexts_;
+    RunStatistics statistics_;
+
+  private:
     mutable std::mutex mutex_;
     RenderProgress progress_;  ///< under the mutex
+    // A walk's frames.
+    std::optional<ProgressReporter> walk_reporter_;  ///< of the whole walk, while it lasts
+    std::size_t frames_done_ = 0;
+    int width_ = 0, height_ = 0;  ///< of the frames at hand
 };
-
-/// The tracer of a scene without indirect light; null: it has none anyway. The session must outlive
-/// it.
-[[nodiscard]] std::unique_ptr<const Tracer> without_indirect(const SceneSession& session,
-                                                             WarningSink& warnings);
 
 /// The bytes of a ray's answer where a renderer's options have no record of their own.
 void append_ray_answer(const Ray& ray, const Hit& first, std::string& bytes);

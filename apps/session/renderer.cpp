@@ -13,22 +13,6 @@
 #include "apps/session/render_backend.h"
 
 namespace lightwalk {
-namespace {
-
-/// The next picture of a maker; null: stopped.
-std::unique_ptr<RenderedPicture> take_picture(PictureMaker& maker) {
-    std::optional<Frame> frame = maker.take();
-    if (!frame) return nullptr;
-    auto picture = std::make_unique<RenderedPicture>();
-    picture->width = frame->width;
-    picture->height = frame->height;
-    picture->radiance = std::move(frame->radiance);
-    picture->distance = std::move(frame->distance);
-    picture->rays = frame->rays.total();
-    return picture;
-}
-
-}  // namespace
 
 /// The tasks that were started. One is done at a time, by whoever waits for it, or, where somebody
 /// only asks how far it is, by a thread of its own.
@@ -42,15 +26,15 @@ struct Renderer::Impl {
         background.join();
     }
 
-    /// What is to be done; where it has been ordered, the backend has the rest.
     struct Pending {
         std::uint64_t number = 0;
-        std::shared_ptr<const PictureRequest> picture;
-        std::optional<RayTask> rays;
-        bool ordered = false, is_rays = false;
+        std::shared_ptr<const PictureRequest> picture;  ///< null: rays
+        RayTask rays;
+        bool begun = false;
     };
+    /// Neither a picture nor bytes nor an error: cancelled.
     struct Outcome {
-        std::unique_ptr<RenderedPicture> picture;
+        std::optional<RenderedPicture> picture;
         std::optional<std::string> bytes;
         std::exception_ptr error;
     };
@@ -63,39 +47,47 @@ struct Renderer::Impl {
         }
         task.number = next++;
         pending.push_back(std::move(task));
-        if (!busy) order_all();
+        if (!busy) begin_all();
         return pending.back().number;
     }
 
-    /// Not while the backend works: it need not be able to take orders then.
-    void order_all() {
+    /// As many as may be under way. Not while the backend works: it need not be able to begin
+    /// others then.
+    void begin_all() {
+        std::size_t pictures = 0;
         for (Pending& task : pending) {
-            if (task.ordered) continue;
-            task.ordered = true;
-            if (task.is_rays)
-                backend->rays().order(std::move(*task.rays));
+            if (task.picture && ++pictures > backend->pictures_ahead()) return;
+            if (std::exchange(task.begun, true)) continue;
+            if (task.picture)
+                backend->begin(*task.picture);
             else
-                backend->pictures().order(std::move(task.picture));
+                backend->begin(task.rays);
+        }
+    }
+
+    void make(const Pending& task, Outcome& outcome) {
+        if (!task.picture) {
+            outcome.bytes = backend->finish(task.rays);
+        } else if (std::optional<Frame> frame = backend->finish(*task.picture)) {
+            outcome.picture = {frame->width, frame->height, std::move(frame->radiance),
+                               std::move(frame->distance), frame->rays.total()};
         }
     }
 
     /// Does the oldest task. `busy` has been set.
     void do_oldest(std::unique_lock<std::mutex>& lock) {
-        const bool is_rays = pending.front().is_rays;
+        const Pending& task = pending.front();
         lock.unlock();
         Outcome outcome;
         try {
-            if (is_rays)
-                outcome.bytes = backend->rays().take();
-            else
-                outcome.picture = take_picture(backend->pictures());
+            make(task, outcome);
         } catch (...) {
             outcome.error = std::current_exception();
         }
         lock.lock();
-        outcomes[pending.front().number] = std::move(outcome);
+        outcomes[task.number] = std::move(outcome);
         pending.pop_front();
-        order_all();
+        begin_all();
         busy = false;
         changed.notify_all();
     }
@@ -181,7 +173,6 @@ Ticket<RenderedPicture> Renderer::start(PictureTask task) {
 
 Ticket<RayBytes> Renderer::start(RayTask task) {
     Impl::Pending pending;
-    pending.is_rays = true;
     pending.rays = std::move(task);
     return {impl_->start(std::move(pending))};
 }
@@ -191,9 +182,7 @@ RenderProgress Renderer::poll_task(std::uint64_t number) {
 }
 
 std::optional<RenderedPicture> Renderer::finish(Ticket<RenderedPicture> ticket) {
-    const std::unique_ptr<RenderedPicture> picture = impl_->finish(ticket.number).picture;
-    if (!picture) return std::nullopt;
-    return std::move(*picture);
+    return impl_->finish(ticket.number).picture;
 }
 
 std::optional<RayBytes> Renderer::finish(Ticket<RayBytes> ticket) {
@@ -210,12 +199,15 @@ void Renderer::cancel() {
 }
 
 std::size_t Renderer::pictures_ahead() const {
-    return impl_->backend->pictures().ahead();
+    return impl_->backend->pictures_ahead();
 }
 
 RayDemand Renderer::ray_demand(bool wait) {
-    RayDemand demand = impl_->backend->rays().demand(wait);
-    const std::lock_guard lock(impl_->mutex);
+    std::unique_lock lock(impl_->mutex);
+    const bool begun = !impl_->pending.empty();
+    lock.unlock();
+    RayDemand demand = impl_->backend->ray_demand(wait, begun);
+    lock.lock();
     demand.answered = demand.answered || !impl_->outcomes.empty();
     return demand;
 }
@@ -224,20 +216,8 @@ void Renderer::run(FunctionRef<void()> lead) {
     impl_->backend->run(lead);
 }
 
-bool Renderer::leads() const {
-    return impl_->backend->leads();
-}
-
-const SceneSession& Renderer::session() const {
-    return impl_->backend->session();
-}
-
-LiveFrames& Renderer::frames() {
-    return impl_->backend->frames();
-}
-
-RunStatistics Renderer::statistics() const {
-    return impl_->backend->statistics();
+RenderBackend& Renderer::backend() {
+    return *impl_->backend;
 }
 
 }  // namespace lightwalk

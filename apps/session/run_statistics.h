@@ -7,6 +7,7 @@
 #include "apps/session/compiled_scene.h"
 #include "apps/session/walk_report.h"
 #include "core/trace/tracer.h"
+#include "parallel/ranks/rank_report.h"
 
 namespace lightwalk {
 
@@ -23,14 +24,18 @@ struct RunStatistics {
     int width = 0, height = 0;  ///< of a picture; 0: no picture
     int frames = 0;
     int ranks = 1;
-    WalkReport walk;                     ///< frames that reused others' points
-    std::map<int, std::string> reports;  ///< of each rank (see rank_report); empty for one process
+    WalkReport walk;                    ///< frames that reused others' points
+    std::map<int, RankReport> reports;  ///< of each rank; empty for one process
 
     /// What a session's scene took, and what its cache holds.
     void add_session(const SceneSession& session);
 };
 
-/// As JSON. Throws InputError for reports that are none.
+/// As JSON.
 [[nodiscard]] std::string statistics_json(const RunStatistics& statistics);
+
+/// The spans of all ranks in the format of Chrome's tracing, which Perfetto opens: a process a
+/// rank, a thread a thread. See "Trace Event Format" (Google, 2016).
+[[nodiscard]] std::string timeline_json(const std::map<int, RankReport>& reports);
 
 }  // namespace lightwalk

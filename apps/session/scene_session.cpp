@@ -14,18 +14,18 @@ bool caches_ambient_values(const RenderOptions& light) {
 }
 
 SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
-                           const LightSettings& settings, WarningSink& warnings,
-                           CacheSharing* sharing)
+                           const RenderOptions& light, const std::string& ambient_file,
+                           WarningSink& warnings)
     : compiled_(std::move(compiled)), warnings_(warnings), cost_(compiled_->cost()) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor =
         make_executor(kDefaultExecutor, compiled_->threads());
-    auto tracer = std::make_unique<Tracer>(compiled_->scene(), settings.light, warnings,
+    auto tracer = std::make_unique<Tracer>(compiled_->scene(), light, warnings,
                                            ExecutorTaskRunner(*executor));
-    if (caches_ambient_values(settings.light)) {
-        make_cache(settings, sharing);
+    if (caches_ambient_values(light)) {
+        make_cache(light, ambient_file);
         tracer->use_ambient_cache(freezable.get());
-    } else if (!settings.ambient_file.empty()) {
+    } else if (!ambient_file.empty()) {
         warnings.warn("the ambient file is not opened: it needs -ab and -aa above zero");
     }
     tracer_ = std::move(tracer);
@@ -33,19 +33,15 @@ SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
     cost_.build_peak_bytes = peak_memory_bytes();
 }
 
-void SceneSession::make_cache(const LightSettings& settings, CacheSharing* sharing) {
-    const RenderOptions& options = settings.light;
+void SceneSession::make_cache(const RenderOptions& light, const std::string& ambient_file) {
     const SceneCube cube = scene().cube();
-    ambient = std::make_unique<ConcurrentCache>(ambient_limits(
-        cube.origin, cube.size, options.ambient_accuracy, options.ambient_resolution));
+    ambient = std::make_unique<ConcurrentCache>(
+        ambient_limits(cube.origin, cube.size, light.ambient_accuracy, light.ambient_resolution));
     freezable = std::make_unique<PublishedCache>(*ambient);
-    if (!settings.ambient_file.empty() && (sharing == nullptr || sharing->has_file())) {
-        ambient_store =
-            std::make_unique<AmbientStore>(settings.ambient_file, options, *ambient, warnings_);
-        known = ambient_store->take_loaded();
-        freezable->add(*ambient_store);
-    }
-    if (sharing != nullptr) sharing->exchange(*freezable, known);
+    if (ambient_file.empty()) return;
+    ambient_store = std::make_unique<AmbientStore>(ambient_file, light, *ambient, warnings_);
+    known = ambient_store->take_loaded();
+    freezable->add(*ambient_store);
 }
 
 void SceneSession::warn_of_darkness() const {

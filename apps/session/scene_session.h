@@ -13,36 +13,18 @@
 
 namespace lightwalk {
 
-/// How light is followed, and where its indirect values are kept.
-struct LightSettings {
-    RenderOptions light;
-    std::string ambient_file;  ///< "": nowhere
-};
-
 /// Whether light is computed with cached indirect values.
 [[nodiscard]] bool caches_ambient_values(const RenderOptions& light);
-
-/// Other processes with whom a cache of indirect light is shared.
-class CacheSharing {
-  public:
-    virtual ~CacheSharing() = default;
-    /// Whether this process is the one that has the ambient file.
-    [[nodiscard]] virtual bool has_file() const = 0;
-    /// From now on the cache's new values go to the others, and it gets theirs.
-    /// @param cache  must outlive the sharing
-    /// @param known  values that the others do not have
-    virtual void exchange(PublishedCache& cache, const std::vector<AmbientRecord>& known) = 0;
-};
 
 /// Immutable once made, but for the caches. Sessions with different light may share a scene.
 class SceneSession {
   public:
     /// Throws InputError.
-    /// @param compiled  after compile()
-    /// @param warnings  must outlive this
-    /// @param sharing   null: there are no other processes
-    SceneSession(std::shared_ptr<const CompiledScene> compiled, const LightSettings& settings,
-                 WarningSink& warnings, CacheSharing* sharing = nullptr);
+    /// @param compiled      after compile()
+    /// @param ambient_file  where indirect values are kept; "": nowhere
+    /// @param warnings      must outlive this
+    SceneSession(std::shared_ptr<const CompiledScene> compiled, const RenderOptions& light,
+                 const std::string& ambient_file, WarningSink& warnings);
 
     [[nodiscard]] const CompiledScene& compiled() const { return *compiled_; }
     [[nodiscard]] const Scene& scene() const { return compiled_->scene(); }
@@ -54,7 +36,7 @@ class SceneSession {
     void warn_of_darkness() const;
 
   private:
-    void make_cache(const LightSettings& settings, CacheSharing* sharing);
+    void make_cache(const RenderOptions& light, const std::string& ambient_file);
 
     std::shared_ptr<const CompiledScene> compiled_;
     WarningSink& warnings_;

@@ -5,8 +5,8 @@
 
 #include "apps/command_run.h"
 #include "apps/interrupt.h"
-#include "apps/rank_backend.h"
 #include "apps/render_command.h"
+#include "apps/session/render_backend.h"
 #include "apps/walk/pages.h"
 #include "apps/walk/render_loop.h"
 #include "io/files/watched_files.h"
@@ -123,13 +123,9 @@ class WalkRun final : CommandRun {
 
     int run() {
         handle_interrupts();
-        const CommonOptions& common = command_.common;
-        return share_out(
-            {caches_ambient_values(common.settings.light), false, common.request.projectors},
-            [this] {
-                if (link() == nullptr) set_interrupt_phase(InterruptPhase::request);
-                return link() == nullptr || link()->leads() ? serve() : follow();
-            });
+        join(task().options);
+        if (ranks() == nullptr) set_interrupt_phase(InterruptPhase::request);
+        return share_out([this] { return speaks() ? serve() : follow(); });
     }
 
   private:
@@ -137,11 +133,10 @@ class WalkRun final : CommandRun {
 
     /// The ranks but rank 0: scene after scene.
     int follow() {
-        while (link()->next_command() == kLoad) {
+        while (ranks()->tell() == kLoad) {
             try {
-                Renderer renderer = open_renderer(link(), task(), warnings());
-                renderer.run([] {});
-            } catch (const AgreedProblem&) {
+                ranks()->open(task()).run([] {});
+            } catch (const InputError&) {
                 continue;  // until its files change
             }
         }
@@ -160,17 +155,15 @@ class WalkRun final : CommandRun {
             } catch (const InputError& error) {
                 std::fprintf(stderr, "%s\n", error.what());
                 page.inbox.announce(walk_text(failed_reply(error.what())));
-            } catch (const AgreedProblem& problem) {
-                page.inbox.announce(walk_text(failed_reply(problem.text)));
             }
             wait_for_change(page, *files);
             if (!interrupt_flag().requested()) std::this_thread::sleep_for(kWriting);
         }
         // Nothing is drawn any more: what is left is short, and is not cut off.
-        if (link() == nullptr)
+        if (ranks() == nullptr)
             set_interrupt_phase(InterruptPhase::finish);
         else
-            (void)link()->next_command(kEnd);
+            (void)ranks()->tell(kEnd);
         page.raise();
         return kSuccessStatus;
     }
@@ -186,24 +179,24 @@ class WalkRun final : CommandRun {
     }
 
     /// Read the scene, and draw until its files change. Throws InputError for what is wrong with
-    /// the scene, or AgreedProblem.
+    /// the scene.
     void enter(Page& page, const Files& files) {
         const auto announce = [&page](const std::string& step, double share) {
             page.inbox.announce(walk_text(LoadingReply{step, share}));
         };
         announce("reading " + welcome(command_).scene, 0.1);
-        if (link() != nullptr) (void)link()->next_command(kLoad);
+        if (ranks() != nullptr) (void)ranks()->tell(kLoad);
         RendererRequest request = task();
         request.files = files;
         request.when_read = [&] { announce("building the scene", 0.5); };
-        Renderer renderer = open_renderer(link(), request, warnings());
-        renderer.session().warn_of_darkness();
+        Renderer renderer = open_renderer(ranks(), request);
+        renderer.backend().session().warn_of_darkness();
         renderer.run([&] { draw(page, *files, renderer); });
     }
 
     /// Draw until the scene's files change.
     void draw(Page& page, WatchedFiles& files, Renderer& renderer) {
-        const SceneSession& session = renderer.session();
+        const SceneSession& session = renderer.backend().session();
         LoadedReply loaded;
         loaded.views = command_.serve->page.views;
         const View home = !loaded.views.empty() ? loaded.views.front().view
@@ -212,9 +205,9 @@ class WalkRun final : CommandRun {
         if (loaded.views.empty()) loaded.views.push_back({"start", home});
         page.inbox.set_views(home, loaded.views);
         RenderLoop loop({command_.serve->page.fps, command_.serve->edge_samples,
-                         command_.common.request.history, link() != nullptr ? link()->ranks() : 1},
-                        session, home, renderer.frames(), *page.executor, warnings(), page.inbox,
-                        page.screen);
+                         command_.common.request.history, ranks() != nullptr ? ranks()->size() : 1},
+                        session, home, renderer.backend().frames(), *page.executor, warnings(),
+                        page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
         page.inbox.announce(walk_text(loaded));
         auto looked = std::chrono::steady_clock::now();

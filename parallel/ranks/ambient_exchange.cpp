@@ -2,18 +2,9 @@
 
 namespace lightwalk {
 
-using Direction = AmbientValues::Direction;
-
 void AmbientMaster::handle(int from, AmbientValues offer, Outbox& out) {
-    if (offer.scene > scene_) {
-        records_.clear();
-        sources_.clear();
-        told_.clear();
-        scene_ = offer.scene;
-    }
-    if (offer.scene < scene_) offer.records.clear();
     std::size_t& told = told_[from];
-    AmbientValues news{{}, scene_, Direction::news};
+    AmbientValues news{{}, AmbientValues::Direction::news};
     for (std::size_t i = told; i < records_.size(); ++i) {
         if (sources_[i] != from) news.records.push_back(records_[i]);
     }
@@ -23,23 +14,68 @@ void AmbientMaster::handle(int from, AmbientValues offer, Outbox& out) {
     out.messages.push_back({self_, from, std::move(news)});
 }
 
-void AmbientClient::offer(AmbientValues own, Outbox& out) {
-    if (own.scene < own_.scene) return;
-    if (own.scene > own_.scene) own_ = {{}, own.scene};
-    own_.records.insert(own_.records.end(), own.records.begin(), own.records.end());
-    if (own.records.empty() || own_.records.size() >= batch_) ask(out);
+void AmbientMaster::clear() {
+    records_.clear();
+    sources_.clear();
+    told_.clear();
+}
+
+void AmbientClient::offer(const std::vector<AmbientRecord>& own, Outbox& out) {
+    own_.insert(own_.end(), own.begin(), own.end());
+    if (!asked_ && own_.size() >= batch_) ask(out);
 }
 
 void AmbientClient::handle(AmbientValues news, Outbox& out) {
     asked_ = false;
-    if (!news.records.empty() && news.scene == own_.scene) out.cache.push_back(std::move(news));
-    if (own_.records.size() >= batch_) ask(out);
+    if (!news.records.empty()) out.cache.push_back(std::move(news));
+    if (std::exchange(again_, false) || own_.size() >= batch_) ask(out);
 }
 
 void AmbientClient::ask(Outbox& out) {
-    if (asked_) return;
+    if (asked_) {
+        again_ = true;
+        return;
+    }
     asked_ = true;
-    out.messages.push_back({self_, master_, std::exchange(own_, {{}, own_.scene})});
+    out.messages.push_back({self_, master_, AmbientValues{std::exchange(own_, {})}});
+}
+
+void SharedCache::open(PublishedCache& cache) {
+    const std::lock_guard lock(mutex_);
+    cache_ = &cache;
+    cache.add(*this);
+}
+
+void SharedCache::close() {
+    const std::lock_guard lock(mutex_);
+    cache_ = nullptr;
+}
+
+bool SharedCache::is_open() const {
+    const std::lock_guard lock(mutex_);
+    return cache_ != nullptr;
+}
+
+void SharedCache::stored(const AmbientRecord& record) {
+    std::vector<AmbientRecord> full;
+    {
+        const std::lock_guard lock(mutex_);
+        own_.push_back(record);
+        if (own_.size() < batch_) return;
+        full.swap(own_);
+    }
+    send_(std::move(full));
+}
+
+std::vector<AmbientRecord> SharedCache::unsent() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(own_, {});
+}
+
+void SharedCache::take(const AmbientValues& news) {
+    const std::lock_guard lock(mutex_);
+    if (cache_ == nullptr) return;
+    for (const AmbientRecord& record : news.records) cache_->take_over(record, *this);
 }
 
 }  // namespace lightwalk

@@ -1,10 +1,14 @@
 #pragma once
 // Ambient values shared by ranks: one of them gathers all, and passes on to each what it lacks.
 #include <cstddef>
+#include <functional>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/ambient/ambient_listener.h"
+#include "parallel/published_cache.h"
 #include "parallel/work_queue/outbox.h"
 
 namespace lightwalk {
@@ -13,9 +17,10 @@ namespace lightwalk {
 class AmbientMaster {
   public:
     explicit AmbientMaster(int self) : self_(self) {}
-    /// An offer comes in, news go out. Of several scenes those of the last one are kept: the first
-    /// values of a scene come when all ranks have left the one before.
+    /// An offer comes in, news go out.
     void handle(int from, AmbientValues offer, Outbox& out);
+    /// The scene that the values are of is done with: forgets them.
+    void clear();
     [[nodiscard]] std::size_t size() const { return records_.size(); }
 
   private:
@@ -23,7 +28,6 @@ class AmbientMaster {
     std::vector<AmbientRecord> records_;         ///< in the order of their arrival
     std::vector<int> sources_;                   ///< ranks they came from
     std::unordered_map<int, std::size_t> told_;  ///< records that a rank knows
-    std::uint32_t scene_ = 0;                    ///< that they are of
 };
 
 /// A rank's own new values go out by the batch, one offer at a time.
@@ -31,21 +35,49 @@ class AmbientClient {
   public:
     AmbientClient(int self, int master, std::size_t batch)
         : self_(self), master_(master), batch_(batch) {}
-    /// Values of the own cache. None: it wants to know what there is.
-    void offer(AmbientValues own, Outbox& out);
+    /// Values of the own cache.
+    void offer(const std::vector<AmbientRecord>& own, Outbox& out);
     /// The master's answer, for the own cache.
     void handle(AmbientValues news, Outbox& out);
-    /// Ask, whether or not a batch is full.
+    /// Ask, whether or not a batch is full; where an offer is out, after its answer.
     void ask(Outbox& out);
-    [[nodiscard]] bool waits_for_answer() const { return asked_; }
-    /// No more questions from now on.
-    void close() { batch_ = static_cast<std::size_t>(-1); }
+    /// Nothing that was offered or asked so far is still to be sent or answered.
+    [[nodiscard]] bool is_settled() const { return !asked_; }
 
   private:
     int self_, master_;
     std::size_t batch_;
-    bool asked_ = false;
-    AmbientValues own_;  ///< of the scene at hand
+    bool asked_ = false, again_ = false;
+    std::vector<AmbientRecord> own_;
+};
+
+/// A rank's cache as one of those that share their values, scene after scene.
+class SharedCache final : public AmbientListener {
+  public:
+    /// @param batch  values that `send` is called with at once, at least 1; it is called by
+    ///               whichever thread made the last of them
+    SharedCache(std::size_t batch, std::function<void(std::vector<AmbientRecord>)> send)
+        : batch_(batch), send_(std::move(send)) {}
+
+    /// From now on new values of the cache go to the others, and it gets theirs.
+    /// @param cache  must outlive what traces, and close()
+    void open(PublishedCache& cache);
+    void close();
+    [[nodiscard]] bool is_open() const;
+
+    /// A value that was made here; from any thread.
+    void stored(const AmbientRecord& record) override;
+    /// Values that do not make a batch yet; they are not sent any more.
+    [[nodiscard]] std::vector<AmbientRecord> unsent();
+    /// Values of others.
+    void take(const AmbientValues& news);
+
+  private:
+    std::size_t batch_;
+    std::function<void(std::vector<AmbientRecord>)> send_;
+    mutable std::mutex mutex_;  ///< guards what follows
+    PublishedCache* cache_ = nullptr;
+    std::vector<AmbientRecord> own_;
 };
 
 }  // namespace lightwalk

@@ -1,5 +1,6 @@
 #pragma once
-// Collective operations of ranks, one round of a group after the other: rank 0 gathers all shares.
+// What ranks of a group tell each other, one round after the other: rank 0 gathers all shares.
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -26,7 +27,7 @@ class Collectives {
         Collective result;
         std::size_t missing = 0;
     };
-    std::array<std::vector<int>, 4> members_;                              ///< by group, ascending
+    std::array<std::vector<int>, kGroups> members_;                        ///< by group, ascending
     std::map<std::pair<Collective::Group, std::uint32_t>, Round> rounds_;  ///< not yet complete
 };
 

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "parallel/ranks/piece_codec.h"
+#include "parallel/ranks/trace_work.h"
 
 namespace lightwalk {
 namespace {
@@ -11,21 +13,19 @@ namespace {
 /// One frame, as long as it is drawn.
 class RankFrameExchange final : public FrameExchange {
   public:
-    RankFrameExchange(RankLoop& loop, TracerInbox& inbox, const WalkPartOptions& options,
-                      const FrameOrder& order, const SceneCaster& rays, double last_keep_seconds,
-                      Timeline* timeline)
-        : loop_(loop),
-          inbox_(inbox),
-          options_(options),
+    RankFrameExchange(RankLink& link, const FrameOrder& order, const SceneCaster& rays,
+                      std::size_t index, double last_keep_seconds)
+        : link_(link),
+          inbox_(link.inbox()),
           order_(order),
           rays_(rays),
+          index_(index),
           rays_before_(rays.traced()),
           last_keep_seconds_(last_keep_seconds),
-          timeline_(timeline),
-          parts_({0, 0, order.width, order.height}, options.owners) {}
+          parts_({0, 0, order.width, order.height}, link.owners().size()) {}
 
     [[nodiscard]] bool exchange_points(CloudRegion& region, const StopFlag& stop) override {
-        std::vector<SharedPoints> leaving(options_.owners);
+        std::vector<SharedPoints> leaving(parts_.size());
         region.points().leaving([&](const CloudPoint& point, const PixelPlace& place) {
             const PixelRectangle near = widened({place.x, place.y, place.x + 1, place.y + 1}, 1,
                                                 order_.width, order_.height);
@@ -33,11 +33,10 @@ class RankFrameExchange final : public FrameExchange {
                 leaving[owner].points.push_back(point);
         });
         for (std::size_t i = 0; i < leaving.size(); ++i)
-            if (i != options_.index)
-                loop_.post(options_.workers[i],
-                           PointExchange{order_.number, std::move(leaving[i])});
-        const TimedActivity waiting(timeline_, 0, Activity::wait);
-        const auto arrived = inbox_.points(order_.number, options_.owners - 1, stop);
+            if (i != index_)
+                link_.post(link_.owners()[i], PointExchange{order_.number, std::move(leaving[i])});
+        const TimedActivity waiting(link_.timeline(), 0, Activity::wait);
+        const auto arrived = inbox_.points(order_.number, parts_.size() - 1, stop);
         if (!arrived) return false;
         for (const SharedPoints& shared : *arrived) region.add(shared.points);
         return true;
@@ -46,7 +45,7 @@ class RankFrameExchange final : public FrameExchange {
     void send_used(const CloudRegion& region) override {
         const UsedPixels used = region.points().used_beside();
         for (const std::size_t i : beside())
-            loop_.post(options_.workers[i], PointExchange{order_.number, used});
+            link_.post(link_.owners()[i], PointExchange{order_.number, used});
     }
 
     [[nodiscard]] bool trace(CloudRegion& region, const UncachedPixelTracer& tracer, int sample,
@@ -55,9 +54,9 @@ class RankFrameExchange final : public FrameExchange {
         UncachedPixels pixels{order_.number, static_cast<std::uint32_t>(to_trace.noise_pairs()),
                               to_trace.places()};
         const std::size_t expected = pixels.places.size();
-        loop_.post(0, std::move(pixels));
+        link_.post(0, std::move(pixels));
         trace_runs(tracer, sample, executor, stop);
-        const TimedActivity waiting(timeline_, 0, Activity::wait);
+        const TimedActivity waiting(link_.timeline(), 0, Activity::wait);
         const std::size_t lists = order_.rests ? 0 : beside().size();
         const auto mail = inbox_.mail(order_.number, expected, lists, stop);
         if (!mail) return false;
@@ -71,11 +70,13 @@ class RankFrameExchange final : public FrameExchange {
                     const StopFlag& stop) {
         run_on_all(inbox_, executor, stop, [&](int worker) {
             const auto next = [&] {
-                const TimedActivity waiting(timeline_, worker, Activity::wait);
+                const TimedActivity waiting(link_.timeline(), worker, Activity::wait);
                 return inbox_.next_run(order_.number, stop);
             };
             while (const std::optional<PixelRun> run = next())
-                finish(trace_run(*run, tracer, sample, worker));
+                link_.finish_work({FinishedWork::Payload::pixels, 0,
+                                   static_cast<std::uint32_t>(run->places.size()), 0},
+                                  trace_run(*run, tracer, sample, worker));
         });
     }
 
@@ -91,25 +92,21 @@ class RankFrameExchange final : public FrameExchange {
         part.report = region.frame().report;
         part.report.rays = rays_.traced() - rays_before_;
         part.report.keep_seconds = last_keep_seconds_;
-        loop_.post(0, FinishedPart{std::move(part)});
+        link_.post(0, FinishedPart{std::move(part)});
     }
 
     [[nodiscard]] std::optional<AgeCounts> sum(const AgeCounts& mine) override {
+        const std::vector<std::uint64_t> sums =
+            link_.all_reduce(Collective::Group::owners, {mine.begin(), mine.end()});
         AgeCounts all{};
-        try {
-            const std::vector<std::uint64_t> sums =
-                loop_.all_reduce(Collective::Group::owners, {mine.begin(), mine.end()});
-            if (sums.size() != all.size()) throw InputError("ranks count ages in different ways");
-            std::copy(sums.begin(), sums.end(), all.begin());
-        } catch (const Aborted&) {
-            return std::nullopt;
-        }
+        if (sums.size() != all.size()) throw InputError("ranks count ages in different ways");
+        std::copy(sums.begin(), sums.end(), all.begin());
         return all;
     }
 
   private:
     [[nodiscard]] std::vector<std::size_t> beside() const {
-        return owners_beside(parts_, options_.index, order_.width, order_.height);
+        return owners_beside(parts_, index_, order_.width, order_.height);
     }
 
     [[nodiscard]] TracedRun trace_run(const PixelRun& run, const UncachedPixelTracer& tracer,
@@ -117,7 +114,7 @@ class RankFrameExchange final : public FrameExchange {
         const auto count = static_cast<std::uint32_t>(run.places.size());
         TracedRun result{run.frame, run.owner, run.first, count, std::nullopt};
         if (!run.at_once && tracer.is_late()) return result;
-        const TimedActivity tracing(timeline_, worker, Activity::trace);
+        const TimedActivity tracing(link_.timeline(), worker, Activity::trace);
         std::vector<TracedPixelResult>& all = result.traced.emplace(count);
         const auto keep = [&](std::size_t first, std::span<const TracedPixelResult> traced) {
             std::copy(traced.begin(), traced.end(),
@@ -125,14 +122,6 @@ class RankFrameExchange final : public FrameExchange {
         };
         tracer.trace_part(run.places, run.noise_pairs ? 1 : sample, worker, keep);
         return result;
-    }
-
-    void finish(TracedRun run) {
-        const FinishedWork finished{FinishedWork::Payload::pixels, 0, run.count, 0};
-        loop_.post(Activity::send,
-                   [finished, traced = std::move(run)](RankRoles& roles, Outbox& out) mutable {
-                       roles.worker().finish(finished, std::move(traced), out);
-                   });
     }
 
     /// Each pixel must have been dealt with, and once.
@@ -154,7 +143,7 @@ class RankFrameExchange final : public FrameExchange {
         }
     }
 
-    void encode(CloudRegion& region, FramePart& part) const {
+    static void encode(CloudRegion& region, FramePart& part) {
         const CloudFrame& frame = region.frame();
         std::vector<PixelValue> values(frame.radiance.size());
         for (std::size_t i = 0; i < values.size(); ++i)
@@ -163,42 +152,41 @@ class RankFrameExchange final : public FrameExchange {
             for (std::size_t i = 0; i < frame.known.size(); ++i)
                 if (frame.known[i] == 0) part.unknown.push_back(static_cast<std::uint32_t>(i));
         }
-        part.pixels = options_.encode(frame.area, std::move(values));
+        part.pixels = encode_piece(frame.area, values);
     }
 
-    RankLoop& loop_;
+    RankLink& link_;
     TracerInbox& inbox_;
-    const WalkPartOptions& options_;
     const FrameOrder& order_;
     const SceneCaster& rays_;
+    std::size_t index_;  ///< of this rank among the workers, the first of which are the owners
     std::uint64_t rays_before_;
     double last_keep_seconds_;
-    Timeline* timeline_;
     SubImages parts_;
 };
 
 }  // namespace
 
-void draw_frames(RankLoop& loop, TracerInbox& inbox, const WalkPartOptions& options,
-                 const MakeWalkRays& make, Executor& executor, const StopFlag& stop,
-                 Timeline* timeline) {
-    FrameLoop frames(options.cloud, options.index, options.owners);
+void draw_frames(RankLink& link, const CloudOptions& cloud, const MakeWalkRays& make,
+                 Executor& executor, const StopFlag& stop) {
+    const std::size_t index = link.topology().worker_index(link.rank()).value_or(0);
+    const std::size_t owners = link.owners().size();
+    FrameLoop frames(cloud, index, owners);
     const auto next = [&] {
-        const TimedActivity waiting(timeline, 0, Activity::wait);
-        return inbox.next_order(stop);
+        const TimedActivity waiting(link.timeline(), 0, Activity::wait);
+        return link.inbox().next_order(stop);
     };
     while (const std::optional<FrameOrder> order = next()) {
         const std::unique_ptr<SceneCaster> rays = make(*order);
-        RankFrameExchange exchange(loop, inbox, options, *order, *rays, frames.keep_seconds(),
-                                   timeline);
-        if (options.index < options.owners) {
+        RankFrameExchange exchange(link, *order, *rays, index, frames.keep_seconds());
+        if (index < owners) {
             (void)frames.draw(*order, rays->camera(), *rays, exchange, executor, stop);
             continue;
         }
         // A rank that owns no part has nothing to do before others have found what to trace.
         const auto deadline = order->budget > 0 ? deadline_of(order->budget)
                                                 : UncachedPixelTracer::Clock::time_point::max();
-        exchange.trace_runs(UncachedPixelTracer(*rays, options.cloud.tolerance,
+        exchange.trace_runs(UncachedPixelTracer(*rays, cloud.tolerance,
                                                 tracing_deadline(deadline, order->budget, 0)),
                             order->sample, executor, stop);
     }

@@ -10,13 +10,6 @@ namespace {
 
 constexpr int kChunksAThread = 4;  ///< one is traced, others wait there, here, or to be written
 
-std::vector<int> ranks_of(const std::vector<Topology::Worker>& workers) {
-    std::vector<int> ranks;
-    ranks.reserve(workers.size());
-    for (const Topology::Worker& worker : workers) ranks.push_back(worker.rank);
-    return ranks;
-}
-
 template <class Role>
 Role& expected(std::optional<Role>& role) {
     if (!role) throw InputError("a rank has got a message that is not for it");
@@ -29,7 +22,7 @@ RankRoles::RankRoles(int rank, const Topology& topology, const RankSettings& set
     : rank_(rank),
       rays_(settings.rays),
       collectives_(topology, owners_of(topology.workers.size(), settings.projectors)) {
-    const auto workers = std::make_shared<const std::vector<int>>(ranks_of(topology.workers));
+    const auto workers = std::make_shared<const std::vector<int>>(topology.worker_ranks());
     if (rank == 0) {
         const int threads = settings.slots * static_cast<int>(workers->size());
         queue_.emplace(WorkQueue::Options{topology.children,

@@ -5,6 +5,7 @@
 
 #include "parallel/ranks/ambient_exchange.h"
 #include "parallel/ranks/collectives.h"
+#include "parallel/ranks/piece_codec.h"
 #include "parallel/ranks/timeline.h"
 #include "parallel/ranks/topology.h"
 #include "parallel/work_queue/outbox.h"
@@ -18,7 +19,7 @@ struct RankSettings {
     int ahead = 1;                   ///< pieces of work that wait on each worker
     int block = 0, stride = 0;       ///< see BlockPolicy
     std::size_t ambient_batch = 16;  ///< values a message; 0: none are exchanged
-    EncodePiece encode;
+    EncodePiece encode = encode_piece;
     bool rays = false;   ///< a stream of rays is traced
     int projectors = 0;  ///< so many of the workers own parts of a walk's frames, at most; 0: none
 };

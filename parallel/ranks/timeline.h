@@ -19,7 +19,9 @@ enum class Activity : std::uint8_t {
     serve,     ///< other messages: the master's work
 };
 inline constexpr std::size_t kActivities = 6;
-[[nodiscard]] const char* activity_name(Activity activity);
+inline constexpr std::array<const char*, kActivities> kActivityNames{
+    "trace",    "wait for blocks",         "send results",
+    "compress", "exchange ambient values", "serve messages"};
 
 /// Rows of spans, one a thread. Costs two readings of the clock and a lock that nobody else wants a
 /// span.
@@ -28,7 +30,7 @@ class Timeline {
     using Clock = std::chrono::steady_clock;
     struct Span {
         Activity activity{};
-        Clock::time_point begin, end;
+        double begin = 0, end = 0;  ///< since the timeline was made [s]
     };
     struct Row {
         std::array<double, kActivities> seconds{};  ///< by activity [s]
@@ -45,12 +47,15 @@ class Timeline {
         const std::chrono::duration<double> seconds = end - begin;
         const std::lock_guard lock(r.mutex);
         r.row.seconds[static_cast<std::size_t>(activity)] += seconds.count();
-        if (keep_) r.row.spans.push_back({activity, begin, end});
+        if (keep_) r.row.spans.push_back({activity, since(begin), since(end)});
     }
     [[nodiscard]] Row row(int number) const {
         const Guarded& r = rows_[static_cast<std::size_t>(number)];
         const std::lock_guard lock(r.mutex);
         return r.row;
+    }
+    [[nodiscard]] double since(Clock::time_point when) const {
+        return std::chrono::duration<double>(when - made_).count();
     }
     [[nodiscard]] int rows() const { return static_cast<int>(rows_.size()); }
     [[nodiscard]] int message_row() const { return rows() - 1; }
@@ -62,21 +67,20 @@ class Timeline {
     };
     std::vector<Guarded> rows_;
     bool keep_;
+    Clock::time_point made_ = Clock::now();
 };
 
 /// Adds the time until it goes.
 class TimedActivity {
   public:
-    TimedActivity(Timeline* timeline, int row, Activity activity)
+    TimedActivity(Timeline& timeline, int row, Activity activity)
         : timeline_(timeline), row_(row), activity_(activity), begin_(Timeline::Clock::now()) {}
-    ~TimedActivity() {
-        if (timeline_ != nullptr) timeline_->add(row_, activity_, begin_, Timeline::Clock::now());
-    }
+    ~TimedActivity() { timeline_.add(row_, activity_, begin_, Timeline::Clock::now()); }
     TimedActivity(const TimedActivity&) = delete;
     TimedActivity& operator=(const TimedActivity&) = delete;
 
   private:
-    Timeline* timeline_;
+    Timeline& timeline_;
     int row_;
     Activity activity_;
     Timeline::Clock::time_point begin_;

@@ -25,6 +25,13 @@ std::optional<std::size_t> Topology::worker_index(int rank) const {
     return static_cast<std::size_t>(found - workers.begin());
 }
 
+std::vector<int> Topology::worker_ranks() const {
+    std::vector<int> found;
+    found.reserve(workers.size());
+    for (const Worker& worker : workers) found.push_back(worker.rank);
+    return found;
+}
+
 Topology make_topology(Variant variant, int ranks, bool ambient, int masters) {
     const int below = settled_masters(masters, ranks) - 1;  // masters below rank 0
     Topology topology;
@@ -38,26 +45,25 @@ Topology make_topology(Variant variant, int ranks, bool ambient, int masters) {
                          " ranks, not " + std::to_string(ranks));
     }
     for (int rank = silent; rank < ranks; ++rank) topology.workers.push_back({rank, 0});
+    const std::vector<int> workers = topology.worker_ranks();
     if (below == 0) {
-        for (const Topology::Worker& worker : topology.workers)
-            topology.children.push_back(worker.rank);
+        topology.children = workers;
         return topology;
     }
     // Groups of workers that stand side by side. In `hybrid` rank 0 keeps a group of its own, and
     // the others' masters are the first of their workers.
     const bool hybrid = variant == Variant::hybrid;
     const auto groups = static_cast<std::size_t>(hybrid ? below + 1 : below);
-    const std::size_t count = topology.workers.size();
+    const std::size_t count = workers.size();
     for (std::size_t g = 0; g < groups; ++g) {
         const std::size_t begin = g * count / groups, end = (g + 1) * count / groups;
-        std::vector<int> children;
-        for (std::size_t w = begin; w < end; ++w) children.push_back(topology.workers[w].rank);
+        std::vector<int> children(workers.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  workers.begin() + static_cast<std::ptrdiff_t>(end));
         if (hybrid && g == 0) {
-            topology.children = children;
+            topology.children = std::move(children);
             continue;
         }
-        const int rank =
-            hybrid ? topology.workers[begin].rank : 1 + (ambient ? 1 : 0) + static_cast<int>(g);
+        const int rank = hybrid ? workers[begin] : 1 + (ambient ? 1 : 0) + static_cast<int>(g);
         for (std::size_t w = begin; w < end; ++w) topology.workers[w].queue = rank;
         topology.sub_queues.push_back({rank, std::move(children)});
         topology.children.push_back(rank);

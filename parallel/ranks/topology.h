@@ -32,6 +32,7 @@ struct Topology {
 
     [[nodiscard]] bool traces(int rank) const { return worker_index(rank).has_value(); }
     [[nodiscard]] std::optional<std::size_t> worker_index(int rank) const;
+    [[nodiscard]] std::vector<int> worker_ranks() const;
 };
 
 /// @param ranks    at least 1 for `hybrid`; for `ranks` at least one worker beside master, ambient

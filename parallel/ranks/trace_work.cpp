@@ -6,65 +6,56 @@
 namespace lightwalk {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Timeline::Clock;
 using Payload = FinishedWork::Payload;
 
-/// One of the threads that trace.
-class TracingThread {
-  public:
-    TracingThread(const TraceFunctions& functions, int worker, Timeline* timeline)
-        : functions_(functions), worker_(worker), timeline_(timeline) {}
-
-    void trace(const std::shared_ptr<OpenPicture>& picture) const { make(*picture); }
-
-    void trace(const TracerInbox::PictureBlock& block) {
-        make(*block.picture);
-        const Clock::time_point begin = Clock::now();
-        if (!block.picture->renderer->render(block.work.block, worker_, pixels_))
-            return;  // stopped
-        Pixels traced{block.work, {}};
-        if (block.picture->start.keep) traced.values = pixels_.values;
-        finish(begin, Payload::block, block.work.job, block.work.block.pixels(), std::move(traced));
-    }
-
-    void trace(const RayChunk& chunk) const {
-        const Clock::time_point begin = Clock::now();
-        RayAnswer answer{chunk.number, functions_.answer_chunk(chunk, worker_)};
-        finish(begin, Payload::rays, 0, chunk.rays(), std::move(answer));
-    }
-
-  private:
-    void make(OpenPicture& picture) const {
-        std::call_once(picture.made,
-                       [&] { picture.renderer = functions_.make_renderer(picture.start); });
-    }
-    void finish(Clock::time_point begin, Payload payload, JobId job, std::size_t count,
-                TracedWork traced) const {
-        const Clock::time_point end = Clock::now();
-        if (timeline_ != nullptr) timeline_->add(worker_, Activity::trace, begin, end);
-        const std::chrono::duration<double> seconds = end - begin;
-        functions_.finish({payload, job, static_cast<std::uint32_t>(count), seconds.count()},
-                          std::move(traced));
-    }
-
-    const TraceFunctions& functions_;
-    int worker_;
-    Timeline* timeline_;
-    BlockPixels pixels_;
-};
+void make_renderer(const TraceFunctions& functions, OpenPicture& picture) {
+    std::call_once(picture.made,
+                   [&] { picture.renderer = functions.make_renderer(picture.start); });
+}
 
 }  // namespace
 
-void trace_work(TracerInbox& inbox, const TraceFunctions& functions, Executor& executor,
-                const StopFlag& stop, Timeline* timeline) {
-    run_on_all(inbox, executor, stop, [&](int worker) {
-        TracingThread thread(functions, worker, timeline);
+void trace_work(RankLink& link, const TraceFunctions& functions, Executor& executor,
+                const StopFlag& stop) {
+    run_on_all(link.inbox(), executor, stop, [&](int worker) {
+        BlockPixels pixels;
         const auto next = [&] {
-            const TimedActivity waiting(timeline, worker, Activity::wait);
-            return inbox.next(stop);
+            const TimedActivity waiting(link.timeline(), worker, Activity::wait);
+            return link.inbox().next(stop);
         };
-        while (std::optional<TracerInbox::Item> item = next())
-            std::visit([&](auto& kind) { thread.trace(kind); }, *item);
+        const auto finish = [&](Clock::time_point begin, FinishedWork work, TracedWork traced) {
+            const Clock::time_point end = Clock::now();
+            link.timeline().add(worker, Activity::trace, begin, end);
+            work.seconds = std::chrono::duration<double>(end - begin).count();
+            link.finish_work(work, std::move(traced));
+        };
+        while (std::optional<TracerInbox::Item> item = next()) {
+            std::visit(
+                Overloaded{
+                    [&](const std::shared_ptr<OpenPicture>& picture) {
+                        make_renderer(functions, *picture);
+                    },
+                    [&](const TracerInbox::PictureBlock& block) {
+                        OpenPicture& picture = *block.picture;
+                        make_renderer(functions, picture);
+                        const Clock::time_point begin = Clock::now();
+                        const JobBlock& work = block.work;
+                        if (!picture.renderer->render(work.block, worker, pixels))
+                            return;  // stopped
+                        Pixels traced{work, {}};
+                        if (picture.start.keep) traced.values = pixels.values;
+                        const auto count = static_cast<std::uint32_t>(work.block.pixels());
+                        finish(begin, {Payload::block, work.job, count, 0}, std::move(traced));
+                    },
+                    [&](const RayChunk& chunk) {
+                        const Clock::time_point begin = Clock::now();
+                        RayAnswer answer{chunk.number, functions.answer_chunk(chunk, worker)};
+                        const auto count = static_cast<std::uint32_t>(chunk.rays());
+                        finish(begin, {Payload::rays, 0, count, 0}, std::move(answer));
+                    }},
+                *item);
+        }
     });
 }
 

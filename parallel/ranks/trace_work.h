@@ -6,31 +6,24 @@
 
 #include "parallel/block_renderer.h"
 #include "parallel/executor.h"
-#include "parallel/ranks/timeline.h"
-#include "parallel/ranks/tracer_inbox.h"
+#include "parallel/ranks/rank_link.h"
 
 namespace lightwalk {
 
-/// Makes what renders a job's blocks, and keeps alive what it needs. Called once a job on every
-/// rank that traces, by one of the tracing threads, even where the rank gets none of the blocks.
-using MakeRenderer = std::function<std::shared_ptr<const BlockRenderer>(const PictureJob&)>;
-/// What the rays of a chunk say. Called by many threads, each with its own `worker`.
-using AnswerChunk = std::function<std::string(const RayChunk& chunk, int worker)>;
-/// Takes what a piece of work gave; called by many threads.
-using FinishWork = std::function<void(const FinishedWork& finished, TracedWork traced)>;
-
 /// What tracing is, for each payload. One that is empty must not be asked for.
 struct TraceFunctions {
-    MakeRenderer make_renderer;
-    AnswerChunk answer_chunk;
-    FinishWork finish;
+    /// Makes what renders a job's blocks, and keeps alive what it needs. Called once a job on every
+    /// rank that traces, by one of the tracing threads, even where the rank gets none of the
+    /// blocks.
+    std::function<std::shared_ptr<const BlockRenderer>(const PictureJob& job)> make_renderer;
+    /// What the rays of a chunk say. Called by many threads, each with its own `worker`.
+    std::function<std::string(const RayChunk& chunk, int worker)> answer_chunk;
 };
 
 /// All workers of `executor` trace what comes, until the inbox is closed or `stop` is requested.
 /// The first exception ends the others' work after their piece and is thrown again here.
-/// @param timeline  with a row for each worker of the executor; null: none
-void trace_work(TracerInbox& inbox, const TraceFunctions& functions, Executor& executor,
-                const StopFlag& stop, Timeline* timeline = nullptr);
+void trace_work(RankLink& link, const TraceFunctions& functions, Executor& executor,
+                const StopFlag& stop);
 
 /// Runs `task(worker)` on each worker of the executor; where one throws, the inbox is closed, so
 /// that the others end.

@@ -84,12 +84,8 @@ void TracerInbox::close() {
 
 void TracerInbox::reopen() {
     const std::lock_guard lock(mutex_);
+    pictures_.clear();  // whose renderers go with what they were made for
     closed_ = false;
-}
-
-bool TracerInbox::closed() const {
-    const std::lock_guard lock(mutex_);
-    return closed_;
 }
 
 template <class Take>

@@ -37,9 +37,8 @@ class TracerInbox {
     void push(TracerNews news);
     /// No more work comes: whoever waits is told so.
     void close();
-    /// More comes after all.
+    /// Another work begins.
     void reopen();
-    [[nodiscard]] bool closed() const;
 
     // All of these wait until there is something, the inbox is closed, or `stop` is requested;
     // nothing: one of the latter two.
@@ -72,7 +71,7 @@ class TracerInbox {
     template <class Take>
     auto wait_for(const StopFlag& stop, Take take) -> decltype(take());
 
-    mutable std::mutex mutex_;  ///< guards what follows
+    std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::deque<Item> items_;
     std::map<JobId, std::shared_ptr<OpenPicture>> pictures_;  ///< the newest kJobsAtOnce

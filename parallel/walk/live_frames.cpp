@@ -77,8 +77,8 @@ void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameO
     });
 }
 
-LocalFrames::LocalFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
-                         const FrameOptions& options, Executor& executor, WarningSink& warnings)
+LiveFrames::LiveFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
+                       const FrameOptions& options, Executor& executor, WarningSink& warnings)
     : cloud_(cloud),
       options_(options),
       executor_(executor),
@@ -89,11 +89,20 @@ LocalFrames::LocalFrames(const Tracer& direct, const Tracer* indirect, const Clo
 
 /// Points of another light are of no use, nor are those of a picture of another size: what answers
 /// a pixel depends on its size.
-void LocalFrames::begin(int width, int height, bool indirect, std::uint64_t first) {
+void LiveFrames::begin(int width, int height, bool indirect, std::uint64_t first) {
     options_.width = width;
     options_.height = height;
     walking_ = indirect ? indirect_.get() : direct_.get();
-    frames_ = std::make_unique<CloudFrames>(width, height, cloud_, first);
+    start(first);
+}
+
+void LiveFrames::add_small_sources(const View& view, Frame& frame) {
+    draw_small_sources(indirect_->tracer, Camera(view), options_, executor_, indirect_->contexts,
+                       frame);
+}
+
+void LocalFrames::start(std::uint64_t first) {
+    frames_ = std::make_unique<CloudFrames>(options_.width, options_.height, cloud_, first);
 }
 
 WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
@@ -121,11 +130,6 @@ TracedValues LocalFrames::trace(const View& view, const ProgressiveWork& work, d
                                        options_, work, seconds, executor_, stop);
     rays_ = indirect_->contexts.rays().total();
     return values;
-}
-
-void LocalFrames::add_small_sources(const View& view, Frame& frame) {
-    draw_small_sources(indirect_->tracer, Camera(view), options_, executor_, indirect_->contexts,
-                       frame);
 }
 
 }  // namespace lightwalk

@@ -27,19 +27,33 @@ struct WalkFrame {
 /// Values of pixels in their order; none: there was no time.
 using TracedValues = std::vector<std::optional<PixelValue>>;
 
+/// A tracer of a scene, and what goes with it.
+struct WalkLight {
+    WalkLight(const Tracer& its_tracer, WarningSink& warnings, int workers)
+        : tracer(its_tracer), visibility(its_tracer), contexts(its_tracer, warnings, workers) {}
+    const Tracer& tracer;
+    VisibilityProbe visibility;
+    WorkerContexts contexts;
+};
+
 class LiveFrames {
   public:
-    LiveFrames() = default;
+    /// All must outlive this.
+    /// @param indirect  knows indirect light; null: there is none
+    /// @param options   of all pictures, but for their size; without lens, motion, window and step;
+    ///                  the spacing does not count
+    LiveFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
+               const FrameOptions& options, Executor& executor, WarningSink& warnings);
     virtual ~LiveFrames() = default;
     LiveFrames(const LiveFrames&) = delete;
     LiveFrames& operator=(const LiveFrames&) = delete;
 
     /// Whether there is indirect light to be traced.
-    [[nodiscard]] virtual bool has_indirect() const = 0;
+    [[nodiscard]] bool has_indirect() const { return indirect_ != nullptr; }
     /// Frames of this size from here on, and of this light: what was carried on is forgotten.
     /// @param indirect  only where there is some
     /// @param first     number of the first one, see FrameLead
-    virtual void begin(int width, int height, bool indirect, std::uint64_t first = 0) = 0;
+    void begin(int width, int height, bool indirect, std::uint64_t first = 0);
 
     // After that; all throw what the tracers throw.
 
@@ -58,9 +72,20 @@ class LiveFrames {
     [[nodiscard]] virtual TracedValues trace(const View& view, const ProgressiveWork& work,
                                              double seconds, const StopFlag& stop) = 0;
     /// See draw_small_sources(); by all light there is.
-    virtual void add_small_sources(const View& view, Frame& frame) = 0;
+    void add_small_sources(const View& view, Frame& frame);
     /// That the last frame took, or the last pixels.
-    [[nodiscard]] virtual std::uint64_t rays() const = 0;
+    [[nodiscard]] std::uint64_t rays() const { return rays_; }
+
+  protected:
+    /// The frames that begin() has announced.
+    virtual void start(std::uint64_t first) = 0;
+
+    CloudOptions cloud_;
+    FrameOptions options_;
+    Executor& executor_;
+    std::unique_ptr<WalkLight> direct_, indirect_;  ///< indirect_: knows both, or is null
+    WalkLight* walking_ = nullptr;                  ///< of the frames
+    std::uint64_t rays_ = 0;
 };
 
 /// Pixels of a picture by the threads of an executor; see LiveFrames::trace.
@@ -79,27 +104,10 @@ class LiveFrames {
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
                         Executor& executor, WorkerContexts& contexts, Frame& frame);
 
-/// A tracer of a scene, and what goes with it.
-struct WalkLight {
-    WalkLight(const Tracer& its_tracer, WarningSink& warnings, int workers)
-        : tracer(its_tracer), visibility(its_tracer), contexts(its_tracer, warnings, workers) {}
-    const Tracer& tracer;
-    VisibilityProbe visibility;
-    WorkerContexts contexts;
-};
-
 /// Frames by the threads of this process.
 class LocalFrames final : public LiveFrames {
   public:
-    /// All must outlive this.
-    /// @param indirect  knows indirect light; null: there is none
-    /// @param options   of all pictures, but for their size; without lens, motion, window and step;
-    ///                  the spacing does not count
-    LocalFrames(const Tracer& direct, const Tracer* indirect, const CloudOptions& cloud,
-                const FrameOptions& options, Executor& executor, WarningSink& warnings);
-
-    [[nodiscard]] bool has_indirect() const override { return indirect_ != nullptr; }
-    void begin(int width, int height, bool indirect, std::uint64_t first = 0) override;
+    using LiveFrames::LiveFrames;
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
     [[nodiscard]] const ProgressivePicture* progressive(const StopFlag&) override {
@@ -107,17 +115,11 @@ class LocalFrames final : public LiveFrames {
     }
     [[nodiscard]] TracedValues trace(const View& view, const ProgressiveWork& work, double seconds,
                                      const StopFlag& stop) override;
-    void add_small_sources(const View& view, Frame& frame) override;
-    [[nodiscard]] std::uint64_t rays() const override { return rays_; }
 
   private:
-    CloudOptions cloud_;
-    FrameOptions options_;
-    Executor& executor_;
-    std::unique_ptr<WalkLight> direct_, indirect_;  ///< indirect_: knows both, or is null
-    WalkLight* walking_ = nullptr;                  ///< of the frames
+    void start(std::uint64_t first) override;
+
     std::unique_ptr<CloudFrames> frames_;
-    std::uint64_t rays_ = 0;
 };
 
 }  // namespace lightwalk

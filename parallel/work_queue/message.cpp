@@ -13,8 +13,6 @@ template <>
 inline constexpr int wire::kEnumerators<AmbientValues::Direction> = 2;
 template <>
 inline constexpr int wire::kEnumerators<Collective::Group> = kGroups;
-template <>
-inline constexpr int wire::kEnumerators<Collective::Operation> = 2;
 
 // Defines visit_fields for a type whose fields are listed.
 #define LIGHTWALK_FIELDS(Type, ...)          \
@@ -48,8 +46,8 @@ LIGHTWALK_FIELDS(UncachedPixels, m.frame, m.noise_pairs, m.places)
 LIGHTWALK_FIELDS(SharedPoints, m.points)
 LIGHTWALK_FIELDS(UsedPixels, m.ahead, m.mirrored)
 LIGHTWALK_FIELDS(PointExchange, m.frame, m.points)
-LIGHTWALK_FIELDS(AmbientValues, m.records, m.scene, m.direction)
-LIGHTWALK_FIELDS(Collective, m.group, m.operation, m.round, m.finished, m.parts, m.numbers)
+LIGHTWALK_FIELDS(AmbientValues, m.records, m.direction)
+LIGHTWALK_FIELDS(Collective, m.group, m.round, m.finished, m.parts, m.numbers)
 LIGHTWALK_FIELDS(Failure, m.host, m.text)
 LIGHTWALK_FIELDS(Report, m.payload)
 LIGHTWALK_FIELDS(Notice, m.notice)
@@ -70,7 +68,7 @@ void visit_fields(Wire& wire, TracedPixelResult& pixel) {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 4;
+constexpr std::uint8_t kVersion = 5;
 
 }  // namespace
 

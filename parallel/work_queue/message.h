@@ -76,23 +76,19 @@ struct AmbientValues {
         news,   ///< its answer: those that others computed since the last one
     };
     std::vector<AmbientRecord> records;
-    std::uint32_t scene = 0;  ///< that they are of, where ranks render one after the other
     Direction direction = Direction::offer;
 };
 
-/// An operation that all ranks of a group take part in: a rank's share of it to rank 0, and the
-/// result, to all.
+/// All ranks of a group tell each other something: a rank's share to rank 0, and the result to all.
 struct Collective {
-    enum class Group : std::uint8_t { all, workers, owners, shutdown };
-    enum class Operation : std::uint8_t { gather, sum };
+    enum class Group : std::uint8_t { all, workers, owners };
     Group group = Group::all;
-    Operation operation = Operation::gather;
-    std::uint32_t round = 0;  ///< of the group
-    bool finished = false;    ///< whether it is the result
-    std::vector<std::string> parts;
-    std::vector<std::uint64_t> numbers;
+    std::uint32_t round = 0;             ///< of the group
+    bool finished = false;               ///< whether it is the result
+    std::vector<std::string> parts;      ///< a share has one; the result everyone's, by rank
+    std::vector<std::uint64_t> numbers;  ///< of the result: everyone's, added up one by one
 };
-inline constexpr std::size_t kGroups = 4;
+inline constexpr std::size_t kGroups = 3;
 
 /// This rank cannot go on.
 struct Failure {

@@ -18,7 +18,7 @@ struct Machine {
     double byte_gap = 2e-10;   ///< G: time between two bytes on the wire
     double step = 1e-6;        ///< processor time of one step of a role
 
-    /// true: message loops sleep between two polls, as RankLoop does, and a message waits for the
+    /// true: message loops sleep between two polls, as RankLink does, and a message waits for the
     /// next poll. false: messages are handled when they arrive.
     bool sleeps = true;
     double oversleep = 60e-6;  ///< time by which sleeping takes longer than asked for

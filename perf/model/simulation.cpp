@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "parallel/blocks.h"
-#include "parallel/ranks/rank_loop.h"
+#include "parallel/ranks/rank_link.h"
 #include "perf/model/simulation_state.h"
 
 namespace lightwalk {
@@ -197,7 +197,7 @@ void Simulation::put_in(std::size_t number, Input input, double look) {
     at(look, Kind::serve, number);
 }
 
-/// When a sleeping loop sees what arrives now: it sleeps ever longer, see RankLoop::run().
+/// When a sleeping loop sees what arrives now: it sleeps ever longer, see RankLink::serve().
 double Simulation::next_look(const Rank& rank) const {
     if (!machine_.sleeps || now_ <= rank.busy_until) return std::max(now_, rank.busy_until);
     double look = rank.idle_from, wait = shortest_wait_;
@@ -245,7 +245,7 @@ void Simulation::serve(std::size_t number) {
     look_ahead(node_of(number));
 }
 
-/// As RankLoop::dispatch(): what is for this rank at once, and what follows from it.
+/// As RankLink::dispatch(): what is for this rank at once, and what follows from it.
 void Simulation::dispatch(std::size_t number, Input input, double& clock) {
     std::vector<Envelope> due;
     if (const auto* posted = std::get_if<Posted>(&input)) {

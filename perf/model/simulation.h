@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "parallel/ranks/message_counts.h"
+#include "parallel/ranks/rank_report.h"
 #include "parallel/ranks/rank_roles.h"
 #include "perf/model/ambient_sites.h"
 #include "perf/model/cost_map.h"

@@ -98,7 +98,7 @@ void Simulation::end_step(int task) {
     look_ahead(node);
 }
 
-/// Batches as AmbientSender makes them.
+/// Batches as SharedCache makes them.
 void Simulation::keep(std::size_t number, std::uint32_t value) {
     Rank& rank = ranks_[number];
     if (!rank.roles || !rank.roles->ambient_client()) return;
@@ -107,7 +107,7 @@ void Simulation::keep(std::size_t number, std::uint32_t value) {
     rank.own.push_back(record);
     if (rank.own.size() < static_cast<std::size_t>(run_.ambient_batch)) return;
     post(number, {[own = std::exchange(rank.own, {})](RankRoles& roles, Outbox& out) {
-             roles.ambient_client()->offer({own}, out);
+             roles.ambient_client()->offer(own, out);
          }});
 }
 

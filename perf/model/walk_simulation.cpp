@@ -15,7 +15,7 @@ namespace {
 constexpr double kPointBytes = 44;    ///< of a point in a message
 constexpr double kTracedBytes = 100;  ///< of a traced pixel, with its points
 constexpr std::size_t kViewBytes = 300;
-/// A sleeping loop looks after 50, 100, 200 and then each 400 us (see RankLoop): on average so much
+/// A sleeping loop looks after 50, 100, 200 and then each 400 us (see RankLink): on average so much
 /// later than a message is there [s].
 constexpr double kMeanWait = 100e-6;
 

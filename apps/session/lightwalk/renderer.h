@@ -26,14 +26,11 @@
 namespace lightwalk {
 
 class CheckpointSink;
-class LiveFrames;
 class RayObserver;
 class RenderBackend;
-class SceneSession;
 struct CloudOptions;
 struct Hit;
 struct Ray;
-struct RunStatistics;
 enum class ExecutorKind;
 
 /// How far a task is.
@@ -160,17 +157,12 @@ class Renderer {
     /// @param wait  until a further list is wanted, or the oldest one is answered
     [[nodiscard]] RayDemand ray_demand(bool wait);
 
-    // For this project's own programs, which may run as several processes that share a renderer's
-    // work: each has a Renderer.
-
-    /// Calls `lead` in the process that gives out tasks, where it may use this object as above; in
-    /// the others, and beside `lead`, does its share of their work until lead returns.
+    /// Where several processes share the work (lightwalk/ranks.h) each has a renderer, and runs it:
+    /// calls `lead` in the one that gives out tasks, where it may use this object as above; in the
+    /// others, and beside `lead`, does its share of their work until lead returns.
     void run(FunctionRef<void()> lead);
-    [[nodiscard]] bool leads() const;
-    [[nodiscard]] const SceneSession& session() const;
-    [[nodiscard]] LiveFrames& frames();
-    /// What all tasks took, after run() where that is used.
-    [[nodiscard]] RunStatistics statistics() const;
+    /// What does the work; for this project's own programs (apps/session/render_backend.h).
+    [[nodiscard]] RenderBackend& backend();
 
   private:
     [[nodiscard]] RenderProgress poll_task(std::uint64_t number);

@@ -11,8 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/session/run_statistics.h"
-#include "apps/session/scene_session.h"
+#include "apps/session/render_backend.h"
 #include "core/error.h"
 #include "tests/temporary_folder.h"
 
@@ -195,7 +194,7 @@ TEST_CASE("renderer: lists of rays are one input, however it is divided") {
     CHECK(answers.back().radiance == Rgb());
     CHECK(answers[0].radiance.g > 0);
     CHECK(answers[0].distance < 10);
-    CHECK(renderer.statistics().rays.primary >= rays.size());
+    CHECK(renderer.backend().statistics().rays.primary >= rays.size());
     CHECK_THROWS_AS((void)RayBytes{"abc"}.answers(), InputError);
 }
 

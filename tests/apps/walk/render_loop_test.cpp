@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/session/lightwalk/renderer.h"
-#include "apps/session/scene_session.h"
+#include "apps/session/render_backend.h"
 #include "core/cloud/cloud_frame.h"
 #include "core/error.h"
 #include "io/picture/picture.h"
@@ -53,8 +53,8 @@ struct Walk {
                           hello("0123456789abcde" + std::to_string(static_cast<int>(client))));
         View home;
         home.position = {0, -4, 1.5};
-        loop.emplace(RenderLoopOptions{30, 1, "lightwalk walk"}, renderer.session(), home,
-                     renderer.frames(), *executor, warnings, inbox, screen);
+        loop.emplace(RenderLoopOptions{30, 1, "lightwalk walk"}, renderer.backend().session(), home,
+                     renderer.backend().frames(), *executor, warnings, inbox, screen);
     }
     /// Until the driver's view is as good as it gets, and on its screen.
     void rest() {

@@ -2,28 +2,25 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <condition_variable>
 #include <deque>
 #include <exception>
 #include <map>
-#include <mutex>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "parallel/ranks/frame_parts.h"
-#include "parallel/ranks/piece_codec.h"
+#include "parallel/ranks/assembly.h"
 #include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/walk/cloud_frames.h"
 #include "parallel/walk/frame_lead.h"
 #include "parallel/walk/scene_caster.h"
+#include "tests/parallel/ranks/memory_ranks.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
-using lightwalk::test::TestScene;
+using namespace lightwalk::test;
 
 namespace {
 
@@ -143,55 +140,23 @@ std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
     return result;
 }
 
-/// All that a rank has within.
-class End final : public LocalEnd {
-  public:
-    TracerInbox inbox;
-    RankLoop* loop = nullptr;
-    bool traces = false;
-
-    void take(TracerNews news) override { inbox.push(std::move(news)); }
-    void take(ProgramNews news) override {
-        if (auto* frame = std::get_if<FinishedFrame>(&news)) {
-            const std::lock_guard lock(mutex_);
-            frames_.push_back(std::move(*frame));
-            changed_.notify_all();
-        } else if (traces) {
-            inbox.close();
-        } else {
-            loop->end();
-        }
-    }
-    void take(AmbientValues) override {}
-    FinishedFrame next_frame() {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return !frames_.empty(); });
-        FinishedFrame frame = std::move(frames_.front());
-        frames_.pop_front();
-        return frame;
-    }
-
-  private:
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<FinishedFrame> frames_;
-};
-
 struct Company {
     Variant variant = Variant::hybrid;
     int ranks = 3, threads = 1, projectors = 32;
 };
 
 /// The program of rank 0.
-std::vector<Drawn> lead(RankLoop& loop, End& end, const std::vector<View>& views,
+std::vector<Drawn> lead(RankLink& link, const std::vector<View>& views,
                         const CloudOptions& options) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
-    FrameNumber number = 0;
+    const StopFlag never;
     const auto finished = [&](FrameOrder order) {
-        order.number = ++number;
-        loop.post(Activity::serve,
-                  [order](RankRoles& roles, Outbox& out) { roles.queue().start(order, out); });
-        return assemble_frame(order, end.next_frame(), options.most_points(kWidth, kHeight));
+        order.number = link.new_number();
+        link.start({order});
+        for (;;)
+            for (const ProgramNews& news : link.take_news(true, never))
+                if (const auto* frame = std::get_if<FinishedFrame>(&news))
+                    return assemble_frame(order, *frame, options.most_points(kWidth, kHeight));
     };
     std::vector<Drawn> result;
     FrameLead walk(kWidth, kHeight, options, 0);
@@ -211,54 +176,37 @@ std::vector<Drawn> lead(RankLoop& loop, End& end, const std::vector<View>& views
 std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
                                  const CloudOptions& options, const Company& company,
                                  std::uint64_t seed) {
-    const Topology topology = make_topology(company.variant, company.ranks, false, 1);
-    auto wires = make_memory_communicators(company.ranks);
+    Wires wires = make_memory_communicators(company.ranks);
+    for (std::size_t rank = 0; rank < wires.size(); ++rank)
+        wires[rank] =
+            std::make_unique<DelayingCommunicator>(std::move(wires[rank]), seed * 1000 + rank);
+    RankSettings settings;
+    settings.slots = company.threads;
+    settings.projectors = company.projectors;
     std::vector<Drawn> result;
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < company.ranks; ++rank) {
-        threads.emplace_back([&, rank] {
-            DelayingCommunicator wire(std::move(wires[static_cast<std::size_t>(rank)]),
-                                      seed * 1000 + static_cast<std::uint64_t>(rank));
-            RankSettings settings;
-            settings.slots = company.threads;
-            settings.projectors = company.projectors;
-            End end;
-            RankLoop loop(wire, topology, settings, end);
-            end.loop = &loop;
-            const auto executor = make_executor(ExecutorKind::threads, company.threads);
-            WorkerContexts contexts(room.scene.tracer, room.scene.warnings, company.threads);
-            WalkPartOptions own;
-            own.index = topology.worker_index(rank).value_or(0);
-            for (const Topology::Worker& worker : topology.workers)
-                own.workers.push_back(worker.rank);
-            own.owners = owners_of(own.workers.size(), company.projectors);
-            own.cloud = options;
-            own.encode = encode_piece;
-            const auto make = [&](const FrameOrder& order) {
-                return rays_of(room, views.at(static_cast<std::size_t>(std::stoi(order.payload))),
-                               contexts);
-            };
-            std::thread drawing;
-            if (topology.traces(rank)) {
-                end.traces = true;
-                drawing = std::thread([&] {
-                    draw_frames(loop, end.inbox, own, make, *executor, room.stop);
-                    loop.end();
-                });
-            }
-            std::thread program;
-            if (rank == 0) {
-                program = std::thread([&] {
-                    result = lead(loop, end, views, options);
-                    for (int to = 0; to < company.ranks; ++to) loop.post(to, Notice{Finish{}});
-                });
-            }
-            CHECK(loop.run(room.stop));
-            if (drawing.joinable()) drawing.join();
-            if (program.joinable()) program.join();
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
+    const auto draw = [&](RankLink& link) {
+        WorkerContexts contexts(room.scene.tracer, room.scene.warnings, company.threads);
+        const auto make = [&](const FrameOrder& order) {
+            return rays_of(room, views.at(static_cast<std::size_t>(std::stoi(order.payload))),
+                           contexts);
+        };
+        std::thread program;
+        if (link.leads()) {
+            program = std::thread([&] {
+                result = lead(link, views, options);
+                link.dismiss();
+            });
+        }
+        const auto executor = make_executor(ExecutorKind::threads, company.threads);
+        if (link.traces())
+            draw_frames(link, options, make, *executor, room.stop);
+        else
+            link.inbox().wait_for_end(room.stop);
+        if (program.joinable()) program.join();
+        link.end_work();
+    };
+    CHECK(all_well(run_ranks(make_topology(company.variant, company.ranks, false, 1), settings,
+                             draw, std::move(wires))));
     return result;
 }
 

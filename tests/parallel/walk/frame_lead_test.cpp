@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "parallel/ranks/frame_parts.h"
+#include "parallel/ranks/assembly.h"
 #include "parallel/ranks/piece_codec.h"
 
 using namespace lightwalk;

@@ -1,7 +1,6 @@
-#include "parallel/ranks/frame_parts.h"
+#include "parallel/ranks/assembly.h"
 
 #include <algorithm>
-#include <span>
 #include <tuple>
 
 #include "core/error.h"
@@ -11,7 +10,30 @@ namespace lightwalk {
 namespace {
 
 [[noreturn]] void refuse_parts() {
-    throw InputError("the parts of a frame that ranks have sent do not make one");
+    throw InputError("the parts of a picture that ranks have sent do not make one");
+}
+
+/// Calls visit(index of the pixel in the picture, index in the part). In the picture rows come from
+/// the bottom.
+template <class Visit>
+void for_pixels(const PixelRectangle& area, int width, Visit visit) {
+    std::size_t in_part = 0;
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x, ++in_part)
+            visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x),
+                  in_part);
+}
+
+/// Parts of a picture of this size, of which none overlaps another one.
+void check_parts(const std::vector<PixelRectangle>& areas, int width, int height) {
+    const PixelRectangle whole{0, 0, width, height};
+    std::size_t pixels = 0;
+    for (const PixelRectangle& area : areas) {
+        if (area.x0 < 0 || area.y0 < 0 || area.x1 > width || area.y1 > height) refuse_parts();
+        pixels += area.pixels();
+    }
+    if (pixels != whole.pixels()) refuse_parts();
 }
 
 using Parts = std::vector<const FramePart*>;
@@ -20,16 +42,13 @@ using Parts = std::vector<const FramePart*>;
 Parts sorted_parts(const FrameOrder& order, const FinishedFrame& finished) {
     if (finished.frame != order.number) refuse_parts();
     Parts parts;
-    std::size_t pixels = 0;
+    std::vector<PixelRectangle> areas;
     for (const FramePart& part : finished.parts) {
-        const PixelRectangle& area = part.area;
-        if (area.empty()) continue;
-        if (area.x0 < 0 || area.y0 < 0 || area.x1 > order.width || area.y1 > order.height)
-            refuse_parts();
-        pixels += area.pixels();
+        if (part.area.empty()) continue;
         parts.push_back(&part);
+        areas.push_back(part.area);
     }
-    if (pixels != PixelRectangle{0, 0, order.width, order.height}.pixels()) refuse_parts();
+    check_parts(areas, order.width, order.height);
     std::sort(parts.begin(), parts.end(), [](const FramePart* a, const FramePart* b) {
         return std::tie(a->area.y0, a->area.x0) < std::tie(b->area.y0, b->area.x0);
     });
@@ -49,17 +68,6 @@ void add_report(const CloudReport& part, CloudReport& all) {
                             part.audit_errors.end());
     all.audit_floors.insert(all.audit_floors.end(), part.audit_floors.begin(),
                             part.audit_floors.end());
-}
-
-/// Calls visit(index of the pixel in the picture, index in the part).
-template <class Visit>
-void for_pixels(const PixelRectangle& area, int width, Visit visit) {
-    std::size_t in_part = 0;
-    for (int y = area.y0; y < area.y1; ++y)
-        for (int x = area.x0; x < area.x1; ++x, ++in_part)
-            visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x),
-                  in_part);
 }
 
 void put_together(const Parts& parts, int width, AssembledFrame& whole) {
@@ -106,6 +114,33 @@ std::vector<std::optional<PixelValue>> refined_of(const Parts& parts, const Fram
 }
 
 }  // namespace
+
+Frame assemble_picture(const FinishedPicture& picture, int width, int height) {
+    Frame frame;
+    frame.width = width;
+    frame.height = height;
+    frame.radiance.resize(PixelRectangle{0, 0, width, height}.pixels());
+    frame.distance.resize(frame.radiance.size());
+    std::vector<PixelRectangle> areas;
+    for (const PicturePart& part : picture.parts) areas.push_back(part.work.block);
+    check_parts(areas, width, height);
+    for (const PicturePart& part : picture.parts) {
+        const PixelRectangle& area = part.work.block;
+        const std::vector<PixelValue> values = decode_piece(area, part.bytes);
+        std::size_t from = 0;
+        for (int y = area.y0; y < area.y1; ++y) {
+            std::size_t to =  // rows of frames come from the top
+                static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(area.x0);
+            for (int x = area.x0; x < area.x1; ++x, ++from, ++to) {
+                frame.radiance[to] = values[from].radiance;
+                frame.distance[to] = values[from].distance;
+            }
+        }
+    }
+    frame.complete = true;
+    return frame;
+}
 
 AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
                               std::size_t most_points) {

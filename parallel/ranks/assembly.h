@@ -1,13 +1,17 @@
 #pragma once
-// The parts of a walk's frame that ranks have drawn, put together.
+// Pictures and the frames of a walk, put together from the parts that ranks have sent.
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/cloud/cloud_frame.h"
-#include "parallel/walk/frame_order.h"
+#include "parallel/frame.h"
+#include "parallel/work_queue/outbox.h"
 
 namespace lightwalk {
+
+/// Throws InputError for parts that do not make the picture.
+[[nodiscard]] Frame assemble_picture(const FinishedPicture& picture, int width, int height);
 
 /// A frame from its parts. In its report seconds are those of the slowest rank in each step; the
 /// points are those that there is room for, of which a few less are kept where there was too little

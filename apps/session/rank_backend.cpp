@@ -1,0 +1,195 @@
+// A run on ranks, and what rank 0's program does in it.
+#include "apps/session/rank_backend.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "apps/session/picture_order.h"
+#include "apps/session/rank_frames.h"
+
+namespace lightwalk {
+
+RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
+                         RendererOptions options)
+    : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
+    if (options_.reuse) light_.emplace(session_.tracer(), warnings_, executor_->concurrency());
+    if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
+}
+
+void RankBackend::share_values() {
+    if (!session_.ambient) return;
+    // The rounds of a deterministic run begin with the same cache on all ranks.
+    if (options_.deterministic || link_.exchanges_values()) {
+        const std::string known =
+            link_.broadcast(leads() ? wire::encode(session_.known) : std::string());
+        const auto records = wire::decode<std::vector<AmbientRecord>>(known);
+        for (const AmbientRecord& record : records)
+            if (!leads()) session_.ambient->insert(record);
+    }
+    if (link_.exchanges_values()) link_.share(*session_.freezable);
+}
+
+void RankBackend::run(FunctionRef<void()> lead) {
+    if (link_.leads()) {
+        std::jthread tracing([this] {
+            try {
+                link_.guard([this] { trace(); });
+            } catch (const Aborted&) {  // so is the program
+            }
+        });
+        link_.guard([&] {
+            lead();
+            link_.dismiss();
+            const auto others = static_cast<std::size_t>(link_.ranks() - 1);
+            while (statistics_.reports.size() < others && !stop().requested()) hear(true);
+        });
+        tracing.join();
+        statistics_.reports[0] = report();
+        for (const auto& [rank, report] : statistics_.reports) {
+            statistics_.rays += report.rays;
+            statistics_.ambient += report.ambient;
+        }
+    } else {
+        trace();
+        link_.post(0, Notice{Report{wire::encode(report())}});
+    }
+    link_.end_work();
+}
+
+void RankBackend::begin(const PictureRequest& request) {
+    if (options_.reuse) return;
+    const FrameOptions& options = request.options;
+    PictureOrder order;
+    order.view = request.camera.view();
+    if (request.previous) order.previous = request.previous->view();
+    order.width = options.width;
+    order.height = options.height;
+    const std::string payload = wire::encode(order);
+    if (prepass() == CachePrepass::quick)
+        link_.start({PictureJob{
+            link_.new_number(), quick_prepass(options).whole(), 1, false, payload, {}, false}});
+    const BlockRenderer renderer(session_.tracer(), request.camera, options, contexts_, stop());
+    PictureJob job{
+        link_.new_number(),           options.area(), renderer.alignment(), true, payload, {},
+        request.checkpoint != nullptr};
+    std::vector<BlockPixels> known;
+    if (request.checkpoint) known = request.checkpoint->known();
+    for (const BlockPixels& block : known) job.known.push_back(block.block);
+    jobs_.push_back({job.job, request.checkpoint, 0, std::nullopt});
+    link_.start({job});
+    const std::vector<int> workers = link_.topology().worker_ranks();
+    const SubImages parts(job.area, workers.size());
+    for (BlockPixels& block : known) {
+        const Pixels pixels{{job.job, block.block}, std::move(block.values)};
+        for (const std::size_t i : parts.overlapping(block.block))
+            link_.post(workers[i], WorkResult{cut_pixels(pixels, parts[i])});
+    }
+}
+
+std::optional<Frame> RankBackend::finish(const PictureRequest& request) {
+    if (options_.reuse) return draw_frame(request, 1);
+    Job& job = jobs_.front();
+    WorkPhase phase;
+    phase.pixels = static_cast<double>(request.options.area().pixels());
+    ProgressReporter reporter(listener(), {phase});
+    for (double told = -1; !job.picture && !stop().requested(); hear(true))
+        if (job.done > std::exchange(told, job.done)) reporter.update(0, {job.done, 0, 0});
+    reporter.finish(job.picture.has_value(), 0);
+    std::optional<Frame> frame;
+    if (job.picture)
+        frame = assemble_picture(*job.picture, request.options.width, request.options.height);
+    jobs_.pop_front();
+    return frame;
+}
+
+void RankBackend::begin(const RayTask& list) {
+    RayChunk chunk{next_chunk_++, list.first, {}};
+    chunk.numbers.reserve(6 * list.rays.size());
+    for (const RayQuery& query : list.rays) {
+        for (const Vec3& v : {query.origin, query.direction})
+            chunk.numbers.insert(chunk.numbers.end(), {v.x, v.y, v.z});
+    }
+    link_.add(std::move(chunk));
+    if (demand_.lists > 0) --demand_.lists;
+}
+
+std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
+    while (answers_.empty() && !stop().requested()) hear(true);
+    if (answers_.empty()) return std::nullopt;
+    std::string answer = std::move(answers_.front());
+    answers_.pop_front();
+    return answer;
+}
+
+RayDemand RankBackend::ray_demand(bool wait, bool /*begun*/) {
+    hear(wait && answers_.empty());
+    demand_.answered = !answers_.empty();
+    return demand_;
+}
+
+LiveFrames& RankBackend::frames() {
+    if (frames_) return *frames_;
+    own_executor_ = options_.steered ? make_executor(options_.executor.value_or(kDefaultExecutor),
+                                                     executor_->concurrency())
+                                     : make_executor(ExecutorKind::serial, 1);
+    frames_ = std::make_unique<RankFrames>(
+        [this](FrameOrder order, const StopFlag& stop) { return draw(std::move(order), stop); },
+        direct_ ? *direct_ : session_.tracer(), direct_ ? &session_.tracer() : nullptr,
+        *options_.reuse, frame_options(0, 0), *own_executor_, warnings_);
+    return *frames_;
+}
+
+/// Nothing: stopped.
+std::optional<AssembledFrame> RankBackend::draw(FrameOrder order, const StopFlag& stop) {
+    order.number = link_.new_number();
+    link_.start({order});
+    for (frame_.reset(); !frame_; hear(true))
+        if (stop.requested()) return std::nullopt;
+    return assemble_frame(order, *frame_, options_.reuse->most_points(order.width, order.height));
+}
+
+/// Takes what the link has heard. @param wait  until there is something
+void RankBackend::hear(bool wait) {
+    const auto with_job = [&](JobId number, auto take) {
+        const auto job = std::find_if(jobs_.begin(), jobs_.end(),
+                                      [&](const Job& one) { return one.number == number; });
+        if (job != jobs_.end()) take(*job);
+    };
+    for (ProgramNews& some : link_.take_news(wait, stop())) {
+        std::visit(
+            Overloaded{
+                [&](const Progress& news) {
+                    with_job(news.job, [&](Job& job) { job.done = news.done; });
+                },
+                [&](FinishedPicture& news) {
+                    with_job(news.job, [&](Job& job) { job.picture = std::move(news); });
+                },
+                [&](LoggedPixels& news) {
+                    const JobBlock& work = news.pixels.work;
+                    with_job(work.job, [&](const Job& job) {
+                        if (job.checkpoint)
+                            job.checkpoint->keep({work.block, std::move(news.pixels.values), {}});
+                    });
+                },
+                [&](const ChunksWanted& news) {
+                    demand_.lists += news.chunks;
+                    demand_.rays = news.rays;
+                },
+                [&](RayAnswer& news) { answers_.push_back(std::move(news.bytes)); },
+                [&](FinishedFrame& news) { frame_ = std::move(news); },
+                [&](const RankNotice& news) {
+                    if (const auto* report = std::get_if<Report>(&news.notice.notice))
+                        statistics_.reports[news.from] = wire::decode<RankReport>(report->payload);
+                }},
+            some);
+    }
+}
+
+RunStatistics RankBackend::statistics() const {
+    RunStatistics statistics = RenderBackend::statistics();
+    statistics.ranks = link_.ranks();
+    return statistics;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,78 @@
+#pragma once
+// A renderer's work by ranks that share it.
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/session/render_backend.h"
+#include "parallel/ranks/assembly.h"
+#include "parallel/ranks/rank_frame_exchange.h"
+#include "parallel/ranks/rank_link.h"
+
+namespace lightwalk {
+
+class RankBackend final : public RenderBackend {
+  public:
+    /// Throws InputError.
+    /// @param link   must outlive this
+    /// @param scene  after compile()
+    RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
+                RendererOptions options);
+    /// All ranks' caches begin with the values of rank 0's ambient file, and share what is new. By
+    /// all ranks, when each has its backend.
+    void share_values();
+
+    void run(FunctionRef<void()> lead) override;
+    [[nodiscard]] bool leads() const override { return link_.leads(); }
+    void begin(const PictureRequest& request) override;
+    void begin(const RayTask& list) override;
+    [[nodiscard]] std::optional<Frame> finish(const PictureRequest& request) override;
+    [[nodiscard]] std::optional<std::string> finish(const RayTask& list) override;
+    /// The next picture's blocks are there when the last ones of this one are still out. But before
+    /// a deterministic one all rays of the one before must have ended.
+    [[nodiscard]] std::size_t pictures_ahead() const override {
+        return options_.reuse || prepass() == CachePrepass::deterministic ? 1 : 2;
+    }
+    [[nodiscard]] RayDemand ray_demand(bool wait, bool begun) override;
+    [[nodiscard]] LiveFrames& frames() override;
+    [[nodiscard]] RunStatistics statistics() const override;
+
+  private:
+    /// A picture that rank 0 has ordered.
+    struct Job {
+        JobId number = 0;
+        std::shared_ptr<CheckpointSink> checkpoint;  ///< null: none
+        double done = 0;                             ///< share of its pixels
+        std::optional<FinishedPicture> picture;
+    };
+
+    // On rank 0.
+    void hear(bool wait);
+    [[nodiscard]] std::optional<AssembledFrame> draw(FrameOrder order, const StopFlag& stop);
+
+    // On every rank (rank_tracing.cpp).
+    /// What rank 0 orders is traced, until no more comes.
+    void trace();
+    [[nodiscard]] std::shared_ptr<const BlockRenderer> make_renderer(const PictureJob& job);
+    [[nodiscard]] std::string answer_chunk(const RayChunk& chunk, int worker);
+    [[nodiscard]] std::unique_ptr<SceneCaster> make_rays(const FrameOrder& order);
+    void fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
+                    Executor& executor);
+    [[nodiscard]] RankReport report() const;
+
+    RankLink& link_;
+    TraceCounters prepass_counters_;
+    std::optional<WalkLight> light_, direct_light_;  ///< of a walk's frames
+
+    // On rank 0.
+    std::deque<Job> jobs_;  ///< oldest first
+    RayDemand demand_;      ///< lists that are wanted and not begun
+    std::uint64_t next_chunk_ = 0;
+    std::deque<std::string> answers_;  ///< of lists of rays, in their order
+    std::optional<FinishedFrame> frame_;
+    std::unique_ptr<Executor> own_executor_;  ///< of what rank 0 draws by itself
+    std::unique_ptr<LiveFrames> frames_;      ///< null: not asked for yet
+};
+
+}  // namespace lightwalk

@@ -1,0 +1,64 @@
+#include "apps/session/rank_frames.h"
+
+#include <utility>
+
+#include "apps/session/picture_order.h"
+
+namespace lightwalk {
+
+void RankFrames::start(std::uint64_t first) {
+    lead_.emplace(options_.width, options_.height, cloud_, first);
+    last_.reset();
+}
+
+std::string RankFrames::payload(const View& view, bool indirect) const {
+    PictureOrder picture;
+    picture.view = view;
+    picture.indirect = indirect;
+    return wire::encode(picture);
+}
+
+std::optional<AssembledFrame> RankFrames::drawn(FrameOrder order, const StopFlag& stop) {
+    std::optional<AssembledFrame> frame = draw_(std::move(order), stop);
+    if (frame) rays_ = frame->frame.report.rays;
+    return frame;
+}
+
+WalkFrame RankFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
+    lead_->set_budget(budget);
+    lead_->set_refine(refine);
+    if (lead_->rests(view)) (void)progressive(stop);
+    std::optional<AssembledFrame> made =
+        drawn(lead_->order(view, payload(view, walking_ == indirect_.get())), stop);
+    WalkFrame result;
+    if (!made) return result;
+    lead_->complete(made->frame, made->refined, executor_);
+    last_ = Last{view, std::move(made->frame)};
+    result.frame = turned_over(last_->frame, executor_);
+    result.report = last_->frame.report;
+    WorkerContexts& contexts = walking_->contexts;
+    contexts.reset_counters();
+    draw_small_sources(walking_->tracer, Camera(view), options_, executor_, contexts, result.frame);
+    result.frame.rays = contexts.rays();
+    result.frame.complete = true;
+    return result;
+}
+
+const ProgressivePicture* RankFrames::progressive(const StopFlag& stop) {
+    if (!last_ || !lead_->wants_origins()) return lead_->progressive();
+    const std::optional<AssembledFrame> told =
+        drawn(lead_->origins_order(payload(last_->view, walking_ == indirect_.get())), stop);
+    if (!told) return nullptr;
+    lead_->begin_progressive(last_->frame, told->frame.origins);
+    return lead_->progressive();
+}
+
+TracedValues RankFrames::trace(const View& view, const ProgressiveWork& work, double seconds,
+                               const StopFlag& stop) {
+    lead_->set_budget(seconds);
+    std::optional<AssembledFrame> traced =
+        drawn(lead_->trace_order(work, payload(view, true)), stop);
+    return traced ? std::move(traced->refined) : TracedValues(work.places.size());
+}
+
+}  // namespace lightwalk

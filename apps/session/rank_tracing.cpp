@@ -1,0 +1,108 @@
+// What every rank that traces does for a run.
+#include <utility>
+
+#include "apps/session/picture_order.h"
+#include "apps/session/rank_backend.h"
+#include "parallel/ranks/trace_work.h"
+
+namespace lightwalk {
+namespace {
+
+/// A renderer and what it refers to.
+struct OrderedPicture {
+    OrderedPicture(const PictureOrder& order, const FrameOptions& wanted, const Tracer& tracer,
+                   WorkerContexts& contexts, const StopFlag& stop)
+        : request(order.view, order.previous ? &*order.previous : nullptr, wanted),
+          renderer(tracer, request.camera, request.options, contexts, stop) {}
+    PictureRequest request;
+    BlockRenderer renderer;
+};
+
+}  // namespace
+
+void RankBackend::trace() {
+    if (!link_.traces()) return link_.inbox().wait_for_end(stop());
+    if (options_.reuse)
+        return draw_frames(
+            link_, *options_.reuse, [this](const FrameOrder& order) { return make_rays(order); },
+            *executor_, stop());
+    trace_work(link_,
+               {[this](const PictureJob& job) { return make_renderer(job); },
+                [this](const RayChunk& chunk, int worker) { return answer_chunk(chunk, worker); }},
+               *executor_, stop());
+}
+
+std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob& job) {
+    const auto order = wire::decode<PictureOrder>(job.payload);
+    FrameOptions options = frame_options(order.width, order.height);
+    if (!job.keep) options = quick_prepass(options);
+    const auto picture =
+        std::make_shared<OrderedPicture>(order, options, session_.tracer(), contexts_, stop());
+    if (prepass() == CachePrepass::deterministic) {
+        // Rank 0 orders no other picture meanwhile, so that no rays of another one are under way.
+        // The tracing threads wait, and theirs is not to be called from one of its own tasks.
+        const auto executor = make_executor(ExecutorKind::threads, executor_->concurrency());
+        fill_cache(picture->request.camera, picture->request.options, CachePrepass::deterministic,
+                   *executor);
+    }
+    return {picture, &picture->renderer};
+}
+
+std::string RankBackend::answer_chunk(const RayChunk& chunk, int worker) {
+    RayTask list;
+    list.first = chunk.first;
+    list.rays.resize(chunk.rays());
+    for (std::size_t i = 0; i < list.rays.size(); ++i) {
+        const double* const v = &chunk.numbers[6 * i];
+        list.rays[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    }
+    return answer_rays(list, worker);
+}
+
+/// The first frame fills the ambient cache for all; a deterministic walk has each do so. Of a quick
+/// prepass each rank does a part: what it finds goes to the others as all values do.
+std::unique_ptr<SceneCaster> RankBackend::make_rays(const FrameOrder& order) {
+    FrameOptions options = frame_options(order.width, order.height);
+    const auto picture = wire::decode<PictureOrder>(order.payload);
+    const bool direct = direct_light_ && !picture.indirect;
+    WalkLight& light = direct ? *direct_light_ : *light_;
+    auto rays = std::make_unique<SceneCaster>(light.tracer, light.visibility, Camera(picture.view),
+                                              options, light.contexts, stop());
+    const CachePrepass how = direct || options_.steered ? CachePrepass::none : prepass();
+    const bool deterministic = how == CachePrepass::deterministic;
+    if (how == CachePrepass::none || (!order.rules.empty && !deterministic)) return rays;
+    if (!deterministic) {
+        const Group& workers = link_.workers();
+        const SubImages parts(options.whole(), static_cast<std::size_t>(workers.size()));
+        options.window = parts[static_cast<std::size_t>(workers.index())];
+        if (options.window->empty()) return rays;
+    }
+    fill_cache(rays->camera(), options, how, *executor_);
+    return rays;
+}
+
+void RankBackend::fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
+                             Executor& executor) {
+    WorkerContexts contexts(session_.tracer(), warnings_, executor.concurrency());
+    const CachePrepassResult filled = fill_ambient_cache(
+        session_.tracer(), camera, options, how, *session_.freezable, executor, contexts, stop(),
+        [](const FrameProgress&) {},
+        how == CachePrepass::deterministic ? &link_.workers() : nullptr);
+    prepass_counters_.rays += filled.rays;
+    prepass_counters_.ambient += filled.ambient;
+}
+
+RankReport RankBackend::report() const {
+    RankReport report = link_.report();
+    report.threads = executor_->concurrency();
+    for (const WorkerContexts* contexts : {&contexts_, light_ ? &light_->contexts : nullptr}) {
+        if (contexts == nullptr) continue;
+        report.rays += contexts->rays();
+        report.ambient += contexts->ambient();
+    }
+    report.rays += prepass_counters_.rays;
+    report.ambient += prepass_counters_.ambient;
+    return report;
+}
+
+}  // namespace lightwalk

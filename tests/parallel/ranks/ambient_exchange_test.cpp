@@ -1,0 +1,126 @@
+#include "parallel/ranks/ambient_exchange.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "tests/parallel/ambient_values.h"
+
+using namespace lightwalk;
+using lightwalk::test::record_at;
+
+namespace {
+
+constexpr int kMaster = 0, kClient = 1;
+
+AmbientValues values_of(std::size_t count) {
+    return {std::vector<AmbientRecord>(count)};
+}
+
+AmbientValues news_of(std::size_t count) {
+    return {std::vector<AmbientRecord>(count), AmbientValues::Direction::news};
+}
+
+AmbientValues answer_of(AmbientMaster& master, int rank, AmbientValues values) {
+    Outbox out;
+    master.handle(rank, std::move(values), out);
+    REQUIRE(out.messages.size() == 1);
+    CHECK(out.messages.front().to == rank);
+    const auto& answer = std::get<AmbientValues>(out.messages.front().message);
+    CHECK(answer.direction == AmbientValues::Direction::news);
+    return answer;
+}
+
+/// Keeps what it is given.
+class ListingCache final : public AmbientCache {
+  public:
+    std::vector<AmbientRecord> records;
+    [[nodiscard]] const AmbientLimits& limits() const override { return limits_; }
+    [[nodiscard]] AmbientSum lookup(const AmbientQuery&, LeakTest) const override { return {}; }
+    void insert(const AmbientRecord& record) override { records.push_back(record); }
+    [[nodiscard]] AmbientLogMean log_mean() const override { return {}; }
+
+  private:
+    AmbientLimits limits_;
+};
+
+}  // namespace
+
+TEST_CASE("ambient values: the master passes each to who has not told or heard it") {
+    AmbientMaster master(kMaster);
+    CHECK(answer_of(master, 1, values_of(3)).records.empty());
+    CHECK(answer_of(master, 2, values_of(1)).records.size() == 3);
+    CHECK(answer_of(master, 2, values_of(0)).records.empty());
+    CHECK(answer_of(master, 1, values_of(0)).records.size() == 1);
+    CHECK(master.size() == 4);
+    SUBCASE("and forgets those of a scene that is done with") {
+        master.clear();
+        CHECK(master.size() == 0);
+        CHECK(answer_of(master, 2, values_of(1)).records.empty());
+        CHECK(answer_of(master, 1, values_of(0)).records.size() == 1);
+    }
+}
+
+TEST_CASE("ambient values: a client has one offer out at a time") {
+    AmbientClient client(kClient, kMaster, 4);
+    Outbox out;
+    const auto offered = [&](std::size_t message) {
+        return std::get<AmbientValues>(out.messages.at(message).message).records.size();
+    };
+    client.offer(values_of(3).records, out);
+    CHECK(out.messages.empty());  // no batch yet
+    CHECK(client.is_settled());
+    client.offer(values_of(2).records, out);
+    REQUIRE(out.messages.size() == 1);
+    CHECK(offered(0) == 5);
+    CHECK_FALSE(client.is_settled());
+    client.offer(values_of(9).records, out);
+    CHECK(out.messages.size() == 1);
+    client.handle(news_of(2), out);  // the answer is for the cache
+    CHECK(out.cache.size() == 1);
+    REQUIRE(out.messages.size() == 2);  // by now there was another batch
+    CHECK(offered(1) == 9);
+    SUBCASE("whose answer may be the last") {
+        client.handle(news_of(0), out);
+        CHECK(client.is_settled());
+        CHECK(out.cache.size() == 1);
+    }
+    SUBCASE("and a question that comes meanwhile is asked after it") {
+        client.offer(values_of(1).records, out);
+        client.ask(out);
+        CHECK(out.messages.size() == 2);
+        client.handle(news_of(1), out);
+        CHECK_FALSE(client.is_settled());
+        REQUIRE(out.messages.size() == 3);
+        CHECK(offered(2) == 1);
+        client.handle(news_of(1), out);
+        CHECK(client.is_settled());
+    }
+}
+
+TEST_CASE("new ambient values go out by the batch, and what makes no batch is handed over") {
+    std::vector<std::size_t> batches;
+    SharedCache shared(
+        3, [&](const std::vector<AmbientRecord>& values) { batches.push_back(values.size()); });
+    for (int i = 0; i < 7; ++i) shared.stored(record_at(static_cast<float>(i)));
+    CHECK(batches == std::vector<std::size_t>{3, 3});
+    const std::vector<AmbientRecord> rest = shared.unsent();
+    REQUIRE(rest.size() == 1);
+    CHECK(rest[0].position[0] == 6);
+    CHECK(shared.unsent().empty());
+}
+
+TEST_CASE("ambient values of others come into the cache while it is shared, and do not go back") {
+    SharedCache shared(1, [](const std::vector<AmbientRecord>&) { FAIL("it was sent back"); });
+    ListingCache values;
+    PublishedCache cache(values);
+    shared.take(news_of(2));  // nobody's yet
+    CHECK_FALSE(shared.is_open());
+    shared.open(cache);
+    CHECK(shared.is_open());
+    shared.take(news_of(3));
+    CHECK(values.records.size() == 3);
+    shared.close();
+    shared.take(news_of(4));
+    CHECK(values.records.size() == 3);
+}
