@@ -159,6 +159,7 @@ void ClientInbox::greet(ClientId client, const HelloRequest& request) {
     if (!stage_.empty()) sender_->send_text(client, stage_);
     announce_roles();
     inbox_.joined.push_back(client);
+    if (request.depth) inbox_.want_depth.push_back(client);
 }
 
 void ClientInbox::change_roles(ClientId client, bool allowed, const std::string& why_not) {

@@ -78,6 +78,7 @@ bool RenderLoop::has_work() const {
 void RenderLoop::answer(const InboxContents& inbox) {
     screen_.update_clients(inbox);
     if (!inbox.joined.empty()) told_.reset();
+    if (!inbox.want_depth.empty()) shown_ = false;
     const Clock::time_point now = Clock::now();
     if (inbox.wish.display != wish_.display) {
         shown_ = false;
@@ -132,6 +133,7 @@ void RenderLoop::show(Clock::time_point now) {
     const ShownView view{wish_.view->id, view_->position,
                          live_.picture().phase != WalkPhase::moving,
                          live_.picture().phase == WalkPhase::done};
+    screen_.measure_depth(live_.picture(), *view_, eye_height_);
     screen_.show(live_.picture(), wish_.display, view, now);
     if (told_ != view_) client_inbox_.tell_watchers(walk_text(ViewReply{*view_}));
     told_ = view_;
@@ -174,7 +176,8 @@ void RenderLoop::reply(const WalkQuestion& question) {
     std::visit(
         Overloaded{
             [&](const PickRequest& pick) {
-                tell(answers_.pick(pick, Camera(*view_), {1.0 / shown.width, 1.0 / shown.height}));
+                const Camera camera(pick.view.value_or(*view_));
+                tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
             },
             [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
             [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); }},

@@ -20,6 +20,7 @@ WalkScreen::WalkScreen(Executor& executor)
 
 void WalkScreen::update_clients(const InboxContents& news) {
     for (const ClientId client : news.joined) clients_.try_emplace(client);
+    for (const ClientId client : news.want_depth) clients_[client].wants_depth = true;
     for (const ClientId client : news.left) clients_.erase(client);
     acked(news.acks);
 }
@@ -40,7 +41,13 @@ void WalkScreen::cut(int width, int height) {
         for (int x = 0; x < width; x += kPieceWidth)
             pieces_.push_back(
                 {{x, y, std::min(x + kPieceWidth, width), std::min(y + kPieceHeight, height)}});
-    contents_.assign(pieces_.size(), 0);
+    contents_.assign(pieces_.size() + 1, 0);
+}
+
+void WalkScreen::measure_depth(const LivePicture& picture, const View& view, double eye_height) {
+    const bool wanted = std::any_of(clients_.begin(), clients_.end(),
+                                    [](const auto& client) { return client.second.wants_depth; });
+    if (wanted) depth_.keep(picture, view, eye_height, executor_);
 }
 
 void WalkScreen::show(const LivePicture& picture, const DisplaySettings& settings,
@@ -52,6 +59,7 @@ void WalkScreen::show(const LivePicture& picture, const DisplaySettings& setting
     const Display display(settings, eye_, brightness);
     exposure_ = static_cast<float>(display.exposure());
     view_ = view;
+    contents_.back() = depth_.content();
     const int quality = view.at_rest ? kProgressiveQuality : kMovingQuality;
     executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
         colour(pieces_[i], picture, display, quality);
@@ -81,6 +89,7 @@ void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display&
 
 void WalkScreen::compress(std::span<const std::size_t> pieces) {
     executor_.for_each(pieces.size(), [&](std::size_t i, int worker) {
+        if (pieces[i] == pieces_.size()) return;  // the depth, which all workers compress
         Piece& piece = pieces_[pieces[i]];
         if (piece.compressed) return;
         const auto stride = 3 * static_cast<std::size_t>(width_);
@@ -102,19 +111,25 @@ WalkScreen::Time WalkScreen::next_chance() const {
     return soonest;
 }
 
-std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::size_t> pieces) const {
+std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::size_t> pieces,
+                                                        bool whole) {
     WalkFrameHeader header;
     header.frame = frame_;
     header.view = view_.id;
     header.width = static_cast<std::uint16_t>(width_);
     header.height = static_cast<std::uint16_t>(height_);
-    header.whole = pieces.size() == pieces_.size();
+    header.whole = whole;
     header.at_rest = view_.at_rest;
     header.finished = view_.finished;
     header.exposure = exposure_;
     header.eye = view_.eye;
     std::vector<WalkFramePiece> sent;
     for (const std::size_t i : pieces) {
+        if (i == pieces_.size()) {
+            sent.push_back(
+                {0, 0, header.width, header.height, PieceCodec::depth, depth_.bytes(executor_)});
+            continue;
+        }
         const Piece& piece = pieces_[i];
         sent.push_back(
             {static_cast<std::uint16_t>(piece.area.x0), static_cast<std::uint16_t>(piece.area.y0),
@@ -127,17 +142,18 @@ std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::siz
 void WalkScreen::send(ClientInbox& client_inbox, Time now) {
     if (pieces_.empty()) return;
     ++frame_;
-    std::map<std::vector<std::size_t>, std::shared_ptr<const std::string>> made;
+    std::map<std::pair<bool, std::vector<std::size_t>>, std::shared_ptr<const std::string>> made;
     for (auto& [id, client] : clients_) {
         if (!client.flow.may_send(now) || !lacks(client)) continue;
         const std::vector<std::size_t> pieces = missing(client);
-        std::shared_ptr<const std::string>& frame = made[pieces];
+        const bool whole = pieces.size() == contents(client).size();
+        std::shared_ptr<const std::string>& frame = made[{whole, pieces}];
         if (!frame) {
             compress(pieces);
-            frame = frame_of(pieces);
+            frame = frame_of(pieces, whole);
         }
         client_inbox.send(id, frame);
-        client.flow.sent(frame_, layout(), contents_, frame->size(), now);
+        client.flow.sent(frame_, layout(), contents(client), frame->size(), now);
         client.shown = view_;
     }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/walk/client_inbox.h"
+#include "apps/walk/depth_piece.h"
 #include "core/view/pixels.h"
 #include "io/net/frame_flow.h"
 #include "io/picture/display.h"
@@ -40,6 +41,9 @@ class WalkScreen {
     /// Clients have drawn frames. What was never sent to them counts for nothing.
     void acked(std::span<const WalkAck> acks);
 
+    /// Before show(): how far away what the picture shows is, for the pages that want to know.
+    /// @param eye_height  see DepthPiece
+    void measure_depth(const LivePicture& picture, const View& view, double eye_height);
     /// The newest picture, in its colours.
     void show(const LivePicture& picture, const DisplaySettings& settings, const ShownView& view,
               Time now);
@@ -58,32 +62,38 @@ class WalkScreen {
     };
     struct Client {
         FrameFlow flow;
+        bool wants_depth = false;
         std::optional<ShownView> shown;  ///< nothing: no picture yet
     };
 
     void cut(int width, int height);
     void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
     void compress(std::span<const std::size_t> pieces);
+    /// Of the pieces that a client wants: those of the picture, and the depth.
+    [[nodiscard]] std::span<const std::uint64_t> contents(const Client& client) const {
+        return std::span(contents_).first(pieces_.size() + (client.wants_depth ? 1 : 0));
+    }
     /// How the picture is divided into pieces.
     [[nodiscard]] std::uint64_t layout() const {
         return static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
     }
     [[nodiscard]] std::vector<std::size_t> missing(const Client& client) const {
-        return client.flow.missing(layout(), contents_);
+        return client.flow.missing(layout(), contents(client));
     }
     [[nodiscard]] bool lacks(const Client& client) const {
         return client.shown != view_ || !missing(client).empty();
     }
-    [[nodiscard]] std::shared_ptr<const std::string> frame_of(
-        std::span<const std::size_t> pieces) const;
+    [[nodiscard]] std::shared_ptr<const std::string> frame_of(std::span<const std::size_t> pieces,
+                                                              bool whole);
 
     Executor& executor_;
     std::vector<JpegCompressor> compressors_;  ///< one for each worker
     std::map<ClientId, Client> clients_;
     int width_ = 0, height_ = 0;
     std::vector<Piece> pieces_;
-    std::vector<std::uint64_t> contents_;  ///< of the pieces
-    std::vector<std::uint8_t> bytes_;      ///< r, g, b of the picture
+    DepthPiece depth_;
+    std::vector<std::uint64_t> contents_{0};  ///< of the pieces, and of the depth
+    std::vector<std::uint8_t> bytes_;         ///< r, g, b of the picture
     ShownView view_;
     Adaptation eye_;
     Time last_look_{};

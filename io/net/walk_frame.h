@@ -20,7 +20,8 @@ struct WalkFrameHeader {
     Vec3 eye;               ///< position of the eye [m]
 };
 
-enum class PieceCodec : std::uint8_t { jpeg = 1, png = 2 };
+/// depth: see depth_patches.h; empty where the view has none.
+enum class PieceCodec : std::uint8_t { jpeg = 1, png = 2, depth = 3 };
 
 /// A compressed rectangle of the picture.
 struct WalkFramePiece {

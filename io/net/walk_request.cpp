@@ -118,7 +118,7 @@ HelloRequest read_hello(const Json& object) {
     const bool hex = session.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
     if (!hex || session.size() < 16 || session.size() > 64)
         refuse("session", "16 to 64 hex digits");
-    return {session};
+    return {session, object.contains("depth") && truth(object, "depth")};
 }
 
 ViewRequest read_view_request(const Json& object, WalkSizeLimit limit) {
@@ -161,7 +161,10 @@ SettingsRequest read_settings(const Json& object) {
 }
 
 PickRequest read_pick(const Json& object) {
-    return {identity(object, "id"), number(object, 0, 1, "x"), number(object, 0, 1, "y")};
+    PickRequest request{identity(object, "id"), number(object, 0, 1, "x"),
+                        number(object, 0, 1, "y"), std::nullopt};
+    if (object.contains("view")) request.view = read_view(object["view"]);
+    return request;
 }
 
 MeanRequest read_rectangle(const Json& object) {

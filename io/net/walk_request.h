@@ -1,6 +1,7 @@
 #pragma once
 // The text messages from browser to server, as values. Their format is in io/net/README.md.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,6 +20,7 @@ inline constexpr std::size_t kMostProbes = 64;
 
 struct HelloRequest {
     std::string session;  ///< 16 to 64 hex digits
+    bool depth = false;   ///< frames shall have the depth of their pixels, see depth_patches.h
 };
 /// `view`: the view that the page wants to see.
 struct ViewRequest {
@@ -39,10 +41,11 @@ struct SettingsRequest {
     WalkAmbient ambient = WalkAmbient::rest;
     friend bool operator==(const SettingsRequest&, const SettingsRequest&) = default;
 };
-/// `pick`: the light at a point of the picture, in the image coordinates of Camera, 0 to 1.
+/// `pick`: the light at a point of a picture, in the image coordinates of Camera, 0 to 1.
 struct PickRequest {
     std::uint32_t id = 0;
     double x = 0, y = 0;
+    std::optional<View> view;  ///< of that picture; nothing: the newest view
 };
 /// `rectangle`: the mean luminance in a rectangle, x0 < x1 and y0 < y1.
 struct MeanRequest {

@@ -143,3 +143,39 @@ TEST_CASE("walk screen: a picture of another size is sent whole") {
     CHECK(frame_pieces(all.last(kFirst)) == 1);
     CHECK(number_at<std::uint16_t>(all.last(kFirst), 12) == 10);
 }
+
+TEST_CASE(
+    "walk screen: depth goes to who wants it, with each new distance, and others get the bytes of "
+    "before") {
+    Screen all;
+    InboxContents news;
+    news.joined = {kSecond};
+    news.want_depth = {kSecond};
+    all.screen.update_clients(news);
+    LivePicture picture = picture_of(0.5f);
+    picture.distance.assign(picture.radiance.size(), 2);
+    const auto show = [&](std::uint32_t id, const View& view) {
+        all.screen.measure_depth(picture, view, 1.6);
+        all.show(picture, id);
+        all.send();
+        all.ack(kFirst);
+        all.ack(kSecond);
+    };
+    show(1, View{});
+    CHECK(frame_pieces(all.last(kFirst)) == 6);
+    CHECK(frame_pieces(all.last(kSecond)) == 7);
+    CHECK(frame_flags(all.last(kSecond)) == 3);  // whole
+    show(2, View{});
+    CHECK(frame_pieces(all.last(kSecond)) == 0);
+    picture.distance[7] = 3;
+    show(3, View{});
+    CHECK(frame_pieces(all.last(kFirst)) == 0);
+    REQUIRE(frame_pieces(all.last(kSecond)) == 1);
+    CHECK(all.last(kSecond).substr(48, 9) == std::string("\0\0\0\0\x90\1\xc8\0\3", 9));
+    CHECK(frame_flags(all.last(kSecond)) == 2);
+    View around;
+    around.type = 'a';
+    show(4, around);  // of no use to a page: the piece is empty
+    REQUIRE(frame_pieces(all.last(kSecond)) == 1);
+    CHECK(all.last(kSecond).size() == 48 + 16);
+}
