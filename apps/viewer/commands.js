@@ -58,10 +58,8 @@ class Commands {
 
     /** The present view, its horizontal and vertical sizes fitted to the window. */
     present_view() {
-        return (
-            (this.session.shown_id === this.session.view_id && this.session.shown) ||
-            this.session.view
-        );
+        const { shown, frame_view, shown_id, view_id, view } = this.session;
+        return ((shown !== frame_view || shown_id === view_id) && shown) || view;
     }
 
     save_view(naming) {
@@ -111,7 +109,7 @@ class Commands {
 
     async write_png() {
         try {
-            download(await picture_blob(this.picture, this.light.display), this.name_("png"));
+            download(await picture_blob(this.painted(), this.light.display), this.name_("png"));
         } catch (error) {
             notice(`No picture: ${error.message}`, true);
         }

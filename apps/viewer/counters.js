@@ -1,7 +1,7 @@
 // window.lightwalk: counters and the newest answers, for tests and for the browser's console.
 
-/** The object window.lightwalk; what it takes from `session` and `navigator` is read at each access. */
-export function make_counters(session, navigator) {
+/** The object window.lightwalk; what it takes from `session`, `navigator` and `camera` is read at each access. */
+export function make_counters(session, navigator, camera) {
     return {
         frames: 0, ///< frames that were drawn
         skipped: 0, ///< frames that a newer one superseded before they were drawn
@@ -25,6 +25,18 @@ export function make_counters(session, navigator) {
         get view() {
             return session.view;
         },
+        get eye() {
+            return navigator.view;
+        }, ///< the view that is to be seen
+        get frame_view() {
+            return session.frame_view;
+        },
+        get camera_draws() {
+            return camera.draws;
+        }, ///< whether the screen shows what the page has drawn from frames, not a frame
+        get refreshes() {
+            return camera.refreshes;
+        }, ///< of the screen for which it has
         get shown_view() {
             return session.shown;
         },

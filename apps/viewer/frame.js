@@ -6,7 +6,7 @@
 const kMagic = 0x3146574c; // "LWF1"
 const kHeader = 48;
 const kPieceHeader = 16;
-const kTypes = { 1: "image/jpeg", 2: "image/png" };
+const kTypes = { 1: "image/jpeg", 2: "image/png", 3: "depth" };
 
 /** The piece at byte offset `at`: its place in the picture, its media type and its bytes. */
 function parse_piece(data, at) {
@@ -25,10 +25,18 @@ function parse_piece(data, at) {
     return piece;
 }
 
+/** Add a piece to a frame. */
+function take_piece(result, piece) {
+    if (piece.type !== "depth") return result.pieces.push(piece);
+    if (result.depth || piece.width !== result.width || piece.height !== result.height)
+        throw new Error("frame: its depth is not of its size");
+    result.depth = piece;
+}
+
 /**
  * A frame's header and pieces; bytes are views into the buffer.
- * @returns {{frame, view_id, width, height, complete, at_rest, final, exposure, eye, pieces}}
- * complete: the message holds all pieces of the picture; at_rest: the eye stands still; final: nothing will be refined
+ * @returns {{frame, view_id, width, height, complete, at_rest, final, exposure, eye, pieces, depth}}
+ * depth: the piece with the depth of the pixels, null where there is none; complete: the message holds all pieces of the picture; at_rest: the eye stands still; final: nothing will be refined
  * any more. Throws Error for bytes that are no frame.
  */
 export function parse_frame(buffer) {
@@ -47,13 +55,14 @@ export function parse_frame(buffer) {
         exposure: data.getFloat32(20, true),
         eye: [24, 32, 40].map((at) => data.getFloat64(at, true)),
         pieces: [],
+        depth: null,
     };
     let at = kHeader;
     for (let k = data.getUint16(18, true); k > 0; --k) {
         const piece = parse_piece(data, at);
         if (piece.x + piece.width > result.width || piece.y + piece.height > result.height)
             throw new Error("frame: a piece lies outside");
-        result.pieces.push(piece);
+        take_piece(result, piece);
         at += kPieceHeader + piece.bytes.byteLength;
     }
     if (at !== data.byteLength) throw new Error("frame: bytes after the last piece");

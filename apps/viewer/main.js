@@ -1,4 +1,5 @@
 // Puts the page together: makes its parts and passes events between them.
+import { Camera } from "./camera.js";
 import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
 import { Glare } from "./glare.js";
@@ -15,9 +16,10 @@ import { picture_size, Screen } from "./screen.js";
 import { Session } from "./session.js";
 import { show_phase, start_figures } from "./status.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
-import { same_picture } from "./view.js";
+import { fit_view, same_picture } from "./view.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
+import { margin_for, turn_between } from "./warp.js";
 import { quantity } from "./words.js";
 
 const kFastest = 12; // least time between two views, also on fast screens: the server limits the rate [ms]
@@ -34,7 +36,9 @@ let max_size = [4096, 4096];
 
 const navigator = new Navigator();
 const screen = new Screen(picture, { drawn, skipped, failed });
-const session = new Session(session_id(), screen, {
+const plain = new URL(location).searchParams.has("plain"); // show frames as they come
+const camera = new Camera(by_id("camera"), picture, !plain);
+const session = new Session(session_id(), camera.available, screen, {
     connected: () => cover("Connected. Waiting for the scene…"),
     lost,
     welcome,
@@ -66,7 +70,7 @@ const session = new Session(session_id(), screen, {
     },
     bye: ({ reason }) => cover(reason || "The server says goodbye."),
 });
-const counters = make_counters(session, navigator);
+const counters = make_counters(session, navigator, camera);
 const overlay = new Overlay(by_id("overlay"));
 const measuring = new Measuring(session, counters, redraw);
 const { measurements, reading } = measuring;
@@ -96,6 +100,7 @@ const commands = start_commands({
     measuring,
     glare,
     picture,
+    painted: () => (draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
     scene: () => scene,
 });
@@ -204,7 +209,7 @@ function lost(reason, wait) {
 
 function role_changed(driving) {
     session.driving = driving;
-    if (!driving) session.shown = null;
+    if (!driving) session.shown = session.frame_view = null;
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();
@@ -219,7 +224,7 @@ function server_state(message) {
 
 // Frames -----------------------------------------------------------------------------------------
 
-function drawn(frame) {
+function drawn(frame, depth) {
     ++counters.frames;
     Object.assign(counters, {
         exposure: frame.exposure,
@@ -228,12 +233,14 @@ function drawn(frame) {
     });
     const sent = session.drawn(frame);
     if (sent?.walk && sent.epoch === navigator.epoch) navigator.take_height(frame.eye);
+    camera.take(sent ? session.frame_view : null, depth);
     light.note_exposure(frame.exposure);
     if (awaiting_picture && session.connection.connected) {
         awaiting_picture = false;
         counters.ready = true;
         uncover();
     }
+    draw_camera();
     redraw();
 }
 
@@ -261,6 +268,30 @@ function on_resize() {
     }, kResized);
 }
 
+/** Draw what the eye sees now, if the newest frame is not just that; whether the screen shows what was drawn. */
+function draw_camera() {
+    const size = size_now();
+    const driving = session.driving && navigator.view !== null;
+    const view = driving ? fit_view(navigator.view, size.width, size.height) : null;
+    if (camera.draw(view, size)) session.shown = view;
+    else if (session.driving) session.shown = session.frame_view;
+    return camera.draws;
+}
+
+/**
+ * Send a view. While the eye moves, and the page draws the camera by itself, it is where the eye will be when its frame is
+ * there, and wider than the window.
+ */
+function send(step, now) {
+    if (!step.moving || !camera.ready || step.view.type !== "v")
+        return session.send_view(step, size_now(), navigator.epoch);
+    const { ahead, apart } = session.times;
+    const view = navigator.ahead(now, ahead);
+    const turn = turn_between(view, step.view) * Math.min(1, (apart + 0.3 * ahead) / ahead || 0);
+    const factor = margin_for(step.view, turn);
+    return session.send_view({ ...step, view }, size_now(), navigator.epoch, factor);
+}
+
 let ticked = 0;
 /** Send the present view, unless the server has it already. */
 function step_now() {
@@ -269,9 +300,17 @@ function step_now() {
     ticked = now;
     const step = navigator.tick(now);
     commands.show_walk();
-    if (!step || !session.send_view(step, size_now(), navigator.epoch)) return;
+    if (!step || !send(step, now)) return;
     if (glare.id && !same_picture(glare.view, session.view)) glare.clear();
     if (reading.pick && !reading.pick.hit) reading.close();
+}
+
+/** Show the camera of now. */
+function refresh() {
+    const drew = camera.draws;
+    if (session.driving) navigator.advance(performance.now());
+    if (draw_camera()) session.latency.shown(session.view_id, performance.now());
+    if (drew || camera.draws) redraw();
 }
 
 start_panels();
@@ -285,6 +324,7 @@ start_figures(session, navigator, picture, () => counters.state);
 navigator.on_input = () => queueMicrotask(step_now);
 requestAnimationFrame(function tick() {
     step_now();
+    refresh();
     requestAnimationFrame(tick);
 });
 window.lightwalk = counters;

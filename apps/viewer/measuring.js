@@ -40,7 +40,10 @@ export class Measuring {
     /** Ask what the picture shows at x, y (0..1 from the left and the bottom). */
     pick_at(x, y) {
         if (!this.session_.connection.connected) return;
-        this.asked_.set(this.session_.ask("pick", { x, y }), [x, y]);
+        const { shown, frame_view } = this.session_;
+        // What is seen at x, y is so in the view on the screen, which may be another than the newest one.
+        const own = shown && shown !== frame_view && this.session_.driving ? { view: shown } : {};
+        this.asked_.set(this.session_.ask("pick", { x, y, ...own }), [x, y]);
     }
 
     picked(message) {
@@ -91,8 +94,8 @@ export class Measuring {
 
     /** The picture has been refined: request the means of its areas again. */
     follow_light() {
-        const { shown, shown_id, view_id } = this.session_;
-        if (!shown || shown_id !== view_id) return;
+        const { shown, frame_view, shown_id, view_id } = this.session_;
+        if (!shown || shown !== frame_view || shown_id !== view_id) return;
         const now = performance.now();
         for (const { id, rect } of this.measurements.areas_to_ask(shown, this.settled_(), now))
             this.session_.ask("rectangle", { id, rect });

@@ -18,8 +18,8 @@ export const kKeys = {
     PageDown: [0, 0, 0, 0, -1],
 };
 
-const kSettle = 0.05; // time constant of starting and stopping [s]
-const kTurnRate = 1.2; // how fast keys turn the eye [rad/s]
+export const kSettle = 0.05; // time constant of starting and stopping [s]
+export const kTurnRate = 1.2; // how fast keys turn the eye [rad/s]
 const kSteepest = (89 * Math.PI) / 180; // how far the eye looks up and down [rad]
 const kStill = 1e-3; // share of full speed below which the eye counts as standing
 

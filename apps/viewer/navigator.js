@@ -10,6 +10,7 @@ import {
     wish_of,
     zoomed,
 } from "./motion.js";
+import { DragSpeed, view_ahead } from "./prediction.js";
 import { dot, length, normalize, subtract } from "./vector.js";
 import { same_place } from "./view.js";
 
@@ -28,6 +29,7 @@ export class Navigator {
         this.modifier = "none"; ///< which modifier key is held: none, faster, slower
         this.dragging = false;
         this.rates_ = [0, 0, 0, 0, 0];
+        this.drag_ = new DragSpeed();
         this.way_ = null; ///< the transition under way: {from, to, begin, duration}
         this.epoch = 0; ///< rises at each jump: frames of views from before it must not correct the eye's height
         this.past_ = [];
@@ -71,6 +73,7 @@ export class Navigator {
         if (!this.view) return;
         this.stop_transition();
         this.view = looked(this.view, yaw, pitch);
+        this.drag_.step(yaw, pitch, now);
         this.touched_(now);
     }
 
@@ -157,15 +160,13 @@ export class Navigator {
     }
 
     /**
-     * Advance the eye to the time `now` [ms].
+     * Advance the eye to the time `now` [ms], and take what has changed.
      * @returns {{view, moving, walk, input}} what to send to the server, or nothing when nothing has
      *     changed. input: time of the event that this answers [ms].
      */
     tick(now) {
         if (!this.view) return null;
-        const dt = this.last_ === null ? 0 : Math.min((now - this.last_) / 1000, kLongestTick);
-        this.last_ = now;
-        this.advance_(now, dt);
+        this.advance(now);
         const moving = this.moving;
         if (!this.changed_ && moving === this.was_moving_) return null;
         const input = this.input_ ?? now;
@@ -175,11 +176,36 @@ export class Navigator {
         return { view: this.view, moving, walk: this.walk && !this.way_, input };
     }
 
+    /** Advance the eye to the time `now` [ms]. */
+    advance(now) {
+        if (!this.view) return;
+        const dt = this.last_ === null ? 0 : Math.min((now - this.last_) / 1000, kLongestTick);
+        this.last_ = now;
+        this.advance_(now, dt);
+    }
+
+    /** The view in `seconds`, as far as it can be foretold at the time `now` [ms]. */
+    ahead(now, seconds) {
+        if (this.way_) {
+            const { from, to, begin, duration } = this.way_;
+            return between(from, to, Math.min(1, (now + 1000 * seconds - begin) / duration));
+        }
+        const [yaw, pitch] = this.drag_.ahead(now, seconds);
+        const dragged = yaw || pitch ? looked(this.view, yaw, pitch) : this.view;
+        const wish = wish_of(this.keys);
+        if (this.rates_.every((rate, k) => rate === 0 && wish[k] === 0)) return dragged;
+        return view_ahead(dragged, this.rates_, wish, seconds, this.pace_ * this.speed, this.walk);
+    }
+
     /** Whether the eye moves, so that more views will follow soon. */
     get moving() {
         const going =
             this.rates_.some((rate) => rate !== 0) || wish_of(this.keys).some((x) => x !== 0);
         return this.dragging || going || this.way_ !== null;
+    }
+
+    get pace_() {
+        return { none: 1, faster: kFaster, slower: kSlower }[this.modifier];
     }
 
     advance_(now, dt) {
@@ -192,10 +218,9 @@ export class Navigator {
         }
         this.rates_ = next_rates(this.rates_, wish_of(this.keys), dt);
         if (this.rates_.every((rate) => rate === 0)) return;
-        const pace = { none: 1, faster: kFaster, slower: kSlower }[this.modifier];
         // Keys for up and down work in flight only: in a walk the floor determines the height.
         if (this.rates_[2] !== 0 && this.walk) this.set_walk(false);
-        this.view = advanced(this.view, this.rates_, dt, this.speed * pace, this.walk);
+        this.view = advanced(this.view, this.rates_, dt, this.speed * this.pace_, this.walk);
         this.changed_ = true;
     }
 

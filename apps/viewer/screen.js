@@ -1,11 +1,12 @@
 // Draws frames: their pieces are decoded concurrently, and drawn in the order of frames.
+import { decode_depth } from "./depth.js";
 import { parse_frame } from "./frame.js";
 
 export class Screen {
     /**
      * @param canvas
-     * @param on  {drawn(frame), skipped(frame), failed(error, frame)}: frame as parse_frame() returns it;
-     *     all three must acknowledge it to the server
+     * @param on  {drawn(frame, depth), skipped(frame), failed(error, frame)}: frame as parse_frame() returns it; depth as
+     *     decode_depth() does, undefined where it is as before; all three must acknowledge the frame to the server
      */
     constructor(canvas, on) {
         this.canvas = canvas;
@@ -37,23 +38,23 @@ export class Screen {
     }
 
     decode_(frame) {
-        return Promise.all(
-            frame.pieces.map(({ bytes, type }) => createImageBitmap(new Blob([bytes], { type }))),
-        );
+        const bitmap = ({ bytes, type }) => createImageBitmap(new Blob([bytes], { type }));
+        const depth = frame.depth && decode_depth(frame.depth, frame.width, frame.height);
+        return Promise.all([Promise.all(frame.pieces.map(bitmap)), depth ?? undefined]);
     }
 
     async show_(frame, decoded) {
         try {
-            const bitmaps = await decoded;
+            const [bitmaps, depth] = await decoded;
             if (this.superseded_(frame)) this.on_.skipped(frame);
-            else this.draw_(frame, bitmaps);
+            else this.draw_(frame, bitmaps, depth);
             for (const bitmap of bitmaps) bitmap.close();
         } catch (error) {
             this.on_.failed(error, frame);
         }
     }
 
-    draw_(frame, bitmaps) {
+    draw_(frame, bitmaps, depth) {
         const { canvas } = this;
         // Setting a canvas's size clears it, so only when it changes.
         if (canvas.width !== frame.width || canvas.height !== frame.height) {
@@ -63,7 +64,7 @@ export class Screen {
         frame.pieces.forEach(({ x, y, width, height }, k) =>
             this.context_.drawImage(bitmaps[k], x, y, width, height),
         );
-        this.on_.drawn(frame);
+        this.on_.drawn(frame, depth);
     }
 }
 

@@ -1,6 +1,7 @@
 // Frames as the protocol has them, of the fake room: JPEG and PNG pieces.
 import { deflateSync } from "node:zlib";
-import { exposure_of, paint } from "./fake_scene.mjs";
+import { bands_of, depth_of_bands } from "./fake_depth.mjs";
+import { depth_at, exposure_of, paint } from "./fake_scene.mjs";
 
 const kMoving = 320; // pixels across while moving
 export const kStrips = 8; // pieces of a picture at rest
@@ -92,4 +93,19 @@ export function strip_piece(jpeg, view, { width, height }, k, display) {
             ? png(data, width, to - from)
             : jpeg.encode({ data, width, height: to - from }, 92).data;
     return { x: 0, y: from, width, height: to - from, codec, bytes };
+}
+
+/** How far away what a picture shows is; the same for each four by four pixels. */
+export function depth_piece(view, { width, height }) {
+    const kStep = 0.001,
+        kCell = 4; // the unit of inverse depth [1/m]; [pixels]
+    const columns = Math.ceil(width / kCell);
+    const cells = Array.from({ length: columns * Math.ceil(height / kCell) }, (_, k) => {
+        const x = ((k % columns) + 0.5) * (kCell / width),
+            y = 1 - (Math.floor(k / columns) + 0.5) * (kCell / height);
+        return Math.min(65535, Math.round(1 / (kStep * depth_at(view, x, y))));
+    });
+    const inverse = (x, y) => cells[Math.floor(y / kCell) * columns + Math.floor(x / kCell)];
+    const bytes = depth_of_bands(kStep, bands_of(inverse, width, height));
+    return { x: 0, y: 0, width, height, codec: 3, bytes };
 }

@@ -138,6 +138,13 @@ export function direction_at(view, x, y) {
     return unit(forward.map((f, k) => f + right[k] * w * (x - 0.5) + up[k] * h * (y - 0.5)));
 }
 
+/** How far ahead lies what a view shows at x, y (0..1 from the left and the bottom) [m]. */
+export function depth_at(view, x, y) {
+    const direction = direction_at(view, x, y);
+    const t = look(view.position, direction)?.t ?? Infinity;
+    return t * dot(direction, unit(view.direction));
+}
+
 const turbo = (() => {
     const terms = [
         [0.13572138, 4.6153926, -42.66032258, 132.13108234, -152.94239396, 59.28637943],

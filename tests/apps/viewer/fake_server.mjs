@@ -10,7 +10,7 @@ import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
-import { coarse_pieces, frame_bytes, kStrips, strip_piece } from "./fake_frames.mjs";
+import { coarse_pieces, depth_piece, frame_bytes, kStrips, strip_piece } from "./fake_frames.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
 
 const { values: args } = parseArgs({
@@ -118,7 +118,10 @@ function answer(socket, message) {
     const client = clients.get(socket),
         driving = driver === client.id;
     const answers = {
-        hello: () => greet(socket, client, message.session),
+        hello: () => {
+            client.depth = message.depth === true;
+            greet(socket, client, message.session);
+        },
         ack: () => (client.busy = false),
         view: () => {
             if (!driving) return;
@@ -150,8 +153,7 @@ function answer(socket, message) {
 const present_view = () => ({ ...wish.view, position: eye_of(wish) });
 const lux = (hit) => (hit.luminance * Math.PI) / 0.6;
 
-function picked({ id, x, y }) {
-    const view = present_view();
+function picked({ id, x, y, view = present_view() }) {
     const hit = look(view.position, direction_at(view, x, y));
     if (!hit)
         return {
@@ -242,6 +244,7 @@ function next_frame(socket, client) {
         client.drawn = wish.version;
         client.strip = 0;
         pieces = coarse_pieces(jpeg, view, wish, display);
+        if (client.depth) pieces.push(depth_piece(view, wish));
         flags = 1;
     } else if (!wish.moving && client.strip < kStrips) {
         pieces = [strip_piece(jpeg, view, wish, client.strip++, display)];

@@ -47,6 +47,7 @@ test("the header's numbers stand where the protocol has them", () => {
         final: true,
         exposure: 0.5,
         eye: [1.25, -2.5, 1e-7],
+        depth: null,
     });
     assert.equal(pieces.length, 2);
 });
@@ -97,7 +98,11 @@ test("what is too long, outside, of an unknown codec or no frame at all is refus
     assert.throws(() => parse_frame(longer.buffer), /after the last piece/);
     assert.throws(() => parse_frame(frame({ pieces: [[5, 0, 4, 2, 1, [1]]] })), /outside/);
     assert.throws(() => parse_frame(frame({ pieces: [[0, 5, 4, 2, 1, [1]]] })), /outside/);
-    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 3, [1]]] })), /codec/);
+    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 4, [1]]] })), /codec/);
+    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 3, [1]]] })), /size/);
+    const depth = [0, 0, 8, 6, 3, [1]];
+    assert.throws(() => parse_frame(frame({ pieces: [depth, depth] })), /depth/);
+    assert.deepEqual([...parse_frame(frame({ pieces: [depth] })).depth.bytes], [1]);
     const other = new Uint8Array(frame());
     other[3] = 0x32;
     assert.throws(() => parse_frame(other.buffer), /not a frame/);

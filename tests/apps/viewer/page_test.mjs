@@ -10,6 +10,7 @@ import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
+import { fit_view, locate } from "../../../apps/viewer/view.js";
 import { parse_views } from "../../../apps/viewer/view_text.js";
 
 const { values: args } = parseArgs({
@@ -287,6 +288,87 @@ const steps = {
         });
         await shown(page);
         await page.setViewportSize(kSize);
+    },
+
+    async "while the eye moves the page draws what it sees, and at rest shows the frame"(page) {
+        const before = await value(page, "refreshes");
+        await page.focus("#picture");
+        await page.keyboard.down("ArrowRight");
+        await until(page, (n) => window.lightwalk.refreshes > n + 5, before);
+        const seen = await page.evaluate(
+            () =>
+                new Promise((resolve) =>
+                    requestAnimationFrame(() => {
+                        // In the same refresh in which it was drawn the canvas can be read.
+                        const canvas = document.createElement("canvas");
+                        const [w, h] = [(canvas.width = 40), (canvas.height = 25)];
+                        const context = canvas.getContext("2d");
+                        context.drawImage(document.querySelector("#camera"), 0, 0, w, h);
+                        const { data } = context.getImageData(0, 0, w, h);
+                        const { eye, shown_view, frame_view, view, camera_draws } =
+                            window.lightwalk;
+                        const hidden = document.querySelector("#camera").hidden;
+                        const dark = data.filter((x, k) => k % 4 === 1 && x < 8).length / (w * h);
+                        resolve({ eye, shown_view, frame_view, view, camera_draws, hidden, dark });
+                    }),
+                ),
+        );
+        assert.ok(seen.camera_draws && !seen.hidden && seen.dark < 0.02, `${seen.dark} is black`);
+        // What is drawn is what the eye sees; what is asked for is ahead of it, and wider.
+        assert.ok(Math.abs(heading(seen.eye) - heading(seen.shown_view)) < 0.01);
+        assert.ok(heading(seen.view) > heading(seen.eye));
+        assert.ok(seen.view.horizontal > seen.shown_view.horizontal);
+        await page.keyboard.up("ArrowRight");
+        await shown(page);
+        await until(page, () => !window.lightwalk.camera_draws);
+        assert.ok(await page.isHidden("#camera"));
+        const { width, height } = kSize;
+        const rest = await value(page, "shown_view");
+        assert.deepEqual(rest, fit_view(await value(page, "eye"), width, height));
+    },
+
+    async "a point is read where it is seen, also while the eye moves"(page) {
+        await page.focus("#picture");
+        await page.keyboard.down("ArrowLeft");
+        await until(page, () => window.lightwalk.camera_draws);
+        await page.evaluate(() => (window.lightwalk.last_pick = null));
+        const asked = page.evaluate(() => {
+            document.activeElement.dispatchEvent(
+                new KeyboardEvent("keydown", { key: "Enter", bubbles: true }),
+            );
+            return window.lightwalk.shown_view;
+        });
+        await until(page, () => window.lightwalk.last_pick);
+        const { position } = await value(page, "last_pick");
+        await page.keyboard.up("ArrowLeft");
+        const at = locate(await asked, position);
+        assert.ok(Math.hypot(at.x - 0.5, at.y - 0.5) < 1e-3, `${at.x}, ${at.y}`);
+        await shown(page);
+    },
+
+    async "a lost graphics memory is no fault"(page) {
+        const lose = (what) =>
+            page.evaluate((name) => {
+                const context = document.querySelector("#camera").getContext("webgl2");
+                window.loss ??= context.getExtension("WEBGL_lose_context");
+                window.loss[name]();
+            }, what);
+        await lose("loseContext");
+        assert.ok((await hold(page, "w")) > 0.1);
+        assert.equal(await value(page, "camera_draws"), false);
+        await lose("restoreContext");
+        const before = await value(page, "refreshes");
+        await hold(page, "s");
+        assert.ok((await value(page, "refreshes")) > before);
+    },
+
+    async "frames are shown as they come where the address says so"(page) {
+        await page.goto(`${address}?plain`);
+        await shown(page);
+        assert.ok((await hold(page, "w")) > 0.1);
+        assert.equal(await value(page, "refreshes"), 0);
+        await page.goto(address);
+        await shown(page);
     },
 
     async "help opens and closes by keys, and every control has a name"(page) {

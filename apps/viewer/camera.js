@@ -1,0 +1,81 @@
+// The camera of now: draws what the eye sees at each refresh of the screen from the frames that have come.
+import { Reprojection } from "./reprojection.js";
+import { can_warp, is_picture_of } from "./warp.js";
+
+export class Camera {
+    /**
+     * @param canvas   over the picture; hidden while the picture itself is what is to be seen
+     * @param picture  the canvas that frames are drawn on
+     * @param wanted   false: never draw
+     */
+    constructor(canvas, picture, wanted) {
+        this.canvas_ = canvas;
+        this.picture_ = picture;
+        this.view_ = null; // of the newest frame; null: it cannot be drawn from elsewhere
+        this.depth_ = null;
+        this.kept_ = true; // whether the newest frame is in the graphics memory
+        this.reprojection_ = wanted ? started(canvas) : null;
+        this.draws = false; ///< whether the screen shows what this draws, instead of the picture
+        this.refreshes = 0; ///< that were drawn
+    }
+
+    /** Whether frames with depth are of use. */
+    get available() {
+        return this.reprojection_ !== null;
+    }
+
+    /** Whether views may run ahead of the eye, and be wider than the window. */
+    get ready() {
+        return this.view_ !== null && !this.reprojection_.lost;
+    }
+
+    /**
+     * A frame is on the picture.
+     * @param view   that it shows; null: not known
+     * @param depth  undefined: as before
+     */
+    take(view, depth) {
+        if (!this.available) return;
+        if (depth !== undefined) this.depth_ = depth;
+        const before = this.view_;
+        this.view_ = this.depth_ && can_warp(view) ? view : null;
+        if (this.view_ === null) return;
+        this.again_ = this.again_ && before !== null && is_picture_of(before, view);
+        this.kept_ = false;
+        // While the eye rests the picture is what is seen, and is kept only when the eye moves.
+        if (this.draws) this.keep_();
+    }
+
+    keep_() {
+        this.kept_ = true;
+        const frame = { picture: this.picture_, depth: this.depth_, view: this.view_ };
+        this.reprojection_.keep(frame, this.again_ ?? false);
+        this.again_ = true; // until a frame of another view comes
+    }
+
+    /** Draw `view`, of a picture of that size [pixels], unless the picture shows just that. Returns whether it was drawn. */
+    draw(view, { width, height }) {
+        this.draws = this.draw_(view, width, height);
+        if (this.canvas_.hidden === this.draws) this.canvas_.hidden = !this.draws;
+        return this.draws;
+    }
+
+    draw_(view, width, height) {
+        if (!this.ready || !view || !can_warp(view) || is_picture_of(this.view_, view))
+            return false;
+        if (!this.kept_) this.keep_();
+        if (!this.reprojection_.has_frame) return false;
+        this.reprojection_.draw(view, width, height);
+        ++this.refreshes;
+        return true;
+    }
+}
+
+function started(canvas) {
+    try {
+        return new Reprojection(canvas);
+    } catch (error) {
+        console.info("lightwalk: frames are shown as they come:", error.message);
+        return null;
+    }
+}

@@ -1,0 +1,210 @@
+// Draws frames from views that are not theirs, in WebGL2: the newest frame, earlier ones in its gaps, a sheet behind them.
+import { background_of, grid_triangles } from "./background.js";
+import { kNumbers, kPatchRow } from "./depth.js";
+import { kPatches, kSheet } from "./shaders.js";
+import { warp_of } from "./warp.js";
+
+const kFrames = 2; // that are kept
+const kOverlap = 0.3; // see the shader [pixels]
+
+function compiled(gl, { vertex, fragment }) {
+    const program = gl.createProgram();
+    for (const [type, text] of [
+        [gl.VERTEX_SHADER, vertex],
+        [gl.FRAGMENT_SHADER, fragment],
+    ]) {
+        const shader = gl.createShader(type);
+        gl.shaderSource(shader, text);
+        gl.compileShader(shader);
+        gl.attachShader(program, shader);
+        gl.deleteShader(shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+        throw new Error(`WebGL: ${gl.getProgramInfoLog(program)}`);
+    const at = {};
+    for (const name of ["turn", "shift", "nearest", "step", "overlap", "frame", "patches"])
+        at[name] = gl.getUniformLocation(program, name);
+    return { program, at };
+}
+
+function made_texture(gl, filter) {
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+        gl.texParameteri(gl.TEXTURE_2D, name, filter);
+    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
+        gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+    return texture;
+}
+
+/** Corners of two triangles for each patch, four vertices each. */
+function patch_triangles(count) {
+    const corners = new Uint32Array(6 * count);
+    for (let k = 0; k < count; ++k) {
+        const first = 4 * k;
+        corners.set([first, first + 1, first + 2, first + 2, first + 1, first + 3], 6 * k);
+    }
+    return corners;
+}
+
+/** A frame in the graphics memory. */
+class KeptFrame {
+    constructor(gl) {
+        this.gl_ = gl;
+        this.texture = made_texture(gl, gl.LINEAR);
+        this.patches = made_texture(gl, gl.NEAREST);
+        this.size_ = "";
+        this.places_ = gl.createBuffer();
+        this.corners_ = gl.createBuffer();
+        this.sheet_array = gl.createVertexArray();
+        gl.bindVertexArray(this.sheet_array);
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.places_);
+        gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 20, 0);
+        gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 20, 12);
+        gl.enableVertexAttribArray(0);
+        gl.enableVertexAttribArray(1);
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.corners_);
+        gl.bindVertexArray(null);
+    }
+
+    /** Take over a frame; see Reprojection.keep(). */
+    take({ picture, depth, view }) {
+        const gl = this.gl_;
+        const { width, height } = picture;
+        Object.assign(this, { view, width, height, step: depth.step, count: depth.count });
+        gl.bindTexture(gl.TEXTURE_2D, this.texture);
+        const resized = this.size_ !== `${width} ${height}`;
+        if (resized) gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, picture);
+        else gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, picture);
+        gl.bindTexture(gl.TEXTURE_2D, this.patches);
+        const row = (kPatchRow * kNumbers) / 4;
+        const rows = depth.patches.length / (kPatchRow * kNumbers);
+        gl.texImage2D(
+            gl.TEXTURE_2D,
+            0,
+            gl.RGBA16UI,
+            row,
+            rows,
+            0,
+            gl.RGBA_INTEGER,
+            gl.UNSIGNED_SHORT,
+            depth.patches,
+        );
+        depth.background ??= background_of(depth, width, height);
+        const { columns, rows: sheet_rows, places } = depth.background;
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.places_);
+        gl.bufferData(gl.ARRAY_BUFFER, places, gl.STREAM_DRAW);
+        if (resized) {
+            gl.bindVertexArray(this.sheet_array);
+            const corners = grid_triangles(columns, sheet_rows);
+            gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, corners, gl.STATIC_DRAW);
+            gl.bindVertexArray(null);
+            this.corner_count = corners.length;
+        }
+        this.size_ = `${width} ${height}`;
+    }
+}
+
+export class Reprojection {
+    /** @param canvas  its own, of any size. Throws Error where there is no WebGL2. */
+    constructor(canvas) {
+        this.canvas = canvas;
+        this.gl_ = canvas.getContext("webgl2", { alpha: false, antialias: false });
+        if (!this.gl_) throw new Error("WebGL2 is not there");
+        this.frames_ = []; // the newest first
+        this.lost = false; ///< the graphics memory is gone, for now
+        canvas.addEventListener("webglcontextlost", (event) => {
+            event.preventDefault();
+            this.lost = true;
+            this.frames_ = [];
+        });
+        canvas.addEventListener("webglcontextrestored", () => this.start_());
+        this.start_();
+    }
+
+    start_() {
+        const gl = this.gl_;
+        this.patches_ = compiled(gl, kPatches);
+        this.sheet_ = compiled(gl, kSheet);
+        this.patch_array_ = gl.createVertexArray();
+        gl.bindVertexArray(this.patch_array_);
+        gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+        gl.bindVertexArray(null);
+        this.corners_there_ = 0;
+        this.lost = false;
+    }
+
+    /** Whether there is a frame to draw. */
+    get has_frame() {
+        return !this.lost && this.frames_.length > 0;
+    }
+
+    /**
+     * Keep a frame, as the newest.
+     * @param frame  {picture, depth, view}: picture: a canvas; depth: as decode_depth() returns it; view: that it shows
+     * @param again  whether it replaces the newest one, which shows the same view
+     */
+    keep(frame, again) {
+        if (this.lost) return;
+        let kept = again ? this.frames_.shift() : undefined;
+        if (!kept && this.frames_.length >= kFrames) kept = this.frames_.pop();
+        kept ??= new KeptFrame(this.gl_);
+        kept.take(frame);
+        this.frames_.unshift(kept);
+    }
+
+    /** Draw what `view` shows, width x height pixels. */
+    draw(view, width, height) {
+        const { gl_: gl, canvas } = this;
+        if (canvas.width !== width || canvas.height !== height) {
+            canvas.width = width;
+            canvas.height = height;
+        }
+        gl.viewport(0, 0, width, height);
+        gl.clearDepth(1);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        gl.enable(gl.DEPTH_TEST);
+        gl.depthFunc(gl.LESS);
+        // Each layer has a range of depths of its own, so that it shows only where those before it have gaps.
+        const layers = this.frames_.length + 1;
+        this.frames_.forEach((frame, k) => {
+            gl.depthRange(k / layers, (k + 0.99) / layers);
+            this.use_(this.patches_, frame, view);
+            gl.uniform1f(this.patches_.at.overlap, kOverlap);
+            gl.activeTexture(gl.TEXTURE1);
+            gl.bindTexture(gl.TEXTURE_2D, frame.patches);
+            gl.activeTexture(gl.TEXTURE0);
+            gl.uniform1i(this.patches_.at.patches, 1);
+            this.bind_corners_(frame.count);
+            gl.drawElements(gl.TRIANGLES, 6 * frame.count, gl.UNSIGNED_INT, 0);
+        });
+        gl.depthRange((layers - 1) / layers, 1);
+        const [newest] = this.frames_;
+        this.use_(this.sheet_, newest, view);
+        gl.bindVertexArray(newest.sheet_array);
+        gl.drawElements(gl.TRIANGLES, newest.corner_count, gl.UNSIGNED_INT, 0);
+        gl.bindVertexArray(null);
+    }
+
+    /** Corners of the triangles of so many patches; the vertices are made by the shader. */
+    bind_corners_(count) {
+        const gl = this.gl_;
+        gl.bindVertexArray(this.patch_array_);
+        if (count <= this.corners_there_) return;
+        this.corners_there_ = 2 * count;
+        gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, patch_triangles(2 * count), gl.STATIC_DRAW);
+    }
+
+    use_({ program, at }, frame, view) {
+        const gl = this.gl_;
+        const { turn, shift } = warp_of(frame.view, frame.width, frame.height, view);
+        gl.useProgram(program);
+        gl.uniformMatrix3fv(at.turn, false, turn);
+        gl.uniform3fv(at.shift, shift);
+        gl.uniform1f(at.step, frame.step);
+        gl.uniform1f(at.nearest, 0.5 / (65535 * frame.step));
+        gl.bindTexture(gl.TEXTURE_2D, frame.texture);
+        gl.uniform1i(at.frame, 0);
+    }
+}
