@@ -1,6 +1,8 @@
 // What buttons and keys do, each named once.
 import { token_query } from "./connection.js";
 import { by_id } from "./dom.js";
+import { levelled, view_at_pick } from "./go_there.js";
+import { toggle_full_screen } from "./full_screen.js";
 import { notice } from "./notices.js";
 import { close_panel, toggle_help, toggle_panel, toggle_status } from "./panels.js";
 import { download, download_text, file_name, full_picture, picture_blob } from "./save.js";
@@ -17,14 +19,33 @@ class Commands {
         Object.assign(this, page);
         this.area_wanted = false;
         this.walk_shown_ = true;
+        this.chosen = () => {}; ///< called when the eye goes to a view that was chosen
     }
 
     // Places
 
-    go(view) {
+    /** Go to a view; `chosen`: it becomes an entry of the browser's history. */
+    go(view, chosen = true) {
         if (!view || !this.session.driving) return;
+        if (chosen) this.chosen();
         this.navigator.jump(view, performance.now(), still() ? 0 : undefined);
         this.show_back_();
+    }
+
+    /** Go to the floor, or near the wall, that the picture shows at x, y (0..1 from the left and the bottom). */
+    go_to_point(x, y) {
+        if (!this.session.driving) return;
+        this.measuring.reading.close();
+        this.measuring.point_at(x, y, (pick) => {
+            const { view, eye_height } = this.navigator;
+            const there = view_at_pick(view, pick, eye_height);
+            if (there) this.go(there);
+            else notice("No surface there: sky or void");
+        });
+    }
+
+    look_level() {
+        if (this.navigator.view) this.go(levelled(this.navigator.view), false);
     }
 
     back() {
@@ -175,6 +196,7 @@ function listen_for_buttons(commands) {
         "clear-glare": () => glare.clear(),
         area: () => commands.want_area(!commands.area_wanted),
         walk: () => commands.toggle_walk(),
+        level: () => commands.look_level(),
         "show-status": toggle_status,
     };
     for (const [id, act] of Object.entries(buttons))
@@ -193,6 +215,8 @@ function keys_of(commands) {
         "?": toggle_help,
         h: () => commands.go(commands.home()),
         g: () => commands.toggle_walk(),
+        t: () => commands.look_level(),
+        z: toggle_full_screen,
         Backspace: () => commands.back(),
         b: () => commands.save_view(false),
         k: () => commands.add_key(),

@@ -3,6 +3,8 @@ import { kKeys } from "./motion.js";
 import { angle_across } from "./view.js";
 
 const kClick = 5; // a press that moves less than this is a click [CSS pixels]
+const kTwice = 350; // longest time between the clicks of a double click [ms]
+const kSamePlace = 24; // farthest that these are apart [CSS pixels]
 const kNotch = 100; // wheel distance of one notch [pixels]
 const kLine = 33; // wheel distance of one line, for browsers that report lines [pixels]
 
@@ -21,7 +23,7 @@ export class Input {
     /**
      * @param surface    the element that is dragged and clicked
      * @param navigator
-     * @param on  {click(x, y), area_begin(x, y), area_move(x, y), area_end(x, y), speed(speed),
+     * @param on  {click(x, y), double_click(x, y), area_begin(x, y), area_move(x, y), area_end(x, y), speed(speed),
      *     area_wanted(): bool, may_drive(): bool}: x, y in CSS pixels
      */
     constructor(surface, navigator, on) {
@@ -31,6 +33,7 @@ export class Input {
         this.fingers_ = new Map();
         this.area_ = false;
         this.travelled_ = 0;
+        this.click_ = null; // the last click {x, y, time}
         this.listen_();
     }
 
@@ -98,7 +101,19 @@ export class Input {
         this.surface_.classList.remove("looking");
         this.navigator_.dragging = false;
         if (this.area_) this.end_area_(event, meant);
-        else if (meant && this.travelled_ < kClick) this.on_.click(event.clientX, event.clientY);
+        else if (meant && this.travelled_ < kClick) this.clicked_(event);
+    }
+
+    /** The first click of a double click counts as a click as well. */
+    clicked_({ clientX: x, clientY: y, timeStamp: time }) {
+        const before = this.click_;
+        const twice =
+            before !== null &&
+            time - before.time < kTwice &&
+            Math.hypot(x - before.x, y - before.y) < kSamePlace;
+        this.click_ = twice ? null : { x, y, time };
+        if (twice) this.on_.double_click(x, y);
+        else this.on_.click(x, y);
     }
 
     end_area_(event, meant = false) {

@@ -1,4 +1,5 @@
 // Puts the page together: makes its parts and passes events between them.
+import { AddressBar } from "./address_bar.js";
 import { Camera } from "./camera.js";
 import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
@@ -104,7 +105,10 @@ const commands = start_commands({
     home: () => views.scene_views[0]?.view || home,
     scene: () => scene,
 });
+const address = new AddressBar(session, navigator, (view) => commands.go(view, false));
+commands.chosen = () => address.choose();
 new Input(picture, navigator, {
+    double_click: (x, y) => commands.go_to_point(x / innerWidth, 1 - y / innerHeight),
     click: (x, y) => measuring.pick_at(x / innerWidth, 1 - y / innerHeight),
     area_begin: (x, y) => measuring.area_begin(x, y),
     area_move: (x, y) => measuring.area_move(x, y),
@@ -144,10 +148,9 @@ function welcome(message) {
     if (greeted) return say_all();
     greeted = true;
     take_display(message.display, message.settings);
-    if (message.view) {
-        home = message.view;
-        navigator.place(message.view);
-    }
+    const first = address.view ?? message.view;
+    home = message.view ?? first;
+    if (first) navigator.place(first);
     measuring.tell_probes();
 }
 

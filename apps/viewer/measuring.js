@@ -24,7 +24,7 @@ export class Measuring {
         this.counters_ = counters;
         this.changed_ = changed;
         this.scene_ = null;
-        this.asked_ = new Map(); // the places of picks without an answer yet, by request number
+        this.asked_ = new Map(); // by request number, of picks without an answer yet: their places, or what takes the answer
         this.drag = null; ///< corners of the area that is being drawn [CSS pixels]
         this.measurements = new Measurements((pins) => this.keep_(pins));
         this.reading = new Reading({ pin: (pick) => this.pin(pick), closed: changed });
@@ -39,17 +39,27 @@ export class Measuring {
 
     /** Ask what the picture shows at x, y (0..1 from the left and the bottom). */
     pick_at(x, y) {
+        this.point_at(x, y, null);
+    }
+
+    /**
+     * Ask the same, and hand the answer to `then` instead of showing it; answers that are under way are not shown
+     * any more.
+     */
+    point_at(x, y, then) {
         if (!this.session_.connection.connected) return;
         const { shown, frame_view } = this.session_;
         // What is seen at x, y is so in the view on the screen, which may be another than the newest one.
         const own = shown && shown !== frame_view && this.session_.driving ? { view: shown } : {};
-        this.asked_.set(this.session_.ask("pick", { x, y, ...own }), [x, y]);
+        if (then) this.asked_.clear();
+        this.asked_.set(this.session_.ask("pick", { x, y, ...own }), then ?? [x, y]);
     }
 
     picked(message) {
         const at = this.asked_.get(message.id);
         if (!at) return;
         this.asked_.delete(message.id);
+        if (typeof at === "function") return at(message);
         this.counters_.last_pick = message;
         this.reading.show({ ...message, at });
         this.changed_();

@@ -24,6 +24,7 @@ export class Navigator {
         this.view = null;
         this.walk = true;
         this.speed = 1.4; ///< of walking [m/s]
+        this.eye_height = 1.6; ///< of people above their floor [m]
         this.on_input = null; ///< called at every key press and drag
         this.keys = new Set();
         this.modifier = "none"; ///< which modifier key is held: none, faster, slower
@@ -47,9 +48,11 @@ export class Navigator {
         ++this.epoch;
     }
 
-    /** Set the walking speed to .85 eye heights a second, which suits scenes in other units than metres, too. */
+    /** Take over the height of eyes, and set the walking speed to .85 eye heights a second, which suits scenes in other units than metres, too. */
     set_eye_height(height) {
-        if (height > 0) this.speed = 0.85 * height;
+        if (!(height > 0)) return;
+        this.eye_height = height;
+        this.speed = 0.85 * height;
     }
 
     press(code, now) {

@@ -1,5 +1,6 @@
 // Panels over the picture: opened on request, and hidden when nobody uses them.
 import { by_id } from "./dom.js";
+import { start_full_screen } from "./full_screen.js";
 
 const kIdle = 3500; // the dock fades after so long without input [ms]
 const kIdleMoving = 700; // the same time while the eye moves [ms]
@@ -50,6 +51,7 @@ function fade_when_idle() {
 }
 
 export function start_panels() {
+    start_full_screen();
     for (const button of document.querySelectorAll("#dock [data-panel]"))
         button.addEventListener("click", () => toggle_panel(button.dataset.panel));
     const help = by_id("help");

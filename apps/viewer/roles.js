@@ -66,7 +66,7 @@ export class Roles {
         );
         by_id("picture").classList.toggle("watching", !this.driving);
         // Controls that work for the driver only; glare is for everybody.
-        for (const control of document.querySelectorAll("#panel-light input, #walk"))
+        for (const control of document.querySelectorAll("#panel-light input, #walk, #level"))
             control.disabled = !this.driving;
     }
 }

@@ -1,26 +1,18 @@
 // The state of the walk: a word at the top, a progress line at the bottom, and a small table on request.
 import { by_id, element } from "./dom.js";
-import { many, percent, quantity } from "./words.js";
+import { many, percent, phase_words, quantity } from "./words.js";
 
-const kWords = {
-    moving: "",
-    filling: "filling in",
-    refining: "refining",
-    ambient: "ambient light",
-    done: "settled",
-};
 
 const line = (name, value) =>
     element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }));
 
 /** Show the server's phase at the top and its progress along the bottom. */
 export function show_phase({ phase, share }) {
-    const settling = phase !== "moving" && phase !== "done";
-    const words = kWords[phase] ?? "";
-    by_id("phase").textContent =
-        settling && Number.isFinite(share) ? `${words} ${percent(share)}` : words;
+    by_id("phase").textContent = phase_words(phase, share);
+    // Light is refined further after all of it has come; how far is not known then, and no bar is shown.
+    const settling = phase !== "moving" && phase !== "done" && share < 1;
     const bar = by_id("refinement");
-    bar.value = phase === "done" ? 1 : settling ? share || 0 : 0;
+    bar.value = phase === "moving" ? 0 : share || 0;
     bar.classList.toggle("idle", !settling);
 }
 
@@ -34,7 +26,7 @@ function show_figures(state, page) {
         ["Frames a second", quantity(state.fps)],
         ["Reused", Number.isFinite(state.reuse) ? percent(state.reuse) : "–"],
         ["Rays a second", many(state.rays_per_second)],
-        ["Refinement", state.phase === "done" ? "settled" : percent(state.share || 0)],
+        ["Refinement", phase_words(state.phase, state.share) || "–"],
         ["Latency", page.latency === null ? "–" : `${Math.round(page.latency)} ms`],
         ["95 % within", page.latency_95 === null ? "–" : `${Math.round(page.latency_95)} ms`],
         ["Ranks × threads", `${state.ranks ?? "–"} × ${state.threads ?? "–"}`],

@@ -45,3 +45,17 @@ export function glare_word(dgp) {
     if (dgp < 0.45) return "disturbing";
     return "intolerable";
 }
+
+const kPhases = {
+    filling: "drawing",
+    refining: "refining",
+    ambient: "ambient light",
+    done: "done",
+};
+
+/** What the server does to a picture, and how far it is where that is known. What is not done is never 100 %. */
+export function phase_words(phase, share) {
+    const words = kPhases[phase] ?? "";
+    if (!words || phase === "done" || !(share < 1)) return words;
+    return `${words} ${Math.max(0, Math.floor(share * 100))}${kThin}%`;
+}

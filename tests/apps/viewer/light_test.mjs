@@ -9,7 +9,7 @@ import {
     share_of,
 } from "../../../apps/viewer/scale.js";
 import { measurement_table } from "../../../apps/viewer/table.js";
-import { glare_word, quantity, round_number, stops } from "../../../apps/viewer/words.js";
+import { glare_word, phase_words, quantity, round_number, stops } from "../../../apps/viewer/words.js";
 
 const kView = {
     type: "v",
@@ -226,4 +226,13 @@ test("what was kept is taken only as far as it is sound", () => {
         areas: [{ rect: 1 }],
     });
     assert.equal(m.count, 1);
+});
+
+test("what is not done is never 100 %, and what is done has no number", () => {
+    assert.equal(phase_words("refining", 0.999), "refining 99\u202f%");
+    assert.equal(phase_words("ambient", 0), "ambient light 0\u202f%");
+    assert.equal(phase_words("refining", 1), "refining");
+    assert.equal(phase_words("done", 1), "done");
+    assert.equal(phase_words("moving", 0.3), "");
+    assert.equal(phase_words(undefined, undefined), "");
 });

@@ -1,8 +1,10 @@
 // The page in headless Chromium against the fake server, which can be told to misbehave:
 //
 //     node page_test.mjs --npm FOLDER [--pictures FOLDER] [--chromium PROGRAM] [--port N]
+//         [--only WORDS]
 //
-// FOLDER has node_modules with ws, jpeg-js and playwright-core. Without --npm there is nothing to do.
+// FOLDER has node_modules with ws, jpeg-js and playwright-core. --only: the steps whose names have these words. Without
+// --npm there is nothing to do.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { mkdir, readFile } from "node:fs/promises";
@@ -10,6 +12,7 @@ import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
+import { fragment_view } from "../../../apps/viewer/address.js";
 import { fit_view, locate } from "../../../apps/viewer/view.js";
 import { parse_views } from "../../../apps/viewer/view_text.js";
 
@@ -17,6 +20,7 @@ const { values: args } = parseArgs({
     options: {
         npm: { type: "string" },
         pictures: { type: "string" },
+        only: { type: "string", default: "" },
         chromium: { type: "string", default: "/usr/bin/chromium" },
         port: { type: "string", default: "8097" },
     },
@@ -98,6 +102,91 @@ const steps = {
         await page.waitForTimeout(100);
         await shown(page);
         assert.ok(gone(before, await value(page, "shown_view")) < 1e-6);
+    },
+
+    async "the address is the view, and the browser goes back and forward along views that were chosen"(page) {
+        const hash = () => page.evaluate(() => location.hash);
+        const rests = async (before) => {
+            await until(page, (text) => location.hash !== text, before);
+            return hash();
+        };
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+        await page.waitForTimeout(800);
+        const first = await hash();
+        assert.match(first, /^#vp=3,-2\.2,1\.6&vd=/);
+        await page.keyboard.press("2");
+        const second = await rests(first);
+        await hold(page, "w");
+        const walked = await rests(second);
+        await page.goBack();
+        await until(page, (text) => location.hash === text, first);
+        await shown(page);
+        assert.ok(gone(fragment_view(first), await value(page, "view")) < 1e-4);
+        await page.goForward();
+        await page.waitForTimeout(100);
+        await shown(page);
+        assert.ok(gone(fragment_view(walked), await value(page, "view")) < 1e-4);
+        const link = "#vp=1,-1,1.6&vd=0.6,0.8,0&vh=60";
+        const other = await page.context().browser().newPage();
+        await other.goto(address + link);
+        await until(other, () => window.lightwalk?.connected && !window.lightwalk.driving);
+        await other.waitForTimeout(500);
+        assert.equal(await other.evaluate(() => location.hash), link, "a watcher's link is kept");
+        await other.close();
+        await page.evaluate((text) => (location.hash = text), link);
+        await page.waitForTimeout(100);
+        await shown(page);
+        assert.ok(gone(fragment_view(link), await value(page, "view")) < 1e-4);
+        await page.reload();
+        await shown(page);
+        assert.ok(gone(fragment_view(link), await value(page, "view")) < 1e-4);
+    },
+
+    async "a double click goes to the floor, or near a wall; looking level is a key and a button"(page) {
+        await page.keyboard.press("2");
+        await page.waitForTimeout(100);
+        await shown(page);
+        const before = await value(page, "view");
+        await page.mouse.dblclick(500, 430);
+        await until(page, (y) => window.lightwalk.view.position[1] > y + 0.3, before.position[1]);
+        await shown(page);
+        const floor = await value(page, "view");
+        assert.ok(Math.abs(floor.position[2] - 1.6) < 1e-6);
+        assert.ok(Math.abs(heading(floor) - heading(before)) < 1e-6);
+        assert.ok(await page.isHidden("#reading"));
+        for (const act of [() => page.keyboard.press("t"), () => page.click("#level")]) {
+            await page.focus("#picture");
+            await page.keyboard.press("PageDown", { delay: 250 });
+            await shown(page);
+            assert.ok((await value(page, "view")).direction[2] < -0.05);
+            await page.mouse.move(300, 300); // the dock has faded
+            await act();
+            await until(page, () => Math.abs(window.lightwalk.view.direction[2]) < 1e-9);
+            await shown(page);
+        }
+        await page.keyboard.press("3");
+        await page.waitForTimeout(100);
+        await shown(page);
+        await page.mouse.dblclick(300, 200);
+        await until(page, () => window.lightwalk.view.position[0] < -1.5);
+        await shown(page);
+        assert.ok((await value(page, "view")).position[0] > -3.5, "through the wall");
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+    },
+
+    async "full screen by a key"(page) {
+        await page.focus("#picture");
+        await page.keyboard.press("z");
+        await until(page, () => document.fullscreenElement !== null);
+        await page.waitForSelector("#full-screen[aria-pressed=true]");
+        await page.keyboard.press("z");
+        await until(page, () => document.fullscreenElement === null);
+        await page.setViewportSize(kSize);
+        await shown(page);
     },
 
     async "the wheel changes the speed, with Ctrl the lens"(page) {
@@ -416,6 +505,7 @@ async function run() {
         await page.goto(address);
         await shown(page);
         for (const [name, step] of Object.entries(steps)) {
+            if (!name.includes(args.only)) continue;
             try {
                 await step(page);
                 console.log(`ok: ${name}`);
