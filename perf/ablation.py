@@ -11,7 +11,8 @@ tests: batches, function-lanes, sample-lanes, leaves, slices, packets.
 
 One thread; the runs of a scene go in turns: all on, without the first, without the second, and so on. One line a scene,
 tab-separated: the median seconds to render with all on (with spread: largest less smallest), then for each switch what it gains:
-how many per cent longer the picture takes without it. Seconds to build the search tree count where the switch is of the tree. The
+how many per cent longer the picture takes without it. Seconds to build the search tree count where the switch is of the tree.
+Quantised leaves (column "leaves [% MB]") are there for memory: the number is how many per cent more the process takes at its peak without them. The
 last line: the geometric mean over the scenes that the switch is for (USED_BY); those are marked by * where a number stands.
 Exit code 1 where a picture is not the same to the byte without a technique.
 """
@@ -22,7 +23,8 @@ sys.path.insert(0, str(HERE))
 import office, scene_bench
 
 SWITCHES = ["batches", "function-lanes", "sample-lanes", "leaves", "slices", "packets"]
-OF_THE_TREE = {"leaves", "slices"}  # what they cost is paid while it is built
+OF_THE_TREE = {"slices"}  # what it costs is paid while it is built
+SAVES_MEMORY = {"leaves"}
 # The scenes that a technique is for: with many light candidates a point, patterned windows, large models, long cones.
 USED_BY = {
     "batches": ["day", "night", "outdoors", "ab1", "lodge", "office"],
@@ -75,7 +77,7 @@ def pixels(path):
 
 
 def render(arguments, folder, words, without):
-    """Seconds to render and to build, and the picture's bytes."""
+    """Seconds to render and to build, peak memory [bytes], and the picture's bytes."""
     with tempfile.TemporaryDirectory() as out:
         stats, picture = os.path.join(out, "stats.json"), os.path.join(out, "picture.hdr")
         width, height = arguments.size.split("x")
@@ -85,28 +87,31 @@ def render(arguments, folder, words, without):
                               env=dict(os.environ, RAYPATH=".:../lib:" + os.environ.get("RAYPATH", "")))
         if done.returncode != 0:
             sys.exit(f"{' '.join(command)}: {done.stderr[-500:]}")
-        seconds = json.loads(pathlib.Path(stats).read_text())["seconds"]
-        return seconds["render"], seconds["build"], pixels(picture)
+        found = json.loads(pathlib.Path(stats).read_text())
+        return found["seconds"]["render"], found["seconds"]["build"], found["peak_memory_bytes"], pixels(picture)
 
 
 def measure(arguments, folder, words):
-    """By switch ("": all on) the seconds of each run, to render and to build; and the switches that change the picture."""
+    """By switch ("": all on) of each run the seconds to render and to build and the memory; and the switches that change the picture."""
     runs, changed, expected = {}, [], None
     for turn in range(arguments.runs + 1):  # the first one warms up
         for without in ["", *arguments.switches]:
-            *seconds, picture = render(arguments, folder, words, without)
+            *costs, picture = render(arguments, folder, words, without)
             expected = expected or picture
             if picture != expected and without not in changed:
                 changed.append(without)
             if turn > 0:
-                runs.setdefault(without, []).append(seconds)
+                runs.setdefault(without, []).append(costs)
     return runs, changed
 
 
 def gain(runs, switch):
-    """Per cent that a picture takes longer without it."""
+    """Per cent that a picture takes longer, or more memory, without it."""
+    def cost(render, build, memory):
+        return memory if switch in SAVES_MEMORY else render + (build if switch in OF_THE_TREE else 0)
+
     def middle(of):
-        return statistics.median(render + (build if switch in OF_THE_TREE else 0) for render, build in runs[of])
+        return statistics.median(cost(*run) for run in runs[of])
     return 100 * (middle(switch) / middle("") - 1)
 
 
@@ -120,7 +125,7 @@ def main():
     parser.add_argument("--switches", type=lambda text: text.split(","), default=SWITCHES)
     arguments = parser.parse_args()
     arguments.scenes = os.path.abspath(arguments.scenes)
-    print("\t".join(["scene", "seconds", "spread", *(f"{switch} [%]" for switch in arguments.switches)]), flush=True)
+    print("\t".join(["scene", "seconds", "spread", *(f"{switch} [% MB]" if switch in SAVES_MEMORY else f"{switch} [%]" for switch in arguments.switches)]), flush=True)
     gains, wrong = {switch: [] for switch in arguments.switches}, 0
     with tempfile.TemporaryDirectory() as scratch:
         every = scenes(arguments, scratch)
@@ -128,7 +133,7 @@ def main():
         make_scenes(names, scratch)
         for name in names:
             runs, changed = measure(arguments, *every[name])
-            seconds = [render for render, _ in runs[""]]
+            seconds = [render for render, *_ in runs[""]]
             cells = [name, f"{statistics.median(seconds):.3f}", f"{max(seconds) - min(seconds):.3f}"]
             for switch in arguments.switches:
                 used = name in USED_BY[switch]

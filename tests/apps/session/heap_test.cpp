@@ -11,14 +11,14 @@ namespace lightwalk::test {
 namespace {
 
 /// Whether the kernel gives large pages to those who ask for them.
-bool has_large_pages() {
+[[maybe_unused]] bool has_large_pages() {
     std::ifstream file("/sys/kernel/mm/transparent_hugepage/enabled");
     std::string line;
     return std::getline(file, line) && line.find("[never]") == std::string::npos;
 }
 
 /// Whether part of a process's heap asks for them.
-bool asks_for_large_pages(int process) {
+[[maybe_unused]] bool asks_for_large_pages(int process) {
     std::ifstream file("/proc/" + std::to_string(process) + "/smaps");
     bool in_heap = false;
     for (std::string line; std::getline(file, line);) {

@@ -12,7 +12,7 @@ using namespace lightwalk::test;
 
 namespace {
 
-constexpr ClientId kFirst{1}, kSecond{2};
+constexpr ClientId kDriving{1}, kWatching{2};
 constexpr int kWidth = 400, kHeight = 200;  // six pieces
 
 LivePicture picture_of(float value) {
@@ -28,7 +28,7 @@ struct Screen {
     Screen() {
         inbox.attach(clients);
         fixed.automatic = false;
-        join(kFirst);
+        join(kDriving);
     }
     void join(ClientId client) {
         InboxContents news;
@@ -64,16 +64,16 @@ struct Screen {
 TEST_CASE("walk screen: the first frame has all pieces, and what is the same is not sent again") {
     Screen all;
     all.send();
-    CHECK(all.clients.frames_of(kFirst) == 0);  // there is no picture yet
+    CHECK(all.clients.frames_of(kDriving) == 0);  // there is no picture yet
     all.show(picture_of(0.5f), 1);
     all.send();
-    REQUIRE(all.clients.frames_of(kFirst) == 1);
-    CHECK(frame_pieces(all.last(kFirst)) == 6);
-    CHECK(frame_flags(all.last(kFirst)) == 3);  // whole, at rest
-    all.ack(kFirst);
+    REQUIRE(all.clients.frames_of(kDriving) == 1);
+    CHECK(frame_pieces(all.last(kDriving)) == 6);
+    CHECK(frame_flags(all.last(kDriving)) == 3);  // whole, at rest
+    all.ack(kDriving);
     all.show(picture_of(0.5f), 1);
     all.send();
-    CHECK(all.clients.frames_of(kFirst) == 1);
+    CHECK(all.clients.frames_of(kDriving) == 1);
 }
 
 TEST_CASE("walk screen: only pieces that have changed are sent, a new view also without any") {
@@ -81,35 +81,35 @@ TEST_CASE("walk screen: only pieces that have changed are sent, a new view also 
     LivePicture picture = picture_of(0.5f);
     all.show(picture, 1);
     all.send();
-    all.ack(kFirst);
+    all.ack(kDriving);
     picture.radiance[0] = Rgb::grey(0.1f);
     picture.radiance.back() = Rgb::grey(0.1f);
     all.show(picture, 1);
     all.send();
-    REQUIRE(all.clients.frames_of(kFirst) == 2);
-    CHECK(frame_pieces(all.last(kFirst)) == 2);
-    CHECK(frame_flags(all.last(kFirst)) == 2);
-    all.ack(kFirst);
+    REQUIRE(all.clients.frames_of(kDriving) == 2);
+    CHECK(frame_pieces(all.last(kDriving)) == 2);
+    CHECK(frame_flags(all.last(kDriving)) == 2);
+    all.ack(kDriving);
     all.show(picture, 2);
     all.send();
-    REQUIRE(all.clients.frames_of(kFirst) == 3);
-    CHECK(frame_pieces(all.last(kFirst)) == 0);
-    CHECK(number_at<std::uint32_t>(all.last(kFirst), 8) == 2);
+    REQUIRE(all.clients.frames_of(kDriving) == 3);
+    CHECK(frame_pieces(all.last(kDriving)) == 0);
+    CHECK(number_at<std::uint32_t>(all.last(kDriving), 8) == 2);
 }
 
 TEST_CASE("walk screen: clients that lack the same share a frame, newcomers get all of it") {
     Screen all;
-    all.join(kSecond);
+    all.join(kWatching);
     all.show(picture_of(0.5f), 1);
     all.send();
-    REQUIRE(all.clients.frames_of(kSecond) == 1);
-    CHECK(all.clients.frames[kFirst][0] == all.clients.frames[kSecond][0]);
-    all.leave(kSecond);
-    all.join(kSecond);
+    REQUIRE(all.clients.frames_of(kWatching) == 1);
+    CHECK(all.clients.frames[kDriving][0] == all.clients.frames[kWatching][0]);
+    all.leave(kWatching);
+    all.join(kWatching);
     all.send();
-    CHECK(all.clients.frames_of(kFirst) == 1);
-    REQUIRE(all.clients.frames_of(kSecond) == 2);
-    CHECK(frame_pieces(all.last(kSecond)) == 6);
+    CHECK(all.clients.frames_of(kDriving) == 1);
+    REQUIRE(all.clients.frames_of(kWatching) == 2);
+    CHECK(frame_pieces(all.last(kWatching)) == 6);
 }
 
 TEST_CASE(
@@ -120,28 +120,28 @@ TEST_CASE(
         all.show(picture_of(0.1f * static_cast<float>(i)), static_cast<std::uint32_t>(i), false);
         all.send();
     }
-    CHECK(all.clients.frames_of(kFirst) <= 2);
-    const std::size_t before = all.clients.frames_of(kFirst);
-    all.ack(kFirst);
+    CHECK(all.clients.frames_of(kDriving) <= 2);
+    const std::size_t before = all.clients.frames_of(kDriving);
+    all.ack(kDriving);
     all.send();
-    REQUIRE(all.clients.frames_of(kFirst) == before + 1);
-    CHECK(number_at<std::uint32_t>(all.last(kFirst), 8) == 5);
+    REQUIRE(all.clients.frames_of(kDriving) == before + 1);
+    CHECK(number_at<std::uint32_t>(all.last(kDriving), 8) == 5);
 }
 
 TEST_CASE("walk screen: a picture of another size is sent whole") {
     Screen all;
     all.show(picture_of(0.5f), 1);
     all.send();
-    all.ack(kFirst);
+    all.ack(kDriving);
     LivePicture small;
     small.width = 10;
     small.height = 8;
     small.radiance.assign(80, Rgb::grey(0.5f));
     all.show(small, 1);
     all.send();
-    REQUIRE(all.clients.frames_of(kFirst) == 2);
-    CHECK(frame_pieces(all.last(kFirst)) == 1);
-    CHECK(number_at<std::uint16_t>(all.last(kFirst), 12) == 10);
+    REQUIRE(all.clients.frames_of(kDriving) == 2);
+    CHECK(frame_pieces(all.last(kDriving)) == 1);
+    CHECK(number_at<std::uint16_t>(all.last(kDriving), 12) == 10);
 }
 
 TEST_CASE(

@@ -16,7 +16,7 @@ using namespace lightwalk::test;
 
 namespace {
 
-const LobeFrame kFrame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const LobeFrame kUpright{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 /// A panel near the mirror direction, or, for a side of -1, below the surface.
 struct Panel {
@@ -89,7 +89,7 @@ TEST_CASE(
              {std::tuple{"void metal m 0 0 5 1 1 1 1 .3\n", 0.3, 0.3},
               {"void metal2 m 4 1 0 0 . 0 6 1 1 1 1 .15 .4\n", 0.15, 0.4}}) {
             CAPTURE(std::string(material));
-            const WardReflection lobe{wo, kFrame, alpha_u, alpha_v};
+            const WardReflection lobe{wo, kUpright, alpha_u, alpha_v};
             const double expected =
                 panel.integral([&](const Vec3& wi) { return lobe.eval(wi) * wi.z; });
             check(shown(material, panel, wo, true), expected);
@@ -102,7 +102,7 @@ TEST_CASE("highlights: the Ashikhmin-Shirley lobe, whose samples weigh 1") {
     const Panel panel;
     const char* material = "void ashik2 m 4 1 0 0 . 0 8 0 0 0 1 1 1 12 30\n";
     for (const Vec3& wo : kEyes) {
-        const AshikhminReflection lobe{wo, wo.z, kFrame, 12, 30};
+        const AshikhminReflection lobe{wo, wo.z, kUpright, 12, 30};
         check(shown(material, panel, wo, true),
               panel.integral([&](const Vec3& wi) { return lobe.eval(wi) * wi.z; }));
         // Rejected trials are drawn again.
@@ -121,7 +121,7 @@ TEST_CASE("highlights: Ward's transmitted lobe, whose samples weigh 1") {
              {std::tuple{"void trans m 0 0 7 1 1 1 0 .3 1 1\n", 0.3, 0.3},
               {"void trans2 m 4 1 0 0 . 0 8 1 1 1 0 .25 .5 1 1\n", 0.25, 0.5}}) {
             CAPTURE(std::string(material));
-            const WardTransmission lobe{-wo, wo.z, kFrame, alpha_u, alpha_v};
+            const WardTransmission lobe{-wo, wo.z, kUpright, alpha_u, alpha_v};
             check(shown(material, panel, wo, false),
                   panel.integral([&](const Vec3& wi) { return lobe.pdf(wi); }));
         }

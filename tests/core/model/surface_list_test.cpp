@@ -13,17 +13,19 @@ using namespace lightwalk;
 
 namespace {
 
-Primitive make(PrimitiveType type, const std::string& name, std::vector<double> reals,
-               std::vector<std::string> strings = {}, const char* file = "a.rad", int line = 1) {
+Primitive make_surface(PrimitiveType type, const std::string& name, std::vector<double> reals,
+                       std::vector<std::string> strings = {}, const char* file = "a.rad",
+                       int line = 1) {
     return {type, kVoidIndex, name, std::move(strings), std::move(reals), {}, {file, line}};
 }
 
 std::vector<Primitive> samples() {
-    return {make(PrimitiveType::sphere, "ball", {1, 2, 3, 4}, {}, "a.rad", 5),
-            make(PrimitiveType::instance, "tree", {}, {"tree.oct", "-t", "1", "", "3"}, "b.rad", 7),
-            make(PrimitiveType::polygon, "", {}, {}, "b.rad", 8),
-            make(PrimitiveType::mesh, "m", {2}, {"m.rtm"}, "a.rad", 9),
-            make(PrimitiveType::polygon, "p", {0, 0, 0, 1, 0, 0, 0, 1, 0})};
+    return {make_surface(PrimitiveType::sphere, "ball", {1, 2, 3, 4}, {}, "a.rad", 5),
+            make_surface(PrimitiveType::instance, "tree", {}, {"tree.oct", "-t", "1", "", "3"},
+                         "b.rad", 7),
+            make_surface(PrimitiveType::polygon, "", {}, {}, "b.rad", 8),
+            make_surface(PrimitiveType::mesh, "m", {2}, {"m.rtm"}, "a.rad", 9),
+            make_surface(PrimitiveType::polygon, "p", {0, 0, 0, 1, 0, 0, 0, 1, 0})};
 }
 
 SurfaceList list_of(const std::vector<Primitive>& primitives) {
@@ -68,7 +70,7 @@ std::vector<Primitive> wave(int side) {
             for (const auto& p : {point(i, k), j % 2 == 0 ? point(i + 1, k) : point(i + 1, k + 1),
                                   j % 2 == 0 ? point(i + 1, k + 1) : point(i, k + 1)})
                 reals.insert(reals.end(), p.begin(), p.end());
-            all.push_back(make(PrimitiveType::polygon, "wave.1.2", reals));
+            all.push_back(make_surface(PrimitiveType::polygon, "wave.1.2", reals));
             if (all.size() % 1000 == 0) all.push_back(samples()[0]);
         }
     }
@@ -104,7 +106,7 @@ TEST_CASE("surfaces come out of a list as they went in") {
 TEST_CASE("a polygon of four vertices weighs what its numbers weigh, and some thirty bytes") {
     SurfaceList list;
     const Primitive quad =
-        make(PrimitiveType::polygon, "q.100.100", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+        make_surface(PrimitiveType::polygon, "q.100.100", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     for (int i = 0; i < 10000; ++i) list.add(quad);
     list.trim();
     CHECK(list.own_bytes() <= std::size_t{10000} * (12 * sizeof(double) + 20 + 10) * 9 / 8 + 100);
@@ -125,12 +127,12 @@ TEST_CASE("triangles of a surface keep each of its corners about once") {
 
 TEST_CASE("corners are the same where all their bits are, and may be the same in one triangle") {
     const std::vector<Primitive> all{
-        make(PrimitiveType::polygon, "a", {0, 0, 0, 1, 0, 0, 0, 1, 0}),
-        make(PrimitiveType::polygon, "b", {-0.0, 0, 0, 1, 0, 0, 0, 1, 0}),
-        make(PrimitiveType::polygon, "c", {5, 6, 7, 5, 6, 7, 5, 6, 7}),
-        make(PrimitiveType::polygon, "d", {5, 6, 7, 5, 6, 7, 1, 0, 0}),
-        make(PrimitiveType::cylinder, "e", {0, 0, 0, 1, 0, 0, 2}),
-        make(PrimitiveType::polygon, "f", {1, 0, 0, 9, 9, 9, 8, 8, 8})};
+        make_surface(PrimitiveType::polygon, "a", {0, 0, 0, 1, 0, 0, 0, 1, 0}),
+        make_surface(PrimitiveType::polygon, "b", {-0.0, 0, 0, 1, 0, 0, 0, 1, 0}),
+        make_surface(PrimitiveType::polygon, "c", {5, 6, 7, 5, 6, 7, 5, 6, 7}),
+        make_surface(PrimitiveType::polygon, "d", {5, 6, 7, 5, 6, 7, 1, 0, 0}),
+        make_surface(PrimitiveType::cylinder, "e", {0, 0, 0, 1, 0, 0, 2}),
+        make_surface(PrimitiveType::polygon, "f", {1, 0, 0, 9, 9, 9, 8, 8, 8})};
     const SurfaceList list = list_of(all);
     check_same(list, all);
     CHECK(std::signbit(list[1].reals[0]));

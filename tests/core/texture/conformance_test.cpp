@@ -34,7 +34,7 @@ std::vector<ConformanceRow> rows_of(const std::string& path, const std::string& 
     return rows;
 }
 
-std::vector<double> numbers(const std::string& text) {
+std::vector<double> numbers_of_row(const std::string& text) {
     std::istringstream in(text);
     std::vector<double> values;
     for (double x = 0; in >> x;) values.push_back(x);
@@ -132,7 +132,7 @@ TEST_CASE("texfunc perturbs normals as Radiance's does") {
                                 : scene.trace({.25, .25, 5}, {0, 0, -1});
         const Vec3 normal =
             ray.perturbed() ? perturb_normal(ray).normal : ray.hit.normal + ray.hit.perturbation;
-        const std::vector<double> expected = numbers(row.value);
+        const std::vector<double> expected = numbers_of_row(row.value);
         REQUIRE(expected.size() == 3);
         CHECK(length(normal - Vec3{expected[0], expected[1], expected[2]}) <= kRounding);
     }
@@ -170,7 +170,7 @@ TEST_CASE("mixfunc mixes materials, patterns and void as Radiance's does") {
             continue;
         }
         const Rgb value = trace();
-        const std::vector<double> expected = numbers(row.value);
+        const std::vector<double> expected = numbers_of_row(row.value);
         REQUIRE(expected.size() == 3);
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(std::abs(static_cast<double>(value[k]) - expected[k]) <= kFloatRounding);
@@ -202,7 +202,7 @@ TEST_CASE("colorpict passes its pixels through the colour functions") {
                             " p.hdr tt.cal u v 0 0\np glow g 0 0 4 1 1 1 0\ng" + kQuad,
                         TestScene::exact(), files);
         const Rgb value = scene.trace({.25, .25, 5}, {0, 0, -1}).value;
-        const std::vector<double> expected = numbers(row.value);
+        const std::vector<double> expected = numbers_of_row(row.value);
         REQUIRE(expected.size() == 3);
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(std::abs(static_cast<double>(value[k]) - expected[k]) <=

@@ -18,7 +18,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// Applies all words as options.
-View parse(const Words& words, View view = {}) {
+View parsed_view(const Words& words, View view = {}) {
     for (std::size_t i = 0; i < words.size();) {
         const std::size_t used = parse_view_option(std::span(words).subspan(i), view);
         REQUIRE(used > 0);
@@ -35,13 +35,13 @@ View from_file(const std::string& text, View view = {}) {
 }  // namespace
 
 TEST_CASE("view options set what they name and nothing else") {
-    const View view = parse({"-vtl", "-vp", "1",   "2.5", "-3e1", "-vh", "4",   "-vv",  "2",
-                             "-vo",  ".5",  "-va", "9",   "-vs",  "0.1", "-vl", "-0.2", "-vd",
-                             "0",    "0",   "-1",  "-vu", "0",    "1",   "0"});
+    const View view = parsed_view({"-vtl", "-vp", "1",   "2.5", "-3e1", "-vh", "4",   "-vv",  "2",
+                                   "-vo",  ".5",  "-va", "9",   "-vs",  "0.1", "-vl", "-0.2", "-vd",
+                                   "0",    "0",   "-1",  "-vu", "0",    "1",   "0"});
     CHECK(view == View{'l', {1, 2.5, -30}, {0, 0, -1}, {0, 1, 0}, 4, 2, 0.5, 9, 0.1, -0.2});
     View changed = view;
     changed.horizontal = 60;
-    CHECK(parse({"-vh", "60"}, view) == changed);
+    CHECK(parsed_view({"-vh", "60"}, view) == changed);
 }
 
 TEST_CASE("other options are not view options") {
@@ -135,7 +135,7 @@ TEST_CASE("-vf applies a file to the current view, and later options change it")
         std::filesystem::temp_directory_path() /
         ("lightwalk-view-" + std::to_string(std::hash<std::string>{}(__FILE__)));
     std::ofstream(path) << "VIEW= -vtl -vp 1 2 3\n\nVIEW= -vp 7 7 7\n";
-    const View view = parse({"-vh", "33", "-vf", path.string(), "-vtv"});
+    const View view = parsed_view({"-vh", "33", "-vf", path.string(), "-vtv"});
     std::filesystem::remove(path);
     CHECK(view.position == Vec3{1, 2, 3});
     CHECK(view.horizontal == 33);
@@ -158,13 +158,13 @@ TEST_CASE("the sample models' view files and a picture's view are legal views") 
     int views = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         CAPTURE(entry.path().string());
-        const View view = parse({"-vf", entry.path().string()});
+        const View view = parsed_view({"-vf", entry.path().string()});
         CHECK_FALSE(Camera::problem(view));
         ++views;
     }
     CHECK(views >= 20);
     LIGHTWALK_NEEDS_SHARED(picture, "reference/pictures/summer-bath.hdr");
-    const View view = parse({"-vf", picture});
+    const View view = parsed_view({"-vf", picture});
     CHECK(view_text(view) ==
           "-vtv -vp 8 14.5 5 -vd -0.868092 0.4275 -0.252309 -vu 0 0 1 -vh 45 -vv 60 "
           "-vo 0 -va 0 -vs 0 -vl 0");
