@@ -13,7 +13,7 @@ namespace lightwalk {
 namespace {
 
 /// What one hit makes of the material.
-struct Shading {
+struct AnisotropicShading {
     Rgb color, specular;
     WardReflection reflection;
     WardTransmission transmission;
@@ -29,10 +29,11 @@ class Anisotropic final : public Modifier {
     }
 
   private:
-    [[nodiscard]] Shading prepare(const Ray& ray, TraceContext& context) const;
-    void add_rough(Ray& ray, const Shading& s, bool reflects, bool transmits,
+    [[nodiscard]] AnisotropicShading prepare(const Ray& ray, TraceContext& context) const;
+    void add_rough(Ray& ray, const AnisotropicShading& s, bool reflects, bool transmits,
                    TraceContext& context) const;
-    [[nodiscard]] Rgb direct(const Shading& s, const Vec3& wi, double omega, double jitter) const;
+    [[nodiscard]] Rgb direct(const AnisotropicShading& s, const Vec3& wi, double omega,
+                             double jitter) const;
 
     PrimitiveType type_;
     ModifierId next_;
@@ -74,7 +75,7 @@ bool Anisotropic::shade(Ray& ray, TraceContext& context) const {
     if (!turn_to_viewer(ray, next_, context)) return true;
     const LightTransport& tracer = context.tracer;
     const RenderOptions& options = tracer.options();
-    const Shading s = prepare(ray, context);
+    const AnisotropicShading s = prepare(ray, context);
     const Vec3 n = s.reflection.frame.n;
     const bool dim_reflection = options.specular_threshold >= rho_ - kEpsilon;
     const bool dim_transmission = options.specular_threshold >= tau_s_ - kEpsilon;
@@ -96,11 +97,11 @@ bool Anisotropic::shade(Ray& ray, TraceContext& context) const {
     return true;
 }
 
-Shading Anisotropic::prepare(const Ray& ray, TraceContext& context) const {
+AnisotropicShading Anisotropic::prepare(const Ray& ray, TraceContext& context) const {
     const bool perturbed = ray.perturbed();
     const PerturbedNormal facing = perturb_normal(ray);
     const OrientedFrame oriented = orientation_.at(ray, facing.normal, context);
-    Shading s;
+    AnisotropicShading s;
     s.color = color_ * ray.pattern;
     s.specular =
         (type_ == PrimitiveType::metal2 ? s.color : Rgb{1, 1, 1}) * static_cast<float>(rho_);
@@ -123,7 +124,7 @@ Shading Anisotropic::prepare(const Ray& ray, TraceContext& context) const {
     return s;
 }
 
-void Anisotropic::add_rough(Ray& ray, const Shading& s, bool reflects, bool transmits,
+void Anisotropic::add_rough(Ray& ray, const AnisotropicShading& s, bool reflects, bool transmits,
                             TraceContext& context) const {
     if (reflects) add_rough_reflection(ray, s.reflection, s.specular, context);
     if (transmits) {
@@ -132,7 +133,8 @@ void Anisotropic::add_rough(Ray& ray, const Shading& s, bool reflects, bool tran
     }
 }
 
-Rgb Anisotropic::direct(const Shading& s, const Vec3& wi, double omega, double jitter) const {
+Rgb Anisotropic::direct(const AnisotropicShading& s, const Vec3& wi, double omega,
+                        double jitter) const {
     const double cos_i = dot(s.reflection.frame.n, wi);
     if (cos_i < 0 ? tau_ <= kEpsilon : tau_ >= 1 - kEpsilon) return {};
     Rgb sum;

@@ -20,7 +20,7 @@ double schlick(double cosine) {
 }
 
 /// What one hit makes of the material.
-struct Shading {
+struct AshikhminShading {
     Rgb color, specular;
     AshikhminReflection lobe;
 };
@@ -32,8 +32,8 @@ class Ashikhmin final : public Modifier {
     [[nodiscard]] MaterialTraits traits() const override { return {.blocks_shadow_rays = true}; }
 
   private:
-    [[nodiscard]] Shading prepare(const Ray& ray, TraceContext& context) const;
-    [[nodiscard]] Rgb direct(const Shading& s, const Vec3& wi, double omega) const;
+    [[nodiscard]] AshikhminShading prepare(const Ray& ray, TraceContext& context) const;
+    [[nodiscard]] Rgb direct(const AshikhminShading& s, const Vec3& wi, double omega) const;
 
     ModifierId next_;
     std::string name_;
@@ -57,7 +57,7 @@ bool Ashikhmin::shade(Ray& ray, TraceContext& context) const {
     if (ray.in(kShadow)) return true;
     if (!turn_to_viewer(ray, next_, context)) return true;
     const LightTransport& tracer = context.tracer;
-    const Shading s = prepare(ray, context);
+    const AshikhminShading s = prepare(ray, context);
     const bool dim = tracer.options().specular_threshold >=
                      static_cast<double>(brightness(specular_)) - kEpsilon;
     if (active_ && !dim) add_rough_reflection(ray, s.lobe, s.specular, context);
@@ -71,10 +71,10 @@ bool Ashikhmin::shade(Ray& ray, TraceContext& context) const {
     return true;
 }
 
-Shading Ashikhmin::prepare(const Ray& ray, TraceContext& context) const {
+AshikhminShading Ashikhmin::prepare(const Ray& ray, TraceContext& context) const {
     const PerturbedNormal facing = perturb_normal(ray);
     const OrientedFrame oriented = orientation_.at(ray, facing.normal, context);
-    Shading s;
+    AshikhminShading s;
     s.color = color_ * ray.pattern;
     s.lobe = {-ray.direction, std::max(facing.cosine, kMinCosine), oriented.frame, nu_, nv_};
     s.specular = specular_ + (Rgb{1, 1, 1} - specular_) * static_cast<float>(schlick(s.lobe.cos_o));
@@ -88,7 +88,7 @@ Shading Ashikhmin::prepare(const Ray& ray, TraceContext& context) const {
     return s;
 }
 
-Rgb Ashikhmin::direct(const Shading& s, const Vec3& wi, double omega) const {
+Rgb Ashikhmin::direct(const AshikhminShading& s, const Vec3& wi, double omega) const {
     const double cos_i = dot(s.lobe.frame.n, wi);
     if (cos_i <= kEpsilon) return {};
     Rgb sum = s.color * static_cast<float>(cos_i * omega / kPi * (1 - schlick(cos_i)));

@@ -45,7 +45,7 @@ bool any(const ChannelOutputs& outputs) {
 }
 
 /// What one hit makes of the material; everything faces the viewer.
-struct Shading {
+struct BrtdShading {
     MaterialVariables variables;  ///< normal, cosine, pattern
     Vec3 perturbation;
     Rgb reflected, transmitted;  ///< diffuse reflectance of this side, diffuse transmittance
@@ -62,15 +62,15 @@ class BrtdFunction final : public Modifier {
 
   private:
     BrtdFunction(const ModifierBuild& build, Requests requests);
-    [[nodiscard]] Shading prepare(const Ray& ray, const TraceContext& context) const;
+    [[nodiscard]] BrtdShading prepare(const Ray& ray, const TraceContext& context) const;
     [[nodiscard]] std::optional<Rgb> coefficient(const ChannelOutputs& outputs, const Ray& ray,
-                                                 const Shading& s, TraceContext& context) const;
-    void add_transmitted(Ray& ray, const Shading& s, TraceContext& context) const;
-    void add_reflected(Ray& ray, const Shading& s, TraceContext& context) const;
-    [[nodiscard]] Rgb direct(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
+                                                 const BrtdShading& s, TraceContext& context) const;
+    void add_transmitted(Ray& ray, const BrtdShading& s, TraceContext& context) const;
+    void add_reflected(Ray& ray, const BrtdShading& s, TraceContext& context) const;
+    [[nodiscard]] Rgb direct(const Ray& ray, const BrtdShading& s, const Vec3& wi, double omega,
                              TraceContext& context) const;
-    [[nodiscard]] Rgb directional(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
-                                  TraceContext& context) const;
+    [[nodiscard]] Rgb directional(const Ray& ray, const BrtdShading& s, const Vec3& wi,
+                                  double omega, TraceContext& context) const;
     void warn(TraceContext& context) const;
 
     ModifierId next_;
@@ -102,7 +102,7 @@ void BrtdFunction::warn(TraceContext& context) const {
 bool BrtdFunction::shade(Ray& ray, TraceContext& context) const {
     const LightTransport& tracer = context.tracer;
     tracer.apply_textures(ray, next_, context);
-    const Shading s = prepare(ray, context);
+    const BrtdShading s = prepare(ray, context);
     if (any(transmitted_)) add_transmitted(ray, s, context);
     if (ray.in(kShadow)) return true;
     if (any(reflected_)) add_reflected(ray, s, context);
@@ -120,9 +120,9 @@ bool BrtdFunction::shade(Ray& ray, TraceContext& context) const {
     return true;
 }
 
-Shading BrtdFunction::prepare(const Ray& ray, const TraceContext& context) const {
+BrtdShading BrtdFunction::prepare(const Ray& ray, const TraceContext& context) const {
     const bool front = ray.hit.cos_out > 0;
-    Shading s;
+    BrtdShading s;
     s.perturbed = ray.perturbed();
     s.flat = is_flat_hit(ray, context);
     PerturbedNormal facing = textured_normal(ray, s.perturbed);
@@ -139,7 +139,7 @@ Shading BrtdFunction::prepare(const Ray& ray, const TraceContext& context) const
 
 /// Three expressions as a colour; nothing after a numeric error.
 std::optional<Rgb> BrtdFunction::coefficient(const ChannelOutputs& outputs, const Ray& ray,
-                                             const Shading& s, TraceContext& context) const {
+                                             const BrtdShading& s, TraceContext& context) const {
     EvalState& state = binding_.begin(ray, context, &s.variables);
     Rgb color;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -152,7 +152,7 @@ std::optional<Rgb> BrtdFunction::coefficient(const ChannelOutputs& outputs, cons
     return std::nullopt;
 }
 
-void BrtdFunction::add_transmitted(Ray& ray, const Shading& s, TraceContext& context) const {
+void BrtdFunction::add_transmitted(Ray& ray, const BrtdShading& s, TraceContext& context) const {
     const std::optional<Rgb> coef = coefficient(transmitted_, ray, s, context);
     Ray child;
     if (!coef || !context.tracer.spawn(child, kTransferred, ray, &*coef)) return;
@@ -168,7 +168,7 @@ void BrtdFunction::add_transmitted(Ray& ray, const Shading& s, TraceContext& con
     }
 }
 
-void BrtdFunction::add_reflected(Ray& ray, const Shading& s, TraceContext& context) const {
+void BrtdFunction::add_reflected(Ray& ray, const BrtdShading& s, TraceContext& context) const {
     const std::optional<Rgb> coef = coefficient(reflected_, ray, s, context);
     Ray child;
     if (!coef || !context.tracer.spawn(child, kReflected, ray, &*coef)) return;
@@ -178,7 +178,7 @@ void BrtdFunction::add_reflected(Ray& ray, const Shading& s, TraceContext& conte
     note_mirrored(ray, child, contribution, s.flat && (!s.perturbed || ray.in(kAmbient)));
 }
 
-Rgb BrtdFunction::direct(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
+Rgb BrtdFunction::direct(const Ray& ray, const BrtdShading& s, const Vec3& wi, double omega,
                          TraceContext& context) const {
     const double cos_i = dot(s.variables.normal, wi);
     if (std::fabs(cos_i) <= kEpsilon) return {};
@@ -190,7 +190,7 @@ Rgb BrtdFunction::direct(const Ray& ray, const Shading& s, const Vec3& wi, doubl
 }
 
 /// The given BRDF or BTDF [1/sr] for a light.
-Rgb BrtdFunction::directional(const Ray& ray, const Shading& s, const Vec3& wi, double omega,
+Rgb BrtdFunction::directional(const Ray& ray, const BrtdShading& s, const Vec3& wi, double omega,
                               TraceContext& context) const {
     const Vec3 local = binding_.to_function(wi, ray, context);
     const std::array<double, 4> light{local.x, local.y, local.z, omega};

@@ -6,7 +6,7 @@
 namespace lightwalk {
 namespace {
 
-FunctionBinding bind(const ModifierBuild& build) {
+FunctionBinding bind_functions(const ModifierBuild& build) {
     require_least_strings(build.primitive, 4);
     const std::vector<std::string>& s = build.primitive.strings;
     return FunctionBinding(build, 3, {{s[0], -1}, {s[1], -1}, {s[2], -1}}, 4);
@@ -23,7 +23,7 @@ OrientedFrame orient(const Vec3& along, const Vec3& n) {
     return {{cross(v, n), v, n}, false};
 }
 
-Orientation::Orientation(const ModifierBuild& build) : binding_(bind(build)) {}
+Orientation::Orientation(const ModifierBuild& build) : binding_(bind_functions(build)) {}
 
 OrientedFrame Orientation::at(const Ray& ray, const Vec3& n, TraceContext& context) const {
     EvalState& state = binding_.begin(ray, context);

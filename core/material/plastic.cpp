@@ -18,7 +18,7 @@ namespace lightwalk {
 namespace {
 
 /// What one hit makes of the material: shares of the light and directions.
-struct Shading {
+struct PlasticShading {
     Rgb color;     ///< material times pattern
     Rgb specular;  ///< colour of the reflected lobe
     PerturbedNormal facing;
@@ -37,16 +37,16 @@ class Plastic final : public Modifier {
     [[nodiscard]] MaterialTraits traits() const override;
 
   private:
-    [[nodiscard]] Shading prepare(const Ray& ray, const TraceContext& context) const;
-    void set_shares(Shading& s, const RenderOptions& options) const;
-    void add_straight(Ray& ray, const Shading& s, TraceContext& context) const;
-    void add_mirrored(Ray& ray, const Shading& s, TraceContext& context) const;
-    void add_rough(Ray& ray, const Shading& s, TraceContext& context) const;
-    void add_ambient(Ray& ray, const Shading& s, TraceContext& context) const;
-    void direct(const Shading& s, const Vec3& wo, double jitter, const LightSamples& lights,
+    [[nodiscard]] PlasticShading prepare(const Ray& ray, const TraceContext& context) const;
+    void set_shares(PlasticShading& s, const RenderOptions& options) const;
+    void add_straight(Ray& ray, const PlasticShading& s, TraceContext& context) const;
+    void add_mirrored(Ray& ray, const PlasticShading& s, TraceContext& context) const;
+    void add_rough(Ray& ray, const PlasticShading& s, TraceContext& context) const;
+    void add_ambient(Ray& ray, const PlasticShading& s, TraceContext& context) const;
+    void direct(const PlasticShading& s, const Vec3& wo, double jitter, const LightSamples& lights,
                 std::span<Rgb> k) const;
-    void add_lobes(const Shading& s, const Vec3& wo, double jitter, double cos_i, const Vec3& wi,
-                   double omega, Rgb& sum) const;
+    void add_lobes(const PlasticShading& s, const Vec3& wo, double jitter, double cos_i,
+                   const Vec3& wi, double omega, Rgb& sum) const;
 
     PrimitiveType type_;
     ModifierId next_;
@@ -91,7 +91,7 @@ bool Plastic::shade(Ray& ray, TraceContext& context) const {
     if (shadow && type_ != PrimitiveType::trans) return true;  // blocked
     if (!turn_to_viewer(ray, next_, context)) return true;
     if (shadow && !pure_) return true;
-    const Shading s = prepare(ray, context);
+    const PlasticShading s = prepare(ray, context);
     if (pure_ && s.tau_s > kEpsilon) add_straight(ray, s, context);
     if (shadow) return true;
     if (pure_) {
@@ -110,8 +110,8 @@ bool Plastic::shade(Ray& ray, TraceContext& context) const {
     return true;
 }
 
-Shading Plastic::prepare(const Ray& ray, const TraceContext& context) const {
-    Shading s;
+PlasticShading Plastic::prepare(const Ray& ray, const TraceContext& context) const {
+    PlasticShading s;
     s.color = color_ * ray.pattern;
     s.perturbed = ray.perturbed();
     s.flat = is_flat_hit(ray, context);
@@ -126,7 +126,7 @@ Shading Plastic::prepare(const Ray& ray, const TraceContext& context) const {
     return s;
 }
 
-void Plastic::set_shares(Shading& s, const RenderOptions& options) const {
+void Plastic::set_shares(PlasticShading& s, const RenderOptions& options) const {
     double coating = 0;
     s.rho = specularity_;
     if (coated_) {
@@ -155,7 +155,7 @@ void Plastic::set_shares(Shading& s, const RenderOptions& options) const {
     s.dim_transmission = !pure_ && options.specular_threshold >= s.tau_s - kEpsilon;
 }
 
-void Plastic::add_straight(Ray& ray, const Shading& s, TraceContext& context) const {
+void Plastic::add_straight(Ray& ray, const PlasticShading& s, TraceContext& context) const {
     const Rgb coef = s.color * static_cast<float>(s.tau_s);
     Ray child;
     if (!context.tracer.spawn(child, kTransferred, ray, &coef)) return;
@@ -171,7 +171,7 @@ void Plastic::add_straight(Ray& ray, const Shading& s, TraceContext& context) co
     }
 }
 
-void Plastic::add_mirrored(Ray& ray, const Shading& s, TraceContext& context) const {
+void Plastic::add_mirrored(Ray& ray, const PlasticShading& s, TraceContext& context) const {
     Ray child;
     if (!context.tracer.spawn(child, kReflected, ray, &s.specular)) return;
     child.direction = mirror_direction(ray.direction, s.facing.normal, s.facing.cosine);
@@ -183,7 +183,7 @@ void Plastic::add_mirrored(Ray& ray, const Shading& s, TraceContext& context) co
     note_mirrored(ray, child, contribution, s.flat && !s.perturbed && ray.in(kAmbient));
 }
 
-void Plastic::add_rough(Ray& ray, const Shading& s, TraceContext& context) const {
+void Plastic::add_rough(Ray& ray, const PlasticShading& s, TraceContext& context) const {
     const bool reflects = s.rho > kEpsilon && !s.dim_reflection;
     const bool transmits = s.tau_s > kEpsilon && !s.dim_transmission;
     if (!reflects && !transmits) return;
@@ -198,7 +198,7 @@ void Plastic::add_rough(Ray& ray, const Shading& s, TraceContext& context) const
     }
 }
 
-void Plastic::add_ambient(Ray& ray, const Shading& s, TraceContext& context) const {
+void Plastic::add_ambient(Ray& ray, const PlasticShading& s, TraceContext& context) const {
     if (s.rho_d > kEpsilon) {
         Rgb coef = s.color * static_cast<float>(s.rho_d);
         if (s.dim_reflection) coef += s.specular;
@@ -211,8 +211,8 @@ void Plastic::add_ambient(Ray& ray, const Shading& s, TraceContext& context) con
 }
 
 /// What each light brings, f cosθ ω: diffusely on both sides, then by the rough lobes.
-void Plastic::direct(const Shading& s, const Vec3& wo, double jitter, const LightSamples& lights,
-                     std::span<Rgb> k) const {
+void Plastic::direct(const PlasticShading& s, const Vec3& wo, double jitter,
+                     const LightSamples& lights, std::span<Rgb> k) const {
     constexpr std::size_t kTogether = 16;
     const Vec3 n = s.facing.normal;
     const double front = s.tau < 1 - kEpsilon && s.rho_d > kEpsilon ? s.rho_d : 0,
@@ -243,7 +243,7 @@ void Plastic::direct(const Shading& s, const Vec3& wo, double jitter, const Ligh
 
 /// Add what the rough lobe on the light's side brings. Of equal slopes all round, lobes are
 /// evaluated without their tangents.
-void Plastic::add_lobes(const Shading& s, const Vec3& wo, double jitter, double cos_i,
+void Plastic::add_lobes(const PlasticShading& s, const Vec3& wo, double jitter, double cos_i,
                         const Vec3& wi, double omega, Rgb& sum) const {
     if (cos_i > kEpsilon && s.tau < 1 - kEpsilon && s.rho > kEpsilon) {
         const double widening = s.flat && !s.perturbed ? light_widening(omega, jitter) : 0;

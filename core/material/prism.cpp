@@ -38,7 +38,7 @@ int branches_of(const ModifierBuild& build) {
     return build.primitive.type == PrimitiveType::prism1 ? 1 : 2;
 }
 
-FunctionBinding bind(const ModifierBuild& build) {
+FunctionBinding bind_prism(const ModifierBuild& build) {
     const std::size_t file = kExpressions * static_cast<std::size_t>(branches_of(build));
     require_least_strings(build.primitive, file + 1);
     std::vector<ExpressionRequest> requests;
@@ -47,7 +47,7 @@ FunctionBinding bind(const ModifierBuild& build) {
 }
 
 Prism::Prism(const ModifierBuild& build)
-    : branches_(branches_of(build)), name_(build.primitive.name), binding_(bind(build)) {}
+    : branches_(branches_of(build)), name_(build.primitive.name), binding_(bind_prism(build)) {}
 
 /// Unit direction from a point to a light source.
 Vec3 direction_to(const LightSource& source, const Vec3& point) {

@@ -11,7 +11,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGenblindsUsage =
     "material name depth width height slats angle [-r radius | +r radius]";
 constexpr double kPieceAngle = 3 * kPi / 180;  ///< arc angle of one polygon of a curved slat [rad]
 
@@ -24,7 +24,7 @@ struct Blinds {
     bool arched = false;  ///< upward; else sagging
 };
 
-Blinds parse(GeneratorWords& words) {
+Blinds parse_genblinds(GeneratorWords& words) {
     Blinds blinds;
     blinds.material = words.text("material");
     blinds.name = words.text("name");
@@ -79,8 +79,8 @@ std::vector<std::array<double, 2>> slat_profile(const Blinds& blinds) {
 
 std::string run_genblinds(std::span<const std::string> args, GeneratorContext& context) {
     static_cast<void>(context);
-    GeneratorWords words(args, kUsage);
-    const Blinds blinds = parse(words);
+    GeneratorWords words(args, kGenblindsUsage);
+    const Blinds blinds = parse_genblinds(words);
     const auto profile = slat_profile(blinds);
     if (static_cast<std::size_t>(blinds.slats) * (profile.size() - 1) > kMaxPieces) {
         words.fail("too many slats, expected at most " + std::to_string(kMaxPieces) + " polygons");

@@ -12,7 +12,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGenboxUsage =
     "material name xsize ysize zsize [-i] [-b bevel | -r radius [-n segments] [-s]] [-o]";
 constexpr long kDefaultSegments = 32;
 constexpr long kMaxSegments = 256;  ///< a quarter circle; more would exceed the largest output
@@ -74,7 +74,7 @@ struct BoxOptions {
     }
 };
 
-BoxOptions parse(GeneratorWords& words) {
+BoxOptions parse_genbox(GeneratorWords& words) {
     BoxOptions box;
     box.material = words.text("material");
     box.name = words.text("name");
@@ -192,8 +192,8 @@ void write_segmented(const BoxOptions& box, SceneWriter& out) {
 
 std::string run_genbox(std::span<const std::string> args, GeneratorContext& context) {
     static_cast<void>(context);
-    GeneratorWords words(args, kUsage);
-    const BoxOptions box = parse(words);
+    GeneratorWords words(args, kGenboxUsage);
+    const BoxOptions box = parse_genbox(words);
     if (box.obj) return write_obj(args, box.material, box.name, box_mesh(box));
     SceneWriter out(args);
     if (box.is_segmented()) {

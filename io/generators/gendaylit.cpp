@@ -18,7 +18,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGendaylitUsage =
     "month day hour [-y year] | -ang altitude azimuth, "
     "[-P clearness brightness | -W direct diffuse | -G direct diffuse | -L direct diffuse | -E "
     "global] "
@@ -158,7 +158,7 @@ void take_option(GeneratorWords& words, DaylitOptions& sky, WarningSink& warning
     }
 }
 
-DaylitOptions parse(GeneratorWords& words, WarningSink& warnings) {
+DaylitOptions parse_gendaylit(GeneratorWords& words, WarningSink& warnings) {
     DaylitOptions sky;
     sky.moment.angles = accept_angles(words);
     if (!sky.moment.angles) {
@@ -334,7 +334,7 @@ std::string sky_text(const DaylitOptions& sky, const Weather& weather, const Sky
     return brightness_text(coefficients, sun);
 }
 
-std::string defaults() {
+std::string gendaylit_defaults() {
     const DaylitOptions sky;
     return default_line("-P 0 0", "sky clearness and brightness") +
            default_line("-O 0", "output: visible radiance") +
@@ -407,10 +407,10 @@ std::string daylit_sky(std::span<const std::string> args, const DaylitOptions& s
 }  // namespace
 
 std::string run_gendaylit(std::span<const std::string> args, GeneratorContext& context) {
-    if (args.size() == 2 && args[1] == "-defaults") return defaults();
+    if (args.size() == 2 && args[1] == "-defaults") return gendaylit_defaults();
     WarningList warnings;
-    GeneratorWords words(args, kUsage);
-    const DaylitOptions sky = parse(words, warnings);
+    GeneratorWords words(args, kGendaylitUsage);
+    const DaylitOptions sky = parse_gendaylit(words, warnings);
     std::string text = daylit_sky(args, sky, warnings);
     if (!sky.quiet) warnings.forward(context.warnings);
     return text;

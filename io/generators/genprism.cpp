@@ -14,7 +14,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGenprismUsage =
     "material name { - | file | N x1 y1 ... xN yN } [-l lx ly lz] [-r radius] [-c] [-e]";
 constexpr std::size_t kMaxVertices = 1024;
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
@@ -225,7 +225,7 @@ class RoundedPrism {
 }  // namespace
 
 std::string run_genprism(std::span<const std::string> args, GeneratorContext& context) {
-    GeneratorWords words(args, kUsage);
+    GeneratorWords words(args, kGenprismUsage);
     const PrismOptions prism = parse(words, context);
     SceneWriter out(args);
     if (prism.radius > kEpsilon)

@@ -12,7 +12,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGenrevUsage =
     "material name z(t) r(t) segments [-e expression] [-f file] [-s]";
 constexpr double kEqual = 1e-9;
 
@@ -69,7 +69,7 @@ void write_piece(const std::string& modifier, const std::string& name, const Pro
 }  // namespace
 
 std::string run_genrev(std::span<const std::string> args, GeneratorContext& context) {
-    GeneratorWords words(args, kUsage);
+    GeneratorWords words(args, kGenrevUsage);
     const std::string material = words.text("material");
     const std::string name = words.text("name");
     const std::string z = words.text("z(t)");

@@ -14,12 +14,12 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGenskyUsage =
     "month day time [options] | -ang altitude azimuth [options] | -defaults";
-constexpr double kSunAngle = 0.5;        ///< [deg]
-constexpr double kSkyEfficacy = 203;     ///< [lm/W]
-constexpr double kSunEfficacy = 208;     ///< [lm/W]
-constexpr double kSunSolidAngle = 6e-5;  ///< [sr]
+constexpr double kSunDiameter = 0.5;  ///< [deg]
+constexpr double kSkyEfficacy = 203;  ///< [lm/W]
+constexpr double kSunEfficacy = 208;  ///< [lm/W]
+constexpr double kSunDisc = 6e-5;     ///< [sr]
 
 /// The numbers that skybright.cal knows the models by.
 enum class SkyModel : std::uint8_t { clear = 1, overcast, uniform, intermediate };
@@ -164,7 +164,7 @@ void take_option(GeneratorWords& words, SkyOptions& sky, WarningSink& warnings) 
     }
 }
 
-SkyOptions parse(GeneratorWords& words, WarningSink& warnings) {
+SkyOptions parse_gensky(GeneratorWords& words, WarningSink& warnings) {
     SkyOptions sky;
     sky.moment.angles = accept_angles(words);
     if (!sky.moment.angles) {
@@ -229,8 +229,7 @@ SkyRadiances radiances(const SkyOptions& sky, double altitude) {
     result.zenith = zenith_radiance(sky, altitude, model.diffuse_factor);
     result.ground_ambient = result.zenith * model.diffuse_factor;
     result.sun = sun_radiance(sky, altitude);
-    const double from_sun =
-        result.sun ? kSunSolidAngle / kPi * *result.sun * std::sin(altitude) : 0;
+    const double from_sun = result.sun ? kSunDisc / kPi * *result.sun * std::sin(altitude) : 0;
     result.ground = sky.ground_reflectance * (result.ground_ambient + from_sun);
     if (!std::isfinite(result.shape + result.zenith + result.ground + result.sun.value_or(0))) {
         throw InputError("gensky: the radiances are not finite numbers");
@@ -249,7 +248,7 @@ std::string sky_text(const SkyOptions& sky, const SkyRadiances& L, const Vec3& s
     return "\nvoid brightfunc skyfunc\n2 skybr skybright.cal\n0\n" + count + arguments + "\n";
 }
 
-std::string defaults() {
+std::string gensky_defaults() {
     const SkyOptions sky;
     return default_line("-g " + fixed(sky.ground_reflectance, 6), "ground reflectance") +
            default_line("-t " + fixed(sky.turbidity, 6), "atmospheric turbidity") +
@@ -264,9 +263,9 @@ std::string defaults() {
 }  // namespace
 
 std::string run_gensky(std::span<const std::string> args, GeneratorContext& context) {
-    if (args.size() == 2 && args[1] == "-defaults") return defaults();
-    GeneratorWords words(args, kUsage);
-    const SkyOptions sky = parse(words, context.warnings);
+    if (args.size() == 2 && args[1] == "-defaults") return gensky_defaults();
+    GeneratorWords words(args, kGenskyUsage);
+    const SkyOptions sky = parse_gensky(words, context.warnings);
     std::string text = command_comment(args);
     SolarAngles angles;
     if (sky.moment.angles) {
@@ -285,7 +284,7 @@ std::string run_gensky(std::span<const std::string> args, GeneratorContext& cont
     const SkyRadiances L = radiances(sky, angles.altitude);
     const Vec3 direction = solar_direction(angles);
     text += "# Ground ambient level: " + fixed(L.ground_ambient, 1) + "\n";
-    if (L.sun && sky.show_sun) text += sun_text(scientific(*L.sun, 3), direction, kSunAngle);
+    if (L.sun && sky.show_sun) text += sun_text(scientific(*L.sun, 3), direction, kSunDiameter);
     return text + sky_text(sky, L, direction);
 }
 

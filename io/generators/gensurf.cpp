@@ -17,7 +17,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGensurfUsage =
     "material name x(s,t) y(s,t) z(s,t) m n [-e expression] [-f file] [-s] [-i] [-o]";
 constexpr std::size_t kMaxTableBytes = std::size_t{256} << 20;
 constexpr double kFlat = 1e-12;  ///< 1 minus the cosine between triangles that make one polygon
@@ -243,7 +243,7 @@ bool reads_as_polygons(const SurfaceOptions& options) {
 }  // namespace
 
 std::string run_gensurf(std::span<const std::string> args, GeneratorContext& context) {
-    GeneratorWords words(args, kUsage);
+    GeneratorWords words(args, kGensurfUsage);
     GeneratorExpressions expressions(context);
     const SurfaceOptions options = parse(words, expressions);
     Surface surface(options, expressions, words.program(), context);

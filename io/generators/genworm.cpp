@@ -13,7 +13,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kGenwormUsage =
     "material name x(t) y(t) z(t) r(t) segments [-e expression] [-f file]";
 
 struct Bead {
@@ -43,7 +43,7 @@ void write_joint(const std::string& material, const std::string& name, const Bea
 }  // namespace
 
 std::string run_genworm(std::span<const std::string> args, GeneratorContext& context) {
-    GeneratorWords words(args, kUsage);
+    GeneratorWords words(args, kGenwormUsage);
     const std::string material = words.text("material");
     const std::string name = words.text("name");
     std::array<std::string, 4> body;

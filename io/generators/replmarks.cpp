@@ -19,11 +19,11 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kUsage =
+constexpr std::string_view kReplmarksUsage =
     "[-e] {[-s size] [-m modifier] {-x objfile | -i octree | -I mesh} markmod}... [file...]";
 constexpr std::size_t kMaxGroups = 128;
-constexpr int kMaxDepth = 64;     ///< commands whose output holds commands ...
-constexpr int kExactDigits = 17;  ///< copies numbers without rounding
+constexpr int kDeepestCommand = 64;  ///< commands whose output holds commands ...
+constexpr int kExactDigits = 17;     ///< copies numbers without rounding
 constexpr double kDegrees = 180 / kPi;
 
 enum class Replacement { none, object, octree, mesh };
@@ -66,7 +66,7 @@ bool is_option(const GeneratorWords& words) {
     return !words.at_end() && words.peek().size() > 1 && words.peek()[0] == '-';
 }
 
-ReplmarksOptions parse(GeneratorWords& words) {
+ReplmarksOptions parse_replmarks(GeneratorWords& words) {
     ReplmarksOptions options;
     double size = 0;
     do {
@@ -185,8 +185,8 @@ class Replmarks {
   public:
     Replmarks(std::span<const std::string> args, GeneratorContext& context)
         : context_(context), out_(command_comment(args)) {
-        GeneratorWords words(args, kUsage);
-        options_ = parse(words);
+        GeneratorWords words(args, kReplmarksUsage);
+        options_ = parse_replmarks(words);
     }
 
     std::string run() {
@@ -202,7 +202,7 @@ class Replmarks {
 
   private:
     void copy(std::string_view text, const std::string& name, int depth) {
-        if (depth > kMaxDepth)
+        if (depth > kDeepestCommand)
             throw CommandError({name, 0}, "commands that write commands nest too deep");
         SceneTokenizer tokens(text, name);
         for (auto item = tokens.peek(); item != SceneTokenizer::Item::end; item = tokens.peek()) {
