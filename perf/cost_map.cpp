@@ -69,8 +69,8 @@ class Measurement {
     explicit Measurement(RenderCommand command)
         : command_(std::move(command)),
           warnings_("cost_map"),
-          session_(compiled_scene(command_.common, warnings_),
-                   {light().light, light().ambient_file}, warnings_) {}
+          session_(compiled_scene(command_.common, warnings_), light().light, light().ambient_file,
+                   warnings_) {}
 
     Json run() {
         const Camera camera(command_.view);

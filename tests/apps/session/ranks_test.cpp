@@ -19,7 +19,7 @@ using lightwalk::test::TemporaryFolder;
 
 namespace {
 
-const std::string kRoom = R"(
+const std::string kRoomOfRanks = R"(
 void plastic grey 0 0 5 .5 .4 .3 .02 .1
 void light lamp 0 0 3 40 40 40
 grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
@@ -80,12 +80,12 @@ bool all_well(const Ended& ended) {
 
 SceneSource room(const TemporaryFolder& folder) {
     SceneSource source;
-    source.files = {folder.write("room.rad", kRoom)};
+    source.files = {folder.write("room.rad", kRoomOfRanks)};
     source.threads = 1;
     return source;
 }
 
-PictureTask task_at(double x) {
+PictureTask task_of_ranks_at(double x) {
     PictureTask task;
     task.view.position = {x, -5, 1.5};
     task.width = 48;
@@ -106,7 +106,7 @@ using Pictures = std::vector<std::vector<Rgb>>;
 Pictures pictures_of(Renderer& renderer, const std::vector<double>& places) {
     Pictures pictures;
     std::vector<Ticket<RenderedPicture>> tickets;
-    for (const double x : places) tickets.push_back(renderer.start(task_at(x)));
+    for (const double x : places) tickets.push_back(renderer.start(task_of_ranks_at(x)));
     for (const auto& ticket : tickets) {
         const auto picture = renderer.finish(ticket);
         REQUIRE(picture);
@@ -235,7 +235,7 @@ TEST_CASE("ranks: scenes follow each other, and one that cannot be read ends not
                             for (int i = 0; i < 3; ++i) {
                                 const StopFlag never;
                                 const WalkFrame frame = renderer.backend().frames().draw(
-                                    task_at(.1 * i).view, 0, .1, never);
+                                    task_of_ranks_at(.1 * i).view, 0, .1, never);
                                 drawn += frame.frame.complete ? 1 : 0;
                             }
                         });
@@ -302,7 +302,7 @@ lost sphere near 0 0 4 0 -3 1.5 .5
         const Ended ended =
             on_ranks(company, plain_light(), [&](Ranks& ranks, const RendererOptions& own) {
                 Renderer renderer = ranks.open({source, own, {}, {}, {}});
-                renderer.run([&] { (void)renderer.finish(renderer.start(task_at(0))); });
+                renderer.run([&] { (void)renderer.finish(renderer.start(task_of_ranks_at(0))); });
             });
         CHECK(ended.failure.find("lightwalk: rank ") == 0);
         CHECK(ended.failure.find("nowhere.cal") != std::string::npos);

@@ -8,14 +8,14 @@ using namespace lightwalk;
 
 namespace {
 
-constexpr int kSide = 8;
+constexpr int kRegionSide = 8;
 
 /// The left half of a picture.
 struct LeftHalf {
     LeftHalf() { points.begin(camera); }
     /// A point that the picture shows in the middle of a pixel.
     [[nodiscard]] CloudPoint at(int x, int y) const {
-        const auto ray = camera.ray((x + 0.5) / kSide, (y + 0.5) / kSide);
+        const auto ray = camera.ray((x + 0.5) / kRegionSide, (y + 0.5) / kRegionSide);
         const Vec3 position = ray->origin + 5 * ray->direction;
         CloudPoint point;
         for (std::size_t k = 0; k < 3; ++k) point.position[k] = static_cast<float>(position[k]);
@@ -32,7 +32,7 @@ struct LeftHalf {
     }
 
     Camera camera{View{}};
-    RegionPoints points{{0, 0, kSide / 2, kSide}, kSide, kSide};
+    RegionPoints points{{0, 0, kRegionSide / 2, kRegionSide}, kRegionSide, kRegionSide};
 };
 
 }  // namespace

@@ -60,10 +60,10 @@ void work_together(RankLink& link, const std::function<void()>& lead) {
     link.end_work();
 }
 
-constexpr int kWidth = 70, kHeight = 50;
+constexpr int kPictureWidth = 70, kPictureHeight = 50;
 
 PictureJob job_of(JobId number) {
-    return {number, {0, 0, kWidth, kHeight}, 1, true, "", {}, false};
+    return {number, {0, 0, kPictureWidth, kPictureHeight}, 1, true, "", {}, false};
 }
 
 /// Pictures that rank 0 gets, until there are so many.
@@ -77,11 +77,11 @@ std::map<JobId, FinishedPicture> wait_for_pictures(RankLink& link, std::size_t c
 }
 
 bool is_right(const FinishedPicture& picture) {
-    const Frame frame = assemble_picture(picture, kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-            if (frame.radiance[static_cast<std::size_t>((kHeight - 1 - y) * kWidth + x)] !=
-                value_of(picture.job, x, y).radiance)
+    const Frame frame = assemble_picture(picture, kPictureWidth, kPictureHeight);
+    for (int y = 0; y < kPictureHeight; ++y)
+        for (int x = 0; x < kPictureWidth; ++x)
+            if (frame.radiance[static_cast<std::size_t>((kPictureHeight - 1 - y) * kPictureWidth +
+                                                        x)] != value_of(picture.job, x, y).radiance)
                 return false;
     return true;
 }
