@@ -18,9 +18,9 @@ if [ -n "$browser" ]; then
 fi
 # shellcheck disable=SC2086  # a list of words
 sh apps/install_packages.sh qemu-user $browser
-if [ -n "$browser" ] && [ ! -d build/npm/node_modules/playwright-core ]; then
+if [ -n "$browser" ] && [ ! -d build/npm/node_modules/axe-core ]; then
     mkdir -p build/npm
-    npm install --silent --no-audit --no-fund --prefix build/npm playwright-core@1
+    npm install --silent --no-audit --no-fund --prefix build/npm playwright-core@1 axe-core@4
 fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"

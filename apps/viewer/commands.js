@@ -1,4 +1,5 @@
 // What buttons and keys do, each named once.
+import { caption_lines } from "./caption.js";
 import { token_query } from "./connection.js";
 import { by_id } from "./dom.js";
 import { levelled, view_at_pick } from "./go_there.js";
@@ -92,7 +93,7 @@ class Commands {
 
     add_key() {
         const view = this.present_view();
-        if (view) notice(`Key ${this.views.add_key(view)}`);
+        if (view) notice(`Key ${this.path.add_key(view)}`);
     }
 
     async open_views(file) {
@@ -128,9 +129,18 @@ class Commands {
         return file_name(this.scene(), kind);
     }
 
+    /** The lines under pictures, where they are wanted. */
+    caption_() {
+        if (!by_id("caption").checked) return [];
+        const { display, present_ev } = this.light;
+        return caption_lines(this.scene(), this.present_view(), display, present_ev, new Date());
+    }
+
     async write_png() {
         try {
-            download(await picture_blob(this.painted(), this.light.display), this.name_("png"));
+            const { display } = this.light;
+            const picture = await picture_blob(this.painted(), display, this.caption_());
+            download(picture, this.name_("png"));
         } catch (error) {
             notice(`No picture: ${error.message}`, true);
         }
@@ -156,7 +166,7 @@ class Commands {
     }
 
     write_path() {
-        download_text(path_text(this.views.keys), this.name_("path.vf"));
+        download_text(path_text(this.path.keys), this.name_("path.vf"));
     }
 
     write_table() {
@@ -175,7 +185,7 @@ class Commands {
 
 /** What each button does, by its element id. */
 function listen_for_buttons(commands) {
-    const { views, measuring, glare } = commands;
+    const { measuring, glare } = commands;
     const buttons = {
         "save-view": () => commands.save_view(true),
         "go-home": () => commands.go(commands.home()),
@@ -186,7 +196,6 @@ function listen_for_buttons(commands) {
         "add-key": () => commands.add_key(),
         "write-path": () => commands.write_path(),
         "write-path-too": () => commands.write_path(),
-        "clear-path": () => views.clear_keys(),
         "write-table": () => commands.write_table(),
         "write-table-too": () => commands.write_table(),
         "clear-table": () => measuring.measurements.clear(),
@@ -220,6 +229,8 @@ function keys_of(commands) {
         Backspace: () => commands.back(),
         b: () => commands.save_view(false),
         k: () => commands.add_key(),
+        j: () => commands.path.toggle_record(),
+        o: () => commands.path.toggle_play(),
         p: () => measuring.reading.pin(),
         r: () => commands.want_area(!commands.area_wanted),
         f: drive(() => light.toggle_false()),

@@ -1,5 +1,6 @@
 // Mouse, touch, wheel and keys become motion of the eye.
 import { kKeys } from "./motion.js";
+import { is_pair, is_stick_side, stick_wish } from "./stick.js";
 import { angle_across } from "./view.js";
 
 const kClick = 5; // a press that moves less than this is a click [CSS pixels]
@@ -23,14 +24,18 @@ export class Input {
     /**
      * @param surface    the element that is dragged and clicked
      * @param navigator
+     * @param stick      {show(from, to), hide()}: the mark of the thumb that moves the eye
      * @param on  {click(x, y), double_click(x, y), area_begin(x, y), area_move(x, y), area_end(x, y), speed(speed),
      *     area_wanted(): bool, may_drive(): bool}: x, y in CSS pixels
      */
-    constructor(surface, navigator, on) {
+    constructor(surface, navigator, stick, on) {
         this.surface_ = surface;
         this.navigator_ = navigator;
         this.on_ = on;
-        this.fingers_ = new Map();
+        this.mark_ = stick;
+        this.fingers_ = new Map(); // where pointers are, by id, but for the thumb that moves the eye
+        this.came_ = new Map(); // where and when these came down: {at, time, touch}
+        this.stick_ = null; // the thumb that moves the eye: {id, from}
         this.area_ = false;
         this.travelled_ = 0;
         this.click_ = null; // the last click {x, y, time}
@@ -54,7 +59,11 @@ export class Input {
         if (event.button !== 0) return;
         this.surface_.setPointerCapture(event.pointerId);
         this.surface_.focus({ preventScroll: true });
-        this.fingers_.set(event.pointerId, [event.clientX, event.clientY]);
+        const at = [event.clientX, event.clientY];
+        const came = { at, time: event.timeStamp, touch: event.pointerType === "touch" };
+        if (this.fingers_.size === 1 && this.part_thumbs_(event.pointerId, came)) return;
+        this.fingers_.set(event.pointerId, at);
+        this.came_.set(event.pointerId, came);
         if (this.fingers_.size > 1) return this.end_area_(event);
         this.travelled_ = 0;
         this.area_ = event.shiftKey || this.on_.area_wanted();
@@ -62,13 +71,63 @@ export class Input {
     }
 
     move_(event) {
+        const now = [event.clientX, event.clientY];
+        if (this.stick_?.id === event.pointerId) return this.lean_(now, event.timeStamp);
         const before = this.fingers_.get(event.pointerId);
         if (!before) return;
-        const now = [event.clientX, event.clientY];
+        if (this.fingers_.size === 1 && this.begins_stick_(event.pointerId, now)) {
+            this.hold_stick_(event.pointerId, this.came_.get(event.pointerId).at);
+            return this.lean_(now, event.timeStamp);
+        }
         if (this.fingers_.size === 1) this.drag_(before, now, event);
         else this.two_fingers_(event.pointerId, before, now, event.timeStamp);
         if (this.fingers_.size > 1 || this.travelled_ >= kClick || this.area_)
             this.fingers_.set(event.pointerId, now);
+    }
+
+    /** Whether a finger in the left half, which is alone there, has begun to move the eye. */
+    begins_stick_(id, [x, y]) {
+        const { at, touch } = this.came_.get(id);
+        if (this.stick_ || !touch || this.area_ || this.surface_.classList.contains("looking"))
+            return false;
+        const apart = Math.hypot(x - at[0], y - at[1]);
+        return is_stick_side(at[0], innerWidth) && apart >= kClick && this.on_.may_drive();
+    }
+
+    /**
+     * A second finger comes: if the two are no pair but thumbs, the left one moves the eye, and the other one looks.
+     * Returns whether the second one is the left one.
+     */
+    part_thumbs_(id, came) {
+        const [[other, first]] = this.came_;
+        if (this.stick_ || this.area_ || !came.touch || !first.touch || !this.on_.may_drive())
+            return false;
+        if (is_pair(first, came, innerWidth)) return false;
+        if (is_stick_side(came.at[0], innerWidth) && !is_stick_side(first.at[0], innerWidth)) {
+            this.hold_stick_(id, came.at);
+            return true;
+        }
+        if (is_stick_side(first.at[0], innerWidth) && !is_stick_side(came.at[0], innerWidth))
+            this.hold_stick_(other, first.at);
+        return false;
+    }
+
+    hold_stick_(id, from) {
+        this.fingers_.delete(id);
+        this.came_.delete(id);
+        this.stick_ = { id, from };
+        this.mark_.show(from, from);
+    }
+
+    lean_(now, time) {
+        this.mark_.show(this.stick_.from, now);
+        this.navigator_.lean(stick_wish(this.stick_.from, now), time);
+    }
+
+    let_go_of_stick_(time) {
+        this.stick_ = null;
+        this.mark_.hide();
+        this.navigator_.lean([0, 0], time);
     }
 
     /** Drag with one pointer: the eye turns so that what is under the pointer stays nearly there. */
@@ -96,6 +155,8 @@ export class Input {
     }
 
     up_(event, meant) {
+        if (this.stick_?.id === event.pointerId) return this.let_go_of_stick_(event.timeStamp);
+        this.came_.delete(event.pointerId);
         if (!this.fingers_.delete(event.pointerId)) return;
         if (this.fingers_.size > 0) return;
         this.surface_.classList.remove("looking");

@@ -47,18 +47,19 @@ export class LightPanel {
     toggle_auto() {
         const { auto } = this.display.exposure;
         this.change_({
-            exposure: { auto: !auto, ev: auto ? this.present_ev_() : this.display.exposure.ev },
+            exposure: { auto: !auto, ev: auto ? this.present_ev : this.display.exposure.ev },
         });
     }
 
     /** Make the picture brighter (1) or darker (-1) by half a stop; the exposure is fixed from then on. */
     step_exposure(direction) {
         this.change_({
-            exposure: { auto: false, ev: this.limited_(this.present_ev_() + direction * kStep) },
+            exposure: { auto: false, ev: this.limited_(this.present_ev + direction * kStep) },
         });
     }
 
-    present_ev_() {
+    /** The exposure of the picture [stops]. */
+    get present_ev() {
         const { auto, ev } = this.display.exposure;
         return auto ? Math.round(this.automatic_ev_ * 10) / 10 : ev;
     }
@@ -124,7 +125,7 @@ export class LightPanel {
     }
 
     show_ev_() {
-        const ev = this.present_ev_();
+        const ev = this.present_ev;
         by_id("ev").value = ev;
         by_id("ev-text").textContent = `${stops(ev)} EV`;
     }

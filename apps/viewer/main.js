@@ -12,10 +12,12 @@ import { Navigator } from "./navigator.js";
 import { cover, notice, show_failures, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
 import { start_panels } from "./panels.js";
+import { PathPanel } from "./path_panel.js";
 import { Roles } from "./roles.js";
 import { picture_size, Screen } from "./screen.js";
 import { Session } from "./session.js";
 import { show_phase, start_figures } from "./status.js";
+import { StickMark } from "./stick.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
 import { fit_view, same_picture } from "./view.js";
 import { ViewsPanel } from "./views_panel.js";
@@ -91,13 +93,18 @@ const roles = new Roles({
 const views = new ViewsPanel({
     go: (view) => commands.go(view),
     kept: (saved) => keep_scene_item(scene, "views", saved),
-    keys_changed: (keys) => keep_scene_item(scene, "path", keys),
+});
+const path = new PathPanel(navigator, {
+    go: (view) => commands.go(view),
+    may_drive: () => session.driving && navigator.view !== null,
+    changed: (keys) => keep_scene_item(scene, "path", keys),
 });
 const commands = start_commands({
     navigator,
     session,
     light,
     views,
+    path,
     measuring,
     glare,
     picture,
@@ -107,7 +114,7 @@ const commands = start_commands({
 });
 const address = new AddressBar(session, navigator, (view) => commands.go(view, false));
 commands.chosen = () => address.choose();
-new Input(picture, navigator, {
+new Input(picture, navigator, new StickMark(by_id("stick")), {
     double_click: (x, y) => commands.go_to_point(x / innerWidth, 1 - y / innerHeight),
     click: (x, y) => measuring.pick_at(x / innerWidth, 1 - y / innerHeight),
     area_begin: (x, y) => measuring.area_begin(x, y),
@@ -161,7 +168,8 @@ function open_scene(name) {
     const short = name.split(/[\\/]/).pop() || "Lightwalk";
     by_id("scene").textContent = short;
     document.title = `${short} – Lightwalk`;
-    views.restore(scene_item(name, "views", []), scene_item(name, "path", []));
+    views.restore(scene_item(name, "views", []));
+    path.restore(scene_item(name, "path", []));
     measuring.open_scene(name);
 }
 

@@ -29,9 +29,10 @@ export class Navigator {
         this.keys = new Set();
         this.modifier = "none"; ///< which modifier key is held: none, faster, slower
         this.dragging = false;
+        this.lean_ = [0, 0];
         this.rates_ = [0, 0, 0, 0, 0];
         this.drag_ = new DragSpeed();
-        this.way_ = null; ///< the transition under way: {from, to, begin, duration}
+        this.way_ = null; ///< what leads the eye: {at(now): view, end: when it arrives [ms], to: where}
         this.epoch = 0; ///< rises at each jump: frames of views from before it must not correct the eye's height
         this.past_ = [];
         this.changed_ = false;
@@ -48,7 +49,10 @@ export class Navigator {
         ++this.epoch;
     }
 
-    /** Take over the height of eyes, and set the walking speed to .85 eye heights a second, which suits scenes in other units than metres, too. */
+    /**
+     * Take over the height of eyes, and set the walking speed to .85 eye heights a second, which suits scenes in other
+     * units than metres, too.
+     */
     set_eye_height(height) {
         if (!(height > 0)) return;
         this.eye_height = height;
@@ -69,6 +73,7 @@ export class Navigator {
     release_all() {
         this.keys.clear();
         this.dragging = false;
+        this.lean_ = [0, 0];
     }
 
     /** Turn the eye by a drag: to the right and up [rad]. */
@@ -86,6 +91,13 @@ export class Navigator {
         this.stop_transition();
         this.view = moved(this.view, [right, forward, 0], this.walk);
         this.touched_(now);
+    }
+
+    /** Take the wish of a stick: [right, forward], each -1 to 1. */
+    lean(wish, now) {
+        this.lean_ = wish;
+        if (wish.some((x) => x !== 0)) this.stop_transition();
+        this.note_input(now);
     }
 
     zoom(factor, now) {
@@ -144,6 +156,23 @@ export class Navigator {
         this.view = at_height(this.view, eye);
     }
 
+    /**
+     * Lead the eye along a path, until it ends or somebody moves the eye.
+     * @param path  {at(now): view, end}: times in ms
+     * @returns what follows() takes
+     */
+    follow({ at, end }, now) {
+        this.way_ = { at, end, to: at(end) };
+        ++this.epoch;
+        this.touched_(now);
+        return this.way_;
+    }
+
+    /** Whether the eye is still led by what follow() returned. */
+    follows(way) {
+        return this.way_ === way;
+    }
+
     stop_transition() {
         this.way_ = null;
     }
@@ -190,12 +219,12 @@ export class Navigator {
     /** The view in `seconds`, as far as it can be foretold at the time `now` [ms]. */
     ahead(now, seconds) {
         if (this.way_) {
-            const { from, to, begin, duration } = this.way_;
-            return between(from, to, Math.min(1, (now + 1000 * seconds - begin) / duration));
+            const { at, end } = this.way_;
+            return at(Math.min(end, now + 1000 * seconds));
         }
         const [yaw, pitch] = this.drag_.ahead(now, seconds);
         const dragged = yaw || pitch ? looked(this.view, yaw, pitch) : this.view;
-        const wish = wish_of(this.keys);
+        const wish = this.wish_;
         if (this.rates_.every((rate, k) => rate === 0 && wish[k] === 0)) return dragged;
         return view_ahead(dragged, this.rates_, wish, seconds, this.pace_ * this.speed, this.walk);
     }
@@ -203,8 +232,14 @@ export class Navigator {
     /** Whether the eye moves, so that more views will follow soon. */
     get moving() {
         const going =
-            this.rates_.some((rate) => rate !== 0) || wish_of(this.keys).some((x) => x !== 0);
+            this.rates_.some((rate) => rate !== 0) || this.wish_.some((x) => x !== 0);
         return this.dragging || going || this.way_ !== null;
+    }
+
+    /** What keys and stick ask for; see wish_of(). */
+    get wish_() {
+        const both = (x, k) => Math.max(-1, Math.min(1, x + (this.lean_[k] ?? 0)));
+        return wish_of(this.keys).map(both);
     }
 
     get pace_() {
@@ -213,13 +248,12 @@ export class Navigator {
 
     advance_(now, dt) {
         if (this.way_) {
-            const { from, to, begin, duration } = this.way_;
-            const share = duration > 0 ? (now - begin) / duration : 1;
-            this.view = between(from, to, share);
+            const { at, end } = this.way_;
+            this.view = at(Math.min(end, now));
             this.changed_ = true;
-            if (share >= 1) this.way_ = null;
+            if (now >= end) this.way_ = null;
         }
-        this.rates_ = next_rates(this.rates_, wish_of(this.keys), dt);
+        this.rates_ = next_rates(this.rates_, this.wish_, dt);
         if (this.rates_.every((rate) => rate === 0)) return;
         // Keys for up and down work in flight only: in a walk the floor determines the height.
         if (this.rates_[2] !== 0 && this.walk) this.set_walk(false);
@@ -230,7 +264,9 @@ export class Navigator {
     travel_(view, now, duration) {
         this.note_input(now);
         if (!this.view || duration <= 0) return this.place(view);
-        this.way_ = { from: this.view, to: view, begin: now, duration };
+        const from = this.view;
+        const at = (time) => between(from, view, (time - now) / duration);
+        this.way_ = { at, end: now + duration, to: view };
         ++this.epoch;
     }
 

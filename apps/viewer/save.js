@@ -1,4 +1,5 @@
 // Files for the user: pictures, views, tables.
+import { broken_lines } from "./caption.js";
 import { element } from "./dom.js";
 import { paint_legend } from "./legend.js";
 
@@ -25,21 +26,49 @@ export function download(blob, name) {
 export const download_text = (text, name) =>
     download(new Blob([text], { type: "text/plain" }), name);
 
-/** Save the picture as the screen shows it; with false colours their legend is painted into it. */
-export function picture_blob(canvas, display) {
-    let source = canvas;
-    if (display.mode === "false") {
-        source = element("canvas", { width: canvas.width, height: canvas.height });
-        const context = source.getContext("2d");
-        context.drawImage(canvas, 0, 0);
-        paint_legend(context, display.scale, canvas.height, canvas.width / canvas.clientWidth);
-    }
+/**
+ * Save the picture as the screen shows it; with false colours their legend is painted into it.
+ * @param caption  lines of text, which are written under the picture
+ */
+export function picture_blob(canvas, display, caption = []) {
+    const zoom = canvas.width / canvas.clientWidth;
+    const source =
+        display.mode === "false" || caption.length > 0
+            ? captioned(canvas, caption, zoom)
+            : canvas;
+    if (display.mode === "false")
+        paint_legend(source.getContext("2d"), display.scale, canvas.height, zoom);
     return new Promise((resolve, reject) =>
         source.toBlob(
             (blob) => (blob ? resolve(blob) : reject(new Error("no memory for the picture"))),
             "image/png",
         ),
     );
+}
+
+/** A copy of the picture with lines of text under it. */
+function captioned(canvas, caption, zoom) {
+    const line = 18 * zoom,
+        margin = 12 * zoom,
+        font = `${13 * zoom}px system-ui, sans-serif`;
+    const source = element("canvas", { width: canvas.width, height: canvas.height });
+    const context = source.getContext("2d");
+    context.font = font;
+    const measure = (text) => context.measureText(text).width;
+    const lines = broken_lines(caption, canvas.width - 2 * margin, measure);
+    // Setting a canvas's size resets its context.
+    if (lines.length > 0)
+        source.height = canvas.height + Math.ceil(lines.length * line + 1.2 * margin);
+    context.fillStyle = "#0b0c0e";
+    context.fillRect(0, 0, source.width, source.height);
+    context.drawImage(canvas, 0, 0);
+    context.font = font;
+    context.textBaseline = "middle";
+    context.fillStyle = "#e8eaec";
+    lines.forEach((text, k) =>
+        context.fillText(text, margin, canvas.height + 0.6 * margin + (k + 0.5) * line),
+    );
+    return source;
 }
 
 /** Save the server's picture of the present view in full quality (.hdr); throws Error when it has none. */

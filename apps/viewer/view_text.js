@@ -55,13 +55,7 @@ const kStart = {
 };
 // In the files of paths a time precedes the view.
 const kViewLine =
-    /^\s*(?:[-+]?[\d.][-+\d.e]*\s+)?(?:VIEW=|(?:rvu|rview|rpict|rtrace|rpiece|pinterp)(?=\s))(.*)$/;
-
-/** The options of a view line, or nothing for any other line. */
-function options_of(line) {
-    const found = kViewLine.exec(line);
-    return found ? found[1] : null;
-}
+    /^\s*(?:([-+]?[\d.][-+\d.e]*)\s+)?(?:VIEW=|(?:rvu|rview|rpict|rtrace|rpiece|pinterp)(?=\s))(.*)$/;
 
 /** The `count` numbers that follow word k, or nothing when there are fewer. */
 function numbers_after(words, k, count) {
@@ -94,20 +88,25 @@ function apply_options(words, view) {
 }
 
 /**
- * The views of a view file or path, one for each view line; options that a line does not have are taken
- * from the line before. Throws Error when there is no view.
+ * The keys {time [s], view} of a view file or path, one for each view line; options that a line does not have are taken
+ * from the line before, and a time that it does not have is a second after the last. Throws Error when there is
+ * no view.
  */
-export function parse_views(text) {
-    const views = [];
+export function parse_keys(text) {
+    const keys = [];
     let view = kStart;
     for (const line of text.split(/\r?\n/)) {
-        const options = options_of(line);
-        if (options === null) continue;
-        const result = apply_options(options.trim().split(/\s+/), view);
+        const found = kViewLine.exec(line);
+        if (!found) continue;
+        const result = apply_options(found[2].trim().split(/\s+/), view);
         if (result.applied === 0) continue;
         view = result.view;
-        views.push(view);
+        const next = keys.length === 0 ? 0 : keys.at(-1).time + 1;
+        keys.push({ time: found[1] === undefined ? next : Number(found[1]), view });
     }
-    if (views.length === 0) throw new Error('no line like "VIEW= -vp x y z -vd x y z"');
-    return views;
+    if (keys.length === 0) throw new Error('no line like "VIEW= -vp x y z -vd x y z"');
+    return keys;
 }
+
+/** The views of a view file or path; see parse_keys(). */
+export const parse_views = (text) => parse_keys(text).map(({ view }) => view);

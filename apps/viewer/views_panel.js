@@ -1,8 +1,5 @@
-// Views to go to: those of the scene, those saved in this browser, and the keys of a path.
+// Views to go to: those of the scene, and those saved in this browser.
 import { by_id, element, remove_button } from "./dom.js";
-import { round_number } from "./words.js";
-
-const kBetween = 2; // time between two keys of a path [s]
 
 /** The least number that no name of the list ends in. */
 function free_number(list) {
@@ -10,12 +7,11 @@ function free_number(list) {
 }
 
 export class ViewsPanel {
-    /** @param on  {go(view), kept(saved), keys_changed(keys)} */
+    /** @param on  {go(view), kept(saved)} */
     constructor(on) {
         this.on_ = on;
         this.scene_views = []; ///< {name, view} of each view of the scene
         this.saved = []; ///< {name, view} of each view that this browser has stored
-        this.keys = []; ///< {time, view} of each key of the path
         this.naming_ = -1; // index of the saved view whose name is being typed, or -1
     }
 
@@ -29,10 +25,9 @@ export class ViewsPanel {
         this.show();
     }
 
-    restore(saved, keys) {
+    restore(saved) {
         const sound = ({ view }) => Array.isArray(view?.position) && Array.isArray(view?.direction);
         this.saved = saved.filter(sound);
-        this.keys = keys.filter(sound);
         this.show();
     }
 
@@ -45,18 +40,6 @@ export class ViewsPanel {
         return given;
     }
 
-    add_key(view) {
-        const time = this.keys.length === 0 ? 0 : this.keys.at(-1).time + kBetween;
-        this.keys.push({ time, view });
-        this.keys_changed_();
-        return this.keys.length;
-    }
-
-    clear_keys() {
-        this.keys = [];
-        this.keys_changed_();
-    }
-
     show() {
         const views = [
             ...this.scene_views.map((entry, k) => this.entry_(entry, k)),
@@ -66,11 +49,6 @@ export class ViewsPanel {
         const field = by_id("views").querySelector("input");
         field?.focus();
         field?.select();
-        by_id("keys").replaceChildren(...this.keys.map((key, k) => this.key_entry_(key, k)));
-        by_id("clear-path").disabled = this.keys.length === 0;
-        // A path needs two keys.
-        for (const id of ["write-path", "write-path-too"])
-            by_id(id).disabled = this.keys.length < 2;
     }
 
     entry_({ name, view }, k) {
@@ -121,31 +99,8 @@ export class ViewsPanel {
         return element("li", {}, field);
     }
 
-    key_entry_({ time, view }, k) {
-        const button = element(
-            "button",
-            { type: "button", className: "go", onclick: () => this.on_.go(view) },
-            element("b", { textContent: `${round_number(time)} s` }),
-            element("span", { textContent: `Key ${k + 1}` }),
-        );
-        return element(
-            "li",
-            {},
-            button,
-            remove_button(`key ${k + 1}`, () => {
-                this.keys.splice(k, 1);
-                this.keys_changed_();
-            }),
-        );
-    }
-
     kept_() {
         this.show();
         this.on_.kept(this.saved);
-    }
-
-    keys_changed_() {
-        this.show();
-        this.on_.keys_changed(this.keys);
     }
 }

@@ -7,7 +7,7 @@
 NPM is a folder with node_modules/playwright-core; PICTURES gets a screenshot of each step. Exit status 77: what is
 needed is not there.
 """
-import pathlib, shutil, subprocess, sys
+import pathlib, shutil, subprocess, sys, tempfile
 
 from walk_server_test import Server
 
@@ -25,8 +25,19 @@ def page(node, program, npm, pictures):
         return 77
     with Server(program) as server:
         # The panel glows with 2 W/(m2 sr), and is the middle of the picture's right half.
-        return subprocess.run([node, VIEWER / "walk_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
-                               "--luminance", "358", "--at", "0.67,0.52"]).returncode
+        status = subprocess.run([node, VIEWER / "walk_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
+                                 "--luminance", "358", "--at", "0.67,0.52"]).returncode
+        return status or animate(program, server.scene, pathlib.Path(pictures) / "path.vf")
+
+
+def animate(program, scene, path):
+    """Draw three frames of the path that the page has saved."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = ["--path", path.resolve(), "--frames", "3", "-x", "32", "-y", "24", "-o", pathlib.Path(folder) / "frame%d.hdr", scene]
+        status = subprocess.run([program, "animate", *words]).returncode
+        drawn = len(list(pathlib.Path(folder).glob("*.hdr")))
+    print("animate: the page's path has", drawn, "frames")
+    return status or (0 if drawn == 3 else 1)
 
 
 if __name__ == "__main__":

@@ -7,14 +7,15 @@
 // --npm there is nothing to do.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdir, readFile } from "node:fs/promises";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { fragment_view } from "../../../apps/viewer/address.js";
 import { fit_view, locate } from "../../../apps/viewer/view.js";
-import { parse_views } from "../../../apps/viewer/view_text.js";
+import { parse_keys, parse_views } from "../../../apps/viewer/view_text.js";
+import { axe_complaints } from "./axe.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -226,6 +227,36 @@ const steps = {
         await shown(page);
     },
 
+    async "one thumb moves, the other looks"(page) {
+        const line = await page.context().newCDPSession(page);
+        const send = (type, ...points) =>
+            line.send("Input.dispatchTouchEvent", {
+                type,
+                touchPoints: points.map(([id, x, y]) => ({ x, y, id })),
+            });
+        const start = await value(page, "view");
+        await send("touchStart", [0, 150, 350]);
+        await send("touchMove", [0, 150, 300]);
+        await page.waitForSelector("#stick:not([hidden])");
+        await page.waitForTimeout(400);
+        await send("touchStart", [0, 150, 300], [1, 600, 250]);
+        await send("touchMove", [0, 150, 300], [1, 640, 250]);
+        await send("touchMove", [0, 150, 300], [1, 700, 250]);
+        await page.waitForTimeout(200);
+        await send("touchEnd", [0, 150, 300]);
+        await send("touchEnd");
+        await page.waitForSelector("#stick", { state: "hidden" });
+        await shown(page);
+        const end = await value(page, "view");
+        assert.ok(gone(start, end) > 0.3, "the left thumb did not move the eye");
+        assert.ok(heading(end) < heading(start) - 5, "the right thumb did not turn it");
+        assert.ok(Math.abs(end.horizontal - start.horizontal) < 1e-9, "the lens changed");
+        await line.detach();
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+    },
+
     async "pins stand where they were put, and follow the light"(page) {
         await page.mouse.click(240, 250);
         await page.waitForSelector("#pin");
@@ -264,6 +295,12 @@ const steps = {
         const png = await saved_text(page, "#write-png");
         assert.equal(png.bytes.readUInt32BE(0), 0x89504e47);
         assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [800, 500]);
+        await page.check("#caption");
+        const captioned = (await saved_text(page, "#write-png")).bytes;
+        assert.equal(captioned.readUInt32BE(16), 800);
+        assert.ok(captioned.readUInt32BE(20) > 530 && captioned.readUInt32BE(20) < 620);
+        if (args.pictures) await writeFile(path.join(args.pictures, "captioned.png"), captioned);
+        await page.uncheck("#caption");
         assert.match(String((await saved_text(page, "#write-hdr")).bytes), /^#\?RADIANCE\n/);
         const [view] = parse_views(String((await saved_text(page, "#write-view-too")).bytes));
         const sent = await value(page, "view");
@@ -274,6 +311,64 @@ const steps = {
         const keys = parse_views(String((await saved_text(page, "#write-path-too")).bytes));
         assert.equal(keys.length, 2);
         await page.keyboard.press("Escape");
+    },
+
+    async "a path is recorded, played, scrubbed, saved and opened again"(page) {
+        const idle = () => until(page, () => !window.lightwalk.moving);
+        await page.keyboard.press("2");
+        await page.waitForTimeout(100);
+        await shown(page);
+        const from = await value(page, "view");
+        await page.focus("#picture");
+        await page.keyboard.press("j");
+        await hold(page, "w", 500);
+        await hold(page, "ArrowRight", 500);
+        await page.keyboard.press("j");
+        await page.waitForSelector("#notice >> text=Recorded");
+        const to = await value(page, "view");
+        await page.keyboard.press("v");
+        const count = await page.locator("#keys li").count();
+        assert.ok(count >= 3 && count < 30, `${count} keys`);
+        const text = await saved_text(page, "#write-path");
+        const keys = parse_keys(String(text.bytes));
+        assert.ok(gone(keys[0].view, from) < 0.02, `begins at ${keys[0].view.position}, not ${from.position}`);
+        assert.ok(gone(keys.at(-1).view, to) < 0.02, `ends at ${keys.at(-1).view.position}, not ${to.position}`);
+
+        await page.selectOption("#path-speed", "4");
+        await page.click("#play-path");
+        await until(page, () => document.querySelector("#play-path").textContent === "Pause");
+        await until(page, () => document.querySelector("#play-path").textContent === "Play");
+        await idle();
+        assert.ok(gone(await value(page, "view"), to) < 0.02);
+
+        await page.locator("#path-time").fill("0");
+        await until(page, (p) => Math.hypot(...window.lightwalk.view.position.map((x, k) => x - p[k])) < 0.02, from.position);
+        await page.selectOption("#path-speed", "0.25");
+        await page.click("#play-path");
+        await page.focus("#picture");
+        await page.keyboard.press("a", { delay: 100 });
+        await until(page, () => document.querySelector("#play-path").textContent === "Play");
+        const time = Number(await page.inputValue("#path-time"));
+        assert.ok(time < keys.at(-1).time / 2, "a hand stops the path");
+
+        await page.click("#clear-path");
+        assert.ok(await page.isDisabled("#play-path"));
+        const file = { name: "walk.vf", mimeType: "text/plain", buffer: text.bytes };
+        await page.setInputFiles("#path-file", file);
+        await until(page, (n) => document.querySelectorAll("#keys li").length === n, count);
+        await idle();
+        assert.ok(gone(await value(page, "view"), from) < 0.02);
+        await page.setInputFiles("#path-file", { ...file, buffer: Buffer.from("3 VIEW= -vp 1 2 3\n2 VIEW= -vp 0 0 0\n") });
+        await page.waitForSelector("#notice >> text=times of a path must rise");
+        await page.reload();
+        await shown(page);
+        await page.keyboard.press("v");
+        assert.equal(await page.locator("#keys li").count(), count, "not kept in the browser");
+        await page.click("#clear-path");
+        await page.keyboard.press("Escape");
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
     },
 
     async "exposure is fixed where it stood, and steps by half a stop"(page) {
@@ -330,6 +425,12 @@ const steps = {
         await page.focus("#picture");
         await page.keyboard.press("w", { delay: 200 });
         assert.equal(await value(page, "view_id"), before);
+        await page.mouse.move(300, 300);
+        await page.click("[data-panel=save]");
+        const png = (await saved_text(page, "#write-png")).bytes;
+        assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [800, 500]);
+        assert.match(String((await saved_text(page, "#write-hdr")).bytes), /^#\?RADIANCE\n/);
+        await page.click("[data-panel=save]");
         assert.ok(await page.isDisabled("#take"));
         await prank("leave");
         await page.click("#take");
@@ -458,6 +559,73 @@ const steps = {
         assert.equal(await value(page, "refreshes"), 0);
         await page.goto(address);
         await shown(page);
+    },
+
+    async "axe finds nothing wrong with any panel"(page) {
+        for (const panel of ["light", "views", "measure", "save", "help"]) {
+            await page.mouse.move(300, 300);
+            if (panel === "help") await page.click("#show-help");
+            else await page.click(`#dock [data-panel=${panel}]`);
+            await page.waitForTimeout(500);
+            const complaints = await axe_complaints(page, args.npm);
+            if (complaints === null) return console.log("skipped: no axe-core");
+            assert.deepEqual(complaints, [], panel);
+        }
+        await page.keyboard.press("Escape");
+    },
+
+    async "Tab reaches every control"(page) {
+        for (const panel of ["light", "views", "measure", "save"]) {
+            await page.mouse.move(300, 300);
+            await page.click(`#dock [data-panel=${panel}]`);
+            const wanted = await page.evaluate(() =>
+                [...document.querySelectorAll("button, select, input, canvas[tabindex]")]
+                    .filter((e) => !e.disabled && e.offsetParent !== null && e.type !== "radio")
+                    .map((e) => e.id || e.textContent),
+            );
+            const reached = new Set();
+            await page.focus("#picture");
+            for (let k = 0; k < 60; ++k) {
+                reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.textContent));
+                await page.keyboard.press("Tab");
+            }
+            const missing = wanted.filter((name) => !reached.has(name) && name !== "picture");
+            assert.deepEqual(missing, [], panel);
+            await page.click(`#dock [data-panel=${panel}]`);
+        }
+    },
+
+    async "fingers find 44 pixels, and nothing is cut off in a window of 400 x 300"(page) {
+        const phone = await page.context().browser().newContext({
+            viewport: { width: 390, height: 844 },
+            deviceScaleFactor: 2,
+            isMobile: true,
+            hasTouch: true,
+        });
+        const other = await phone.newPage();
+        await other.goto(address);
+        await until(other, () => window.lightwalk?.frames > 0);
+        for (const size of [[390, 844], [844, 390], [400, 300]]) {
+            await other.setViewportSize({ width: size[0], height: size[1] });
+            for (const panel of ["light", "views", "measure", "save"]) {
+                await other.evaluate((p) => document.querySelector(`#dock [data-panel=${p}]`).click(), panel);
+                const wrong = await other.evaluate(() => {
+                    const small = [...document.querySelectorAll("button, select, input[type=range], .segments label, label.line")]
+                        .filter((e) => e.offsetParent !== null || getComputedStyle(e).position === "fixed")
+                        .map((e) => [e.id || e.textContent, e.getBoundingClientRect()])
+                        .filter(([, box]) => box.width > 0 && (box.width < 43.5 || box.height < 43.5))
+                        .map(([name, box]) => `${name}: ${box.width} x ${box.height}`);
+                    const outside = [...document.querySelectorAll("#dock button, .panel:not([hidden])")]
+                        .map((e) => [e.id || e.dataset.panel, e.getBoundingClientRect()])
+                        .filter(([, box]) => box.width > 0 && (box.left < 0 || box.right > innerWidth + 0.5 || box.top < 0 || box.bottom > innerHeight + 0.5))
+                        .map(([name, box]) => `${name}: ${JSON.stringify(box)}`);
+                    return { small, outside };
+                });
+                assert.deepEqual(wrong, { small: [], outside: [] }, `${panel} at ${size}`);
+                await other.evaluate((p) => document.querySelector(`#dock [data-panel=${p}]`).click(), panel);
+            }
+        }
+        await phone.close();
     },
 
     async "help opens and closes by keys, and every control has a name"(page) {

@@ -5,13 +5,14 @@
 //
 // Loads, waits for the first picture, turns, walks, clicks a surface of known luminance L [cd/m2] at
 // X,Y (0..1 from the left and the bottom, seen from view N of the scene) and reads it within 2 %,
-// switches false colour, saves a view, reloads and returns to it. A screenshot of each step goes to
-// --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
+// switches false colour, saves a view, reloads and returns to it, and records a path to path.vf. A screenshot of each
+// step, and the path, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { parseArgs } from "node:util";
+import { axe_complaints } from "./axe.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -188,6 +189,26 @@ const steps = {
             turn_between(saved, back) < 0.01 && distance_between(saved, back) < 0.01,
             "not where we were",
         );
+    },
+
+    async "axe finds nothing wrong"(page) {
+        const complaints = await axe_complaints(page, args.npm);
+        if (complaints === null) return console.log("skipped: no axe-core");
+        assert.deepEqual(complaints, []);
+    },
+
+    async "record a path and save it"(page) {
+        await page.focus("#picture");
+        await page.keyboard.press("j");
+        await page.keyboard.press("ArrowLeft", { delay: 300 });
+        await page.keyboard.press("s", { delay: 300 });
+        await shown(page);
+        await page.keyboard.press("j");
+        const [file] = await Promise.all([
+            page.waitForEvent("download"),
+            page.click("#write-path"),
+        ]);
+        await file.saveAs(path.join(args.pictures, "path.vf"));
     },
 };
 
