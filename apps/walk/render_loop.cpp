@@ -174,13 +174,12 @@ void RenderLoop::reply(const WalkQuestion& question) {
         client_inbox_.tell(question.client, walk_text(answer));
     };
     std::visit(
-        Overloaded{
-            [&](const PickRequest& pick) {
-                const Camera camera(pick.view.value_or(*view_));
-                tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
-            },
-            [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
-            [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); }},
+        Overloaded{[&](const PickRequest& pick) {
+                       const Camera camera(pick.view.value_or(*view_));
+                       tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
+                   },
+                   [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
+                   [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); }},
         question.ask);
 }
 
