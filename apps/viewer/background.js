@@ -12,7 +12,7 @@ function farthest_pixels({ patches, count }, columns, rows) {
     const x = new Float32Array(size),
         y = new Float32Array(size);
     for (let k = 0, at = 0; k < count; ++k, at += kNumbers) {
-        const side = 1 << (patches[at + 2] & 15),
+        const side = 1 << (patches[at + 2] & 7),
             value = patches[at + 3];
         const middle_x = patches[at] + side / 2,
             middle_y = patches[at + 1] + side / 2;

@@ -3,7 +3,7 @@
 const kHeader = 8;
 const kHighest = 5; // level of the largest patch: its side is 2^level pixels
 const kBand = 64; // rows of pixels that are coded by themselves
-/** Numbers of a patch in `patches`: x, y, level + 16 edges, inverse depth, its slopes to the right and downward, 0, 0. */
+/** Numbers of a patch in `patches`: x, y, level + 8 guessed + 16 edges, inverse depth, its slopes to the right and downward, 0, 0. */
 export const kNumbers = 8;
 /** `patches` are as many as fill rows of a texture; those beyond the frame's own are 0. */
 export const kPatchRow = 512;
@@ -52,7 +52,7 @@ class Places {
         if (this.next >= this.shapes.length) throw new Error("frame: its depth has holes");
         const shape = this.shapes[this.next];
         const side = 1 << level;
-        if ((shape & 15) === level) {
+        if ((shape & 7) === level) {
             if (x + side > this.width || y + side > this.y1)
                 throw new Error("frame: its depth lies outside");
             this.out.set([x, y, shape], kNumbers * this.next++);
@@ -76,7 +76,7 @@ function fill_values(out, count, bytes, values, slopes, sloping) {
         middle_y = 0,
         s = slopes;
     for (let k = 0, at = 0; k < count; ++k, at += kNumbers) {
-        const level = out[at + 2] & 15,
+        const level = out[at + 2] & 7,
             side = 1 << level;
         const x = 2 * out[at] + side - 1,
             y = 2 * out[at + 1] + side - 1;
@@ -116,7 +116,7 @@ function fill_patches(patches, most, bytes, width, height) {
             for (let x = 0; x < width; x += 1 << kHighest) places.walk(x, y, kHighest);
         if (places.next !== count) throw new Error("frame: its depth has too many patches");
         let sloping = 0;
-        for (const shape of shapes) if ((shape & 15) !== 0) ++sloping;
+        for (const shape of shapes) if ((shape & 7) !== 0) ++sloping;
         const values = at + count;
         const slopes = values + 2 * count;
         at = slopes + 4 * sloping;

@@ -23,7 +23,17 @@ function compiled(gl, { vertex, fragment }) {
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
         throw new Error(`WebGL: ${gl.getProgramInfoLog(program)}`);
     const at = {};
-    for (const name of ["turn", "shift", "nearest", "step", "overlap", "frame", "patches"])
+    for (const name of [
+        "turn",
+        "shift",
+        "nearest",
+        "step",
+        "overlap",
+        "layer",
+        "guesses",
+        "frame",
+        "patches",
+    ])
         at[name] = gl.getUniformLocation(program, name);
     return { program, at };
 }
@@ -166,11 +176,12 @@ export class Reprojection {
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         gl.enable(gl.DEPTH_TEST);
         gl.depthFunc(gl.LESS);
-        // Each layer has a range of depths of its own, so that it shows only where those before it have gaps.
-        const layers = this.frames_.length + 1;
+        // What frames know, the newest first; what the newest guesses; the sheet.
+        const layers = this.frames_.length + 2;
+        const layer = (k) => [k / layers, 0.99 / layers];
         this.frames_.forEach((frame, k) => {
-            gl.depthRange(k / layers, (k + 0.99) / layers);
-            this.use_(this.patches_, frame, view);
+            this.use_(this.patches_, frame, view, layer(k));
+            gl.uniform2fv(this.patches_.at.guesses, layer(layers - 2));
             gl.uniform1f(this.patches_.at.overlap, kOverlap);
             gl.activeTexture(gl.TEXTURE1);
             gl.bindTexture(gl.TEXTURE_2D, frame.patches);
@@ -179,9 +190,8 @@ export class Reprojection {
             this.bind_corners_(frame.count);
             gl.drawElements(gl.TRIANGLES, 6 * frame.count, gl.UNSIGNED_INT, 0);
         });
-        gl.depthRange((layers - 1) / layers, 1);
         const [newest] = this.frames_;
-        this.use_(this.sheet_, newest, view);
+        this.use_(this.sheet_, newest, view, layer(layers - 1));
         gl.bindVertexArray(newest.sheet_array);
         gl.drawElements(gl.TRIANGLES, newest.corner_count, gl.UNSIGNED_INT, 0);
         gl.bindVertexArray(null);
@@ -196,12 +206,13 @@ export class Reprojection {
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, patch_triangles(2 * count), gl.STATIC_DRAW);
     }
 
-    use_({ program, at }, frame, view) {
+    use_({ program, at }, frame, view, layer) {
         const gl = this.gl_;
         const { turn, shift } = warp_of(frame.view, frame.width, frame.height, view);
         gl.useProgram(program);
         gl.uniformMatrix3fv(at.turn, false, turn);
         gl.uniform3fv(at.shift, shift);
+        gl.uniform2fv(at.layer, layer);
         gl.uniform1f(at.step, frame.step);
         gl.uniform1f(at.nearest, 0.5 / (65535 * frame.step));
         gl.bindTexture(gl.TEXTURE_2D, frame.texture);

@@ -12,15 +12,19 @@ const kWarp = `
 uniform mat3 turn;
 uniform vec3 shift;
 uniform float nearest; // [m]
-vec4 warped(vec2 pixel, float inverse) {
+// Each layer has a range of depths of its own, so that it shows only where those before it have gaps: from x to x + y, 0 to 1.
+vec4 warped(vec2 pixel, float inverse, vec2 layer) {
     vec3 clip = turn * vec3(pixel, 1.0) + inverse * shift;
-    return vec4(clip.xy, 0.999999 * clip.z - 2.0 * nearest * inverse, clip.z);
+    float far = 0.999999 * clip.z - nearest * inverse; // 0 to w
+    return vec4(clip.xy, (2.0 * layer.x - 1.0) * clip.z + 2.0 * layer.y * far, clip.z);
 }
 `;
 
 export const kPatches = {
     vertex: `${kHead}${kWarp}
 uniform float step;
+uniform vec2 layer;
+uniform vec2 guesses; // layer of patches that show what is guessed
 uniform highp usampler2D patches; // two texels each
 uniform float overlap; // of patches of one surface, so that no cracks open between them [pixels]
 out vec2 pixel;
@@ -28,9 +32,9 @@ flat out vec4 bounds; // of the pixels whose colours belong to the surface
 void main() {
     int place = gl_VertexID >> 2;
     ivec2 at = ivec2(2 * (place % ${kPatchRow}), place / ${kPatchRow});
-    ivec4 patch_place = ivec4(texelFetch(patches, at, 0)); // x, y, level + 16 edges, inverse depth
+    ivec4 patch_place = ivec4(texelFetch(patches, at, 0)); // x, y, level + 8 guessed + 16 edges, inverse depth
     ivec2 slope = (ivec2(texelFetch(patches, at + ivec2(1, 0), 0).xy) << 16) >> 16;
-    float side = float(1 << (patch_place.z & 15));
+    float side = float(1 << (patch_place.z & 7));
     int edges = patch_place.z >> 4;
     bvec4 torn = bvec4((edges & 1) != 0, (edges & 4) != 0, (edges & 2) != 0, (edges & 8) != 0);
     vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
@@ -39,7 +43,8 @@ void main() {
     pixel = first + corner * side + mix(-beyond.xy, beyond.zw, corner);
     float off = dot(vec2(slope), pixel - first - 0.5 * side) / 64.0;
     bounds = mix(vec4(-1e9, -1e9, 1e9, 1e9), vec4(first + 0.5, first + side - 0.5), vec4(torn));
-    gl_Position = warped(pixel, max(step * (float(patch_place.w) + off), 0.0));
+    float inverse = max(step * (float(patch_place.w) + off), 0.0);
+    gl_Position = warped(pixel, inverse, (patch_place.z & 8) != 0 ? guesses : layer);
 }`,
     fragment: `${kHead}
 uniform sampler2D frame;
@@ -54,6 +59,7 @@ void main() {
 export const kSheet = {
     vertex: `${kHead}${kWarp}
 uniform float step;
+uniform vec2 layer;
 uniform sampler2D frame;
 layout(location = 0) in vec3 place; // x, y, inverse depth
 layout(location = 1) in vec2 source;
@@ -61,7 +67,7 @@ out vec3 shade;
 void main() {
     vec2 size = vec2(textureSize(frame, 0));
     shade = textureLod(frame, source / size, 0.0).rgb;
-    gl_Position = warped(place.xy, step * place.z);
+    gl_Position = warped(place.xy, step * place.z, layer);
 }`,
     fragment: `${kHead}
 in vec3 shade;

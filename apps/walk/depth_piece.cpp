@@ -28,7 +28,7 @@ void DepthPiece::keep(const LivePicture& picture, const View& view, double eye_h
     height_ = picture.height;
     content_ = 0;
     if (!is_drawable(view) || picture.distance.size() != picture.radiance.size()) return;
-    step_ = depth_step(view, width_, kReach * eye_height);
+    step_ = coarseness_ * depth_step(view, width_, kReach * eye_height);
     distance_.resize(picture.distance.size());
     std::vector<std::uint64_t> hashes(kParts);
     executor.for_each(kParts, [&](std::size_t part, int) {
@@ -62,7 +62,24 @@ const std::string& DepthPiece::bytes(Executor& executor) {
     std::size_t all = 0;
     for (const std::size_t count : patches) all += count;
     bytes_ = encode_depth(step_, all, coded);
+    adapt_step();
     return bytes_;
+}
+
+/// Where things are as rough as leaves and grass the next pieces have coarser steps, so that they
+/// are no larger than their share of a link; finer ones are tried again once in a while only, for
+/// they may be as many times larger.
+void DepthPiece::adapt_step() {
+    constexpr float kCoarsest = 8;
+    constexpr int kTried = 16;  // pieces
+    const std::size_t most = distance_.size() / 8;
+    if (bytes_.size() > most) {
+        coarseness_ = std::min(2 * coarseness_, kCoarsest);
+        small_ = 0;
+    } else if (bytes_.size() < most / 3 && ++small_ >= kTried) {
+        coarseness_ = std::max(coarseness_ / 2, 1.0f);
+        small_ = 0;
+    }
 }
 
 }  // namespace lightwalk

@@ -23,10 +23,14 @@ class DepthPiece {
     [[nodiscard]] const std::string& bytes(Executor& executor);
 
   private:
+    void adapt_step();
+
     View view_;
     int width_ = 0, height_ = 0;
     std::vector<float> distance_;
     float step_ = 0;
+    float coarseness_ = 1;  ///< of the step: pieces would be too large with the finest
+    int small_ = 0;         ///< pieces since it changed that were small
     std::uint64_t content_ = 0, coded_ = 0;  ///< coded_: content of the bytes
     std::string bytes_;
 };

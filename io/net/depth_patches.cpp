@@ -45,48 +45,120 @@ class InverseDepths {
             const auto up = static_cast<float>(1 + rise * rise);
             const std::span<const float> row = picture.distance.subspan(
                 static_cast<std::size_t>(y) * across.size(), across.size());
-            const std::size_t begin = values_.size();
             for (std::size_t x = 0; x < row.size(); ++x) {
                 const float inverse = std::sqrt(across[x] + up) * scale / row[x];
                 values_.push_back(row[x] > 0 ? std::min(inverse, kNearestStep) : kUnknown);
             }
-            fill_unknown(std::span(values_).subspan(begin));
         }
+        fill_unknown();
     }
 
     [[nodiscard]] bool has(int x, int y) const {
         return x >= 0 && x < width_ && y >= first_ && y < end_;
     }
-    [[nodiscard]] const float* at(int x, int y) const {
-        return &values_[static_cast<std::size_t>(y - first_) * static_cast<std::size_t>(width_) +
-                        static_cast<std::size_t>(x)];
+    [[nodiscard]] const float* at(int x, int y) const { return &values_[index(x, y)]; }
+    /// Whether most pixels of a square are filled from others.
+    [[nodiscard]] bool is_guess(int x, int y, int side) const {
+        int unknown = 0;
+        for (int v = y; v < y + side; ++v)
+            for (int u = x; u < x + side; ++u) unknown += gaps_[index(u, v)] != 0;
+        return 2 * unknown > side * side;
     }
     [[nodiscard]] std::size_t stride() const { return static_cast<std::size_t>(width_); }
 
   private:
-    /// Pixels that nothing is known of lie on the surface around, and between two surfaces on the
-    /// farther one: what is too far away is hidden by what is not, what is too near hides what is
-    /// right.
-    void fill_unknown(std::span<float> row) const {
-        for (std::size_t x = 0; x < row.size();) {
-            if (row[x] != kUnknown) {
-                ++x;
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y - first_) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
+    }
+
+    /// A row or column of pixels.
+    struct Line {
+        std::size_t first, count, stride;
+    };
+
+    /// In short gaps of a row or a column, whichever is shorter, unknown pixels lie on the surface
+    /// of the known ones; elsewhere they are as far away as the known ones of the smallest square
+    /// of a quadtree that has some.
+    void fill_unknown() {
+        gaps_.resize(values_.size());
+        std::size_t unknown = 0;
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            gaps_[i] = values_[i] == kUnknown ? kNoGap : 0;
+            unknown += gaps_[i] != 0;
+        }
+        if (unknown == 0) return;
+        const auto width = static_cast<std::size_t>(width_), rows = values_.size() / width;
+        const std::vector<float> known = values_;
+        for (std::size_t y = 0; y < rows; ++y) fill_line({y * width, width, 1}, known);
+        for (std::size_t x = 0; x < width; ++x) fill_line({x, rows, width}, known);
+        const int side = kLargestPatch, end = static_cast<int>(rows);
+        for (int y = 0; y < end; y += side)
+            for (int x = 0; x < width_; x += side) fill_square(x, y, side, 0);
+    }
+
+    void fill_line(const Line& line, std::span<const float> known) {
+        const auto at = [&](std::size_t k) { return line.first + k * line.stride; };
+        for (std::size_t k = 0; k < line.count;) {
+            if (known[at(k)] != kUnknown) {
+                ++k;
                 continue;
             }
-            std::size_t end = x;
-            while (end < row.size() && row[end] == kUnknown) ++end;
-            const bool begins = x == 0, ends = end == row.size();
-            const float left = !begins ? row[x - 1] : ends ? 0 : row[end];
-            const float right = ends ? left : row[end];
-            const float slope = (right - left) / static_cast<float>(end - x + 1);
-            const bool together = std::abs(slope) <= kEdgeTolerances * kDepthTolerance;
-            for (std::size_t k = x; k < end; ++k)
-                row[k] =
-                    together ? left + slope * static_cast<float>(k - x + 1) : std::min(left, right);
-            x = end;
+            std::size_t end = k;
+            while (end < line.count && known[at(end)] == kUnknown) ++end;
+            const bool begins = k == 0, ends = end == line.count;
+            if ((!begins || !ends) && end - k <= kShortGap) {
+                const float before = known[begins ? at(end) : at(k - 1)];
+                const float after = ends ? before : known[at(end)];
+                // With one known end only, less is known.
+                const std::size_t gap = (end - k) * (begins || ends ? 4 : 1);
+                fill_gap({at(k), end - k, line.stride}, before, after, gap);
+            }
+            k = end;
         }
     }
 
+    /// Between two surfaces it is the farther one: what is too far away is hidden by what is not,
+    /// what is too near hides what is right.
+    void fill_gap(const Line& line, float before, float after, std::size_t gap) {
+        const float slope = (after - before) / static_cast<float>(line.count + 1);
+        const bool together = std::abs(slope) <= kEdgeTolerances * kDepthTolerance;
+        const float farther = std::min(before, after);
+        for (std::size_t k = 0; k < line.count; ++k) {
+            const std::size_t i = line.first + k * line.stride;
+            if (gaps_[i] <= gap) continue;
+            gaps_[i] = static_cast<std::uint32_t>(gap);
+            values_[i] = together ? before + slope * static_cast<float>(k + 1) : farther;
+        }
+    }
+
+    /// @param y  from the first row
+    /// @param around  the mean of a larger square's known pixels
+    void fill_square(int x, int y, int side, float around) {
+        const int right = std::min(x + side, width_), low = std::min(y + side, end_ - first_);
+        float sum = 0;
+        int known = 0, unknown = 0;
+        for (int v = y; v < low; ++v)
+            for (int u = x; u < right; ++u) {
+                const float value = *at(u, v + first_);
+                ++(value == kUnknown ? unknown : known);
+                if (value != kUnknown) sum += value;
+            }
+        if (unknown == 0) return;
+        const float mean = known > 0 ? sum / static_cast<float>(known) : around;
+        if (known == 0) {
+            for (int v = y; v < low; ++v)
+                for (int u = x; u < right; ++u) values_[index(u, v + first_)] = mean;
+            return;
+        }
+        for (int v = y; v < low; v += side / 2)
+            for (int u = x; u < right; u += side / 2) fill_square(u, v, side / 2, mean);
+    }
+
+    static constexpr std::size_t kShortGap = 6;  // [pixels]
+    static constexpr std::uint32_t kNoGap = ~std::uint32_t{0};
+    std::vector<std::uint32_t>
+        gaps_;  ///< by pixel: how far apart the known ones are; 0: it is known
     int width_, first_, end_;
     std::vector<float> values_;
 };
@@ -108,6 +180,7 @@ class PatchCutter {
                          static_cast<std::uint8_t>(level)};
         if (x + side <= width_ && y + side <= y1_ && fits(patch)) {
             patch.edges = edges_of(patch);
+            patch.guessed = inverse_.is_guess(x, y, side);
             patches_.push_back(patch);
             return;
         }
@@ -228,7 +301,7 @@ std::string band_numbers(std::span<const DepthPatch> patches) {
         last;  // its plane foretells the next patch's value, which is often on the same surface
     int middle_x = 0, middle_y = 0;
     for (const DepthPatch& patch : patches) {
-        shapes += static_cast<char>(patch.level | patch.edges << 4);
+        shapes += static_cast<char>(patch.level | (patch.guessed ? 8 : 0) | patch.edges << 4);
         const int side = 1 << patch.level, x = 2 * patch.x + side - 1, y = 2 * patch.y + side - 1;
         const int ahead = (last.slope_x * (x - middle_x) + last.slope_y * (y - middle_y)) >> 7;
         put(values, zigzag(patch.value - std::clamp(last.value + ahead, 0, 65535)));

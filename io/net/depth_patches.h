@@ -15,6 +15,7 @@ namespace lightwalk {
 struct DepthPatch {
     std::uint16_t x = 0, y = 0;  ///< upper left pixel, y downward from the picture's top
     std::uint8_t level = 0;      ///< the side is 2^level pixels, at most kLargestPatch
+    bool guessed = false;        ///< most of its pixels are filled from those around
     std::uint8_t edges = 0;      ///< sides beyond which another surface begins, see PatchEdge
     std::uint16_t value =
         0;  ///< inverse depth in the middle of the square [steps]; 0: infinitely far

@@ -18,15 +18,17 @@ test("patches come back as they were, the sign of their slopes included", async 
         kWidth,
         kHeight,
     );
+    bands[0][3].guessed = true;
+    bands[1][2].edges = 9;
     const { step, count, patches } = await decode(bytes_of(bands));
     assert.equal(step, Math.fround(0.001));
     const wanted = bands.flat();
     assert.equal(count, wanted.length);
     assert.ok(wanted.some(({ slope_x }) => slope_x < 0));
     const signed = (number) => (number << 16) >> 16;
-    wanted.forEach(({ x, y, level, edges, value, slope_x, slope_y }, k) => {
+    wanted.forEach(({ x, y, level, guessed, edges, value, slope_x, slope_y }, k) => {
         const [a, b, shape, v, s, t] = patches.subarray(kNumbers * k, kNumbers * (k + 1));
-        assert.deepEqual([a, b, shape, v], [x, y, level + 16 * edges, value]);
+        assert.deepEqual([a, b, shape, v], [x, y, level + (guessed ? 8 : 0) + 16 * edges, value]);
         assert.deepEqual([signed(s), signed(t)], [slope_x, slope_y]);
     });
 });

@@ -56,8 +56,8 @@ function band(patches) {
         columns[k].push(number & 255);
         columns[k + 1].push(number >> 8);
     };
-    for (const { x, y, level, edges, value, slope_x, slope_y } of patches) {
-        shapes.push(level | (edges << 4));
+    for (const { x, y, level, guessed, edges, value, slope_x, slope_y } of patches) {
+        shapes.push(level | (guessed ? 8 : 0) | (edges << 4));
         const middle = [2 * x + 2 ** level - 1, 2 * y + 2 ** level - 1];
         const ahead =
             (before.slope_x * (middle[0] - before.middle[0]) +

@@ -149,8 +149,8 @@ TEST_CASE(
     "before") {
     Screen all;
     InboxContents news;
-    news.joined = {kSecond};
-    news.want_depth = {kSecond};
+    news.joined = {kWatching};
+    news.want_depth = {kWatching};
     all.screen.update_clients(news);
     LivePicture picture = picture_of(0.5f);
     picture.distance.assign(picture.radiance.size(), 2);
@@ -158,24 +158,24 @@ TEST_CASE(
         all.screen.measure_depth(picture, view, 1.6);
         all.show(picture, id);
         all.send();
-        all.ack(kFirst);
-        all.ack(kSecond);
+        all.ack(kDriving);
+        all.ack(kWatching);
     };
     show(1, View{});
-    CHECK(frame_pieces(all.last(kFirst)) == 6);
-    CHECK(frame_pieces(all.last(kSecond)) == 7);
-    CHECK(frame_flags(all.last(kSecond)) == 3);  // whole
+    CHECK(frame_pieces(all.last(kDriving)) == 6);
+    CHECK(frame_pieces(all.last(kWatching)) == 7);
+    CHECK(frame_flags(all.last(kWatching)) == 3);  // whole
     show(2, View{});
-    CHECK(frame_pieces(all.last(kSecond)) == 0);
+    CHECK(frame_pieces(all.last(kWatching)) == 0);
     picture.distance[7] = 3;
     show(3, View{});
-    CHECK(frame_pieces(all.last(kFirst)) == 0);
-    REQUIRE(frame_pieces(all.last(kSecond)) == 1);
-    CHECK(all.last(kSecond).substr(48, 9) == std::string("\0\0\0\0\x90\1\xc8\0\3", 9));
-    CHECK(frame_flags(all.last(kSecond)) == 2);
+    CHECK(frame_pieces(all.last(kDriving)) == 0);
+    REQUIRE(frame_pieces(all.last(kWatching)) == 1);
+    CHECK(all.last(kWatching).substr(48, 9) == std::string("\0\0\0\0\x90\1\xc8\0\3", 9));
+    CHECK(frame_flags(all.last(kWatching)) == 2);
     View around;
     around.type = 'a';
     show(4, around);  // of no use to a page: the piece is empty
-    REQUIRE(frame_pieces(all.last(kSecond)) == 1);
-    CHECK(all.last(kSecond).size() == 48 + 16);
+    REQUIRE(frame_pieces(all.last(kWatching)) == 1);
+    CHECK(all.last(kWatching).size() == 48 + 16);
 }

@@ -97,13 +97,14 @@ class BandReader {
         REQUIRE(count == expected.size());
         const std::size_t shapes = at_ + 4, values = shapes + count, slopes = values + 2 * count;
         std::size_t sloping = 0, s = 0;
-        for (std::size_t k = 0; k < count; ++k) sloping += (byte(shapes + k) & 15) != 0;
+        for (std::size_t k = 0; k < count; ++k) sloping += (byte(shapes + k) & 7) != 0;
         std::vector<DepthPatch> patches;
         DepthPatch last;
         int middle_x = 0, middle_y = 0;
         for (std::size_t k = 0; k < count; ++k) {
             DepthPatch patch{expected[k].x, expected[k].y};
-            patch.level = byte(shapes + k) & 15;
+            patch.level = byte(shapes + k) & 7;
+            patch.guessed = (byte(shapes + k) & 8) != 0;
             patch.edges = byte(shapes + k) >> 4;
             const int x = 2 * patch.x + (1 << patch.level) - 1,
                       y = 2 * patch.y + (1 << patch.level) - 1;
@@ -147,6 +148,7 @@ TEST_CASE("depth patches: each pixel lies in one patch, within the tolerance of 
     std::size_t large = 0;
     for (const DepthPatch& patch : all_patches(picture)) {
         large += patch.level >= 4;
+        CHECK_FALSE(patch.guessed);
         for (int y = patch.y; y < patch.y + (1 << patch.level); ++y)
             for (int x = patch.x; x < patch.x + (1 << patch.level); ++x) {
                 ++covered.at(static_cast<std::size_t>(y * kWidth + x));
@@ -190,8 +192,9 @@ TEST_CASE(
         if (unknown[i]) distance[i] = 0;
     const DepthPicture picture{view, kWidth, kHeight, distance, depth_step(view, kWidth, 0.25)};
     const std::vector<float> truth = distances(view, room);
-    std::size_t right = 0, nearer = 0;
-    for (const DepthPatch& patch : all_patches(picture))
+    std::size_t right = 0, nearer = 0, guessed = 0;
+    for (const DepthPatch& patch : all_patches(picture)) {
+        guessed += patch.guessed ? std::size_t{1} << 2 * patch.level : 0;
         for (int y = patch.y; y < patch.y + (1 << patch.level); ++y)
             for (int x = patch.x; x < patch.x + (1 << patch.level); ++x) {
                 const double inverse =
@@ -200,6 +203,8 @@ TEST_CASE(
                 right += std::abs(apart) < 12;
                 nearer += apart > 100;
             }
+    }
+    CHECK(guessed > kWidth * kHeight / 2);
     CHECK(static_cast<double>(right) > 0.9 * kWidth * kHeight);
     CHECK(static_cast<double>(nearer) < 0.02 * kWidth * kHeight);
 }

@@ -1,0 +1,441 @@
+// The page in headless Chromium against the fake server, which can be told to misbehave:
+//
+//     node page_test.mjs --npm FOLDER [--pictures FOLDER] [--chromium PROGRAM] [--port N]
+//
+// FOLDER has node_modules with ws, jpeg-js and playwright-core. Without --npm there is nothing to do.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdir, readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+import { fit_view, locate } from "../../../apps/viewer/view.js";
+import { parse_views } from "../../../apps/viewer/view_text.js";
+
+const { values: args } = parseArgs({
+    options: {
+        npm: { type: "string" },
+        pictures: { type: "string" },
+        chromium: { type: "string", default: "/usr/bin/chromium" },
+        port: { type: "string", default: "8097" },
+    },
+});
+const kSize = { width: 800, height: 500 };
+const address = `http://127.0.0.1:${args.port}/`;
+
+const prank = (name) => fetch(`${address}fake/${name}`);
+const value = (page, name) => page.evaluate((n) => window.lightwalk[n], name);
+const until = (page, test, argument) => page.waitForFunction(test, argument, { timeout: 20000 });
+const shown = (page) =>
+    until(page, () => {
+        const l = window.lightwalk;
+        return l.ready && !l.moving && l.view_id > 0 && l.shown_view_id === l.view_id;
+    });
+const gone = (a, b) => Math.hypot(...a.position.map((x, k) => x - b.position[k]));
+const heading = ({ direction: [x, y] }) => (Math.atan2(x, y) * 180) / Math.PI;
+
+/** Press a key for a while; how far the eye went [m]. */
+async function hold(page, key, ms = 400) {
+    const before = await value(page, "view");
+    await page.keyboard.down(key);
+    await page.waitForTimeout(ms);
+    await page.keyboard.up(key);
+    await shown(page);
+    return gone(before, await value(page, "view"));
+}
+
+/** The text of the file that a click saves. */
+async function saved_text(page, button) {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+    return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+}
+
+/** Fingers on the picture, as Chromium's input layer has them. */
+async function touch(page, moves) {
+    const line = await page.context().newCDPSession(page);
+    const send = (type, points) =>
+        line.send("Input.dispatchTouchEvent", {
+            type,
+            touchPoints: points.map(([x, y], id) => ({ x, y, id })),
+        });
+    await send("touchStart", moves[0]);
+    for (const points of moves.slice(1)) await send("touchMove", points);
+    await send("touchEnd", []);
+    await line.detach();
+    await shown(page);
+}
+
+const steps = {
+    async "all keys move as the help says"(page) {
+        await page.keyboard.press("2");
+        await page.waitForTimeout(100);
+        await shown(page);
+        assert.ok((await hold(page, "w")) > 0.2);
+        assert.ok((await hold(page, "a")) > 0.2);
+        const plain = await hold(page, "d", 500);
+        await page.keyboard.down("Shift");
+        assert.ok((await hold(page, "a", 500)) > 1.5 * plain);
+        await page.keyboard.up("Shift");
+        const before = heading(await value(page, "view"));
+        assert.ok((await hold(page, "ArrowRight")) < 1e-9);
+        assert.ok(heading(await value(page, "view")) > before + 5);
+        assert.ok((await value(page, "view")).position[2] === 1.6);
+        assert.ok((await hold(page, "e")) > 0.2);
+        assert.equal(await value(page, "walking"), false);
+        assert.equal(await page.textContent("#walk span"), "Fly");
+        await page.keyboard.press("g");
+        await until(page, () => Math.abs(window.lightwalk.shown_view?.position[2] - 1.6) < 1e-9);
+    },
+
+    async "a jump is undone"(page) {
+        const before = await value(page, "shown_view");
+        await page.keyboard.press("3");
+        await page.waitForTimeout(100);
+        await shown(page);
+        assert.ok(gone(before, await value(page, "shown_view")) > 0.5);
+        await page.keyboard.press("Backspace");
+        await page.waitForTimeout(100);
+        await shown(page);
+        assert.ok(gone(before, await value(page, "shown_view")) < 1e-6);
+    },
+
+    async "the wheel changes the speed, with Ctrl the lens"(page) {
+        await page.mouse.move(400, 250);
+        await page.mouse.wheel(0, -300);
+        await page.waitForSelector("#notice >> text=m/s");
+        const before = (await value(page, "view")).horizontal;
+        await page.keyboard.down("Control");
+        await page.mouse.wheel(0, 120);
+        await page.keyboard.up("Control");
+        await until(page, (h) => window.lightwalk.view.horizontal > h + 1, before);
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+    },
+
+    async "one finger looks, two move and zoom, a tap reads"(page) {
+        const start = await value(page, "view");
+        await touch(page, [[[400, 250]], [[430, 250]], [[520, 250]]]);
+        const looked = await value(page, "view");
+        assert.ok(heading(looked) < heading(start) - 5 && gone(start, looked) < 1e-6);
+        const two = (y, d) => [
+            [400 - d, y],
+            [400 + d, y],
+        ];
+        await touch(page, [two(250, 60), two(200, 60), two(150, 60)]);
+        const moved = await value(page, "view");
+        assert.ok(gone(looked, moved) > 0.1);
+        await touch(page, [two(250, 60), two(250, 80), two(250, 120)]);
+        assert.ok((await value(page, "view")).horizontal < moved.horizontal - 5);
+        await page.evaluate(() => (window.lightwalk.last_pick = null));
+        await touch(page, [[[300, 200]]]);
+        await until(page, () => window.lightwalk.last_pick?.hit);
+        await page.keyboard.press("Escape");
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+    },
+
+    async "pins stand where they were put, and follow the light"(page) {
+        await page.waitForTimeout(1500); console.log(JSON.stringify(await page.evaluate(() => { const l = window.lightwalk; return { d: l.camera_draws, r: l.refreshes, eye: l.eye, fv: l.frame_view, v: l.view, m: l.moving, ids: [l.view_id, l.shown_view_id] }; }))); process.exit();
+        await page.mouse.click(240, 250);
+        await page.waitForSelector("#pin");
+        await page.keyboard.press("p");
+        await until(page, () => window.lightwalk.last_probes?.settled === 1);
+        const dot = page.locator("#overlay .pin");
+        const at = await dot.boundingBox();
+        assert.ok(
+            Math.abs(at.x + at.width / 2 - 240) < 2 && Math.abs(at.y + at.height / 2 - 250) < 2,
+        );
+        await page.keyboard.press("ArrowLeft", { delay: 200 });
+        await shown(page);
+        assert.ok((await dot.boundingBox()).x > at.x + 10, "the pin stuck to the screen");
+    },
+
+    async "a mean over an area is listed"(page) {
+        await page.keyboard.press("r");
+        await page.mouse.move(300, 100);
+        await page.mouse.down();
+        await page.mouse.move(500, 200, { steps: 3 });
+        await page.mouse.up();
+        await until(page, () => window.lightwalk.last_mean?.luminance > 0);
+        await page.keyboard.press("m");
+        await until(page, () => document.querySelectorAll("#measured tr").length === 2);
+        assert.equal(await page.getAttribute("#area", "aria-pressed"), "false");
+    },
+
+    async "files hold what is seen"(page) {
+        const table = String((await saved_text(page, "#write-table")).bytes)
+            .trimEnd()
+            .split("\r\n");
+        assert.equal(table.length, 3);
+        assert.match(table[1], /^probe,P1,/);
+        assert.match(table[2], /^mean,A1,/);
+        await page.click("[data-panel=save]");
+        const png = await saved_text(page, "#write-png");
+        assert.equal(png.bytes.readUInt32BE(0), 0x89504e47);
+        assert.deepEqual([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [800, 500]);
+        assert.match(String((await saved_text(page, "#write-hdr")).bytes), /^#\?RADIANCE\n/);
+        const [view] = parse_views(String((await saved_text(page, "#write-view-too")).bytes));
+        const sent = await value(page, "view");
+        assert.ok(gone(view, sent) < 1e-6 && Math.abs(view.vertical - sent.vertical) < 1e-3);
+        await page.keyboard.press("k");
+        await page.keyboard.press("ArrowLeft", { delay: 200 });
+        await page.keyboard.press("k");
+        const keys = parse_views(String((await saved_text(page, "#write-path-too")).bytes));
+        assert.equal(keys.length, 2);
+        await page.keyboard.press("Escape");
+    },
+
+    async "exposure is fixed where it stood, and steps by half a stop"(page) {
+        await page.keyboard.press("x");
+        await until(page, () => window.lightwalk.frames > 0);
+        await page.waitForTimeout(300);
+        const before = await value(page, "exposure");
+        await page.keyboard.press("+");
+        await until(
+            page,
+            (x) => Math.abs(window.lightwalk.exposure / x - Math.SQRT2) < 0.05,
+            before,
+        );
+        await page.keyboard.press("x");
+    },
+
+    async "a scale that makes no sense is not sent"(page) {
+        await page.keyboard.press("f");
+        await page.keyboard.press("l");
+        await page.fill("#low", "0");
+        await page.keyboard.press("Tab");
+        await page.waitForSelector("#scale-problem:not([hidden])");
+        await page.fill("#low", "0,5");
+        await page.keyboard.press("Tab");
+        await page.waitForSelector("#scale-problem", { state: "hidden" });
+        assert.match(await page.getAttribute("#legend-bar", "aria-label"), /from 0.5 to/);
+        await page.keyboard.press("Escape");
+        await page.keyboard.press("f");
+    },
+
+    async "glare is outlined until the eye moves"(page) {
+        await page.keyboard.press("l");
+        await page.click("#ask-glare");
+        await page.waitForSelector("#overlay .source");
+        assert.match(await page.textContent("#glare"), /DGP 0\.37perceptible/);
+        await page.focus("#picture");
+        await page.keyboard.press("ArrowLeft", { delay: 100 });
+        await page.waitForSelector("#overlay .source", { state: "detached" });
+        await page.keyboard.press("l");
+    },
+
+    async "a scene's errors are shown, and go when it can be read"(page) {
+        await prank("fail");
+        await page.waitForSelector("text=room/materials.rad:12:");
+        await prank("reload");
+        await page.waitForSelector("#failure", { state: "hidden" });
+        await shown(page);
+    },
+
+    async "a watcher watches, and takes over when nobody drives"(page) {
+        const before = await value(page, "view_id");
+        await prank("steal");
+        await page.waitForSelector("text=Watching");
+        await page.focus("#picture");
+        await page.keyboard.press("w", { delay: 200 });
+        assert.equal(await value(page, "view_id"), before);
+        assert.ok(await page.isDisabled("#take"));
+        await prank("leave");
+        await page.click("#take");
+        await until(page, () => window.lightwalk.driving);
+        await page.focus("#picture");
+        assert.ok((await hold(page, "s")) > 0.1);
+    },
+
+    async "the driver hands over to who is chosen"(page) {
+        await prank("join");
+        await page.selectOption("#hand-to", { label: "Viewer 77" });
+        await until(page, () => !window.lightwalk.driving);
+        await prank("leave");
+        await page.click("#take");
+        await until(page, () => window.lightwalk.driving);
+    },
+
+    async "a line that breaks is made again, and the walk goes on where it stood"(page) {
+        const before = await value(page, "view");
+        await prank("drop");
+        await until(page, () => !window.lightwalk.connected);
+        assert.match(await page.textContent("#cover"), /lost/);
+        await until(page, () => window.lightwalk.connected && window.lightwalk.driving);
+        await shown(page);
+        assert.ok(gone(before, await value(page, "view")) < 1e-6);
+        assert.ok((await hold(page, "w")) > 0.1);
+    },
+
+    async "what lies over the picture fades, and comes back for the keyboard"(page) {
+        const opacity = () =>
+            page.evaluate(() => getComputedStyle(document.querySelector("#dock")).opacity);
+        await page.mouse.move(400, 100);
+        await page.focus("#picture");
+        await until(page, () => getComputedStyle(document.querySelector("#dock")).opacity === "0");
+        await page.keyboard.press("Tab");
+        await page.waitForTimeout(500);
+        assert.equal(await opacity(), "1");
+    },
+
+    async "the window's size is the picture's"(page) {
+        await page.setViewportSize({ width: 640, height: 700 });
+        await until(page, () => {
+            const canvas = document.querySelector("#picture");
+            return canvas.width === 640 && canvas.height === 700;
+        });
+        await shown(page);
+        await page.setViewportSize(kSize);
+    },
+
+    async "while the eye moves the page draws what it sees, and at rest shows the frame"(page) {
+        const before = await value(page, "refreshes");
+        await page.focus("#picture");
+        await page.keyboard.down("ArrowRight");
+        await until(page, (n) => window.lightwalk.refreshes > n + 5, before);
+        const seen = await page.evaluate(
+            () =>
+                new Promise((resolve) =>
+                    requestAnimationFrame(() => {
+                        // In the same refresh in which it was drawn the canvas can be read.
+                        const canvas = document.createElement("canvas");
+                        const [w, h] = [(canvas.width = 40), (canvas.height = 25)];
+                        const context = canvas.getContext("2d");
+                        context.drawImage(document.querySelector("#camera"), 0, 0, w, h);
+                        const { data } = context.getImageData(0, 0, w, h);
+                        const { eye, shown_view, frame_view, view, camera_draws } =
+                            window.lightwalk;
+                        const hidden = document.querySelector("#camera").hidden;
+                        const dark = data.filter((x, k) => k % 4 === 1 && x < 8).length / (w * h);
+                        resolve({ eye, shown_view, frame_view, view, camera_draws, hidden, dark });
+                    }),
+                ),
+        );
+        assert.ok(seen.camera_draws && !seen.hidden && seen.dark < 0.02, `${seen.dark} is black`);
+        // What is drawn is what the eye sees; what is asked for is ahead of it, and wider.
+        assert.ok(Math.abs(heading(seen.eye) - heading(seen.shown_view)) < 0.01);
+        assert.ok(heading(seen.view) > heading(seen.eye));
+        assert.ok(seen.view.horizontal > seen.shown_view.horizontal);
+        await page.keyboard.up("ArrowRight");
+        await shown(page);
+        await until(page, () => !window.lightwalk.camera_draws);
+        assert.ok(await page.isHidden("#camera"));
+        const { width, height } = kSize;
+        const rest = await value(page, "shown_view");
+        assert.deepEqual(rest, fit_view(await value(page, "eye"), width, height));
+    },
+
+    async "a point is read where it is seen, also while the eye moves"(page) {
+        await page.focus("#picture");
+        await page.keyboard.down("ArrowLeft");
+        await until(page, () => window.lightwalk.camera_draws);
+        await page.evaluate(() => (window.lightwalk.last_pick = null));
+        const asked = page.evaluate(() => {
+            document.activeElement.dispatchEvent(
+                new KeyboardEvent("keydown", { key: "Enter", bubbles: true }),
+            );
+            return window.lightwalk.shown_view;
+        });
+        await until(page, () => window.lightwalk.last_pick);
+        const { position } = await value(page, "last_pick");
+        await page.keyboard.up("ArrowLeft");
+        const at = locate(await asked, position);
+        assert.ok(Math.hypot(at.x - 0.5, at.y - 0.5) < 1e-3, `${at.x}, ${at.y}`);
+        await shown(page);
+    },
+
+    async "a lost graphics memory is no fault"(page) {
+        const lose = (what) =>
+            page.evaluate((name) => {
+                const context = document.querySelector("#camera").getContext("webgl2");
+                window.loss ??= context.getExtension("WEBGL_lose_context");
+                window.loss[name]();
+            }, what);
+        await lose("loseContext");
+        assert.ok((await hold(page, "w")) > 0.1);
+        assert.equal(await value(page, "camera_draws"), false);
+        await lose("restoreContext");
+        const before = await value(page, "refreshes");
+        await hold(page, "s");
+        assert.ok((await value(page, "refreshes")) > before);
+    },
+
+    async "frames are shown as they come where the address says so"(page) {
+        await page.goto(`${address}?plain`);
+        await shown(page);
+        assert.ok((await hold(page, "w")) > 0.1);
+        assert.equal(await value(page, "refreshes"), 0);
+        await page.goto(address);
+        await shown(page);
+    },
+
+    async "help opens and closes by keys, and every control has a name"(page) {
+        await page.focus("#picture");
+        await page.keyboard.press("?");
+        await page.waitForSelector("#help[open]");
+        await page.keyboard.press("Escape");
+        await page.waitForSelector("#help", { state: "hidden" });
+        const nameless = await page.evaluate(() =>
+            [...document.querySelectorAll("button, input, select")]
+                .filter((control) => {
+                    const words = control.getAttribute("aria-label") || control.textContent.trim();
+                    return !words && !control.labels?.length && !control.hidden;
+                })
+                .map((control) => control.outerHTML),
+        );
+        assert.deepEqual(nameless, []);
+    },
+};
+
+async function start_server() {
+    const program = path.join(path.dirname(fileURLToPath(import.meta.url)), "fake_server.mjs");
+    const server = spawn(process.execPath, [program, "--npm", args.npm, "--port", args.port], {
+        stdio: ["ignore", "pipe", "inherit"],
+    });
+    await new Promise((resolve) => server.stdout.once("data", resolve));
+    return server;
+}
+
+async function run() {
+    const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
+    if (args.pictures) await mkdir(args.pictures, { recursive: true });
+    const server = await start_server();
+    const browser = await chromium.launch({
+        executablePath: args.chromium,
+        args: ["--no-sandbox"],
+    });
+    const page = await browser.newPage({ viewport: kSize, hasTouch: true });
+    page.setDefaultTimeout(20000);
+    const complaints = [];
+    page.on("pageerror", (error) => complaints.push(String(error.stack)));
+    page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+    let failed = 0;
+    try {
+        await page.goto(address);
+        await shown(page);
+        for (const [name, step] of Object.entries(steps)) {
+            try {
+                await step(page);
+                console.log(`ok: ${name}`);
+            } catch (error) {
+                ++failed;
+                console.log(`FAILED: ${name}\n${error.stack}`);
+                if (args.pictures)
+                    await page.screenshot({
+                        path: path.join(args.pictures, `failed-${failed}.png`),
+                    });
+            }
+        }
+    } finally {
+        await browser.close();
+        server.kill();
+    }
+    assert.deepEqual(complaints, [], "the browser complained");
+    assert.equal(failed, 0, `${failed} steps failed`);
+}
+
+if (args.npm) await run();
+else console.log("page_test: no --npm, nothing to test");
