@@ -231,8 +231,7 @@ export class Navigator {
 
     /** Whether the eye moves, so that more views will follow soon. */
     get moving() {
-        const going =
-            this.rates_.some((rate) => rate !== 0) || this.wish_.some((x) => x !== 0);
+        const going = this.rates_.some((rate) => rate !== 0) || this.wish_.some((x) => x !== 0);
         return this.dragging || going || this.way_ !== null;
     }
 

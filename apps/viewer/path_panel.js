@@ -27,7 +27,9 @@ export class PathPanel {
 
     restore(keys) {
         const sound = ({ time, view }) =>
-            Number.isFinite(time) && Array.isArray(view?.position) && Array.isArray(view?.direction);
+            Number.isFinite(time) &&
+            Array.isArray(view?.position) &&
+            Array.isArray(view?.direction);
         this.keys = keys.filter(sound);
         this.show_();
     }

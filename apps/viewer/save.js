@@ -33,9 +33,7 @@ export const download_text = (text, name) =>
 export function picture_blob(canvas, display, caption = []) {
     const zoom = canvas.width / canvas.clientWidth;
     const source =
-        display.mode === "false" || caption.length > 0
-            ? captioned(canvas, caption, zoom)
-            : canvas;
+        display.mode === "false" || caption.length > 0 ? captioned(canvas, caption, zoom) : canvas;
     if (display.mode === "false")
         paint_legend(source.getContext("2d"), display.scale, canvas.height, zoom);
     return new Promise((resolve, reject) =>

@@ -1,7 +1,6 @@
 // The state of the walk: a word at the top, a progress line at the bottom, and a small table on request.
 import { by_id, element } from "./dom.js";
-import { many, percent, phase_words, quantity } from "./words.js";
-
+import { many, percent, phase_words, pixel_shares, quantity } from "./words.js";
 
 const line = (name, value) =>
     element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }));
@@ -24,7 +23,7 @@ export function show_phase({ phase, share }) {
 function show_figures(state, page) {
     const rows = [
         ["Frames a second", quantity(state.fps)],
-        ["Reused", Number.isFinite(state.reuse) ? percent(state.reuse) : "–"],
+        ...pixel_shares(state).map(([name, share]) => [name, percent(share)]),
         ["Rays a second", many(state.rays_per_second)],
         ["Refinement", phase_words(state.phase, state.share) || "–"],
         ["Latency", page.latency === null ? "–" : `${Math.round(page.latency)} ms`],

@@ -59,3 +59,14 @@ export function phase_words(phase, share) {
     if (!words || phase === "done" || !(share < 1)) return words;
     return `${words} ${Math.max(0, Math.floor(share * 100))}${kThin}%`;
 }
+
+/** What the pixels of a frame in motion are, [name, share], as far as a `state` message tells. */
+export function pixel_shares({ reuse, guessed }) {
+    const known = Number.isFinite(guessed) ? guessed : 0;
+    if (!Number.isFinite(reuse)) return [];
+    return [
+        ["Reused", reuse],
+        ["Guessed", known],
+        ["Traced", Math.max(0, 1 - reuse - known)],
+    ];
+}

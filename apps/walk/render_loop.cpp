@@ -123,6 +123,7 @@ void RenderLoop::draw(const StopFlag& stop) {
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {
         pace_.reused += static_cast<double>(live_.picture().report.reused);
+        pace_.guessed += static_cast<double>(live_.picture().report.filled);
         pace_.pixels += static_cast<double>(live_.picture().report.pixels);
     }
 }
@@ -158,6 +159,7 @@ void RenderLoop::report(Clock::time_point now) {
     StateReply state;
     state.fps = pace_.frames / seconds;
     state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1;
+    state.guessed = pace_.pixels > 0 ? pace_.guessed / pace_.pixels : 0;
     state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
     state.phase = live_.picture().phase;
     state.share = live_.picture().share;
@@ -165,7 +167,7 @@ void RenderLoop::report(Clock::time_point now) {
     state.threads = threads_;
     state.points = live_.picture().report.points;
     client_inbox_.tell_all(walk_text(state));
-    pace_ = {now, 0, 0, 0, 0};
+    pace_ = {now, 0, 0, 0, 0, 0};
 }
 
 void RenderLoop::reply(const WalkQuestion& question) {

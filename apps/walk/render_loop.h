@@ -45,7 +45,7 @@ class RenderLoop {
         Clock::time_point since;
         std::uint32_t frames = 0;
         std::uint64_t rays = 0;
-        double reused = 0, pixels = 0;
+        double reused = 0, guessed = 0, pixels = 0;
     };
 
     void answer(const InboxContents& inbox);

@@ -82,7 +82,10 @@ test("the address follows the eye when it rests, not while it moves", () => {
     stay(20, 3000, true);
     assert.deepEqual(written, [[1, false]]);
     stay(20, 1000);
-    assert.deepEqual(written, [[1, false], [20, false]]);
+    assert.deepEqual(written, [
+        [1, false],
+        [20, false],
+    ]);
 });
 
 test("a view that was chosen is a new entry where the eye comes to rest; one from the history is none", () => {
@@ -96,5 +99,9 @@ test("a view that was chosen is a new entry where the eye comes to rest; one fro
     address.read(view_fragment({ ...kView, position: [1, 0, 0] }));
     stay(2, 300, true);
     stay(1, 1000);
-    assert.deepEqual(written, [[1, false], [3, true], [4, false]]);
+    assert.deepEqual(written, [
+        [1, false],
+        [3, true],
+        [4, false],
+    ]);
 });

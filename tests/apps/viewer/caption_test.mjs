@@ -27,7 +27,10 @@ test("exposure or scale, in words", () => {
     const fixed = { ...kDisplay, exposure: { auto: false, ev: -2 }, human: true };
     assert.equal(display_words(fixed, -2), "Exposure −2.0 EV, as the eye sees");
     const false_colour = { ...kDisplay, mode: "false" };
-    assert.match(display_words(false_colour, 0), /^False colour 1 – 10\u202f000 cd\/m², logarithmic$/);
+    assert.match(
+        display_words(false_colour, 0),
+        /^False colour 1 – 10\u202f000 cd\/m², logarithmic$/,
+    );
 });
 
 test("a caption names scene, time and view", () => {
@@ -43,5 +46,8 @@ test("lines are broken between words, and lose none", () => {
     const text = "one two three four";
     const lines = broken_lines([text, "x"], 9, (words) => words.length);
     assert.deepEqual(lines, ["one two", "three", "four", "x"]);
-    assert.deepEqual(broken_lines(["enormous"], 3, (words) => words.length), ["enormous"]);
+    assert.deepEqual(
+        broken_lines(["enormous"], 3, (words) => words.length),
+        ["enormous"],
+    );
 });

@@ -16,7 +16,10 @@ const near = (a, b) => assert.ok(length(subtract(a, b)) < 1e-9, `${a} is not ${b
 const pick = (position, normal) => ({ hit: true, position, normal });
 
 test("on a floor the eye stands at the point, with its height and direction", () => {
-    for (const normal of [[0, 0, 1], [0, 0, -1]]) {
+    for (const normal of [
+        [0, 0, 1],
+        [0, 0, -1],
+    ]) {
         const there = view_at_pick(kView, pick([2, 3, 0], normal), 1.6);
         near(there.position, [2, 3, 1.5]);
         near(there.direction, kView.direction);
@@ -33,7 +36,10 @@ test("over a table the eye keeps its height", () => {
 });
 
 test("a wall is looked at from near, from the side where the eye was, whichever way its normal points", () => {
-    for (const normal of [[0, -1, 0], [0, 1, 0]]) {
+    for (const normal of [
+        [0, -1, 0],
+        [0, 1, 0],
+    ]) {
         const there = view_at_pick(kView, pick([1, 8, 1.5], normal), 1.6);
         near(there.position, [1, 8 - 1.1 * 1.6, 1.5]);
         near(there.direction, [0, 1, 0]);

@@ -9,7 +9,14 @@ import {
     share_of,
 } from "../../../apps/viewer/scale.js";
 import { measurement_table } from "../../../apps/viewer/table.js";
-import { glare_word, phase_words, quantity, round_number, stops } from "../../../apps/viewer/words.js";
+import {
+    glare_word,
+    phase_words,
+    pixel_shares,
+    quantity,
+    round_number,
+    stops,
+} from "../../../apps/viewer/words.js";
 
 const kView = {
     type: "v",
@@ -235,4 +242,11 @@ test("what is not done is never 100 %, and what is done has no number", () => {
     assert.equal(phase_words("done", 1), "done");
     assert.equal(phase_words("moving", 0.3), "");
     assert.equal(phase_words(undefined, undefined), "");
+});
+
+test("what is neither reused nor guessed is traced", () => {
+    const shares = Object.fromEntries(pixel_shares({ reuse: 0.7, guessed: 0.1 }));
+    assert.ok(Math.abs(shares.Traced - 0.2) < 1e-12 && shares.Guessed === 0.1);
+    assert.deepEqual(pixel_shares({ reuse: 1, guessed: 0.01 })[2], ["Traced", 0]);
+    assert.deepEqual(pixel_shares({}), []);
 });

@@ -100,5 +100,8 @@ test("the text of a path has its times; a line without one comes a second after 
     const keys = [key(0.5, [1, 2, 3]), key(2.25, [4, 5, 6], [0.6, 0.8, 0])];
     assert.deepEqual(parse_keys(path_text(keys)), keys);
     const times = parse_keys("VIEW= -vp 1 2 3\n4 VIEW= -vp 2 2 3\nVIEW= -vp 3 2 3\n");
-    assert.deepEqual(times.map(({ time }) => time), [0, 4, 5]);
+    assert.deepEqual(
+        times.map(({ time }) => time),
+        [0, 4, 5],
+    );
 });

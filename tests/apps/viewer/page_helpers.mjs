@@ -1,0 +1,46 @@
+// What the steps of page_test.mjs have in common.
+import { readFile } from "node:fs/promises";
+
+export const kSize = { width: 800, height: 500 };
+
+export const value = (page, name) => page.evaluate((n) => window.lightwalk[n], name);
+export const until = (page, test, argument) =>
+    page.waitForFunction(test, argument, { timeout: 20000 });
+export const shown = (page) =>
+    until(page, () => {
+        const l = window.lightwalk;
+        return l.ready && !l.moving && l.view_id > 0 && l.shown_view_id === l.view_id;
+    });
+export const gone = (a, b) => Math.hypot(...a.position.map((x, k) => x - b.position[k]));
+export const heading = ({ direction: [x, y] }) => (Math.atan2(x, y) * 180) / Math.PI;
+
+/** Press a key for a while; how far the eye went [m]. */
+export async function hold(page, key, ms = 400) {
+    const before = await value(page, "view");
+    await page.keyboard.down(key);
+    await page.waitForTimeout(ms);
+    await page.keyboard.up(key);
+    await shown(page);
+    return gone(before, await value(page, "view"));
+}
+
+/** The text of the file that a click saves. */
+export async function saved_text(page, button) {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+    return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+}
+
+/** Fingers on the picture, as Chromium's input layer has them. */
+export async function touch(page, moves) {
+    const line = await page.context().newCDPSession(page);
+    const send = (type, points) =>
+        line.send("Input.dispatchTouchEvent", {
+            type,
+            touchPoints: points.map(([x, y], id) => ({ x, y, id })),
+        });
+    await send("touchStart", moves[0]);
+    for (const points of moves.slice(1)) await send("touchMove", points);
+    await send("touchEnd", []);
+    await line.detach();
+    await shown(page);
+}
