@@ -13,13 +13,13 @@ using namespace lightwalk::test;
 namespace {
 
 constexpr ClientId kDriving{1}, kWatching{2};
-constexpr int kWidth = 400, kHeight = 200;  // six pieces
+constexpr int kScreenWidth = 400, kScreenHeight = 200;  // six pieces
 
 LivePicture picture_of(float value) {
     LivePicture picture;
-    picture.width = kWidth;
-    picture.height = kHeight;
-    picture.radiance.assign(std::size_t{kWidth} * kHeight, Rgb::grey(value));
+    picture.width = kScreenWidth;
+    picture.height = kScreenHeight;
+    picture.radiance.assign(std::size_t{kScreenWidth} * kScreenHeight, Rgb::grey(value));
     return picture;
 }
 
