@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -107,9 +108,15 @@ struct Room {
     std::vector<std::uint8_t> seen =      ///< for each pixel: not 0 if it is one of them
         std::vector<std::uint8_t>(std::size_t{kWidth} * kHeight);
 
+    /// Of draw(). Made once, not for each frame: each has coroutines, and ThreadSanitizer gives
+    /// back nothing of what it keeps of one.
+    std::optional<WorkerContexts> contexts;
+
     CloudFrame draw(CloudFrames& frames, const View& view, Executor& executor) {
-        WorkerContexts contexts(scene.tracer, scene.warnings, executor.concurrency());
-        SceneCaster caster(scene.tracer, visibility, Camera(view), frame_options(), contexts, stop);
+        if (!contexts || contexts->size() != executor.concurrency())
+            contexts.emplace(scene.tracer, scene.warnings, executor.concurrency());
+        SceneCaster caster(scene.tracer, visibility, Camera(view), frame_options(), *contexts,
+                           stop);
         WatchedCaster watched(caster, looked, seen);
         return frames.draw(caster.camera(), watched, executor, stop);
     }
