@@ -110,12 +110,12 @@ struct Room {
 
     /// Of draw(). Made once, not for each frame: each has coroutines, and ThreadSanitizer gives
     /// back nothing of what it keeps of one.
-    std::optional<WorkerContexts> contexts;
+    std::optional<WorkerContexts> frame_contexts;
 
     CloudFrame draw(CloudFrames& frames, const View& view, Executor& executor) {
-        if (!contexts || contexts->size() != executor.concurrency())
-            contexts.emplace(scene.tracer, scene.warnings, executor.concurrency());
-        SceneCaster caster(scene.tracer, visibility, Camera(view), frame_options(), *contexts,
+        if (!frame_contexts || frame_contexts->size() != executor.concurrency())
+            frame_contexts.emplace(scene.tracer, scene.warnings, executor.concurrency());
+        SceneCaster caster(scene.tracer, visibility, Camera(view), frame_options(), *frame_contexts,
                            stop);
         WatchedCaster watched(caster, looked, seen);
         return frames.draw(caster.camera(), watched, executor, stop);
