@@ -12,20 +12,15 @@
 
 #include "apps/session/render_backend.h"
 #include "parallel/walk/live_frames.h"
+#include "tests/apps/session/room.h"
 #include "tests/temporary_folder.h"
 
 using namespace lightwalk;
+using lightwalk::test::kLampRoom;
+using lightwalk::test::task_at;
 using lightwalk::test::TemporaryFolder;
 
 namespace {
-
-const std::string kRoomOfRanks = R"(
-void plastic grey 0 0 5 .5 .4 .3 .02 .1
-void light lamp 0 0 3 40 40 40
-grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
-grey sphere ball 0 0 4 -1 2 .7 .7
-lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
-)";
 
 struct Company {
     int ranks = 3, threads = 1;
@@ -80,17 +75,9 @@ bool all_well(const Ended& ended) {
 
 SceneSource room(const TemporaryFolder& folder) {
     SceneSource source;
-    source.files = {folder.write("room.rad", kRoomOfRanks)};
+    source.files = {folder.write("room.rad", kLampRoom)};
     source.threads = 1;
     return source;
-}
-
-PictureTask task_of_ranks_at(double x) {
-    PictureTask task;
-    task.view.position = {x, -5, 1.5};
-    task.width = 48;
-    task.height = 36;
-    return task;
 }
 
 RendererOptions plain_light() {
@@ -106,7 +93,7 @@ using Pictures = std::vector<std::vector<Rgb>>;
 Pictures pictures_of(Renderer& renderer, const std::vector<double>& places) {
     Pictures pictures;
     std::vector<Ticket<RenderedPicture>> tickets;
-    for (const double x : places) tickets.push_back(renderer.start(task_of_ranks_at(x)));
+    for (const double x : places) tickets.push_back(renderer.start(task_at(x)));
     for (const auto& ticket : tickets) {
         const auto picture = renderer.finish(ticket);
         REQUIRE(picture);
@@ -235,7 +222,7 @@ TEST_CASE("ranks: scenes follow each other, and one that cannot be read ends not
                             for (int i = 0; i < 3; ++i) {
                                 const StopFlag never;
                                 const WalkFrame frame = renderer.backend().frames().draw(
-                                    task_of_ranks_at(.1 * i).view, 0, .1, never);
+                                    task_at(.1 * i).view, 0, .1, never);
                                 drawn += frame.frame.complete ? 1 : 0;
                             }
                         });
@@ -302,7 +289,7 @@ lost sphere near 0 0 4 0 -3 1.5 .5
         const Ended ended =
             on_ranks(company, plain_light(), [&](Ranks& ranks, const RendererOptions& own) {
                 Renderer renderer = ranks.open({source, own, {}, {}, {}});
-                renderer.run([&] { (void)renderer.finish(renderer.start(task_of_ranks_at(0))); });
+                renderer.run([&] { (void)renderer.finish(renderer.start(task_at(0))); });
             });
         CHECK(ended.failure.find("lightwalk: rank ") == 0);
         CHECK(ended.failure.find("nowhere.cal") != std::string::npos);

@@ -13,20 +13,15 @@
 
 #include "apps/session/render_backend.h"
 #include "core/error.h"
+#include "tests/apps/session/room.h"
 #include "tests/temporary_folder.h"
 
 using namespace lightwalk;
+using lightwalk::test::kLampRoom;
+using lightwalk::test::task_at;
 using lightwalk::test::TemporaryFolder;
 
 namespace {
-
-const std::string kRoom = R"(
-void plastic grey 0 0 5 .5 .4 .3 .02 .1
-void light lamp 0 0 3 40 40 40
-grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
-grey sphere ball 0 0 4 -1 2 .7 .7
-lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
-)";
 
 /// The same scene, built in code.
 std::vector<ScenePrimitive> room_primitives() {
@@ -42,14 +37,6 @@ SceneSource from_bytes(const std::string& bytes) {
     source.bytes = bytes;
     source.threads = 2;
     return source;
-}
-
-PictureTask task_at(double x, int width = 48, int height = 36) {
-    PictureTask task;
-    task.view.position = {x, -5, 1.5};
-    task.width = width;
-    task.height = height;
-    return task;
 }
 
 RendererOptions two_threads() {
@@ -74,10 +61,10 @@ std::string read_file_of(const std::string& path) {
 
 TEST_CASE("renderer: files, text, primitives and frozen scenes give the same picture") {
     const TemporaryFolder folder;
-    const std::string file = folder.write("room.rad", kRoom), frozen = folder.path("room.lwz");
+    const std::string file = folder.write("room.rad", kLampRoom), frozen = folder.path("room.lwz");
     const std::vector<Rgb> expected = picture_of(LoadedScene({file}), two_threads());
     CHECK(expected.size() == 48 * 36);
-    CHECK(picture_of(LoadedScene(from_bytes(kRoom)), two_threads()) == expected);
+    CHECK(picture_of(LoadedScene(from_bytes(kLampRoom)), two_threads()) == expected);
     SceneSource built;
     built.primitives = room_primitives();
     CHECK(picture_of(LoadedScene(built), two_threads()) == expected);
@@ -108,13 +95,13 @@ TEST_CASE("renderer: what is wrong with a scene is an error that names file and 
         text = error.what();
     }
     CHECK(text.find("built:2: undefined modifier \"wood\"") == 0);
-    SceneSource both = from_bytes(kRoom);
+    SceneSource both = from_bytes(kLampRoom);
     both.primitives = room_primitives();
     CHECK_THROWS_AS(LoadedScene{both}, InputError);
 }
 
 TEST_CASE("renderer: several scenes and renderers live in one process, on several threads") {
-    const LoadedScene bright(from_bytes(kRoom));
+    const LoadedScene bright(from_bytes(kLampRoom));
     const LoadedScene dark(
         from_bytes("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere a 0 0 4 0 0 1 1\n"));
     const std::vector<Rgb> expected = picture_of(bright, two_threads());
@@ -132,7 +119,7 @@ TEST_CASE("renderer: several scenes and renderers live in one process, on severa
 }
 
 TEST_CASE("renderer: a task that is polled goes on by itself, and gives the same picture") {
-    const LoadedScene scene(from_bytes(kRoom));
+    const LoadedScene scene(from_bytes(kLampRoom));
     const std::vector<Rgb> expected = picture_of(scene, two_threads());
     Renderer renderer(scene, two_threads());
     const auto before = renderer.start(task_at(1));
@@ -147,7 +134,7 @@ TEST_CASE("renderer: a task that is polled goes on by itself, and gives the same
 }
 
 TEST_CASE("renderer: cancelling ends what was started, from any thread, and nothing else") {
-    const LoadedScene scene(from_bytes(kRoom));
+    const LoadedScene scene(from_bytes(kLampRoom));
     RendererOptions options = two_threads();
     options.pixels.samples = 16;
     std::atomic<bool> begun{false};
@@ -176,7 +163,7 @@ TEST_CASE("renderer: cancelling ends what was started, from any thread, and noth
 }
 
 TEST_CASE("renderer: lists of rays are one input, however it is divided") {
-    const LoadedScene scene(from_bytes(kRoom));
+    const LoadedScene scene(from_bytes(kLampRoom));
     RendererOptions options = two_threads();
     options.light.source_jitter = 1;  // so that random numbers count
     std::vector<RayQuery> rays;
@@ -200,7 +187,7 @@ TEST_CASE("renderer: lists of rays are one input, however it is divided") {
 
 TEST_CASE(
     "renderer: the first frame of a walk is the picture that is traced, later ones cost less") {
-    const LoadedScene scene(from_bytes(kRoom));
+    const LoadedScene scene(from_bytes(kLampRoom));
     RendererOptions options = two_threads();
     options.pixels.spacing = 1;
     const std::vector<Rgb> expected = picture_of(scene, options);
