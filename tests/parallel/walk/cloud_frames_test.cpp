@@ -12,9 +12,11 @@
 #include "core/math/random.h"
 #include "parallel/frame.h"
 #include "parallel/walk/scene_caster.h"
+#include "tests/one_thread.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
+using lightwalk::test::one_thread;
 using lightwalk::test::TestScene;
 
 namespace {
@@ -190,7 +192,8 @@ TEST_CASE("cloud: a view that stands still is reused whole, but for what nobody 
               1e-6f * (1 + first.radiance[i].g));
 }
 
-TEST_CASE("cloud: mirrors, panes, polished floors and hidden things are true in motion") {
+TEST_CASE("cloud: mirrors, panes, polished floors and hidden things are true in motion" *
+          one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     for (const std::string walk : kWalks) {
@@ -290,7 +293,8 @@ TEST_CASE("cloud: a frame that has no time to look shows what points say, and th
 }
 
 TEST_CASE(
-    "cloud: where nearly nothing is known coarse grids come first, and the rest comes in time") {
+    "cloud: where nearly nothing is known coarse grids come first, and the rest comes in time" *
+    one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudOptions options = rotating();
@@ -412,7 +416,7 @@ TEST_CASE("cloud: audited errors are told, and too large ones tighten reuse") {
     CHECK(floors < errors / 3);
 }
 
-TEST_CASE("cloud: a long walk at random neither grows nor fails") {
+TEST_CASE("cloud: a long walk at random neither grows nor fails" * one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudOptions options;
