@@ -153,8 +153,20 @@ TEST_CASE("render on ranks: ambient values are exchanged, and kept in the file o
         REQUIRE(result.status == 0);
         return nlohmann::json::parse(read_whole(stats))["ambient"]["computed"].get<int>();
     };
-    const int apart = values({"--variant", "ranks", "--ambient-batch", "0"}, 5);
-    const int shared = values({"--variant", "ranks", "--ambient-batch", "2"}, 6);
+    const auto messages_with_values = [&] {
+        int count = 0;
+        const auto told = nlohmann::json::parse(read_whole(stats));
+        for (const auto& rank : told["per_rank"])
+            if (rank["messages"].contains("AmbientValues"))
+                count += rank["messages"]["AmbientValues"]["count"].get<int>();
+        return count;
+    };
+    // A value takes a millisecond and more, so that the others' arrive while there is work left.
+    const std::vector<std::string> slow{"-ad", "512", "--variant", "ranks"};
+    const int apart = values(with(slow, {"--ambient-batch", "0"}), 5);
+    CHECK(messages_with_values() == 0);
+    const int shared = values(with(slow, {"--ambient-batch", "2"}), 6);
+    CHECK(messages_with_values() > 0);
     CHECK(shared < apart);
     const std::string file = folder.path("room.amb");
     const int first = values({"--variant", "ranks", "-af", file}, 4);
