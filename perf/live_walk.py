@@ -10,6 +10,8 @@ and back, and acknowledges each frame when it is there (a page does so when it i
   fps         frames a second that reached the client
   latency     from sending a view to the first frame that shows it or a newer one: median, 95th percentile [ms]
   reused      share of the pixels that points answered, as the server tells [%]
+  guessed     share of the pixels that were filled from around, as the server tells [%]
+  width       of the frames, mean share of what was asked for: moving frames are smaller where time is short [%]
   MB/s        of frames
 
 With --abuse each walk is measured again while another process holds 200 half-open connections and sends a thousand
@@ -75,7 +77,8 @@ class Server:
 class Client:
     def __init__(self, port, size):
         self.port, self.socket, self.size = port, WebSocket("127.0.0.1", port), size
-        self.ident, self.sent, self.frames, self.latency, self.bytes, self.reuse = 0, {}, 0, [], 0, []
+        self.ident = 0
+        self.forget()
         self.loaded = None
         self.socket.send({"type": "hello", "session": "0123456789abcdef"})
 
@@ -95,6 +98,7 @@ class Client:
         if not isinstance(message, bytes):
             if message["type"] == "state":
                 self.reuse.append(message["reuse"])
+                self.guessed.append(message.get("guessed", 0))  # servers of before do not tell
             elif message["type"] == "failed":
                 sys.exit("\n".join(message["messages"]))
             elif message["type"] == "loaded":
@@ -104,12 +108,17 @@ class Client:
         self.socket.send({"type": "ack", "frame": frame.number})
         self.frames += 1
         self.bytes += frame.bytes
+        self.width += frame.width
         now = time.monotonic()
         for ident in [ident for ident in self.sent if ident <= frame.view]:
             self.latency.append(now - self.sent.pop(ident))
 
     def forget(self):
-        self.sent, self.frames, self.latency, self.bytes, self.reuse = {}, 0, [], 0, []
+        self.sent, self.frames, self.latency, self.bytes, self.reuse, self.guessed, self.width = {}, 0, [], 0, [], [], 0
+
+
+def mean_percent(shares):
+    return 100 * sum(shares) / max(len(shares), 1)
 
 
 def measure(client, view, walk, seconds):
@@ -124,7 +133,8 @@ def measure(client, view, walk, seconds):
     waits = sorted(client.latency) or [math.inf]
     return {"fps": client.frames / took, "latency ms": 1000 * waits[len(waits) // 2],
             "95 % ms": 1000 * waits[int(0.95 * (len(waits) - 1))],
-            "reused %": 100 * sum(client.reuse) / max(len(client.reuse), 1), "MB/s": client.bytes / took / 1e6}
+            "reused %": mean_percent(client.reuse), "guessed %": mean_percent(client.guessed),
+            "width %": 100 * client.width / max(client.frames, 1) / client.size[0], "MB/s": client.bytes / took / 1e6}
 
 
 def measure_abused(client, view, walk, seconds, quiet):

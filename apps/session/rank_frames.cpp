@@ -11,6 +11,11 @@ void RankFrames::start(std::uint64_t first) {
     last_.reset();
 }
 
+void RankFrames::resized() {
+    lead_->resize(options_.width, options_.height);
+    last_.reset();
+}
+
 std::string RankFrames::payload(const View& view, bool indirect) const {
     PictureOrder picture;
     picture.view = view;

@@ -29,6 +29,7 @@ class RankFrames final : public LiveFrames {
 
   private:
     void start(std::uint64_t first) override;
+    void resized() override;
     [[nodiscard]] std::string payload(const View& view, bool indirect) const;
     [[nodiscard]] std::optional<AssembledFrame> drawn(FrameOrder order, const StopFlag& stop);
 

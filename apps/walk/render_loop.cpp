@@ -19,6 +19,7 @@ constexpr std::chrono::milliseconds kProgressiveInterval{100};
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
 constexpr std::chrono::milliseconds kIdle{100};
+constexpr std::chrono::milliseconds kHeld{200};
 
 double eye_height_of(const Scene& scene, const View& view) {
     const std::optional<double> height =
@@ -72,7 +73,16 @@ std::chrono::milliseconds RenderLoop::patience() const {
 }
 
 bool RenderLoop::has_work() const {
-    return !drawn_ || live_.picture().phase != WalkPhase::done || glare_.is_asked();
+    if (!drawn_ || live_.picture().phase != WalkPhase::done || glare_.is_asked()) return true;
+    const Size size = size_now();
+    return live_.picture().width != size.width || live_.picture().height != size.height;
+}
+
+/// A view that has not changed for a moment rests, even if it is said to move: a hand holds it.
+RenderLoop::Size RenderLoop::size_now() const {
+    const Size whole{wish_.view->width, wish_.view->height};
+    if (!wish_.view->moving || Clock::now() - moved_ > kHeld) return whole;
+    return {moving_size_.of(whole.width), moving_size_.of(whole.height)};
 }
 
 void RenderLoop::answer(const InboxContents& inbox) {
@@ -117,11 +127,14 @@ void RenderLoop::draw(const StopFlag& stop) {
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;
     const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
-    if (!live_.next(*view_, wish_.view->width, wish_.view->height, ambient, budget, stop)) return;
+    const Size size = size_now();
+    if (!live_.next(*view_, size.width, size.height, ambient, budget, stop)) return;
     drawn_ = true;
     shown_ = false;
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {
+        if (wish_.view->moving && size.width == moving_size_.of(wish_.view->width))
+            moving_size_.record(live_.picture().report, budget);
         pace_.reused += static_cast<double>(live_.picture().report.reused);
         pace_.guessed += static_cast<double>(live_.picture().report.filled);
         pace_.pixels += static_cast<double>(live_.picture().report.pixels);

@@ -12,6 +12,7 @@
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_screen.h"
 #include "parallel/walk/live_walk.h"
+#include "parallel/walk/moving_size.h"
 
 namespace lightwalk {
 
@@ -58,6 +59,12 @@ class RenderLoop {
     void report(Clock::time_point now);
     [[nodiscard]] View on_the_ground(const ViewRequest& request) const;
     [[nodiscard]] bool has_work() const;
+    /// Of the next picture: smaller than wished while the view moves, if there is no time for all
+    /// of it.
+    struct Size {
+        int width, height;
+    };
+    [[nodiscard]] Size size_now() const;
     [[nodiscard]] std::chrono::milliseconds patience() const;
 
     RenderLoopOptions options_;
@@ -77,6 +84,7 @@ class RenderLoop {
     bool drawn_ = false;        ///< the picture is of view_, as wished
     bool shown_ = false;        ///< as it is, with the display that is wished
     Clock::time_point moved_, shown_at_, measured_at_;
+    MovingSize moving_size_;
     double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late
     Pace pace_;
 };

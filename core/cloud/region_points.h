@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/cloud/ageing.h"
@@ -32,6 +33,10 @@ class RegionPoints {
     /// @param area  of a picture of width x height pixels
     RegionPoints(const PixelRectangle& area, int width, int height);
 
+    /// Start with points of a picture of another size.
+    void adopt(std::vector<CloudPoint> points) { points_ = std::move(points); }
+    /// Give all points away.
+    [[nodiscard]] std::vector<CloudPoint> release() { return std::move(points_); }
     /// A new frame. The camera must outlive it.
     void begin(const Camera& camera);
     /// Find the places of all points.

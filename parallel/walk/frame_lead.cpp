@@ -17,6 +17,14 @@ FrameLead::FrameLead(int width, int height, const CloudOptions& options, std::ui
       frame_(first),
       progressive_(width, height, options.samples) {}
 
+void FrameLead::resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    progressive_ = ProgressivePicture(width, height, options_.samples);
+    view_.reset();
+    begun_ = false;
+}
+
 FrameOrder FrameLead::new_order(std::string payload) const {
     FrameOrder order;
     order.width = width_;

@@ -49,6 +49,8 @@ class FrameLead {
     /// Pixels of the last frame's view that are no part of the frames, and leave no points.
     [[nodiscard]] FrameOrder trace_order(const ProgressiveWork& work, std::string payload) const;
 
+    /// Frames of another size follow, from the same points.
+    void resize(int width, int height);
     /// Of the frames that follow; see CloudOptions.
     void set_budget(double seconds) { options_.budget = seconds; }
     void set_refine(double share) { options_.refine = share; }

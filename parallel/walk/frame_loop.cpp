@@ -1,6 +1,7 @@
 #include "parallel/walk/frame_loop.h"
 
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -52,8 +53,12 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera) {
     width_ = order.width;
     height_ = order.height;
     if (!same || order.rules.empty) {
+        // Points are places in the scene: in a picture of another size they answer other pixels.
+        std::vector<CloudPoint> points;
+        if (region_ && !order.rules.empty) points = region_->points().release();
         const SubImages parts({0, 0, width_, height_}, owners_);
         region_.emplace(parts[index_], width_, height_, options_);
+        region_->points().adopt(std::move(points));
     }
     region_->begin(camera, order.rules);
 }

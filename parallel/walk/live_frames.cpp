@@ -87,13 +87,18 @@ LiveFrames::LiveFrames(const Tracer& direct, const Tracer* indirect, const Cloud
         indirect_ = std::make_unique<WalkLight>(*indirect, warnings, executor.concurrency());
 }
 
-/// Points of another light are of no use, nor are those of a picture of another size: what answers
-/// a pixel depends on its size.
+/// Points of another light are of no use.
 void LiveFrames::begin(int width, int height, bool indirect, std::uint64_t first) {
     options_.width = width;
     options_.height = height;
     walking_ = indirect ? indirect_.get() : direct_.get();
     start(first);
+}
+
+void LiveFrames::resize(int width, int height) {
+    options_.width = width;
+    options_.height = height;
+    resized();
 }
 
 void LiveFrames::add_small_sources(const View& view, Frame& frame) {

@@ -57,6 +57,10 @@ class LiveFrames {
 
     // After that; all throw what the tracers throw.
 
+    /// Frames of another size from here on, of the same light: what is known of the scene stays,
+    /// but the next frame is no longer that of render_frame to the bit.
+    void resize(int width, int height);
+
     /// The next frame of a walk: the picture that render_frame makes of the same view when it
     /// traces every pixel, as far as the points of the frames before it tell the truth; the first
     /// frame is that to the bit.
@@ -79,6 +83,8 @@ class LiveFrames {
   protected:
     /// The frames that begin() has announced.
     virtual void start(std::uint64_t first) = 0;
+    /// The frames that follow are of the size in options_.
+    virtual void resized() = 0;
 
     CloudOptions cloud_;
     FrameOptions options_;
@@ -118,6 +124,7 @@ class LocalFrames final : public LiveFrames {
 
   private:
     void start(std::uint64_t first) override;
+    void resized() override { frames_->resize(options_.width, options_.height); }
 
     std::unique_ptr<CloudFrames> frames_;
 };

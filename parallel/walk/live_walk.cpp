@@ -19,9 +19,19 @@ void LiveWalk::begin(int width, int height, WalkAmbient use) {
     view_.reset();
 }
 
+void LiveWalk::resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    frames_.resize(width, height);
+    view_.reset();
+}
+
 bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, double budget,
                     const StopFlag& stop) {
-    if (width_ != width || height_ != height || use_ != use) begin(width, height, use);
+    if (width_ == 0 || use_ != use)
+        begin(width, height, use);
+    else if (width_ != width || height_ != height)
+        resize(width, height);
     if (view_ != view) {
         progressive_.reset();
         refine_ = kFirstShare;

@@ -29,7 +29,8 @@ class LiveWalk {
     /// @param samples  rays that a pixel at an edge gets in the end
     LiveWalk(LiveFrames& frames, int samples) : frames_(frames), samples_(samples) {}
 
-    /// The picture of a view: the next better one where it is the view of the call before.
+    /// The picture of a view: the next better one where it is the view of the call before, and of
+    /// its size. A new size goes on with what the frames before have found.
     /// @param budget  after which it should be there, and something of it at least will [s]
     /// Throws what the tracers throw. False: stopped; the picture is the one before.
     [[nodiscard]] bool next(const View& view, int width, int height, WalkAmbient use, double budget,
@@ -39,6 +40,7 @@ class LiveWalk {
 
   private:
     void begin(int width, int height, WalkAmbient use);
+    void resize(int width, int height);
     [[nodiscard]] bool draw(const View& view, bool rests, double budget, const StopFlag& stop);
     [[nodiscard]] bool add_light(double budget, const StopFlag& stop);
 

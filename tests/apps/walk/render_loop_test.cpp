@@ -46,15 +46,15 @@ SceneSource room() {
 
 /// A walk without a server: two pages that are one step away.
 struct Walk {
-    explicit Walk(const LoadedScene& scene) : renderer(scene, options_of(true)) {
+    explicit Walk(const LoadedScene& scene, double rate = 30) : renderer(scene, options_of(true)) {
         inbox.attach(clients);
         for (const ClientId client : {kDriver, kWatcher})
             inbox.message(client,
                           hello("0123456789abcde" + std::to_string(static_cast<int>(client))));
         View home;
         home.position = {0, -4, 1.5};
-        loop.emplace(RenderLoopOptions{30, 1, "lightwalk walk"}, renderer.backend().session(), home,
-                     renderer.backend().frames(), *executor, warnings, inbox, screen);
+        loop.emplace(RenderLoopOptions{rate, 1, "lightwalk walk"}, renderer.backend().session(),
+                     home, renderer.backend().frames(), *executor, warnings, inbox, screen);
     }
     /// Until the driver's view is as good as it gets, and on its screen.
     void rest() {
@@ -160,4 +160,29 @@ TEST_CASE("render loop: a view that moves is shown at once, and the eye walks on
     const std::string& frame = *walk.clients.frames[kDriver].back();
     CHECK(number_at<std::uint32_t>(frame, 8) == 2);
     CHECK(number_at<double>(frame, 40) == doctest::Approx(1.5));
+}
+
+TEST_CASE(
+    "render loop: what cannot be drawn in time while a view moves is drawn smaller, and whole once "
+    "it rests") {
+    const LoadedScene scene(room());
+    Walk walk(scene, 1e6);  // frames a second: no time at all
+    walk.inbox.message(kDriver, view_message(1, 0, 320, 240));
+    walk.rest();
+    const auto width = [&] {
+        return number_at<std::uint16_t>(*walk.clients.frames[kDriver].back(), 12);
+    };
+    const std::uint16_t whole = width();
+    const auto move = [&](int id, double turned, bool moving) {
+        std::string view = view_message(id, turned, 320, 240);
+        if (moving) view.replace(view.find("\"moving\":false"), 14, "\"moving\":true");
+        walk.inbox.message(kDriver, view);
+        walk.loop->step(walk.stop);
+        walk.acknowledge(kDriver);
+    };
+    for (int i = 0; i < 12; ++i) move(2 + i, i % 2 == 0 ? 0.5 : -0.5, true);
+    CHECK(width() < whole);
+    CHECK(width() > whole / 3);
+    move(20, 0.1, false);
+    CHECK(width() == whole);
 }

@@ -109,6 +109,27 @@ TEST_CASE("a view that rests ends as the picture that is rendered of it, whateve
     CHECK(rested.distance == walker.rendered(walker.direct, view_at(0)).distance);
 }
 
+TEST_CASE("frames of another size are drawn from what those before have found") {
+    Walker walker(0);
+    const auto reused_at = [&](int width, int height, double turned) {
+        REQUIRE(
+            walker.live.next(view_at(turned), width, height, WalkAmbient::off, 10, walker.stop));
+        const LivePicture& picture = walker.live.picture();
+        CHECK(picture.width == width);
+        CHECK(picture.height == height);
+        CHECK(picture.radiance.size() ==
+              static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        CHECK(picture.report.filled == 0);
+        return static_cast<double>(picture.report.reused) /
+               static_cast<double>(picture.report.pixels);
+    };
+    CHECK(reused_at(kLiveWidth, kLiveHeight, -0.02) == 0);
+    CHECK(reused_at(kLiveWidth / 2, kLiveHeight / 2, -0.01) > 0.9);
+    CHECK(reused_at(kLiveWidth, kLiveHeight, 0) > 0.5);
+    const LivePicture rested = walker.rest(view_at(0), WalkAmbient::off);
+    CHECK(rested.radiance == walker.rendered(walker.direct, view_at(0)).radiance);
+}
+
 TEST_CASE("indirect light comes while a view rests, and ends as the picture that is rendered") {
     Walker walker(1);
     const View view = view_at(0);

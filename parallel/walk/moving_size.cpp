@@ -1,0 +1,57 @@
+#include "parallel/walk/moving_size.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lightwalk {
+namespace {
+
+constexpr std::array kShares{1.0, 0.7071, 0.5, 0.3536};
+// Guessed pixels, as a share: with more of them a frame is too large, with fewer it may be too
+// small. With many it is much too large.
+constexpr double kMany = 0.25, kMost = 0.03, kFew = 0.005;
+constexpr double kShort = 0.45;  // of the budget: twice the pixels would fit
+constexpr int kBad = 2;          // frames in a row: one may be a matter of a busy machine
+constexpr int kPatience = 8, kMostPatience = 256, kSoon = 60;  // [frames]
+
+}  // namespace
+
+double MovingSize::share() const {
+    return kShares[static_cast<std::size_t>(step_)];
+}
+
+int MovingSize::of(int side) const {
+    return std::max(1, static_cast<int>(std::lround(share() * side)));
+}
+
+void MovingSize::step(int by) {
+    const int next = std::clamp(step_ + by, 0, static_cast<int>(kShares.size()) - 1);
+    changed_ = next != step_;
+    step_ = next;
+    good_ = bad_ = 0;
+}
+
+void MovingSize::record(const CloudReport& report, double budget) {
+    if (since_larger_ > 0 && ++since_larger_ > kSoon) {
+        since_larger_ = 0;
+        patience_ = kPatience;
+    }
+    if (changed_) return void(changed_ = false);
+    const double guessed = static_cast<double>(report.filled) / static_cast<double>(report.pixels);
+    const double seconds =
+        report.project_seconds + report.check_seconds + report.trace_seconds + report.keep_seconds;
+    bad_ = guessed > kMost ? bad_ + 1 : 0;
+    good_ = guessed < kFew && seconds < kShort * budget ? good_ + 1 : 0;
+    if (bad_ >= kBad) {
+        // A larger size that soon proved too large is tried again later and later.
+        if (since_larger_ > 0) patience_ = std::min(2 * patience_, kMostPatience);
+        since_larger_ = 0;
+        step(guessed > kMany ? 2 : 1);
+    } else if (good_ >= patience_ && step_ > 0) {
+        step(-1);
+        since_larger_ = 1;
+    }
+}
+
+}  // namespace lightwalk
