@@ -172,31 +172,33 @@ std::vector<OptionRow> walk_option_rows(WalkCommand& walk, int& projectors) {
 }
 
 std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
-    return {{"The page, and who may open it", SectionTitle{}},
-            {"--port N", &serve.server.port, "port of the page; 0: any that is free",
-             With{.least = 0, .most = 65535}},
-            {"--bind ADDRESS", &serve.server.address,
-             "address that the page is served on. 127.0.0.1: to this machine alone. Anything else "
-             "demands the token in the printed address"},
-            {"--clients N", &serve.server.limits.clients,
-             "number of browsers at once: the first drives, others watch",
-             With{.least = 1, .most = 256}},
-            {"--fps N", &serve.page.fps,
-             "frames a second while moving. A frame's time goes to its worst pixels; the others "
-             "are interpolated now, and traced in a later frame",
-             With{.least = .1, .most = 1000}},
-            {"--max-size WxH", size_option(serve.page.max_size),
-             "largest size of pictures; larger windows show them enlarged"},
-            {"--ambient WHEN",
-             choice(serve.page.settings.ambient, {{"rest", WalkAmbient::rest},
-                                                  {"always", WalkAmbient::always},
-                                                  {"off", WalkAmbient::off}}),
-             "when there is indirect light, with -ab: rest: when the view rests; always; off. The "
-             "page may change it"},
-            {"--edge-samples N", &serve.edge_samples,
-             "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
-             "render`",
-             With{.least = 1, .most = 255}}};
+    return {
+        {"The page, and who may open it", SectionTitle{}},
+        {"--port N", &serve.server.port, "port of the page; 0: any that is free",
+         With{.least = 0, .most = 65535}},
+        {"--bind ADDRESS", &serve.server.address,
+         "address that the page is served on. 127.0.0.1: to this machine alone. Anything else "
+         "demands the token in the printed address"},
+        {"--clients N", &serve.server.limits.clients,
+         "number of browsers at once: the first drives, others watch",
+         With{.least = 1, .most = 256}},
+        {"--fps N", &serve.page.fps,
+         "frames a second while moving; half of it for pages that draw the camera between them. "
+         "A frame's time goes to its worst pixels; the others are interpolated now, and traced "
+         "in a later frame",
+         With{.least = .1, .most = 1000}},
+        {"--max-size WxH", size_option(serve.page.max_size),
+         "largest size of pictures; larger windows show them enlarged"},
+        {"--ambient WHEN",
+         choice(serve.page.settings.ambient, {{"rest", WalkAmbient::rest},
+                                              {"always", WalkAmbient::always},
+                                              {"off", WalkAmbient::off}}),
+         "when there is indirect light, with -ab: rest: when the view rests; always; off. The "
+         "page may change it"},
+        {"--edge-samples N", &serve.edge_samples,
+         "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
+         "render`",
+         With{.least = 1, .most = 255}}};
 }
 
 void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {

@@ -5,11 +5,13 @@
   live_walk.py --lightwalk PROGRAM ...
 
 Starts the server, connects by a WebSocket as the page does, sends sixty views a second of a turn and of a walk forward
-and back, and acknowledges each frame when it is there (a page does so when it is drawn). One line a walk:
+and back, and acknowledges each frame when it is there (a page does so when it is drawn). With --plain it is a page that shows
+frames as they come; else one that draws the camera from them, and is sent depths, too. One line a walk:
 
   fps         frames a second that reached the client
   latency     from sending a view to the first frame that shows it or a newer one: median, 95th percentile [ms]
   reused      share of the pixels that points answered, as the server tells [%]
+  inferred    share of the pixels with colours from around them on their own surface, as the server tells [%]
   guessed     share of the pixels that were filled from around, as the server tells [%]
   width       of the frames, mean share of what was asked for: moving frames are smaller where time is short [%]
   MB/s        of frames
@@ -75,12 +77,12 @@ class Server:
 
 
 class Client:
-    def __init__(self, port, size):
+    def __init__(self, port, size, plain):
         self.port, self.socket, self.size = port, WebSocket("127.0.0.1", port), size
         self.ident = 0
         self.forget()
         self.loaded = None
-        self.socket.send({"type": "hello", "session": "0123456789abcdef"})
+        self.socket.send({"type": "hello", "session": "0123456789abcdef", "depth": not plain})
 
     def look(self, view, moving=True):
         self.ident += 1
@@ -99,6 +101,7 @@ class Client:
             if message["type"] == "state":
                 self.reuse.append(message["reuse"])
                 self.guessed.append(message.get("guessed", 0))  # servers of before do not tell
+                self.inferred.append(message.get("inferred", 0))
             elif message["type"] == "failed":
                 sys.exit("\n".join(message["messages"]))
             elif message["type"] == "loaded":
@@ -114,7 +117,8 @@ class Client:
             self.latency.append(now - self.sent.pop(ident))
 
     def forget(self):
-        self.sent, self.frames, self.latency, self.bytes, self.reuse, self.guessed, self.width = {}, 0, [], 0, [], [], 0
+        self.sent, self.frames, self.latency, self.bytes, self.reuse, self.width = {}, 0, [], 0, [], 0
+        self.inferred, self.guessed = [], []
 
 
 def mean_percent(shares):
@@ -133,7 +137,8 @@ def measure(client, view, walk, seconds):
     waits = sorted(client.latency) or [math.inf]
     return {"fps": client.frames / took, "latency ms": 1000 * waits[len(waits) // 2],
             "95 % ms": 1000 * waits[int(0.95 * (len(waits) - 1))],
-            "reused %": mean_percent(client.reuse), "guessed %": mean_percent(client.guessed),
+            "reused %": mean_percent(client.reuse), "inferred %": mean_percent(client.inferred),
+            "guessed %": mean_percent(client.guessed),
             "width %": 100 * client.width / max(client.frames, 1) / client.size[0], "MB/s": client.bytes / took / 1e6}
 
 
@@ -157,6 +162,7 @@ def parse_args():
     parser.add_argument("--sizes", default="640x480,1280x720")
     parser.add_argument("--options", default="", help="more options of walk, in one word")
     parser.add_argument("--launcher", default="", help='for example "mpirun -n 2"')
+    parser.add_argument("--plain", action="store_true")
     parser.add_argument("--abuse", action="store_true")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE")
     return parser.parse_args()
@@ -168,7 +174,7 @@ def main():
     for place in stage.places(args.views.split(","), args.lightwalk, args.scenes):
         for size in [tuple(int(word) for word in text.split("x")) for text in args.sizes.split(",")]:
             with Server(place, args.options.split(), shlex.split(args.launcher)) as server:
-                client = Client(server.port, size)
+                client = Client(server.port, size, args.plain)
                 while client.loaded is None:
                     client.listen(time.monotonic() + 0.1)
                 words = (place.program.scene.folder / place.file).read_text()

@@ -45,12 +45,14 @@ nlohmann::ordered_json WalkReport::json_of(const Drawn& frame) {
     nlohmann::ordered_json json{{"reused", report.reused},
                                 {"traced", uncached},
                                 {"filled", report.filled},
+                                {"inferred", report.inferred},
                                 {"points", report.points},
                                 {"tightness", report.tightness},
                                 {"seconds",
                                  {{"project", report.project_seconds},
                                   {"check", report.check_seconds},
                                   {"trace", report.trace_seconds},
+                                  {"infer", report.infer_seconds},
                                   {"keep", report.keep_seconds}}}};
     if (frame.audit) json["audit"] = json_of(*frame.audit);
     return json;

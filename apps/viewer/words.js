@@ -61,12 +61,13 @@ export function phase_words(phase, share) {
 }
 
 /** What the pixels of a frame in motion are, [name, share], as far as a `state` message tells. */
-export function pixel_shares({ reuse, guessed }) {
-    const known = Number.isFinite(guessed) ? guessed : 0;
+export function pixel_shares({ reuse, inferred, guessed }) {
     if (!Number.isFinite(reuse)) return [];
+    const [near, filled] = [inferred, guessed].map((share) => (Number.isFinite(share) ? share : 0));
     return [
         ["Reused", reuse],
-        ["Guessed", known],
-        ["Traced", Math.max(0, 1 - reuse - known)],
+        ["Inferred", near],
+        ["Guessed", filled],
+        ["Traced", Math.max(0, 1 - reuse - near - filled)],
     ];
 }

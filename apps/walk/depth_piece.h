@@ -17,6 +17,8 @@ class DepthPiece {
     /// Keep the distances of a picture.
     /// @param eye_height  which tells how far people go in a moment [m]
     void keep(const LivePicture& picture, const View& view, double eye_height, Executor& executor);
+    /// Keep none.
+    void forget() { content_ = 0; }
     /// A hash of what is kept; 0: there are no distances, or the view is none that pages can draw.
     [[nodiscard]] std::uint64_t content() const { return content_; }
     /// The piece's bytes; empty where content() is 0.

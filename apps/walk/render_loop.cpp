@@ -122,8 +122,15 @@ View RenderLoop::on_the_ground(const ViewRequest& request) const {
     return view;
 }
 
+/// Pages that draw the camera of the moment are in no hurry: right frames serve them better than
+/// new ones.
+double RenderLoop::budget() const {
+    const double seconds = (screen_.all_want_depth() ? 2 : 1) / options_.rate;
+    return std::max(seconds - aside_seconds_, 0.001);
+}
+
 void RenderLoop::draw(const StopFlag& stop) {
-    const double budget = std::max(1 / options_.rate - aside_seconds_, 0.001);
+    const double budget = this->budget();
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;
     const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
@@ -135,9 +142,11 @@ void RenderLoop::draw(const StopFlag& stop) {
     if (live_.picture().phase == WalkPhase::moving) {
         if (wish_.view->moving && size.width == moving_size_.of(wish_.view->width))
             moving_size_.record(live_.picture().report, budget);
-        pace_.reused += static_cast<double>(live_.picture().report.reused);
-        pace_.guessed += static_cast<double>(live_.picture().report.filled);
-        pace_.pixels += static_cast<double>(live_.picture().report.pixels);
+        const CloudReport& report = live_.picture().report;
+        pace_.reused += static_cast<double>(report.reused);
+        pace_.inferred += static_cast<double>(report.inferred);
+        pace_.guessed += static_cast<double>(report.filled - report.inferred);
+        pace_.pixels += static_cast<double>(report.pixels);
     }
 }
 
@@ -162,7 +171,7 @@ void RenderLoop::note_pace(Clock::time_point begin) {
     const CloudReport& report = live_.picture().report;
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count() -
                            report.project_seconds - report.check_seconds - report.trace_seconds -
-                           report.keep_seconds;
+                           report.infer_seconds - report.keep_seconds;
     aside_seconds_ += kShare * (seconds - aside_seconds_);
 }
 
@@ -172,6 +181,7 @@ void RenderLoop::report(Clock::time_point now) {
     StateReply state;
     state.fps = pace_.frames / seconds;
     state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1;
+    state.inferred = pace_.pixels > 0 ? pace_.inferred / pace_.pixels : 0;
     state.guessed = pace_.pixels > 0 ? pace_.guessed / pace_.pixels : 0;
     state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
     state.phase = live_.picture().phase;
@@ -180,7 +190,8 @@ void RenderLoop::report(Clock::time_point now) {
     state.threads = threads_;
     state.points = live_.picture().report.points;
     client_inbox_.tell_all(walk_text(state));
-    pace_ = {now, 0, 0, 0, 0, 0};
+    pace_ = {};
+    pace_.since = now;
 }
 
 void RenderLoop::reply(const WalkQuestion& question) {

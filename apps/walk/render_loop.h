@@ -46,7 +46,7 @@ class RenderLoop {
         Clock::time_point since;
         std::uint32_t frames = 0;
         std::uint64_t rays = 0;
-        double reused = 0, guessed = 0, pixels = 0;
+        double reused = 0, inferred = 0, guessed = 0, pixels = 0;
     };
 
     void answer(const InboxContents& inbox);
@@ -65,6 +65,8 @@ class RenderLoop {
         int width, height;
     };
     [[nodiscard]] Size size_now() const;
+    /// Time for the steps of the next picture [s].
+    [[nodiscard]] double budget() const;
     [[nodiscard]] std::chrono::milliseconds patience() const;
 
     RenderLoopOptions options_;

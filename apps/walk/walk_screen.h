@@ -41,6 +41,8 @@ class WalkScreen {
     /// Clients have drawn frames. What was never sent to them counts for nothing.
     void acked(std::span<const WalkAck> acks);
 
+    /// Whether all clients draw the camera of the moment themselves, from how far away things are.
+    [[nodiscard]] bool all_want_depth() const;
     /// Before show(): how far away what the picture shows is, for the pages that want to know.
     /// @param eye_height  see DepthPiece
     void measure_depth(const LivePicture& picture, const View& view, double eye_height);

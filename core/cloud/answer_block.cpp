@@ -141,6 +141,9 @@ class BlockAnswerer {
         frame_.distance[at] = known ? finder_.distance(answer) : 0;
         frame_.causes[at] = answer.cause;
         frame_.known[at] = known ? 1 : 0;
+        const std::uint32_t seen = answer.ahead != kNoPoint ? answer.ahead : answer.mirrored;
+        if (known && !frame_.surfaces.empty())
+            frame_.surfaces[at] = seen != kNoPoint ? points_.all()[seen].surface : 0;
         if (!reused) {
             using Kind = PixelOrigin::Kind;
             if (!frame_.origins.empty())
@@ -152,8 +155,7 @@ class BlockAnswerer {
         for (const std::uint32_t index : {answer.ahead, answer.mirrored})
             if (index != kNoPoint) points_.use(index);
         if (frame_.origins.empty()) return;
-        const std::uint32_t index = answer.ahead != kNoPoint ? answer.ahead : answer.mirrored;
-        const int fresh = index != kNoPoint ? kOldestAge - points_.all()[index].old : 0;
+        const int fresh = seen != kNoPoint ? kOldestAge - points_.all()[seen].old : 0;
         frame_.origins[at] = {PixelOrigin::Kind::reused, 0, static_cast<std::uint32_t>(fresh)};
     }
 

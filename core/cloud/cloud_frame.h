@@ -47,13 +47,15 @@ struct CloudOptions {
 
 /// What a frame took, or a part of it.
 struct CloudReport {
-    std::size_t pixels = 0;  ///< all of the picture
-    std::size_t reused = 0;  ///< answered by points, audited and refined ones included
-    std::size_t filled = 0;  ///< from their neighbours: there was no time for them
+    std::size_t pixels = 0;    ///< all of the picture
+    std::size_t reused = 0;    ///< answered by points, audited and refined ones included
+    std::size_t filled = 0;    ///< shown for a moment: there was no time for them
+    std::size_t inferred = 0;  ///< of these: from points or pixels of the surface that they show
     std::array<std::size_t, kTraceCauses> uncached{};  ///< traced pixels, by cause (TraceCause)
     std::size_t points = 0;                            ///< in the cloud after the frame
     std::uint64_t rays = 0;                            ///< of all ranks, where many draw the frame
-    double project_seconds = 0, check_seconds = 0, trace_seconds = 0, keep_seconds = 0;
+    double project_seconds = 0, check_seconds = 0, trace_seconds = 0, infer_seconds = 0,
+           keep_seconds = 0;
     double tightness = 1;             ///< of reuse (ReuseErrorController)
     std::vector<float> audit_errors;  ///< of audited pixels: relative error of their luminance
     std::vector<float> audit_floors;  ///< of some of these: difference of two rays of the pixel
@@ -67,6 +69,9 @@ struct CloudFrame {
     std::vector<TraceCause> causes;  ///< why each pixel was traced or filled; none: it was not
     /// Not 0 where a pixel shows something that is better than what its neighbours tell.
     std::vector<std::uint8_t> known;
+    /// What the rays of known pixels meet (PrimaryVisibility::surface), where there is a budget; 0:
+    /// something that tells nothing of what lies beside it.
+    std::vector<std::uint32_t> surfaces;
     std::vector<PixelOrigin> origins;  ///< where pixels come from, where somebody wants to know
     CloudReport report;
     bool complete = false;  ///< false: stopped early

@@ -67,7 +67,9 @@ struct PointFinder::Search {
     float darkest = HUGE_VALF, brightest = 0;
     int points = 0;       ///< number of usable points
     bool any = false;     ///< there is any point
-    bool turned = false;  ///< some points were seen from a too different direction
+    bool turned = false;  ///< some points were seen from a too different direction:
+    std::uint32_t nearest_turned = kNoPoint;
+    float turned_squared = HUGE_VALF;  ///< distance of the nearest of them [pixels²]
 };
 
 inline float PointFinder::squared_distance(std::uint32_t index,
@@ -90,6 +92,10 @@ inline void PointFinder::consider(std::uint32_t index, float squared,
         if (point.max_view_angle != kAnyViewAngle &&
             !holds_from(point, toward(point, visibility, primary), rules_.tightness)) {
             found.turned = true;
+            if (squared < found.turned_squared) {
+                found.turned_squared = squared;
+                found.nearest_turned = index;
+            }
             return;
         }
     }
@@ -157,10 +163,12 @@ TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
         search_around(grid, pixel, std::min(near, kOwnPixel2), visibility, primary, found);
     best = found.best;
     answer.apart = std::max(answer.apart, std::sqrt(found.squared));
-    if (found.points == 0)
-        return found.turned ? TraceCause::turned
-               : found.any  ? TraceCause::hidden
-                            : TraceCause::uncovered;
+    if (found.points == 0 && found.turned) {
+        best = found.nearest_turned;
+        answer.radiance += points_[best].radiance;
+        return TraceCause::turned;
+    }
+    if (found.points == 0) return found.any ? TraceCause::hidden : TraceCause::uncovered;
     const bool sharp = inside_pixel || found.squared <= kOwnPixel2;
     answer.radiance += sharp ? points_[best].radiance : found.sum * (1 / found.weight);
     if (!rules_.look_back || inside_pixel || found.squared <= near) return TraceCause::none;
@@ -182,11 +190,12 @@ inline void PointFinder::check(const PixelPlace& pixel, const PixelVisibility& v
     if (visibility.ahead.seen) {
         answer.cause =
             search(grids_.ahead, pixel, visibility, visibility.ahead, answer.ahead, answer);
-        if (!answer.found()) return;
+        if (answer.ahead == kNoPoint) return;
     }
-    if (visibility.mirrored.seen)
-        answer.cause = search(grids_.mirrored, pixel, visibility, visibility.mirrored,
-                              answer.mirrored, answer);
+    if (!visibility.mirrored.seen) return;
+    const TraceCause cause =
+        search(grids_.mirrored, pixel, visibility, visibility.mirrored, answer.mirrored, answer);
+    if (answer.found()) answer.cause = cause;
 }
 
 /// Prefetch the points of the pixels.
@@ -402,7 +411,7 @@ bool PointFinder::is_edge(const PixelPlace& pixel) const {
 }
 
 bool PointFinder::is_guess(const PixelAnswer& answer) const {
-    if (answer.cause != TraceCause::uneven) return false;
+    if (answer.cause != TraceCause::uneven && answer.cause != TraceCause::turned) return false;
     return answer.ahead == kNoPoint || !points_[answer.ahead].paired || answer.mirrored != kNoPoint;
 }
 

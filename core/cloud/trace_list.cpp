@@ -121,9 +121,12 @@ void TraceList::show(CloudFrame& frame) {
             relative_error(pair_radiance_[i], traced_[noise_pairs_[i]].value.radiance));
     }
     for (std::size_t i = 0; i < uncached_.size(); ++i) {
-        if (done_[i] == 0) continue;
         const UncachedPixel& pixel = uncached_[i];
         const std::size_t at = frame.area.index(pixel.place);
+        if (done_[i] == 0) {
+            if (pixel.cause != TraceCause::audited && frame.known[at] != 0) ++report.inferred;
+            continue;
+        }
         const PixelValue& traced = traced_[i].value;
         if (pixel.cause == TraceCause::audited)
             report.audit_errors.push_back(relative_error(frame.radiance[at], traced.radiance));
@@ -133,6 +136,9 @@ void TraceList::show(CloudFrame& frame) {
         frame.distance[at] = traced.distance;
         frame.causes[at] = pixel.cause;
         frame.known[at] = 1;
+        if (!frame.surfaces.empty())
+            frame.surfaces[at] =
+                traced_[i].points.count > 0 ? traced_[i].points.points[0].surface : 0;
         if (!frame.origins.empty()) frame.origins[at] = {PixelOrigin::Kind::traced, 1, 0};
         ++report.uncached[static_cast<std::size_t>(pixel.cause)];
     }

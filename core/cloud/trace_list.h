@@ -82,7 +82,8 @@ class TraceList {
     /// The values of the pixels, in their order; none: there was no time.
     [[nodiscard]] std::vector<std::optional<PixelValue>> values() const;
 
-    /// Put what was traced into the frame, and into its report.
+    /// Put what was traced into the frame, and into its report. What was not, but is known all the
+    /// same, is inferred.
     void show(CloudFrame& frame);
     /// What was traced leaves its points.
     void leave_points(RegionPoints& points) const;

@@ -161,6 +161,7 @@ std::string walk_text(const StateReply& reply) {
     return text_of({{"type", "state"},
                     {"fps", reply.fps},
                     {"reuse", reply.reuse},
+                    {"inferred", reply.inferred},
                     {"guessed", reply.guessed},
                     {"rays_per_second", reply.rays_per_second},
                     {"phase", word(reply.phase)},

@@ -85,8 +85,9 @@ struct GlareReply {
 };
 struct StateReply {
     double fps = 0;
-    double reuse = 0;    ///< share of the pixels that points of earlier frames answered
-    double guessed = 0;  ///< share of the pixels that were filled from their neighbours
+    double reuse = 0;     ///< share of the pixels that points of earlier frames answered
+    double inferred = 0;  ///< share of the pixels with colours from around them on their surface
+    double guessed = 0;   ///< share of the pixels that were filled from whatever is around them
     double rays_per_second = 0;
     WalkPhase phase = WalkPhase::moving;
     double share = 0;  ///< progress of the phase, 0 to 1

@@ -57,12 +57,13 @@ Parts sorted_parts(const FrameOrder& order, const FinishedFrame& finished) {
 
 void add_report(const CloudReport& part, CloudReport& all) {
     for (std::size_t CloudReport::*count :
-         {&CloudReport::reused, &CloudReport::filled, &CloudReport::points})
+         {&CloudReport::reused, &CloudReport::filled, &CloudReport::inferred, &CloudReport::points})
         all.*count += part.*count;
     all.rays += part.rays;
     for (std::size_t i = 0; i < all.uncached.size(); ++i) all.uncached[i] += part.uncached[i];
-    for (double CloudReport::*seconds : {&CloudReport::project_seconds, &CloudReport::check_seconds,
-                                         &CloudReport::trace_seconds, &CloudReport::keep_seconds})
+    for (double CloudReport::*seconds :
+         {&CloudReport::project_seconds, &CloudReport::check_seconds, &CloudReport::trace_seconds,
+          &CloudReport::infer_seconds, &CloudReport::keep_seconds})
         all.*seconds = std::max(all.*seconds, part.*seconds);
     all.audit_errors.insert(all.audit_errors.end(), part.audit_errors.begin(),
                             part.audit_errors.end());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/cloud/answer_block.h"
+#include "core/cloud/surface_fill.h"
 #include "parallel/blocks.h"
 #include "parallel/executor_task_runner.h"
 #include "parallel/walk/step_timer.h"
@@ -28,6 +29,7 @@ CloudRegion::CloudRegion(const PixelRectangle& area, int width, int height,
     frame_.causes.resize(area.pixels());
     frame_.known.resize(area.pixels());
     if (options.refine > 0) frame_.origins.resize(area.pixels());
+    if (options.budget > 0) frame_.surfaces.resize(area.pixels());
 }
 
 void CloudRegion::begin(const Camera& camera, const CloudRules& rules) {
@@ -67,6 +69,24 @@ void CloudRegion::answer(PixelCaster& caster, Executor& executor, const StopFlag
         stop);
     if (!stop.requested())
         to_trace_.gather(uncached_of_, rules_.frame, ExecutorTaskRunner(executor));
+}
+
+void CloudRegion::infer(PixelCaster& caster, Executor& executor, const StopFlag& stop,
+                        Clock::time_point until) {
+    CloudReport& report = frame_.report;
+    if (frame_.surfaces.empty() || report.filled == report.inferred) return;
+    const StepTimer timer(report.infer_seconds);
+    std::vector<std::vector<InferredPixel>> inferred(blocks_.size());
+    const std::size_t first = rules_.frame * (blocks_.size() / 3 + 1);
+    executor.for_each(
+        blocks_.size(),
+        [&](std::size_t task, int worker) {
+            if (Clock::now() > until) return;
+            const std::size_t block = (first + task) % blocks_.size();
+            infer_block(frame_, blocks_[block], caster, worker, inferred[block]);
+        },
+        stop);
+    for (const std::vector<InferredPixel>& of_block : inferred) show_inferred(of_block, frame_);
 }
 
 void CloudRegion::refine(std::span<const PixelPlace> places) {

@@ -17,8 +17,9 @@ namespace lightwalk {
 
 /// The steps of a frame, in this order: begin, project, [points().leaving, add,] answer,
 /// [used_beside and mark_used of the points,] record for each traced pixel of to_trace(), show,
-/// age, keep. Those in brackets are for regions that have others beside them. Of a view that rests,
-/// which is not projected, others say what is to be traced: begin, refine, record, rest, keep.
+/// infer, age, keep. Those in brackets are for regions that have others beside them. Of a view that
+/// rests, which is not projected, others say what is to be traced: begin, refine, record, rest,
+/// keep.
 class CloudRegion {
   public:
     /// @param area  of a picture of width x height pixels
@@ -47,6 +48,10 @@ class CloudRegion {
 
     /// Put what was traced into the frame.
     void show() { to_trace_.show(frame_); }
+    /// What is not known yet gets the colours of the same surfaces around, as far as there is time.
+    /// The caster's `probe` is called.
+    void infer(PixelCaster& caster, Executor& executor, const StopFlag& stop,
+               Clock::time_point until);
     /// Points grow older; what was traced leaves new ones. All that are kept, by age.
     [[nodiscard]] AgeCounts age(Executor& executor);
     /// The same where the view rests.

@@ -14,7 +14,8 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
                      FrameExchange& exchange, Executor& executor, const StopFlag& stop) {
     using Clock = UncachedPixelTracer::Clock;
     const Clock::time_point deadline =
-        order.budget > 0 ? deadline_of(order.budget - keep_seconds_) : Clock::time_point::max();
+        order.budget > 0 ? deadline_of(order.budget - infer_seconds_ - keep_seconds_)
+                         : Clock::time_point::max();
     begin(order, camera);
     CloudRegion& region = *region_;
     CloudReport& report = region.frame().report;
@@ -33,7 +34,10 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
             caster, options_.tolerance, tracing_deadline(deadline, order.budget, region.unknown()));
         if (!exchange.trace(region, tracer, order.sample, executor, stop)) return false;
     }
-    if (!order.rests) region.show();
+    if (!order.rests) {
+        region.show();
+        region.infer(caster, executor, stop, inferring_deadline(order.budget));
+    }
     const AgeCounts ages = order.rests ? region.rest(order.leaves) : region.age(executor);
     report.points = std::accumulate(ages.begin(), ages.end(), std::size_t{0});
     exchange.deliver(order, region);
@@ -41,6 +45,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     if (!all) return false;
     region.keep(age_limit(*all, options_.most_points(width_, height_)), executor);
     keep_seconds_ = report.keep_seconds;
+    infer_seconds_ = report.infer_seconds;
     return true;
 }
 

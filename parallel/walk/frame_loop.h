@@ -72,8 +72,8 @@ class FrameLoop {
     CloudOptions options_;
     std::size_t index_, owners_;
     std::optional<CloudRegion> region_;
-    int width_ = 0, height_ = 0;  ///< of the picture that the region is a part of
-    double keep_seconds_ = 0;
+    int width_ = 0, height_ = 0;                   ///< of the picture that the region is a part of
+    double infer_seconds_ = 0, keep_seconds_ = 0;  ///< of the last frame [s]
 };
 
 }  // namespace lightwalk

@@ -11,8 +11,13 @@ constexpr std::array kShares{1.0, 0.7071, 0.5, 0.3536};
 // Guessed pixels, as a share: with more of them a frame is too large, with fewer it may be too
 // small. With many it is much too large.
 constexpr double kMany = 0.25, kMost = 0.03, kFew = 0.005;
-constexpr double kShort = 0.45;  // of the budget: twice the pixels would fit
-constexpr int kBad = 2;          // frames in a row: one may be a matter of a busy machine
+// An inferred pixel is as bad as so much of a guessed one. Of a walk over a polished floor some are
+// inferred in frames of any size.
+constexpr double kInferred = 0.2, kFewInferred = 0.1;
+// Of the budget, for all but tracing, which takes the time that is left: twice the pixels would
+// fit.
+constexpr double kShort = 0.45;
+constexpr int kBad = 2;  // frames in a row: one may be a matter of a busy machine
 constexpr int kPatience = 8, kMostPatience = 256, kSoon = 60;  // [frames]
 
 }  // namespace
@@ -38,16 +43,20 @@ void MovingSize::record(const CloudReport& report, double budget) {
         patience_ = kPatience;
     }
     if (changed_) return void(changed_ = false);
-    const double guessed = static_cast<double>(report.filled) / static_cast<double>(report.pixels);
+    const auto pixels = static_cast<double>(report.pixels);
+    const double inferred = static_cast<double>(report.inferred) / pixels;
+    const double guessed = static_cast<double>(report.filled) / pixels - inferred;
+    const double wrong = guessed + kInferred * inferred;
     const double seconds =
-        report.project_seconds + report.check_seconds + report.trace_seconds + report.keep_seconds;
-    bad_ = guessed > kMost ? bad_ + 1 : 0;
-    good_ = guessed < kFew && seconds < kShort * budget ? good_ + 1 : 0;
+        report.project_seconds + report.check_seconds + report.infer_seconds + report.keep_seconds;
+    bad_ = wrong > kMost ? bad_ + 1 : 0;
+    const bool fits = guessed < kFew && inferred < kFewInferred && seconds < kShort * budget;
+    good_ = fits ? good_ + 1 : 0;
     if (bad_ >= kBad) {
         // A larger size that soon proved too large is tried again later and later.
         if (since_larger_ > 0) patience_ = std::min(2 * patience_, kMostPatience);
         since_larger_ = 0;
-        step(guessed > kMany ? 2 : 1);
+        step(wrong > kMany ? 2 : 1);
     } else if (good_ >= patience_ && step_ > 0) {
         step(-1);
         since_larger_ = 1;

@@ -5,8 +5,8 @@
 namespace lightwalk {
 
 /// Chooses the size of moving frames by what the frames before were like: the largest of which
-/// nearly every pixel is reused or traced in time. A smaller picture is blurred where the large one
-/// would be guessed.
+/// nearly every pixel is reused, traced in time, or inferred from its own surface. A smaller
+/// picture is blurred where the large one would be guessed.
 class MovingSize {
   public:
     /// Share of the width and of the height that are wished for, 0.35 ... 1.

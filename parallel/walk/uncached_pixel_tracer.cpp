@@ -23,6 +23,11 @@ std::chrono::steady_clock::time_point checking_deadline(double budget) {
                       : std::chrono::steady_clock::time_point::max();
 }
 
+std::chrono::steady_clock::time_point inferring_deadline(double budget) {
+    constexpr double kMostShare = 0.25;
+    return deadline_of(kMostShare * budget);
+}
+
 std::chrono::steady_clock::time_point tracing_deadline(
     std::chrono::steady_clock::time_point deadline, double budget, double unknown) {
     constexpr double kLeastShare = 0.12, kBlindShare = 0.5;

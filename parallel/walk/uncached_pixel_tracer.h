@@ -19,6 +19,9 @@ namespace lightwalk {
 /// When looking at the pixels has to end in a frame that has a budget and looks from now on.
 [[nodiscard]] std::chrono::steady_clock::time_point checking_deadline(double budget);
 
+/// When pixels that were not traced are no longer looked at, in a frame of a budget that begins to
+/// do so now. Without them it would show colours of other surfaces there.
+[[nodiscard]] std::chrono::steady_clock::time_point inferring_deadline(double budget);
 /// When tracing has to end in a frame that has a budget and should be there at `deadline`. Where
 /// other steps have taken the time, some is left for tracing all the same: else nothing new would
 /// ever be seen.

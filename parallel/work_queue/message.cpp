@@ -37,9 +37,9 @@ LIGHTWALK_FIELDS(RayAnswer, m.number, m.bytes)
 LIGHTWALK_FIELDS(TracedRun, m.frame, m.owner, m.first, m.count, m.traced)
 LIGHTWALK_FIELDS(WorkResult, m.result)
 LIGHTWALK_FIELDS(PicturePart, m.work, m.bytes)
-LIGHTWALK_FIELDS(CloudReport, m.pixels, m.reused, m.filled, m.uncached, m.points, m.rays,
-                 m.project_seconds, m.check_seconds, m.trace_seconds, m.keep_seconds, m.tightness,
-                 m.audit_errors, m.audit_floors)
+LIGHTWALK_FIELDS(CloudReport, m.pixels, m.reused, m.filled, m.inferred, m.uncached, m.points,
+                 m.rays, m.project_seconds, m.check_seconds, m.trace_seconds, m.infer_seconds,
+                 m.keep_seconds, m.tightness, m.audit_errors, m.audit_floors)
 LIGHTWALK_FIELDS(FramePart, m.frame, m.area, m.pixels, m.unknown, m.report, m.origins, m.refined)
 LIGHTWALK_FIELDS(FinishedPart, m.part)
 LIGHTWALK_FIELDS(UncachedPixels, m.frame, m.noise_pairs, m.places)

@@ -263,6 +263,7 @@ setInterval(() => {
         type: "state",
         fps: 31.4,
         reuse: 0.964,
+        inferred: 0.02,
         guessed: 0.012,
         rays_per_second: 2.43e6,
         ranks: 1,

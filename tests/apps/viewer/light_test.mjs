@@ -244,9 +244,10 @@ test("what is not done is never 100 %, and what is done has no number", () => {
     assert.equal(phase_words(undefined, undefined), "");
 });
 
-test("what is neither reused nor guessed is traced", () => {
-    const shares = Object.fromEntries(pixel_shares({ reuse: 0.7, guessed: 0.1 }));
-    assert.ok(Math.abs(shares.Traced - 0.2) < 1e-12 && shares.Guessed === 0.1);
-    assert.deepEqual(pixel_shares({ reuse: 1, guessed: 0.01 })[2], ["Traced", 0]);
+test("what is neither reused nor inferred nor guessed is traced", () => {
+    const shares = Object.fromEntries(pixel_shares({ reuse: 0.7, inferred: 0.05, guessed: 0.1 }));
+    assert.ok(Math.abs(shares.Traced - 0.15) < 1e-12 && shares.Guessed === 0.1);
+    assert.equal(shares.Inferred, 0.05);
+    assert.deepEqual(pixel_shares({ reuse: 1, guessed: 0.01 })[3], ["Traced", 0]);
     assert.deepEqual(pixel_shares({}), []);
 });

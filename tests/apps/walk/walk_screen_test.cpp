@@ -179,3 +179,36 @@ TEST_CASE(
     REQUIRE(frame_pieces(all.last(kWatching)) == 1);
     CHECK(all.last(kWatching).size() == 48 + 16);
 }
+
+TEST_CASE("walk screen: who comes later gets no depth of an earlier picture") {
+    Screen all;
+    const auto join_with_depth = [&] {
+        InboxContents news;
+        news.joined = news.want_depth = {kWatching};
+        all.screen.update_clients(news);
+    };
+    LivePicture picture = picture_of(0.5f);
+    picture.distance.assign(picture.radiance.size(), 2);
+    const auto show = [&] {
+        all.screen.measure_depth(picture, View{}, 1.6);
+        all.show(picture, 1);
+        all.send();
+    };
+    join_with_depth();
+    show();
+    CHECK(all.screen.all_want_depth() == false);
+    REQUIRE(all.clients.frames_of(kWatching) == 1);
+    all.leave(kWatching);
+    picture.width /= 2;
+    picture.radiance.resize(picture.radiance.size() / 2);
+    picture.distance.resize(picture.radiance.size());
+    show();
+    join_with_depth();
+    all.send();  // before the next picture
+    REQUIRE(all.clients.frames_of(kWatching) == 2);
+    const std::string& frame = all.last(kWatching);
+    const std::string depth = frame.substr(frame.size() - 16);
+    CHECK(number_at<std::uint16_t>(depth, 4) == kScreenWidth / 2);
+    CHECK(depth[8] == 3);                             // what it is: depth
+    CHECK(number_at<std::uint32_t>(depth, 12) == 0);  // bytes
+}

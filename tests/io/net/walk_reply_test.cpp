@@ -79,8 +79,8 @@ TEST_CASE("walk reply: each is the text that the format has for it") {
          R"({"type": "glare", "id": 9, "done": 1.0, "dgp": 0.5, "sources": [
              {"outline": [[0.0, 0.5], [1.0, 1.0]], "luminance": 2000.0, "solid_angle": 0.125,
               "position_index": 1.5}]})");
-    same(walk_text(StateReply{30, 0.97, 0.01, 1e6, WalkPhase::refining, 0.5, 2, 8, 300000}),
-         R"({"type": "state", "fps": 30.0, "reuse": 0.97, "guessed": 0.01,
+    same(walk_text(StateReply{30, 0.97, 0.015, 0.01, 1e6, WalkPhase::refining, 0.5, 2, 8, 300000}),
+         R"({"type": "state", "fps": 30.0, "reuse": 0.97, "inferred": 0.015, "guessed": 0.01,
              "rays_per_second": 1000000.0, "phase": "refining", "share": 0.5, "ranks": 2, "threads": 8, "points": 300000})");
     same(walk_text(RefusedReply{"no", 3}), R"({"type": "refused", "text": "no", "id": 3})");
     same(walk_text(RefusedReply{"no", {}}), R"({"type": "refused", "text": "no"})");

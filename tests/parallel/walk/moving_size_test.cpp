@@ -11,7 +11,7 @@ CloudReport drawn(double guessed, double time) {
     CloudReport report;
     report.pixels = 1000;
     report.filled = static_cast<std::size_t>(1000 * guessed);
-    report.trace_seconds = time;
+    report.check_seconds = time;
     return report;
 }
 
@@ -39,6 +39,18 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     record(much, 100, 1, 1);
     CHECK(much.of(1000) == 354);
     CHECK(much.of(1) == 1);
+}
+
+TEST_CASE("moving size: pixels inferred from their own surface count little") {
+    MovingSize size;
+    CloudReport report = drawn(0.1, 1);
+    report.inferred = report.filled;
+    for (int i = 0; i < 10; ++i) size.record(report, 1);
+    CHECK(size.share() == 1);
+    report = drawn(0.3, 1);
+    report.inferred = report.filled;
+    for (int i = 0; i < 2; ++i) size.record(report, 1);
+    CHECK(size.share() < 1);
 }
 
 TEST_CASE(
