@@ -183,7 +183,8 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
          "number of browsers at once: the first drives, others watch",
          With{.least = 1, .most = 256}},
         {"--fps N", &serve.page.fps,
-         "frames a second while moving; half of it for pages that draw the camera between them. "
+         "frames a second while moving; half as many where that leaves no time for large ones, for "
+         "pages that draw the camera between them. "
          "A frame's time goes to its worst pixels; the others are interpolated now, and traced "
          "in a later frame",
          With{.least = .1, .most = 1000}},

@@ -122,14 +122,15 @@ View RenderLoop::on_the_ground(const ViewRequest& request) const {
     return view;
 }
 
-/// Pages that draw the camera of the moment are in no hurry: right frames serve them better than
-/// new ones.
 double RenderLoop::budget() const {
-    const double seconds = (screen_.all_want_depth() ? 2 : 1) / options_.rate;
+    const double seconds = (wish_.view->moving ? moving_size_.periods() : 1) / options_.rate;
     return std::max(seconds - aside_seconds_, 0.001);
 }
 
 void RenderLoop::draw(const StopFlag& stop) {
+    // Pages that draw the camera of the moment are in no hurry: right frames serve them better than
+    // new ones.
+    moving_size_.set_patient(screen_.all_want_depth());
     const double budget = this->budget();
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;

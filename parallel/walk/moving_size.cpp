@@ -7,13 +7,15 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::array kShares{1.0, 0.7071, 0.5, 0.3536};
+// From step to step there is twice the time for a pixel: by half the frames, then by half the
+// pixels.
+constexpr std::array kShares{1.0, 1.0, 0.7071, 0.5, 0.3536};
 // Guessed pixels, as a share: with more of them a frame is too large, with fewer it may be too
 // small. With many it is much too large.
 constexpr double kMany = 0.25, kMost = 0.03, kFew = 0.005;
 // An inferred pixel is as bad as so much of a guessed one. Of a walk over a polished floor some are
 // inferred in frames of any size.
-constexpr double kInferred = 0.2, kFewInferred = 0.1;
+constexpr double kInferred = 0.2, kFewInferred = 0.13;
 // Of the budget, for all but tracing, which takes the time that is left: twice the pixels would
 // fit.
 constexpr double kShort = 0.45;
@@ -26,12 +28,22 @@ double MovingSize::share() const {
     return kShares[static_cast<std::size_t>(step_)];
 }
 
+int MovingSize::periods() const {
+    return patient_ && step_ > 0 ? 2 : 1;
+}
+
+void MovingSize::set_patient(bool patient) {
+    patient_ = patient;
+    if (!patient) step_ = std::max(step_, 1);
+}
+
 int MovingSize::of(int side) const {
     return std::max(1, static_cast<int>(std::lround(share() * side)));
 }
 
 void MovingSize::step(int by) {
-    const int next = std::clamp(step_ + by, 0, static_cast<int>(kShares.size()) - 1);
+    const int first = patient_ ? 0 : 1, last = static_cast<int>(kShares.size()) - 1;
+    const int next = std::clamp(step_ + by, first, last);
     changed_ = next != step_;
     step_ = next;
     good_ = bad_ = 0;
@@ -52,12 +64,12 @@ void MovingSize::record(const CloudReport& report, double budget) {
     bad_ = wrong > kMost ? bad_ + 1 : 0;
     const bool fits = guessed < kFew && inferred < kFewInferred && seconds < kShort * budget;
     good_ = fits ? good_ + 1 : 0;
-    if (bad_ >= kBad) {
+    if (bad_ >= kBad || wrong > kMany) {
         // A larger size that soon proved too large is tried again later and later.
         if (since_larger_ > 0) patience_ = std::min(2 * patience_, kMostPatience);
         since_larger_ = 0;
         step(wrong > kMany ? 2 : 1);
-    } else if (good_ >= patience_ && step_ > 0) {
+    } else if (good_ >= patience_ && step_ > (patient_ ? 0 : 1)) {
         step(-1);
         since_larger_ = 1;
     }

@@ -24,7 +24,7 @@ std::chrono::steady_clock::time_point checking_deadline(double budget) {
 }
 
 std::chrono::steady_clock::time_point inferring_deadline(double budget) {
-    constexpr double kMostShare = 0.25;
+    constexpr double kMostShare = 0.5;
     return deadline_of(kMostShare * budget);
 }
 

@@ -19,30 +19,64 @@ void record(MovingSize& size, int frames, double guessed, double time) {
     for (int i = 0; i < frames; ++i) size.record(drawn(guessed, time), 1);
 }
 
+/// Of a machine that had time for all of it.
+MovingSize grown() {
+    MovingSize size;
+    record(size, 20, 0, 0.1);
+    return size;
+}
+
 }  // namespace
 
-TEST_CASE("moving size: frames that are in time are as large as they were asked for") {
+TEST_CASE("moving size: the first frames are small, those in time soon as large as asked for") {
     MovingSize size;
+    CHECK(size.share() == 0.5);
+    record(size, 8, 0, 0.3);
+    CHECK(size.share() == 1);
     record(size, 100, 0, 0.9);
     CHECK(size.share() == 1);
-    record(size, 1, 0.9, 1);  // a busy machine, once
+    record(size, 1, 0.2, 1);  // a busy machine, once
     record(size, 100, 0.01, 1);
     CHECK(size.of(1280) == 1280);
 }
 
 TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the sooner") {
-    MovingSize little, much;
-    record(little, 2, 0.05, 1);
-    record(much, 2, 0.5, 1);
+    MovingSize little = grown(), much = grown();
+    record(little, 1, 0.05, 1);
+    CHECK(little.share() == 1);
+    record(little, 1, 0.05, 1);
     CHECK(little.of(1000) == 707);
+    record(much, 1, 0.5, 1);
     CHECK(much.of(1000) == 500);
     record(much, 100, 1, 1);
     CHECK(much.of(1000) == 354);
     CHECK(much.of(1) == 1);
 }
 
-TEST_CASE("moving size: pixels inferred from their own surface count little") {
+TEST_CASE("moving size: who is patient gets half as many frames before they get smaller") {
     MovingSize size;
+    size.set_patient(true);
+    CHECK(size.share() == 0.5);
+    CHECK(size.periods() == 2);
+    record(size, 30, 0, 0.3);
+    CHECK(size.share() == 1);
+    CHECK(size.periods() == 1);
+    record(size, 2, 0.05, 1);
+    CHECK(size.share() == 1);
+    CHECK(size.periods() == 2);
+    record(size, 3, 0.05, 1);
+    CHECK(size.of(1000) == 707);
+    CHECK(size.periods() == 2);
+    record(size, 100, 0, 0.3);
+    size.set_patient(false);
+    CHECK(size.share() == 1);
+    CHECK(size.periods() == 1);
+    record(size, 2, 0.05, 1);
+    CHECK(size.of(1000) == 707);
+}
+
+TEST_CASE("moving size: pixels inferred from their own surface count little") {
+    MovingSize size = grown();
     CloudReport report = drawn(0.1, 1);
     report.inferred = report.filled;
     for (int i = 0; i < 10; ++i) size.record(report, 1);
@@ -56,12 +90,13 @@ TEST_CASE("moving size: pixels inferred from their own surface count little") {
 TEST_CASE(
     "moving size: a larger size is tried where there is time for twice the pixels, and later where "
     "that failed") {
-    MovingSize size;
+    MovingSize size = grown();
     const auto frames_until = [&](double share, double guessed, double time) {
         int frames = 0;
         for (; size.share() != share && frames < 10000; ++frames) record(size, 1, guessed, time);
         return frames;
     };
+    record(size, 100, 0, 0.9);  // the first frames, which are larger soon, are forgotten
     record(size, 2, 0.05, 1);
     record(size, 100, 0, 0.6);
     CHECK(size.share() < 1);  // twice the pixels would not fit
