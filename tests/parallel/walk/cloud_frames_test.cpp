@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "core/cloud/gaps.h"
 #include "core/math/random.h"
 #include "parallel/frame.h"
+#include "parallel/walk/cloud_region.h"
 #include "parallel/walk/scene_caster.h"
+#include "parallel/walk/uncached_pixel_tracer.h"
 #include "tests/one_thread.h"
 #include "tests/test_scene.h"
 
@@ -360,6 +363,54 @@ TEST_CASE("cloud: what a budget leaves out is filled from around, and traced in 
         CHECK(next.report.filled < filled);
         filled = next.report.filled;
     }
+}
+
+TEST_CASE("cloud: of one traced pixel in sixteen a frame's edges and most of its light are right") {
+    Room room;
+    const auto executor = make_executor(ExecutorKind::serial, 1);
+    const View view = view_at(0, 0, 0);
+    const Camera camera(view);
+    WorkerContexts contexts(room.scene.tracer, room.scene.warnings, 1);
+    SceneCaster caster(room.scene.tracer, room.visibility, camera, frame_options(), contexts,
+                       room.stop);
+    CloudOptions options;
+    options.budget = 1;
+    CloudRegion region({0, 0, kWidth, kHeight}, kWidth, kHeight, options);
+    region.begin(camera, {});
+    region.project(*executor);
+    region.answer(caster, *executor, room.stop);
+    TraceList& list = region.to_trace();
+    const std::vector<PixelPlace> places = list.places();
+    const UncachedPixelTracer tracer(caster, 0.1, CloudRegion::Clock::time_point::max());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (places[i].x % 4 != 0 || places[i].y % 4 != 0) continue;
+        tracer.trace(std::span(places).subspan(i, 1), 0, *executor, room.stop,
+                     [&](std::size_t, std::span<const TracedPixelResult> traced) {
+                         list.record(i, traced);
+                     });
+    }
+    region.show();
+    std::vector<Rgb> filled = region.frame().radiance;  // from whatever is around
+    fill_gaps(kWidth, kHeight, filled, region.frame().known, SerialTaskRunner());
+    region.infer(caster, *executor, room.stop, CloudRegion::Clock::time_point::max());
+    const CloudReport& report = region.frame().report;
+    CHECK(report.filled == report.pixels - report.pixels / 16);
+    CHECK(report.inferred > 0.97 * report.filled);
+    const std::vector<TracedPixel> truth = room.truth(view);
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const float is = region.frame().distance[i];
+        const PixelVisibility& sees = truth[i].visibility;
+        // A floor's own distance stands for what it reflects.
+        if (std::abs(is - truth[i].distance) < 0.001f * truth[i].distance ||
+            std::abs(is - sees.ahead.distance) < 0.001f * sees.ahead.distance)
+            ++near;
+    }
+    CHECK(near > 0.99 * report.pixels);
+    // What is left is noise of the lamp's samples, and what the floor reflects.
+    const std::size_t off = off_by_a_tenth(region.frame().radiance, truth);
+    CHECK(off < report.pixels / 5);
+    CHECK(off < 0.8 * static_cast<double>(off_by_a_tenth(filled, truth)));
 }
 
 TEST_CASE("cloud: a view that stands still becomes the traced picture, then a smoother one") {
