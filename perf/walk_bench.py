@@ -110,7 +110,7 @@ def parse_args():
     return args
 
 
-def settle(args):
+def resolve(args):
     """Names and numbers into what they stand for."""
     width, height = (int(word) for word in args.size.split("x"))
     if args.regions and args.views and not set(args.views.split(",")) & {region.place for region in regions.REGIONS}:
@@ -132,7 +132,7 @@ def settle(args):
 
 def main():
     args = parse_args()
-    settle(args)
+    resolve(args)
     with tempfile.TemporaryDirectory() as scratch:
         run(args, (args.keep or pathlib.Path(scratch)).resolve(), Table(args.json))
 

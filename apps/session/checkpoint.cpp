@@ -51,11 +51,11 @@ class Checkpoint::Picture final : public CheckpointSink {
 
 Checkpoint::Checkpoint(const std::string& path, const std::string& header, WarningSink& warnings) {
     log_ = std::make_unique<RecordLog>(
-        path, header, [&](std::string_view record) { take(record); }, warnings);
+        path, header, [&](std::string_view record) { read(record); }, warnings);
     writer_ = std::jthread([this](const std::stop_token& ending) { write(ending); });
 }
 
-void Checkpoint::take(std::string_view record) {
+void Checkpoint::read(std::string_view record) {
     Head head{};
     if (record.size() < sizeof head) return;
     std::memcpy(head.data(), record.data(), sizeof head);

@@ -48,7 +48,7 @@ class Checkpoint {
         PixelRectangle block;
         std::vector<PixelValue> values;
     };
-    void take(std::string_view record);
+    void read(std::string_view record);
     void keep(int frame, const BlockPixels& pixels);
     void write(const std::stop_token& ending);
 

@@ -42,7 +42,7 @@ void RankBackend::run(FunctionRef<void()> lead) {
             lead();
             link_.dismiss();
             const auto others = static_cast<std::size_t>(link_.ranks() - 1);
-            while (statistics_.reports.size() < others && !stop().requested()) hear(true);
+            while (statistics_.reports.size() < others && !stop().requested()) receive_news(true);
         });
         tracing.join();
         statistics_.reports[0] = report();
@@ -93,7 +93,7 @@ std::optional<Frame> RankBackend::finish(const PictureRequest& request) {
     WorkPhase phase;
     phase.pixels = static_cast<double>(request.options.area().pixels());
     ProgressReporter reporter(listener(), {phase});
-    for (double told = -1; !job.picture && !stop().requested(); hear(true))
+    for (double told = -1; !job.picture && !stop().requested(); receive_news(true))
         if (job.done > std::exchange(told, job.done)) reporter.update(0, {job.done, 0, 0});
     reporter.finish(job.picture.has_value(), 0);
     std::optional<Frame> frame;
@@ -115,7 +115,7 @@ void RankBackend::begin(const RayTask& list) {
 }
 
 std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
-    while (answers_.empty() && !stop().requested()) hear(true);
+    while (answers_.empty() && !stop().requested()) receive_news(true);
     if (answers_.empty()) return std::nullopt;
     std::string answer = std::move(answers_.front());
     answers_.pop_front();
@@ -123,7 +123,7 @@ std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
 }
 
 RayDemand RankBackend::ray_demand(bool wait, bool /*begun*/) {
-    hear(wait && answers_.empty());
+    receive_news(wait && answers_.empty());
     demand_.answered = !answers_.empty();
     return demand_;
 }
@@ -144,17 +144,17 @@ LiveFrames& RankBackend::frames() {
 std::optional<AssembledFrame> RankBackend::draw(FrameOrder order, const StopFlag& stop) {
     order.number = link_.new_number();
     link_.start({order});
-    for (frame_.reset(); !frame_; hear(true))
+    for (frame_.reset(); !frame_; receive_news(true))
         if (stop.requested()) return std::nullopt;
-    return assemble_frame(order, *frame_, options_.reuse->most_points(order.width, order.height));
+    return assemble_frame(order, *frame_);
 }
 
-/// Takes what the link has heard. @param wait  until there is something
-void RankBackend::hear(bool wait) {
-    const auto with_job = [&](JobId number, auto take) {
+/// Handles the news of the link. @param wait  until there is something
+void RankBackend::receive_news(bool wait) {
+    const auto with_job = [&](JobId number, auto use) {
         const auto job = std::find_if(jobs_.begin(), jobs_.end(),
                                       [&](const Job& one) { return one.number == number; });
-        if (job != jobs_.end()) take(*job);
+        if (job != jobs_.end()) use(*job);
     };
     for (ProgramNews& some : link_.take_news(wait, stop())) {
         std::visit(

@@ -48,7 +48,7 @@ class RankBackend final : public RenderBackend {
     };
 
     // On rank 0.
-    void hear(bool wait);
+    void receive_news(bool wait);
     [[nodiscard]] std::optional<AssembledFrame> draw(FrameOrder order, const StopFlag& stop);
 
     // On every rank (rank_tracing.cpp).

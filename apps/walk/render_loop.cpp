@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kProgressiveInterval{100};
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
 constexpr std::chrono::milliseconds kIdle{100};
-constexpr std::chrono::milliseconds kHeld{200};
+constexpr std::chrono::milliseconds kHeld{200};  // without a new view: it rests
 
 double eye_height_of(const Scene& scene, const View& view) {
     const std::optional<double> height =
@@ -78,7 +78,7 @@ bool RenderLoop::has_work() const {
     return live_.picture().width != size.width || live_.picture().height != size.height;
 }
 
-/// A view that has not changed for a moment rests, even if it is said to move: a hand holds it.
+/// A hand may hold still without letting go: then the view rests, though it is said to move.
 RenderLoop::Size RenderLoop::size_now() const {
     const Size whole{wish_.view->width, wish_.view->height};
     if (!wish_.view->moving || Clock::now() - moved_ > kHeld) return whole;
@@ -141,9 +141,9 @@ void RenderLoop::draw(const StopFlag& stop) {
     shown_ = false;
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {
-        if (wish_.view->moving && size.width == moving_size_.of(wish_.view->width))
-            moving_size_.record(live_.picture().report, budget);
         const CloudReport& report = live_.picture().report;
+        if (wish_.view->moving && size.width == moving_size_.of(wish_.view->width))
+            moving_size_.record(report, budget);
         pace_.reused += static_cast<double>(report.reused);
         pace_.inferred += static_cast<double>(report.inferred);
         pace_.guessed += static_cast<double>(report.filled - report.inferred);

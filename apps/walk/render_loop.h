@@ -11,8 +11,8 @@
 #include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_screen.h"
+#include "core/cloud/moving_size.h"
 #include "parallel/walk/live_walk.h"
-#include "parallel/walk/moving_size.h"
 
 namespace lightwalk {
 
@@ -59,11 +59,11 @@ class RenderLoop {
     void report(Clock::time_point now);
     [[nodiscard]] View on_the_ground(const ViewRequest& request) const;
     [[nodiscard]] bool has_work() const;
-    /// Of the next picture: smaller than wished while the view moves, if there is no time for all
-    /// of it.
     struct Size {
         int width, height;
     };
+    /// Of the next picture: smaller than wished while the view moves, if there is no time for all
+    /// of it.
     [[nodiscard]] Size size_now() const;
     /// Time for the steps of the next picture [s].
     [[nodiscard]] double budget() const;

@@ -70,7 +70,7 @@ class Page {
           screen(*executor),
           server_(server_options(*command.serve), viewer_pages(), inbox) {
         inbox.attach(server_);
-        thread_ = std::thread([this] { serve(); });
+        thread_ = std::thread([this] { run_server(); });
     }
     ~Page() {
         server_.stop();
@@ -94,7 +94,7 @@ class Page {
     WalkScreen screen;
 
   private:
-    void serve() {
+    void run_server() {
         try {
             server_.run();
         } catch (...) {
@@ -125,7 +125,7 @@ class WalkRun final : CommandRun {
         handle_interrupts();
         join(task().options);
         if (ranks() == nullptr) set_interrupt_phase(InterruptPhase::request);
-        return share_out([this] { return speaks() ? serve() : follow(); });
+        return share_out([this] { return speaks() ? run_page() : follow(); });
     }
 
   private:
@@ -144,7 +144,7 @@ class WalkRun final : CommandRun {
     }
 
     /// The process that serves the page: this one, or rank 0.
-    int serve() {
+    int run_page() {
         Page page(command_);
         std::printf("%s\n", page.url().c_str());
         std::fflush(stdout);

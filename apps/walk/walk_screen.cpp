@@ -44,17 +44,15 @@ void WalkScreen::cut(int width, int height) {
     contents_.assign(pieces_.size() + 1, 0);
 }
 
-bool WalkScreen::all_want_depth() const {
-    return !clients_.empty() &&
-           std::all_of(clients_.begin(), clients_.end(),
-                       [](const auto& client) { return client.second.wants_depth; });
+std::size_t WalkScreen::want_depth() const {
+    return static_cast<std::size_t>(
+        std::count_if(clients_.begin(), clients_.end(),
+                      [](const auto& client) { return client.second.wants_depth; }));
 }
 
 void WalkScreen::measure_depth(const LivePicture& picture, const View& view, double eye_height) {
-    const bool wanted = std::any_of(clients_.begin(), clients_.end(),
-                                    [](const auto& client) { return client.second.wants_depth; });
     // Not kept for who comes later: it would be that of an earlier picture.
-    if (wanted)
+    if (want_depth() > 0)
         depth_.keep(picture, view, eye_height, executor_);
     else
         depth_.forget();

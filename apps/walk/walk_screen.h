@@ -42,7 +42,9 @@ class WalkScreen {
     void acked(std::span<const WalkAck> acks);
 
     /// Whether all clients draw the camera of the moment themselves, from how far away things are.
-    [[nodiscard]] bool all_want_depth() const;
+    [[nodiscard]] bool all_want_depth() const {
+        return !clients_.empty() && want_depth() == clients_.size();
+    }
     /// Before show(): how far away what the picture shows is, for the pages that want to know.
     /// @param eye_height  see DepthPiece
     void measure_depth(const LivePicture& picture, const View& view, double eye_height);
@@ -69,6 +71,8 @@ class WalkScreen {
     };
 
     void cut(int width, int height);
+    /// Number of the clients that do.
+    [[nodiscard]] std::size_t want_depth() const;
     void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
     void compress(std::span<const std::size_t> pieces);
     /// Of the pieces that a client wants: those of the picture, and the depth.

@@ -72,7 +72,7 @@ std::vector<AmbientRecord> SharedCache::unsent() {
     return std::exchange(own_, {});
 }
 
-void SharedCache::take(const AmbientValues& news) {
+void SharedCache::merge(const AmbientValues& news) {
     const std::lock_guard lock(mutex_);
     if (cache_ == nullptr) return;
     for (const AmbientRecord& record : news.records) cache_->take_over(record, *this);

@@ -42,7 +42,7 @@ class AmbientClient {
     /// Ask, whether or not a batch is full; where an offer is out, after its answer.
     void ask(Outbox& out);
     /// Nothing that was offered or asked so far is still to be sent or answered.
-    [[nodiscard]] bool is_settled() const { return !asked_; }
+    [[nodiscard]] bool is_flushed() const { return !asked_; }
 
   private:
     int self_, master_;
@@ -70,7 +70,7 @@ class SharedCache final : public AmbientListener {
     /// Values that do not make a batch yet; they are not sent any more.
     [[nodiscard]] std::vector<AmbientRecord> unsent();
     /// Values of others.
-    void take(const AmbientValues& news);
+    void merge(const AmbientValues& news);
 
   private:
     std::size_t batch_;

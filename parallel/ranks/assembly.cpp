@@ -143,8 +143,7 @@ Frame assemble_picture(const FinishedPicture& picture, int width, int height) {
     return frame;
 }
 
-AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
-                              std::size_t most_points) {
+AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished) {
     const Parts parts = sorted_parts(order, finished);
     AssembledFrame whole;
     whole.frame.area = {0, 0, order.width, order.height};
@@ -156,7 +155,7 @@ AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& fini
     report.pixels = pixels;
     report.tightness = order.rules.tightness;
     for (const FramePart* part : parts) add_report(part->report, report);
-    report.points = std::min(most_points, report.points);
+    report.points = std::min(static_cast<std::size_t>(order.most_points), report.points);
     if (!order.rests) put_together(parts, order.width, whole);
     if (order.tells_origins) whole.frame.origins = origins_of(parts, order.width, pixels);
     whole.refined = refined_of(parts, order);

@@ -23,9 +23,7 @@ struct AssembledFrame {
     std::vector<std::optional<PixelValue>> refined;
 };
 
-/// @param most_points  that there is room for
 /// Throws InputError for parts that do not make the frame that was ordered.
-[[nodiscard]] AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished,
-                                            std::size_t most_points);
+[[nodiscard]] AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& finished);
 
 }  // namespace lightwalk

@@ -95,7 +95,7 @@ void RankLink::run(FunctionRef<void()> body, const StopFlag& stop) {
         program.join();
     };
     try {
-        serve(stop);
+        handle_messages(stop);
     } catch (...) {
         leave();
         throw;
@@ -146,13 +146,13 @@ void RankLink::finish_work(const FinishedWork& finished, TracedWork traced) {
 }
 
 void RankLink::start(Announcement announcement) {
-    post(Activity::serve, [carried = std::move(announcement)](RankRoles& roles, Outbox& out) {
+    post(Activity::handle, [carried = std::move(announcement)](RankRoles& roles, Outbox& out) {
         std::visit([&](const auto& job) { roles.queue().start(job, out); }, carried.job);
     });
 }
 
 void RankLink::add(RayChunk chunk) {
-    post(Activity::serve, [carried = std::move(chunk)](RankRoles& roles, Outbox& out) mutable {
+    post(Activity::handle, [carried = std::move(chunk)](RankRoles& roles, Outbox& out) mutable {
         roles.queue().add(std::move(carried), out);
     });
 }
@@ -177,7 +177,7 @@ std::vector<std::uint64_t> RankLink::all_reduce(Collective::Group group,
 }
 
 std::string RankLink::broadcast(std::string bytes) {
-    post(Activity::serve, [this, own = std::move(bytes)](RankRoles&, Outbox&) {
+    post(Activity::handle, [this, own = std::move(bytes)](RankRoles&, Outbox&) {
         std::string got = communicator_.broadcast(own);
         {
             const std::lock_guard lock(mutex_);
@@ -236,9 +236,9 @@ void RankLink::agree(const std::vector<std::string>& facts, const std::string& p
 
 void RankLink::end_work() {
     if (exchanges_values()) {
-        settle_values();
-        meet();                        // all have told what they had,
-        if (leads()) settle_values();  // and rank 0 hears it
+        flush_values();
+        meet();                       // all have told what they had,
+        if (leads()) flush_values();  // and rank 0 hears it
         cache_.close();
     }
     inbox_.reopen();
@@ -249,13 +249,13 @@ void RankLink::end_work() {
 }
 
 /// Until what this rank has made is told, and what the others had told by then is here.
-void RankLink::settle_values() {
+void RankLink::flush_values() {
     std::unique_lock lock(mutex_);
     posted_.push_back({Activity::exchange, [this](auto& roles, auto& out) { tell(roles, out); }});
-    settling_ = true;
+    flushing_ = true;
     communicator_.wake();
-    changed_.wait(lock, [&] { return !settling_ || over_; });
-    if (settling_) throw Aborted{kFailed};
+    changed_.wait(lock, [&] { return !flushing_ || over_; });
+    if (flushing_) throw Aborted{kFailed};
 }
 
 std::deque<ProgramNews> RankLink::take_news(bool wait, const StopFlag& stop) {
@@ -288,22 +288,22 @@ RankReport RankLink::report() const {
     return report;
 }
 
-// The thread that serves the messages.
+// The thread that handles the messages.
 
-void RankLink::serve(const StopFlag& stop) {
+void RankLink::handle_messages(const StopFlag& stop) {
     try {
-        take_step(Activity::serve, [](RankRoles& roles, Outbox& out) { roles.begin(out); });
+        take_step(Activity::handle, [](RankRoles& roles, Outbox& out) { roles.begin(out); });
         microseconds wait = patience_.shortest;
         while (goes_on()) {
             if (stop.requested()) {  // a thread may be deep in one pixel: it is not waited for
                 std::fflush(nullptr);
                 communicator_.abort(kStopped);
             }
-            const bool posted = serve_posted();
-            const bool served = serve_arrived() || posted;
+            const bool posted = run_posted();
+            const bool handled = handle_arrived() || posted;
             exchange_values_in_time();
-            note_settled();
-            if (served) {
+            note_flushed();
+            if (handled) {
                 wait = patience_.shortest;
                 continue;
             }
@@ -328,7 +328,7 @@ bool RankLink::goes_on() {
     return true;
 }
 
-bool RankLink::serve_posted() {
+bool RankLink::run_posted() {
     std::deque<Posted> posted;
     {
         const std::lock_guard lock(mutex_);
@@ -338,7 +338,7 @@ bool RankLink::serve_posted() {
     return !posted.empty();
 }
 
-bool RankLink::serve_arrived() {
+bool RankLink::handle_arrived() {
     bool any = false;
     while (std::optional<Communicator::Packet> packet = communicator_.receive()) {
         any = true;
@@ -364,11 +364,11 @@ void RankLink::tell(RankRoles& roles, Outbox& out) {
     roles.ambient_client()->ask(out);
 }
 
-void RankLink::note_settled() {
+void RankLink::note_flushed() {
     {
         const std::lock_guard lock(mutex_);
-        if (!settling_ || !posted_.empty() || !roles_.ambient_client()->is_settled()) return;
-        settling_ = false;
+        if (!flushing_ || !posted_.empty() || !roles_.ambient_client()->is_flushed()) return;
+        flushing_ = false;
     }
     changed_.notify_all();
 }
@@ -412,8 +412,8 @@ void RankLink::dispatch(Outbox first) {
 
 void RankLink::hand_out(Outbox& out) {
     for (TracerNews& news : std::exchange(out.tracers, {})) inbox_.push(std::move(news));
-    for (ProgramNews& news : std::exchange(out.program, {})) hear(std::move(news));
-    for (const AmbientValues& news : std::exchange(out.cache, {})) cache_.take(news);
+    for (ProgramNews& news : std::exchange(out.program, {})) push_news(std::move(news));
+    for (const AmbientValues& news : std::exchange(out.cache, {})) cache_.merge(news);
     for (Collective& result : std::exchange(out.results, {})) {
         {
             const std::lock_guard lock(mutex_);
@@ -423,7 +423,7 @@ void RankLink::hand_out(Outbox& out) {
     }
 }
 
-void RankLink::hear(ProgramNews news) {
+void RankLink::push_news(ProgramNews news) {
     if (const auto* told = std::get_if<RankNotice>(&news)) {
         const Notice& notice = told->notice;
         if (const auto* failure = std::get_if<Failure>(&notice.notice))

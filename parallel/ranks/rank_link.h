@@ -73,7 +73,7 @@ class RankLink {
 
     /// A message to a rank, which may be this one. From any thread.
     void post(int to, Message message);
-    /// A step of this rank's roles, to be taken by the thread that serves the messages.
+    /// A step of this rank's roles, to be taken by the thread that handles the messages.
     using Step = std::function<void(RankRoles& roles, Outbox& out)>;
     void post(Activity activity, Step step);
 
@@ -163,22 +163,22 @@ class RankLink {
 
     // The program's threads.
     [[nodiscard]] Collective perform(Collective share);
-    void settle_values();
+    void flush_values();
     void meet() { (void)all_gather(Collective::Group::all, {}); }
     [[noreturn]] void fail(const std::string& text);
 
-    // The thread that serves the messages.
-    void serve(const StopFlag& stop);
+    // The thread that handles the messages.
+    void handle_messages(const StopFlag& stop);
     [[nodiscard]] bool goes_on();
-    [[nodiscard]] bool serve_posted();
-    [[nodiscard]] bool serve_arrived();
+    [[nodiscard]] bool run_posted();
+    [[nodiscard]] bool handle_arrived();
     void exchange_values_in_time();
-    void note_settled();
+    void note_flushed();
     void tell(RankRoles& roles, Outbox& out);
     void take_step(Activity activity, const Step& step);
     void dispatch(Outbox first);
     void hand_out(Outbox& out);
-    void hear(ProgramNews news);
+    void push_news(ProgramNews news);
     void end_run(int rank, const std::string& host, const std::string& text);
     [[nodiscard]] std::string named(int rank, const std::string& host) const;
 
@@ -205,7 +205,7 @@ class RankLink {
     std::deque<ProgramNews> news_;
     MessageCounts counts_;
     std::optional<OwnFailure> failure_;
-    bool settling_ = false;  ///< somebody waits until the ambient values are told
+    bool flushing_ = false;  ///< somebody waits until the ambient values are told
     bool ended_ = false;     ///< every rank's body has returned
     bool over_ = false;      ///< nothing is served any more
 };

@@ -88,13 +88,13 @@ Activity activity_of(const Message& message) {
     return std::visit(Overloaded{[](const WorkResult&) { return Activity::send; },
                                  [](const PointExchange&) { return Activity::send; },
                                  [](const AmbientValues&) { return Activity::exchange; },
-                                 [](const Announcement&) { return Activity::serve; },
-                                 [](const WorkRequest&) { return Activity::serve; },
-                                 [](const WorkGrant&) { return Activity::serve; },
-                                 [](const FinishedPart&) { return Activity::serve; },
-                                 [](const UncachedPixels&) { return Activity::serve; },
-                                 [](const Collective&) { return Activity::serve; },
-                                 [](const Notice&) { return Activity::serve; }},
+                                 [](const Announcement&) { return Activity::handle; },
+                                 [](const WorkRequest&) { return Activity::handle; },
+                                 [](const WorkGrant&) { return Activity::handle; },
+                                 [](const FinishedPart&) { return Activity::handle; },
+                                 [](const UncachedPixels&) { return Activity::handle; },
+                                 [](const Collective&) { return Activity::handle; },
+                                 [](const Notice&) { return Activity::handle; }},
                       message);
 }
 

@@ -16,7 +16,7 @@ enum class Activity : std::uint8_t {
     send,      ///< results: shared out, or put into the own part of a picture
     compress,  ///< the own part of a picture
     exchange,  ///< ambient values
-    serve,     ///< other messages: the master's work
+    handle,    ///< other messages: the master's work
 };
 inline constexpr std::size_t kActivities = 6;
 inline constexpr std::array<const char*, kActivities> kActivityNames{

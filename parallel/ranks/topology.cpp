@@ -11,7 +11,7 @@ namespace {
 /// One master answers so many without becoming what they wait for: the scaling model in perf/.
 constexpr int kMostChildren = 256;
 
-int settled_masters(int masters, int ranks) {
+int chosen_masters(int masters, int ranks) {
     if (masters > 0) return masters;
     return ranks <= kMostChildren ? 1 : 1 + (ranks + kMostChildren - 1) / kMostChildren;
 }
@@ -33,7 +33,7 @@ std::vector<int> Topology::worker_ranks() const {
 }
 
 Topology make_topology(Variant variant, int ranks, bool ambient, int masters) {
-    const int below = settled_masters(masters, ranks) - 1;  // masters below rank 0
+    const int below = chosen_masters(masters, ranks) - 1;  // masters below rank 0
     Topology topology;
     topology.ranks = ranks;
     if (ambient) topology.ambient_master = variant == Variant::ranks ? 1 : 0;

@@ -15,11 +15,14 @@ FrameLead::FrameLead(int width, int height, const CloudOptions& options, std::ui
       options_(options),
       error_controller_(options.audit_limit),
       frame_(first),
+      most_points_(options.most_points(width, height)),
       progressive_(width, height, options.samples) {}
 
 void FrameLead::resize(int width, int height) {
+    if (width_ == width && height_ == height) return;
     width_ = width;
     height_ = height;
+    most_points_ = std::max(most_points_, options_.most_points(width, height));
     progressive_ = ProgressivePicture(width, height, options_.samples);
     view_.reset();
     begun_ = false;
@@ -32,6 +35,7 @@ FrameOrder FrameLead::new_order(std::string payload) const {
     order.rules = {frame_, empty_, error_controller_.tightness()};
     order.payload = std::move(payload);
     order.budget = options_.budget;
+    order.most_points = most_points_;
     return order;
 }
 

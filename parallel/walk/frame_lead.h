@@ -63,7 +63,8 @@ class FrameLead {
     CloudOptions options_;
     ReuseErrorController error_controller_;
     std::uint64_t frame_;
-    bool empty_ = true;  ///< no frame has left points yet
+    std::size_t most_points_;  ///< of the largest frames so far: what they know outlives small ones
+    bool empty_ = true;        ///< no frame has left points yet
     // The frame that was ordered.
     View ordered_;
     bool rests_ = false;

@@ -43,7 +43,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     exchange.deliver(order, region);
     const std::optional<AgeCounts> all = exchange.sum(ages);
     if (!all) return false;
-    region.keep(age_limit(*all, options_.most_points(width_, height_)), executor);
+    region.keep(age_limit(*all, order.most_points), executor);
     keep_seconds_ = report.keep_seconds;
     infer_seconds_ = report.infer_seconds;
     return true;

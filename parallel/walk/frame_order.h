@@ -18,8 +18,9 @@ struct FrameOrder {
     FrameNumber number = 0;
     std::int32_t width = 0, height = 0;
     CloudRules rules;
-    std::string payload;  ///< view and options, for whoever makes the frame's rays
-    double budget = 0;    ///< see CloudOptions [s]
+    std::string payload;            ///< view and options, for whoever makes the frame's rays
+    double budget = 0;              ///< see CloudOptions [s]
+    std::uint64_t most_points = 0;  ///< of all parts, afterwards
     // Or the view is that of the frame before: nothing but these pixels is traced.
     bool rests = false;
     bool leaves = false;      ///< whether these pixels leave points

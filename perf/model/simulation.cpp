@@ -160,8 +160,8 @@ void Simulation::act(const Event& event) {
             put_in(rank, std::move(envelope), look);
             return;
         }
-        case Kind::serve:
-            if (ranks_[rank].looks_at == event.time) serve(rank);
+        case Kind::wake:
+            if (ranks_[rank].looks_at == event.time) handle_messages(rank);
             return;
         case Kind::request: {
             const PixelRectangle whole{0, 0, run_.width, run_.height};
@@ -194,10 +194,11 @@ void Simulation::put_in(std::size_t number, Input input, double look) {
     rank.inbox.push_back(std::move(input));
     if (look >= rank.looks_at) return;
     rank.looks_at = look;
-    at(look, Kind::serve, number);
+    at(look, Kind::wake, number);
 }
 
-/// When a sleeping loop sees what arrives now: it sleeps ever longer, see RankLink::serve().
+/// When a sleeping loop sees what arrives now: it sleeps ever longer, see
+/// RankLink::handle_messages().
 double Simulation::next_look(const Rank& rank) const {
     if (!machine_.sleeps || now_ <= rank.busy_until) return std::max(now_, rank.busy_until);
     double look = rank.idle_from, wait = shortest_wait_;
@@ -227,7 +228,7 @@ double Simulation::eager_looks(const Rank& rank) const {
     return std::max(0.0, looks - expected) * machine_.look * machine_.slowness;
 }
 
-void Simulation::serve(std::size_t number) {
+void Simulation::handle_messages(std::size_t number) {
     Rank& rank = ranks_[number];
     rank.looks_at = kNever;
     nodes_[node_of(number)].take_away(now_, eager_looks(rank));
@@ -274,9 +275,9 @@ void Simulation::take_step(std::size_t number, const Step& step, std::vector<Env
     clock += machine_.slowness * machine_.step;
     Outbox out;
     step(*ranks_[number].roles, out);
-    for (TracerNews& news : out.tracers) take(number, std::move(news), clock);
-    for (const AmbientValues& news : out.cache) take(number, news, clock);
-    for (const ProgramNews& news : out.program) take(news, clock);
+    for (TracerNews& news : out.tracers) handle(number, std::move(news), clock);
+    for (const AmbientValues& news : out.cache) handle(number, news, clock);
+    for (const ProgramNews& news : out.program) handle(news, clock);
     for (const Envelope& envelope : out.messages) {
         if (const PicturePart* part = picture_part(envelope.message))
             clock += machine_.slowness * map_.encode_seconds *
@@ -285,7 +286,7 @@ void Simulation::take_step(std::size_t number, const Step& step, std::vector<Env
     std::move(out.messages.begin(), out.messages.end(), std::back_inserter(due));
 }
 
-void Simulation::take(std::size_t number, TracerNews news, double& clock) {
+void Simulation::handle(std::size_t number, TracerNews news, double& clock) {
     clock += machine_.slowness * machine_.step;
     const auto* grant = std::get_if<WorkGrant>(&news);
     if (grant == nullptr) return;
@@ -294,13 +295,13 @@ void Simulation::take(std::size_t number, TracerNews news, double& clock) {
     at(clock, Kind::trace, number);
 }
 
-void Simulation::take(std::size_t number, const AmbientValues& news, double& clock) {
+void Simulation::handle(std::size_t number, const AmbientValues& news, double& clock) {
     for (const AmbientRecord& record : news.records) ranks_[number].known[record.normal] = true;
     clock += machine_.slowness *
              (machine_.step + machine_.value_work * static_cast<double>(news.records.size()));
 }
 
-void Simulation::take(const ProgramNews& news, double& clock) {
+void Simulation::handle(const ProgramNews& news, double& clock) {
     clock += machine_.slowness * machine_.step;
     if (!std::holds_alternative<FinishedPicture>(news)) return;
     const double unpacking = machine_.unpacks ? map_.decode_seconds : 0;

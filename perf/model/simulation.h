@@ -62,11 +62,11 @@ class Simulation {
         double work = 0;  ///< processor time beyond that of any step [s]
     };
     using Input = std::variant<Envelope, Posted>;
-    enum class Kind : std::uint8_t { arrive, serve, traced, trace, request };
+    enum class Kind : std::uint8_t { arrive, wake, traced, trace, request };
     struct Event {
         double time = 0;
         std::uint64_t number = 0;  ///< events of one time come in the order of their making
-        Kind kind = Kind::serve;
+        Kind kind = Kind::wake;
         std::uint32_t rank = 0;  ///< or node
         std::uint32_t what = 0;  ///< message or version
         bool operator<(const Event& other) const {
@@ -85,12 +85,12 @@ class Simulation {
     void put_in(std::size_t rank, Input input, double look);
     [[nodiscard]] double next_look(const Rank& rank) const;
     [[nodiscard]] double eager_looks(const Rank& rank) const;
-    void serve(std::size_t rank);
+    void handle_messages(std::size_t rank);
     void dispatch(std::size_t rank, Input input, double& clock);
     void take_step(std::size_t rank, const Step& step, std::vector<Envelope>& due, double& clock);
-    void take(std::size_t rank, TracerNews news, double& clock);
-    void take(std::size_t rank, const AmbientValues& news, double& clock);
-    void take(const ProgramNews& news, double& clock);
+    void handle(std::size_t rank, TracerNews news, double& clock);
+    void handle(std::size_t rank, const AmbientValues& news, double& clock);
+    void handle(const ProgramNews& news, double& clock);
     void send(Envelope envelope, double& clock);
     [[nodiscard]] double bytes_of(const Envelope& envelope) const;
 

@@ -143,7 +143,7 @@ template <class Step>
 void WalkSimulation::take_step(std::size_t rank, Step step) {
     Outbox out;
     step(ranks_[rank].roles, out);
-    for (TracerNews& news : out.tracers) take(rank, std::move(news));
+    for (TracerNews& news : out.tracers) handle(rank, std::move(news));
     for (const ProgramNews& news : out.program) {
         if (!std::holds_alternative<FinishedFrame>(news)) continue;
         // One thread unpacks the parts.
@@ -211,7 +211,7 @@ double WalkSimulation::bytes_of(const Envelope& envelope) const {
     return bytes;
 }
 
-void WalkSimulation::take(std::size_t number, TracerNews news) {
+void WalkSimulation::handle(std::size_t number, TracerNews news) {
     Rank& rank = ranks_[number];
     std::visit(Overloaded{[](const PictureJob&) {},
                           [&](const FrameOrder&) {

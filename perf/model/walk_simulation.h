@@ -92,7 +92,7 @@ class WalkSimulation {
     void take_step(std::size_t rank, Step step);
     void post(std::size_t rank, std::size_t to, Message message);
     void send(std::vector<Envelope> messages);
-    void take(std::size_t rank, TracerNews news);
+    void handle(std::size_t rank, TracerNews news);
     void look_on(std::size_t rank);
     [[nodiscard]] double bytes_of(const Envelope& envelope) const;
 

@@ -69,11 +69,11 @@ TEST_CASE("ambient values: a client has one offer out at a time") {
     };
     client.offer(values_of(3).records, out);
     CHECK(out.messages.empty());  // no batch yet
-    CHECK(client.is_settled());
+    CHECK(client.is_flushed());
     client.offer(values_of(2).records, out);
     REQUIRE(out.messages.size() == 1);
     CHECK(offered(0) == 5);
-    CHECK_FALSE(client.is_settled());
+    CHECK_FALSE(client.is_flushed());
     client.offer(values_of(9).records, out);
     CHECK(out.messages.size() == 1);
     client.handle(news_of(2), out);  // the answer is for the cache
@@ -82,7 +82,7 @@ TEST_CASE("ambient values: a client has one offer out at a time") {
     CHECK(offered(1) == 9);
     SUBCASE("whose answer may be the last") {
         client.handle(news_of(0), out);
-        CHECK(client.is_settled());
+        CHECK(client.is_flushed());
         CHECK(out.cache.size() == 1);
     }
     SUBCASE("and a question that comes meanwhile is asked after it") {
@@ -90,11 +90,11 @@ TEST_CASE("ambient values: a client has one offer out at a time") {
         client.ask(out);
         CHECK(out.messages.size() == 2);
         client.handle(news_of(1), out);
-        CHECK_FALSE(client.is_settled());
+        CHECK_FALSE(client.is_flushed());
         REQUIRE(out.messages.size() == 3);
         CHECK(offered(2) == 1);
         client.handle(news_of(1), out);
-        CHECK(client.is_settled());
+        CHECK(client.is_flushed());
     }
 }
 
@@ -114,13 +114,13 @@ TEST_CASE("ambient values of others come into the cache while it is shared, and 
     SharedCache shared(1, [](const std::vector<AmbientRecord>&) { FAIL("it was sent back"); });
     ListingCache values;
     PublishedCache cache(values);
-    shared.take(news_of(2));  // nobody's yet
+    shared.merge(news_of(2));  // nobody's yet
     CHECK_FALSE(shared.is_open());
     shared.open(cache);
     CHECK(shared.is_open());
-    shared.take(news_of(3));
+    shared.merge(news_of(3));
     CHECK(values.records.size() == 3);
     shared.close();
-    shared.take(news_of(4));
+    shared.merge(news_of(4));
     CHECK(values.records.size() == 3);
 }

@@ -42,26 +42,30 @@ lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
 
 constexpr int kWidth = 61, kHeight = 47;
 
-FrameOptions frame_options() {
+struct Step {
+    View view;
+    int width = kWidth, height = kHeight;  ///< of its frame
+};
+
+FrameOptions frame_options(const Step& step) {
     FrameOptions options;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = step.width;
+    options.height = step.height;
     options.pixels.spacing = 1;
     return options;
 }
 
 /// Forward, aside and round about: points cross all borders.
-std::vector<View> walk(int frames) {
-    std::vector<View> views;
+std::vector<Step> walk(int frames) {
+    std::vector<Step> steps(static_cast<std::size_t>(frames));
     for (int i = 0; i < frames; ++i) {
-        View view;
+        View& view = steps[static_cast<std::size_t>(i)].view;
         view.position = {0.04 * i, -4 + 0.05 * i, 1.5};
         view.direction = {std::sin(0.03 * i), std::cos(0.03 * i), -0.05 + 0.01 * i};
         view.horizontal = 60;
         view.vertical = 46.8;
-        views.push_back(view);
     }
-    return views;
+    return steps;
 }
 
 /// Packets arrive late, and in another order, but for those of one sender.
@@ -108,9 +112,9 @@ struct Room {
     StopFlag stop;
 };
 
-std::unique_ptr<SceneCaster> rays_of(Room& room, const View& view, WorkerContexts& contexts) {
-    return std::make_unique<SceneCaster>(room.scene.tracer, room.visibility, Camera(view),
-                                         frame_options(), contexts, room.stop);
+std::unique_ptr<SceneCaster> rays_of(Room& room, const Step& step, WorkerContexts& contexts) {
+    return std::make_unique<SceneCaster>(room.scene.tracer, room.visibility, Camera(step.view),
+                                         frame_options(step), contexts, room.stop);
 }
 
 /// What a frame of a walk shows, and what it took.
@@ -127,14 +131,15 @@ Drawn to_drawn(const CloudFrame& frame) {
     return drawn;
 }
 
-std::vector<Drawn> draw_alone(Room& room, const std::vector<View>& views,
+std::vector<Drawn> draw_alone(Room& room, const std::vector<Step>& steps,
                               const CloudOptions& options) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
     WorkerContexts contexts(room.scene.tracer, room.scene.warnings, 1);
     CloudFrames frames(kWidth, kHeight, options);
     std::vector<Drawn> result;
-    for (const View& view : views) {
-        const auto rays = rays_of(room, view, contexts);
+    for (const Step& step : steps) {
+        frames.resize(step.width, step.height);
+        const auto rays = rays_of(room, step, contexts);
         result.push_back(to_drawn(frames.draw(rays->camera(), *rays, *executor, room.stop)));
     }
     return result;
@@ -146,7 +151,7 @@ struct Company {
 };
 
 /// The program of rank 0.
-std::vector<Drawn> lead(RankLink& link, const std::vector<View>& views,
+std::vector<Drawn> lead(RankLink& link, const std::vector<Step>& steps,
                         const CloudOptions& options) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
     const StopFlag never;
@@ -156,16 +161,17 @@ std::vector<Drawn> lead(RankLink& link, const std::vector<View>& views,
         for (;;)
             for (const ProgramNews& news : link.take_news(true, never))
                 if (const auto* frame = std::get_if<FinishedFrame>(&news))
-                    return assemble_frame(order, *frame, options.most_points(kWidth, kHeight));
+                    return assemble_frame(order, *frame);
     };
     std::vector<Drawn> result;
     FrameLead walk(kWidth, kHeight, options, 0);
     CloudFrame last;
-    for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
         const std::string payload = std::to_string(i);
-        if (walk.rests(views[i]) && walk.wants_origins())
+        walk.resize(steps[i].width, steps[i].height);
+        if (walk.rests(steps[i].view) && walk.wants_origins())
             walk.begin_progressive(last, finished(walk.origins_order(payload)).frame.origins);
-        AssembledFrame drawn = finished(walk.order(views[i], payload));
+        AssembledFrame drawn = finished(walk.order(steps[i].view, payload));
         walk.complete(drawn.frame, drawn.refined, *executor);
         last = std::move(drawn.frame);
         result.push_back(to_drawn(last));
@@ -173,7 +179,7 @@ std::vector<Drawn> lead(RankLink& link, const std::vector<View>& views,
     return result;
 }
 
-std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
+std::vector<Drawn> draw_together(Room& room, const std::vector<Step>& steps,
                                  const CloudOptions& options, const Company& company,
                                  std::uint64_t seed) {
     Wires wires = make_memory_communicators(company.ranks);
@@ -187,13 +193,13 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<View>& views,
     const auto draw = [&](RankLink& link) {
         WorkerContexts contexts(room.scene.tracer, room.scene.warnings, company.threads);
         const auto make = [&](const FrameOrder& order) {
-            return rays_of(room, views.at(static_cast<std::size_t>(std::stoi(order.payload))),
+            return rays_of(room, steps.at(static_cast<std::size_t>(std::stoi(order.payload))),
                            contexts);
         };
         std::thread program;
         if (link.leads()) {
             program = std::thread([&] {
-                result = lead(link, views, options);
+                result = lead(link, steps, options);
                 link.dismiss();
             });
         }
@@ -229,53 +235,69 @@ void check_same(const std::vector<Drawn>& alone, const std::vector<Drawn>& toget
 
 TEST_CASE("ranks draw the frames of a walk that one process does, whatever the wire does") {
     Room room;
-    const std::vector<View> views = walk(5);
+    const std::vector<Step> steps = walk(5);
     CloudOptions options;
     options.audit = 0.2;
     options.audit_limit = 0.001;
-    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
     CHECK(alone.back().report.reused > alone.back().report.pixels / 2);
     std::uint64_t seed = 1;
     for (const Company& company :
          {Company{Variant::hybrid, 1, 2}, Company{Variant::hybrid, 2, 1},
           Company{Variant::ranks, 3}, Company{Variant::ranks, 7}, Company{Variant::hybrid, 3, 2}}) {
         CAPTURE(company.ranks);
-        check_same(alone, draw_together(room, views, options, company, ++seed));
+        check_same(alone, draw_together(room, steps, options, company, ++seed));
     }
+}
+
+TEST_CASE(
+    "ranks draw frames of another size from the points of those before, as one process does") {
+    Room room;
+    std::vector<Step> steps = walk(5);
+    for (const std::size_t small : {2, 3}) {
+        steps[small].width = kWidth / 2;
+        steps[small].height = kHeight / 2;
+    }
+    const CloudOptions options;
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
+    CHECK(alone[2].report.reused > alone[2].report.pixels / 2);
+    CHECK(alone[4].report.reused > alone[4].report.pixels / 4);
+    check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 3}, 8));
+    check_same(alone, draw_together(room, steps, options, {Variant::ranks, 4}, 9));
 }
 
 TEST_CASE("a walk is the same where only some ranks keep points, and where most own nothing") {
     Room room;
-    const std::vector<View> views = walk(4);
+    const std::vector<Step> steps = walk(4);
     const CloudOptions options;
-    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
     check_same(alone,
-               draw_together(room, views, options, {Variant::hybrid, 5, 1, /*projectors=*/2}, 3));
-    check_same(alone, draw_together(room, views, options, {Variant::ranks, 4, 1, 1}, 4));
+               draw_together(room, steps, options, {Variant::hybrid, 5, 1, /*projectors=*/2}, 3));
+    check_same(alone, draw_together(room, steps, options, {Variant::ranks, 4, 1, 1}, 4));
 }
 
 TEST_CASE("a walk by ranks is the same in every mode") {
     Room room;
-    const std::vector<View> views = walk(4);
+    const std::vector<Step> steps = walk(4);
     for (const CloudCheck check : {CloudCheck::rotating, CloudCheck::edges, CloudCheck::none}) {
         CloudOptions options;
         options.check = check;
         options.supersaturated = check == CloudCheck::none;
         options.rules.look_back = check != CloudCheck::none;
-        check_same(draw_alone(room, views, options),
-                   draw_together(room, views, options, {Variant::hybrid, 4}, 5));
+        check_same(draw_alone(room, steps, options),
+                   draw_together(room, steps, options, {Variant::hybrid, 4}, 5));
     }
 }
 
 TEST_CASE("a walk by ranks keeps no more points than one process does for want of room") {
     Room room;
-    const std::vector<View> views = walk(8);
+    const std::vector<Step> steps = walk(8);
     CloudOptions options;
     options.limit = 1.4;
     options.audit = 0.5;
-    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
     const std::vector<Drawn> together =
-        draw_together(room, views, options, {Variant::hybrid, 3}, 6);
+        draw_together(room, steps, options, {Variant::hybrid, 3}, 6);
     for (std::size_t i = 0; i < alone.size(); ++i) {
         CHECK(together[i].values == alone[i].values);
         CHECK(alone[i].report.points <= options.most_points(kWidth, kHeight));
@@ -284,10 +306,10 @@ TEST_CASE("a walk by ranks keeps no more points than one process does for want o
 
 TEST_CASE("a walk by ranks with a budget misses no pixel") {
     Room room;
-    const std::vector<View> views = walk(3);
+    const std::vector<Step> steps = walk(3);
     CloudOptions options;
     options.budget = 1e-9;
-    for (const Drawn& drawn : draw_together(room, views, options, {Variant::hybrid, 3, 2}, 7)) {
+    for (const Drawn& drawn : draw_together(room, steps, options, {Variant::hybrid, 3, 2}, 7)) {
         const CloudReport& report = drawn.report;
         std::size_t traced = 0;
         for (const std::size_t count : report.uncached) traced += count;
@@ -301,14 +323,14 @@ TEST_CASE("a walk by ranks with a budget misses no pixel") {
 
 TEST_CASE("a walk by ranks whose view stands still becomes ever better, as by one process") {
     Room room;
-    std::vector<View> views = walk(3);
-    views.insert(views.end(), 4, views.back());
-    views.push_back(walk(4).back());
+    std::vector<Step> steps = walk(3);
+    steps.insert(steps.end(), 4, steps.back());
+    steps.push_back(walk(4).back());
     CloudOptions options;
     options.refine = 0.4;
     options.audit = 0.1;
-    const std::vector<Drawn> alone = draw_alone(room, views, options);
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
     CHECK(alone[6].report.uncached[static_cast<std::size_t>(TraceCause::refined)] > 0);
-    check_same(alone, draw_together(room, views, options, {Variant::hybrid, 3}, 8));
-    check_same(alone, draw_together(room, views, options, {Variant::ranks, 5}, 9));
+    check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 3}, 8));
+    check_same(alone, draw_together(room, steps, options, {Variant::ranks, 5}, 9));
 }

@@ -14,7 +14,7 @@ TEST_CASE("a timeline adds up by thread and activity, and keeps spans when asked
         timeline.add(0, Activity::trace, zero, zero + milliseconds(250));
         timeline.add(0, Activity::wait, zero + milliseconds(250), zero + milliseconds(300));
         timeline.add(0, Activity::trace, zero + milliseconds(300), zero + milliseconds(550));
-        timeline.add(timeline.message_row(), Activity::serve, zero, zero + milliseconds(1));
+        timeline.add(timeline.message_row(), Activity::handle, zero, zero + milliseconds(1));
         const Timeline::Row row = timeline.row(0);
         constexpr double kRounding = 1e-12;
         CHECK(row.seconds[static_cast<std::size_t>(Activity::trace)] ==
@@ -28,7 +28,7 @@ TEST_CASE("a timeline adds up by thread and activity, and keeps spans when asked
             CHECK(row.spans[1].end == doctest::Approx(timeline.since(zero) + .3));
         }
         CHECK(timeline.row(1).spans.empty());
-        CHECK(timeline.row(2).seconds[static_cast<std::size_t>(Activity::serve)] > 0);
+        CHECK(timeline.row(2).seconds[static_cast<std::size_t>(Activity::handle)] > 0);
     }
 }
 

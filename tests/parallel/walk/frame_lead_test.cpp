@@ -49,13 +49,24 @@ struct Lead {
     std::unique_ptr<Executor> executor = make_executor(ExecutorKind::serial, 1);
 
     CloudFrame complete(const FrameOrder& order, const FinishedFrame& finished) {
-        AssembledFrame whole = assemble_frame(order, finished, kMostPoints);
+        AssembledFrame whole = assemble_frame(order, finished);
         lead.complete(whole.frame, whole.refined, *executor);
         return whole.frame;
     }
 };
 
 }  // namespace
+
+TEST_CASE("a walk's lead: small frames leave room for the points of large ones") {
+    FrameLead lead(kSide, kSide, {}, 0);
+    lead.resize(kSide / 2, kSide / 2);
+    FrameOrder order = lead.order(View{}, {});
+    CHECK(order.width == kSide / 2);
+    CHECK(order.most_points == kMostPoints);
+    lead.resize(2 * kSide, 2 * kSide);
+    order = lead.order(View{}, {});
+    CHECK(order.most_points == 4 * kMostPoints);
+}
 
 TEST_CASE("a walk's lead: parts in any order are the frame, and the report of all of it") {
     Lead walk({}, 5);
@@ -82,7 +93,7 @@ TEST_CASE("a walk's lead: parts that do not make the frame are refused") {
     Lead walk;
     const FrameOrder order = numbered(walk.lead.order({}, ""), 0);
     const auto refused = [&](const FinishedFrame& finished) {
-        CHECK_THROWS_AS((void)assemble_frame(order, finished, kMostPoints), InputError);
+        CHECK_THROWS_AS((void)assemble_frame(order, finished), InputError);
     };
     refused(frame_of(1));
     FinishedFrame bad = frame_of(0);
@@ -134,7 +145,7 @@ TEST_CASE(
     for (FramePart& part : told.parts)
         part.origins.assign(part.area.pixels(), {PixelOrigin::Kind::filled, 0, 0});
     SUBCASE("it is") {
-        lead.begin_progressive(drawn, assemble_frame(ask, told, kMostPoints).frame.origins);
+        lead.begin_progressive(drawn, assemble_frame(ask, told).frame.origins);
         REQUIRE(lead.progressive() != nullptr);
         CHECK(lead.progressive()->open_pixels() == std::size_t{kSide} * kSide);
         const FrameOrder order = lead.order(view, "");
@@ -144,7 +155,7 @@ TEST_CASE(
     }
     SUBCASE("origins of fewer pixels are refused") {
         told.parts[1].origins.pop_back();
-        CHECK_THROWS_AS((void)assemble_frame(ask, told, kMostPoints), InputError);
+        CHECK_THROWS_AS((void)assemble_frame(ask, told), InputError);
     }
     SUBCASE("a frame that was stopped does not rest") {
         lead.abandon();
@@ -164,7 +175,7 @@ TEST_CASE("a walk's lead: pixels that are traced beside the frames come in the o
     finished.parts[0].refined = {PixelValue{{1, 1, 1}, 5}};
     finished.parts[1].refined = {PixelValue{{2, 2, 2}, 6}, std::nullopt};
     SUBCASE("they do") {
-        const auto values = assemble_frame(order, finished, kMostPoints).refined;
+        const auto values = assemble_frame(order, finished).refined;
         REQUIRE(values.size() == 3);
         CHECK(values[0]->radiance.r == 2);
         CHECK(values[1]->radiance.r == 1);
@@ -172,6 +183,6 @@ TEST_CASE("a walk's lead: pixels that are traced beside the frames come in the o
     }
     SUBCASE("fewer are refused") {
         finished.parts[1].refined.pop_back();
-        CHECK_THROWS_AS((void)assemble_frame(order, finished, kMostPoints), InputError);
+        CHECK_THROWS_AS((void)assemble_frame(order, finished), InputError);
     }
 }

@@ -1,4 +1,4 @@
-#include "parallel/walk/moving_size.h"
+#include "core/cloud/moving_size.h"
 
 #include <doctest/doctest.h>
 

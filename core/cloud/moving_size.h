@@ -25,8 +25,8 @@ class MovingSize {
     void step(int by);
 
     bool patient_ = false;
-    int step_ = 3;  ///< smaller by so many halvings of the pixels; the first frames know little
-    bool changed_ = false;    ///< the next frame is the first one of its size, which tells little
+    int step_ = 3;          ///< of the table of shares; the first frames know little, and are small
+    bool changed_ = false;  ///< the next frame is the first one of its size, which tells little
     int good_ = 0, bad_ = 0;  ///< frames in a row that call for a larger, or a smaller size
     int patience_ = 2;        ///< good frames until a larger size is tried
     int since_larger_ = 0;    ///< frames since one was; 0: none was
