@@ -7,18 +7,20 @@
 namespace lightwalk {
 namespace {
 
-// From step to step there is twice the time for a pixel: by half the frames, then by half the
-// pixels.
-constexpr std::array kShares{1.0, 1.0, 0.7071, 0.5, 0.3536};
+// At the second step frames take more time, from each further one to the next there are fewer
+// pixels by the square root of two.
+constexpr std::array kShares{1.0, 1.0, 0.8409, 0.7071, 0.5946, 0.5, 0.4204, 0.3536};
+constexpr double kGrowth = 1.4142;
+// Pictures of up to so many pixels take a little more time, of so many twice as much, and so on.
+constexpr double kSmallPixels = 640 * 480, kLargePixels = 1280 * 720;
+constexpr double kLeastPeriods = 1.1, kPeriodsOfLarge = 2, kMostPeriods = 2.5;
 // Guessed pixels, as a share: with more of them a frame is too large, with fewer it may be too
 // small. With many it is much too large.
 constexpr double kMany = 0.25, kMost = 0.03, kFew = 0.005;
-// An inferred pixel is as bad as so much of a guessed one. Of a walk over a polished floor some are
-// inferred in frames of any size.
-constexpr double kInferred = 0.2, kFewInferred = 0.13;
-// Of the budget, for all but tracing, which takes the time that is left: twice the pixels would
-// fit.
-constexpr double kShort = 0.45;
+// An inferred pixel, whose edges and patterns are right, is as bad as so much of a guessed one.
+constexpr double kInferred = 0.1, kFewInferred = 0.22;
+// Of the budget, for all but tracing, which takes the time that is left: the next size would fit.
+constexpr double kShort = 0.85 / kGrowth;
 constexpr int kBad = 2;  // frames in a row: one may be a matter of a busy machine
 constexpr int kPatience = 8, kMostPatience = 256, kSoon = 60;  // [frames]
 
@@ -28,8 +30,12 @@ double MovingSize::share() const {
     return kShares[static_cast<std::size_t>(step_)];
 }
 
-int MovingSize::periods() const {
-    return patient_ && step_ > 0 ? 2 : 1;
+double MovingSize::periods(int width, int height) const {
+    if (!patient_ || step_ == 0) return 1;
+    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    const double share = (pixels - kSmallPixels) / (kLargePixels - kSmallPixels);
+    const double periods = std::lerp(kLeastPeriods, kPeriodsOfLarge, std::max(share, 0.0));
+    return std::min(periods, kMostPeriods);
 }
 
 void MovingSize::set_patient(bool patient) {
@@ -68,9 +74,9 @@ void MovingSize::record(const CloudReport& report, double budget) {
         // A larger size that soon proved too large is tried again later and later.
         if (since_larger_ > 0) patience_ = std::min(2 * patience_, kMostPatience);
         since_larger_ = 0;
-        step(wrong > kMany ? 2 : 1);
+        step(wrong > kMany ? 4 : 1);
     } else if (good_ >= patience_ && step_ > (patient_ ? 0 : 1)) {
-        step(-1);
+        step(seconds < kShort * kShort * budget ? -2 : -1);
         since_larger_ = 1;
     }
 }

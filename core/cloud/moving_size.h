@@ -7,16 +7,17 @@ namespace lightwalk {
 /// Chooses the size of moving frames by what the frames before were like: the largest of which
 /// nearly every pixel is reused, traced in time, or inferred from its own surface. A smaller
 /// picture is blurred where the large one would be guessed. Who draws the camera between frames
-/// gets half as many before they get smaller.
+/// gets fewer before they get smaller.
 class MovingSize {
   public:
-    /// Whether frames may take two periods instead of one.
+    /// Whether frames may take longer than a period.
     void set_patient(bool patient);
     /// Share of the width and of the height that are wished for, 0.35 ... 1.
     [[nodiscard]] double share() const;
     [[nodiscard]] int of(int side) const;
-    /// Of the rate of frames that is asked for: what the next one may take, 1 or 2.
-    [[nodiscard]] int periods() const;
+    /// What the next frame may take of a picture of which so many pixels are wished for, in periods
+    /// of the rate of frames that is asked for: 1 ... 2.5.
+    [[nodiscard]] double periods(int width, int height) const;
     /// A frame of this size was drawn while the view moved.
     /// @param budget  the time that there was for it [s]
     void record(const CloudReport& report, double budget);
@@ -25,7 +26,7 @@ class MovingSize {
     void step(int by);
 
     bool patient_ = false;
-    int step_ = 3;          ///< of the table of shares; the first frames know little, and are small
+    int step_ = 5;          ///< of the table of shares; the first frames know little, and are small
     bool changed_ = false;  ///< the next frame is the first one of its size, which tells little
     int good_ = 0, bad_ = 0;  ///< frames in a row that call for a larger, or a smaller size
     int patience_ = 2;        ///< good frames until a larger size is tried

@@ -31,7 +31,7 @@ MovingSize grown() {
 TEST_CASE("moving size: the first frames are small, those in time soon as large as asked for") {
     MovingSize size;
     CHECK(size.share() == 0.5);
-    record(size, 8, 0, 0.3);
+    record(size, 8, 0, 0.2);
     CHECK(size.share() == 1);
     record(size, 100, 0, 0.9);
     CHECK(size.share() == 1);
@@ -45,7 +45,7 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     record(little, 1, 0.05, 1);
     CHECK(little.share() == 1);
     record(little, 1, 0.05, 1);
-    CHECK(little.of(1000) == 707);
+    CHECK(little.of(1000) == 841);
     record(much, 1, 0.5, 1);
     CHECK(much.of(1000) == 500);
     record(much, 100, 1, 1);
@@ -53,42 +53,45 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     CHECK(much.of(1) == 1);
 }
 
-TEST_CASE("moving size: who is patient gets half as many frames before they get smaller") {
+TEST_CASE("moving size: who is patient gets fewer frames before they get smaller") {
     MovingSize size;
     size.set_patient(true);
     CHECK(size.share() == 0.5);
-    CHECK(size.periods() == 2);
+    CHECK(size.periods(1280, 720) == 2);
     record(size, 30, 0, 0.3);
     CHECK(size.share() == 1);
-    CHECK(size.periods() == 1);
+    CHECK(size.periods(1280, 720) == 1);
     record(size, 2, 0.05, 1);
     CHECK(size.share() == 1);
-    CHECK(size.periods() == 2);
+    CHECK(size.periods(1280, 720) == 2);
+    CHECK(size.periods(640, 480) == doctest::Approx(1.1));
+    CHECK(size.periods(1920, 1080) == 2.5);
+    CHECK(size.periods(3840, 2160) == 2.5);
     record(size, 3, 0.05, 1);
-    CHECK(size.of(1000) == 707);
-    CHECK(size.periods() == 2);
+    CHECK(size.of(1000) == 841);
+    CHECK(size.periods(1280, 720) == 2);
     record(size, 100, 0, 0.3);
     size.set_patient(false);
     CHECK(size.share() == 1);
-    CHECK(size.periods() == 1);
+    CHECK(size.periods(1280, 720) == 1);
     record(size, 2, 0.05, 1);
-    CHECK(size.of(1000) == 707);
+    CHECK(size.of(1000) == 841);
 }
 
 TEST_CASE("moving size: pixels inferred from their own surface count little") {
     MovingSize size = grown();
-    CloudReport report = drawn(0.1, 1);
+    CloudReport report = drawn(0.25, 1);
     report.inferred = report.filled;
     for (int i = 0; i < 10; ++i) size.record(report, 1);
     CHECK(size.share() == 1);
-    report = drawn(0.3, 1);
+    report = drawn(0.4, 1);
     report.inferred = report.filled;
     for (int i = 0; i < 2; ++i) size.record(report, 1);
     CHECK(size.share() < 1);
 }
 
 TEST_CASE(
-    "moving size: a larger size is tried where there is time for twice the pixels, and later where "
+    "moving size: a larger size is tried where there is time for it, and later where "
     "that failed") {
     MovingSize size = grown();
     const auto frames_until = [&](double share, double guessed, double time) {
@@ -98,14 +101,14 @@ TEST_CASE(
     };
     record(size, 100, 0, 0.9);  // the first frames, which are larger soon, are forgotten
     record(size, 2, 0.05, 1);
-    record(size, 100, 0, 0.6);
-    CHECK(size.share() < 1);  // twice the pixels would not fit
+    record(size, 100, 0, 0.7);
+    CHECK(size.share() < 1);  // more pixels would not fit
     const int first = frames_until(1, 0, 0.3);
     CHECK(first < 20);
-    (void)frames_until(0.7071, 0.1, 1);
+    (void)frames_until(0.8409, 0.1, 1);
     const int second = frames_until(1, 0, 0.3);
     CHECK(second > 1.5 * first);
     record(size, 100, 0, 0.9);  // it held: what failed before is forgotten
-    (void)frames_until(0.7071, 0.1, 1);
+    (void)frames_until(0.8409, 0.1, 1);
     CHECK(frames_until(1, 0, 0.3) < 1.5 * first);
 }
