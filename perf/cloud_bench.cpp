@@ -69,14 +69,14 @@ FrameOptions picture(int width) {
 class UnshadedCaster final : public PixelCaster {
   public:
     explicit UnshadedCaster(SceneCaster& caster) : caster_(caster) {}
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int worker) override {
-        caster_.probe(places, visibility, worker);
+    void probe(std::span<const PixelPlace> places, const ProbeOptions& options,
+               std::span<PixelVisibility> visibility, int worker) override {
+        caster_.probe(places, options, visibility, worker);
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int,
                int worker) override {
         std::vector<PixelVisibility> visibility(places.size());
-        caster_.probe(places, visibility, worker);
+        caster_.probe(places, {}, visibility, worker);
         for (std::size_t i = 0; i < places.size(); ++i)
             pixels[i] = {visibility[i], Rgb::grey(1), {}, visibility[i].ahead.distance};
     }

@@ -1,0 +1,323 @@
+// Measures what the frames of a walk show while the eye moves: a client that needs no browser asks the real server for views as a page does,
+// and each of some frames is compared with `lightwalk render` of its view, at the size that was asked for.
+//
+//     node perf/frame_truth.mjs --npm FOLDER --folder SCENE --view FILE [--words "a.rad b.rad"] [--programs lightwalk,other]
+//         [--moves turn,walk] [--size 1280x720] [--seconds 6] [--samples 12] [--pictures FOLDER]
+//
+// FOLDER has node_modules with ws and playwright-core; the browser starts when the walk is over, and only compares. A move is a turn of
+// 40 degrees a second, a walk of 1.3 m/s (of an eye 1.6 m high), or both. One line for each program and move:
+//
+//   psnr       of the frames, enlarged to the size asked for, against the rendered pictures, mean and least [dB]
+//   off        pixels of which a channel is off by more than a tenth of white: mean and most [%]
+//   floor      both of two rendered pictures with other random numbers, and so other places in their pixels: what no frame can better
+//   detail     correlation of the gradients of both pictures, mean: 1 where all edges and textures are there
+//   frames     a second; width: of the frames, share of what was asked for [%]; reused, inferred, guessed: as the server tells [%]
+//   Mbit/s     of messages from the server
+import { spawn, spawnSync } from "node:child_process";
+import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import os from "node:os";
+import path from "node:path";
+import { parseArgs } from "node:util";
+import { parse_frame } from "../apps/viewer/frame.js";
+import { fit_view } from "../apps/viewer/view.js";
+import { parse_views, view_line } from "../apps/viewer/view_text.js";
+
+const { values: args } = parseArgs({
+    options: {
+        npm: { type: "string" },
+        programs: { type: "string", default: "build/release/lightwalk" },
+        folder: { type: "string" },
+        words: { type: "string" },
+        view: { type: "string" },
+        options: { type: "string", default: "-av .02 .02 .02" },
+        moves: { type: "string", default: "turn,walk" },
+        size: { type: "string", default: "1280x720" },
+        seconds: { type: "string", default: "6" },
+        samples: { type: "string", default: "12" },
+        pictures: { type: "string" },
+        chromium: { type: "string", default: "/usr/bin/chromium" },
+    },
+});
+const kDegrees = 40; // a second
+const kPace = 0.8; // eye heights a second
+const kBegin = 1; // after which frames are judged [s]
+const kOff = 0.1 * 255;
+const [width, height] = args.size.split("x").map(Number);
+const words = args.words.split(" ");
+const options = args.options.split(" ");
+const environment = { ...process.env, RAYPATH: ".:../lib" };
+const load = createRequire(path.resolve(args.npm, "none.js"));
+const WebSocket = load("ws");
+
+const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+function start_server(program) {
+    const server = spawn(
+        program,
+        ["walk", "--port", "0", "--quiet", "-vf", args.view, ...options, ...words],
+        { cwd: args.folder, env: environment, stdio: ["ignore", "pipe", "inherit"] },
+    );
+    return new Promise((resolve, reject) => {
+        server.stdout.once("data", (text) => resolve([server, new URL(String(text).trim())]));
+        server.once("exit", () => reject(new Error("the server does not start")));
+    });
+}
+
+/** The view after `t` seconds of a move: about the z axis, and forward and back, two seconds each. */
+function moved(view, move, t, eye_height) {
+    const angle = move === "walk" ? 0 : (kDegrees * t * Math.PI) / 180;
+    const [x, y, z] = view.direction;
+    const direction = [
+        x * Math.cos(angle) + y * Math.sin(angle),
+        y * Math.cos(angle) - x * Math.sin(angle),
+        z,
+    ];
+    const way =
+        move === "turn" ? 0 : (kPace * eye_height * (2 - Math.abs((t % 4) - 2))) / Math.hypot(x, y);
+    const position = view.position.map((p, k) => p + (k < 2 ? way * view.direction[k] : 0));
+    return { ...view, direction, position };
+}
+
+/** One client: sends views, acknowledges frames and keeps them. */
+class Client {
+    constructor(address) {
+        this.socket = new WebSocket(`ws://127.0.0.1:${address.port}/walk`);
+        this.socket.binaryType = "arraybuffer";
+        this.frames = [];
+        this.states = [];
+        this.views = new Map();
+        this.bytes = this.id = 0;
+        this.socket.on("open", () =>
+            this.say({ type: "hello", session: "0123456789abcdef", depth: true }),
+        );
+        this.loaded = new Promise((resolve) => (this.on_loaded = resolve));
+        this.socket.on("message", (data, binary) => this.take(data, binary));
+    }
+
+    say(message) {
+        this.socket.send(JSON.stringify(message));
+    }
+
+    take(data, binary) {
+        if (!binary) {
+            const message = JSON.parse(Buffer.from(data).toString());
+            if (message.type === "loaded") this.on_loaded(message);
+            if (message.type === "state") this.states.push(message);
+            return;
+        }
+        const frame = parse_frame(data);
+        this.say({ type: "ack", frame: frame.frame });
+        this.bytes += data.byteLength;
+        this.frames.push({ ...frame, at: performance.now() });
+    }
+
+    look(view, moving) {
+        this.views.set(++this.id, view);
+        this.say({ type: "view", id: this.id, view, width, height, moving, walk: false });
+    }
+}
+
+/** Drive a walk; returns the frames to be judged and what was counted. */
+async function drive(program, move) {
+    const [server, address] = await start_server(program);
+    try {
+        const client = new Client(address);
+        const { eye_height } = await client.loaded;
+        const first = fit_view(
+            parse_views(await readFile(path.join(args.folder, args.view), "utf8"))[0],
+            width,
+            height,
+        );
+        client.look(first, false);
+        await wait(5000);
+        client.say({
+            type: "display",
+            mode: "tone",
+            exposure: { auto: false, ev: Math.log2(client.frames.at(-1).exposure) },
+            human: false,
+            scale: { low: 1, high: 1000, log: true },
+        });
+        await wait(500);
+        Object.assign(client, { frames: [], states: [], bytes: 0 });
+        const begin = performance.now();
+        const seconds = Number(args.seconds);
+        for (let t = 0; t < seconds; t = (performance.now() - begin) / 1000) {
+            client.look(moved(first, move, t, eye_height), true);
+            await wait(1000 / 60);
+        }
+        client.socket.close();
+        return { client, begin, seconds };
+    } finally {
+        server.kill();
+    }
+}
+
+/** Of the frames of a walk those that are judged: evenly spaced, whole. */
+function chosen({ frames }, begin) {
+    const whole = frames.filter(
+        ({ complete, at, pieces }) => complete && pieces.length > 0 && at > begin + 1000 * kBegin,
+    );
+    const count = Math.min(Number(args.samples), whole.length);
+    return Array.from({ length: count }, (_, k) => whole[Math.floor((k * whole.length) / count)]);
+}
+
+/** The true picture of a view, as a data URL. */
+async function rendered(program, view, exposure, folder, seed = 0) {
+    const file = path.join(folder, "true");
+    await writeFile(`${file}.vf`, `${view_line(view)}\n`);
+    const size = ["-x", String(width), "-y", String(height), "-ps", "1", "-pa", "0"];
+    const made = spawnSync(
+        program,
+        [
+            "render",
+            "--quiet",
+            "-vf",
+            `${file}.vf`,
+            ...size,
+            ...options,
+            "--seed",
+            String(seed),
+            "--exposure",
+            String(Math.log2(exposure)),
+            "-o",
+            `${file}.png`,
+            ...words,
+        ],
+        { cwd: args.folder, env: environment },
+    );
+    if (made.status !== 0) throw new Error(String(made.stderr));
+    return `data:image/png;base64,${(await readFile(`${file}.png`)).toString("base64")}`;
+}
+
+/** In a page: how far a frame, given by its pieces, is from the truth; and its picture. */
+async function compare({ pieces, size, truth, most }) {
+    const canvas = (width, height) => {
+        const made = new OffscreenCanvas(width, height);
+        return [made, made.getContext("2d")];
+    };
+    const bitmap = async (url) => createImageBitmap(await (await fetch(url)).blob());
+    const [frame, draw] = canvas(...size);
+    for (const { url, x, y } of pieces) draw.drawImage(await bitmap(url), x, y);
+    const right = await bitmap(truth);
+    const pixels = (image) => {
+        const [made, context] = canvas(right.width, right.height);
+        context.drawImage(image, 0, 0, right.width, right.height);
+        return [made, context.getImageData(0, 0, right.width, right.height).data];
+    };
+    const [shown, a] = pixels(frame);
+    const [, b] = pixels(right);
+    let [squares, off] = [0, 0];
+    for (let k = 0; k < a.length; k += 4) {
+        let worst = 0;
+        for (let c = 0; c < 3; ++c) {
+            const apart = Math.abs(a[k + c] - b[k + c]);
+            squares += apart * apart;
+            worst = Math.max(worst, apart);
+        }
+        if (worst > most) ++off;
+    }
+    let [both, of_a, of_b] = [0, 0, 0];
+    for (const next of [4, 4 * right.width])
+        for (let k = 1; k + next < a.length; k += 4) {
+            const [p, q] = [a[k + next] - a[k], b[k + next] - b[k]];
+            both += p * q;
+            of_a += p * p;
+            of_b += q * q;
+        }
+    const blob = await shown.convertToBlob({ type: "image/png" });
+    return {
+        psnr: 10 * Math.log10((255 * 255) / (squares / (0.75 * a.length))),
+        off: (400 * off) / a.length,
+        detail: both / Math.sqrt(of_a * of_b),
+        picture: btoa(
+            Array.from(new Uint8Array(await blob.arrayBuffer()), (c) =>
+                String.fromCharCode(c),
+            ).join(""),
+        ),
+    };
+}
+
+async function measure(program, kind, move, folder) {
+    const { client, begin, seconds } = await drive(program, move);
+    const browser = await load("playwright-core").chromium.launch({
+        executablePath: args.chromium,
+        args: ["--no-sandbox"],
+    });
+    const page = await browser.newPage();
+    const found = [];
+    for (const [k, frame] of chosen(client, begin).entries()) {
+        const truth = await rendered(
+            program,
+            client.views.get(frame.view_id),
+            frame.exposure,
+            folder,
+        );
+        const pieces = frame.pieces.map(({ x, y, type, bytes }) => ({
+            x,
+            y,
+            url: `data:${type};base64,${Buffer.from(bytes).toString("base64")}`,
+        }));
+        const one = await page.evaluate(compare, {
+            pieces,
+            size: [frame.width, frame.height],
+            truth,
+            most: kOff,
+        });
+        const other = await rendered(
+            program,
+            client.views.get(frame.view_id),
+            frame.exposure,
+            folder,
+            1,
+        );
+        const whole = [{ x: 0, y: 0, url: other }];
+        const floor = await page.evaluate(compare, {
+            pieces: whole,
+            size: [width, height],
+            truth,
+            most: kOff,
+        });
+        found.push({ ...one, floor: floor.psnr, floor_off: floor.off });
+        if (!args.pictures) continue;
+        const name = path.join(args.pictures, `${kind}-${move}-${k}`);
+        await writeFile(`${name}.png`, Buffer.from(one.picture, "base64"));
+        await writeFile(`${name}-true.png`, Buffer.from(truth.split(",")[1], "base64"));
+    }
+    await browser.close();
+    const mean = (list) => list.reduce((sum, x) => sum + x, 0) / list.length;
+    const of = (name) => found.map((one) => one[name]);
+    const told = (name) => 100 * mean(client.states.map((state) => state[name]));
+    return {
+        program: kind,
+        move,
+        psnr: mean(of("psnr")),
+        least: Math.min(...of("psnr")),
+        off: mean(of("off")),
+        most: Math.max(...of("off")),
+        floor: mean(of("floor")),
+        "floor off": mean(of("floor_off")),
+        detail: mean(of("detail")),
+        frames: client.frames.length / seconds,
+        width: (100 * mean(client.frames.map((frame) => frame.width))) / width,
+        reused: told("reuse"),
+        inferred: told("inferred"),
+        guessed: told("guessed"),
+        "Mbit/s": (8e-6 * client.bytes) / seconds,
+    };
+}
+
+const folder = await mkdtemp(path.join(os.tmpdir(), "frame-truth-"));
+if (args.pictures) await mkdir(args.pictures, { recursive: true });
+let titled = false;
+for (const move of args.moves.split(","))
+    for (const [k, program] of args.programs.split(",").entries()) {
+        const row = await measure(path.resolve(program), String(k), move, folder);
+        if (!titled) console.log(Object.keys(row).join("\t"));
+        titled = true;
+        console.log(
+            Object.values(row)
+                .map((x) => (typeof x === "number" ? x.toPrecision(3) : x))
+                .join("\t"),
+        );
+    }
