@@ -123,7 +123,9 @@ View RenderLoop::on_the_ground(const ViewRequest& request) const {
 }
 
 double RenderLoop::budget() const {
-    const double seconds = (wish_.view->moving ? moving_size_.periods() : 1) / options_.rate;
+    const double periods =
+        wish_.view->moving ? moving_size_.periods(wish_.view->width, wish_.view->height) : 1;
+    const double seconds = periods / options_.rate;
     return std::max(seconds - aside_seconds_, 0.001);
 }
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "core/cloud/reuse_error_controller.h"
+#include "core/cloud/sparse_hits.h"
 #include "core/math/prefetch.h"
 #include "core/math/random.h"
 
@@ -15,6 +18,16 @@ constexpr std::size_t kPacket = std::size_t{kPacketSide} * kPacketSide;
 
 /// Of the tiles: of CloudCheck::rotating, of those where points seem to tell enough.
 constexpr double kCheckedShare = 1.0 / 3;
+
+/// Of rays that check pixels where all points are of one surface [pixels].
+constexpr int kSurfaceSpacing = 4;
+
+/// Pixels that will be checked together.
+struct Packet {
+    int spacing = 1;  ///< see ProbeOptions
+    std::size_t count = 0;
+    std::array<PixelPlace, 2 * kPacket> places{};
+};
 
 class BlockAnswerer {
   public:
@@ -33,25 +46,23 @@ class BlockAnswerer {
         found_.ranked.fill(0);
         found_.unanswered = found_.left = 0;
         if (!has_all_rays()) blacken(block);
-        std::array<PixelPlace, 2 * kPacket> places;
-        std::size_t count = 0;
-        const auto check = [&] {
-            if (count > 0) answer_packet({places.data(), count});
-            count = 0;
-        };
         for (int y0 = block.y0 - block.y0 % kPacketSide; y0 < block.y1; y0 += kPacketSide) {
             for (int x0 = block.x0 - block.x0 % kPacketSide; x0 < block.x1; x0 += kPacketSide) {
-                PixelPlace* const tile = places.data() + count;
+                std::array<PixelPlace, kPacket> tile;
                 std::size_t pixels = 0;
                 for (int y = std::max(y0, block.y0); y < std::min(y0 + kPacketSide, block.y1); ++y)
                     for (int x = std::max(x0, block.x0); x < std::min(x0 + kPacketSide, block.x1);
                          ++x)
                         tile[pixels++] = {x, y};
-                count += answer_freely({tile, pixels});
-                if (count >= kPacket) check();
+                const std::span left(tile.data(), answer_freely({tile.data(), pixels}));
+                Packet& packet = shows_one_surface(left) ? of_surface_ : of_any_;
+                std::copy(left.begin(), left.end(), packet.places.begin() + packet.count);
+                packet.count += left.size();
+                if (packet.count >= kPacket) answer_packet(packet);
             }
         }
-        check();
+        answer_packet(of_surface_);
+        answer_packet(of_any_);
         for (const UncachedPixel& pixel : found_.uncached)
             ++found_.ranked[trace_rank(pixel, options_.budget > 0)];
     }
@@ -142,8 +153,10 @@ class BlockAnswerer {
         frame_.causes[at] = answer.cause;
         frame_.known[at] = known ? 1 : 0;
         const std::uint32_t seen = answer.ahead != kNoPoint ? answer.ahead : answer.mirrored;
-        if (known && !frame_.surfaces.empty())
+        if (known && !frame_.surfaces.empty()) {
             frame_.surfaces[at] = seen != kNoPoint ? points_.all()[seen].surface : 0;
+            frame_.patterns[at] = seen != kNoPoint ? points_.all()[seen].pattern : kNoPattern;
+        }
         if (!reused) {
             using Kind = PixelOrigin::Kind;
             if (!frame_.origins.empty())
@@ -167,13 +180,34 @@ class BlockAnswerer {
             found_.uncached.push_back({place, TraceCause::audited});
     }
 
+    /// Whether all points in a tile whose pixels are about to be checked are of one surface, so
+    /// that few rays tell for all.
+    [[nodiscard]] bool shows_one_surface(std::span<const PixelPlace> tile) const {
+        if (options_.check != CloudCheck::rotating || tile.size() < SparseHits::kWorthCorners)
+            return false;
+        std::optional<std::uint32_t> surface;
+        std::size_t known = 0;
+        for (const PixelPlace& place : tile) {
+            const std::optional<std::uint32_t> here = finder_.surface_at(place);
+            if (!here) continue;
+            ++known;
+            if (surface && *surface != *here) return false;
+            surface = here;
+        }
+        return 2 * known > tile.size();
+    }
+
     /// What is read and written afterwards is fetched into the cache while rays are cast: writes
     /// are done in order, so that one that misses holds up all after it.
-    void answer_packet(std::span<const PixelPlace> places) {
+    void answer_packet(Packet& packet) {
+        const std::span<const PixelPlace> places(packet.places.data(),
+                                                 std::exchange(packet.count, 0));
+        if (places.empty()) return;
         std::array<PixelVisibility, 2 * kPacket> visibility;
         std::array<PixelAnswer, 2 * kPacket> answers;
         for (const PixelPlace& place : places) expect(place);
-        region_.caster.probe(places, {visibility.data(), places.size()}, worker_);
+        region_.caster.probe(places, {false, packet.spacing}, {visibility.data(), places.size()},
+                             worker_);
         finder_.checked(places, {visibility.data(), places.size()}, answers);
         for (std::size_t i = 0; i < places.size(); ++i)
             if (answers[i].ahead != kNoPoint) points_.expect_use(answers[i].ahead);
@@ -270,6 +304,7 @@ class BlockAnswerer {
     PointFinder finder_;
     int worker_;
     BlockUncachedPixels& found_;
+    Packet of_surface_{kSurfaceSpacing}, of_any_;
 };
 
 }  // namespace

@@ -72,7 +72,8 @@ struct CloudFrame {
     /// What the rays of known pixels meet (PrimaryVisibility::surface), where there is a budget; 0:
     /// something that tells nothing of what lies beside it.
     std::vector<std::uint32_t> surfaces;
-    std::vector<PixelOrigin> origins;  ///< where pixels come from, where somebody wants to know
+    std::vector<std::uint8_t> patterns;  ///< of these surfaces there (encode_pattern)
+    std::vector<PixelOrigin> origins;    ///< where pixels come from, where somebody wants to know
     CloudReport report;
     bool complete = false;  ///< false: stopped early
 };

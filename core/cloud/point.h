@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/cloud/pattern_code.h"
 #include "core/math/direction_code.h"
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
@@ -35,10 +36,11 @@ struct CloudPoint {
     float max_view_angle =
         kAnyViewAngle;  ///< largest angle between that direction and another one for which the
                         ///< colour still holds; or kAnyViewAngle [rad]
-    PointKind kind = PointKind::plain;
-    std::uint8_t age = 0;  ///< frames since it was last used
-    std::uint8_t old = 0;  ///< frames since it was traced, at most 255
-    bool paired = false;   ///< its pixel left two points, and shows their sum
+    PointKind kind : 4 = PointKind::plain;
+    bool paired : 1 = false;            ///< its pixel left two points, and shows their sum
+    std::uint8_t age = 0;               ///< frames since it was last used
+    std::uint8_t old = 0;               ///< frames since it was traced, at most 255
+    std::uint8_t pattern = kNoPattern;  ///< of its surface there (encode_pattern)
 
     [[nodiscard]] Vec3 place() const {
         return {static_cast<double>(position[0]), static_cast<double>(position[1]),

@@ -17,6 +17,7 @@ void add_point(const PrimaryVisibility& primary, const Rgb& radiance, const Trac
     point.surface = primary.surface;
     point.direction = encode_direction(pixel.visibility.direction);
     point.kind = primary.kind;
+    point.pattern = encode_pattern(primary.pattern);
     // Where this part is faint beside the other one, larger relative changes are tolerable.
     const double whole = static_cast<double>(brightness(pixel.radiance));
     const double part = static_cast<double>(brightness(radiance));

@@ -25,6 +25,7 @@ struct PrimaryVisibility {
     float slope =
         0;  ///< largest relative change of its colour per angle by which the ray turns [1/rad]; 0:
             ///< independent of the view direction; or kMirrorLike, kNeverReuse
+    float pattern = 1;  ///< brightness of what patterns multiply its colour by, where asked for
 };
 
 /// What a pixel's ray sees: ahead (a surface, or what is seen through panes), and reflected by the
@@ -44,14 +45,22 @@ struct TracedPixel {
     float distance = 0;  ///< along the ray [m]
 };
 
+/// How pixels are probed.
+struct ProbeOptions {
+    bool patterns = false;  ///< whether patterns are asked for, which may take longer than all else
+    int spacing = 1;  ///< more, 2 or 4: of pixels between others that see one plane, it is taken
+                      ///< for granted that they see it, too (see SparseHits) [pixels]
+};
+
 /// Casts the rays of a frame. Many workers may call it at once, each with its own number.
 class PixelCaster {
   public:
     virtual ~PixelCaster() = default;
     /// Find what the pixels' rays see, without shading (cheap). Slopes need only be right where
     /// they are kNeverReuse.
-    virtual void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                       int worker) = 0;
+    /// @param places  those of a square of 8 x 8 pixels one after the other
+    virtual void probe(std::span<const PixelPlace> places, const ProbeOptions& options,
+                       std::span<PixelVisibility> visibility, int worker) = 0;
     /// Trace the pixels, with all of their visibility (expensive).
     /// @param sample  0: the rays that `probe` casts; 1, 2, ...: other rays of the same pixels,
     /// equally distributed

@@ -204,7 +204,7 @@ void PointFinder::expect(std::span<const PixelPlace> pixels) const {
         const std::uint32_t index = grids_.ahead.winner(pixel.x, pixel.y);
         if (index == kNoPoint) continue;
         prefetch(&points_[index]);
-        prefetch(&points_[index].paired);  // the last member, which may lie in the next cache line
+        prefetch(&points_[index].pattern);  // the last member, which may lie in the next cache line
         prefetch(&places_[index]);
     }
 }

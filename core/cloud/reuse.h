@@ -2,6 +2,7 @@
 // Reuse of points: which points of the cloud can be shown in a pixel.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/cloud/depth_grid.h"
@@ -80,6 +81,12 @@ class PointFinder {
     [[gnu::always_inline]] void expect(const PixelPlace& pixel) const {
         grids_.ahead.prefetch(pixel.x, pixel.y);
         grids_.mirrored.prefetch(pixel.x, pixel.y);
+    }
+    /// The surface of the point that is projected onto a pixel; nothing where there is none.
+    [[nodiscard]] std::optional<std::uint32_t> surface_at(const PixelPlace& pixel) const {
+        const std::uint32_t index = grids_.ahead.winner(pixel.x, pixel.y);
+        if (index == kNoPoint) return std::nullopt;
+        return points_[index].surface;
     }
     /// The answer for a pixel whose ray has been probed.
     [[nodiscard]] PixelAnswer checked(const PixelPlace& pixel,

@@ -8,23 +8,33 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kRaysAtOnce = 64;  ///< pixels whose rays are cast together
+constexpr int kSpacing = 2;              ///< of rays that are cast for sure [pixels]
 constexpr int kSquareSide = 8;           ///< of the square that they lie in
 constexpr int kFarthest = 16;            ///< coarsest grid of traced pixels [pixels]
 constexpr int kEnoughOfSurface = 3;      ///< pixels of the same surface: no coarser grid is needed
+constexpr float kMostRatio = 4;          ///< of the brightness of patterns
 constexpr float kAsFarAway = 0.05f;      ///< relative difference of depth within one surface
 
-/// A weighted mean of colours.
+/// A weighted mean of colours, and of the patterns that are in them.
 struct Mean {
     Rgb sum;
-    float weight = 0;
+    float weight = 0, patterns = 0;
     int count = 0;
 
-    void add(const Rgb& color, float share) {
+    void add(const Rgb& color, std::uint8_t pattern, float share) {
         sum += color * share;
         weight += share;
+        patterns += share * decode_pattern(pattern);
         ++count;
     }
-    [[nodiscard]] Rgb value() const { return sum * (1 / weight); }
+    /// The colour of a place with another pattern: what light does to a surface varies less than
+    /// what its pattern does. Where there is hardly any colour to go by, no more than kMostRatio of
+    /// it.
+    [[nodiscard]] Rgb value(float pattern) const {
+        const float ratio =
+            weight * pattern < kMostRatio * patterns ? weight * pattern / patterns : kMostRatio;
+        return sum * (ratio / weight);
+    }
 };
 
 /// The known pixels around one, by what they show.
@@ -45,9 +55,9 @@ void look_around(const CloudFrame& frame, const PixelPlace& place, int step,
             const auto dx = static_cast<float>(x - place.x), dy = static_cast<float>(y - place.y);
             const float weight = 1 / (dx * dx + dy * dy);
             if (frame.surfaces[at] == seen.surface)
-                around.same.add(frame.radiance[at], weight);
+                around.same.add(frame.radiance[at], frame.patterns[at], weight);
             else if (std::abs(frame.distance[at] - seen.distance) <= kAsFarAway * seen.distance)
-                around.level.add(frame.radiance[at], weight);
+                around.level.add(frame.radiance[at], kNoPattern, weight);
         }
     }
 }
@@ -63,8 +73,8 @@ std::optional<InferredPixel> infer_pixel(const CloudFrame& frame, const PixelPla
         look_around(frame, place, step, seen, around);
     const bool same = around.same.count > 0;
     if (!same && around.level.count == 0) return std::nullopt;
-    return InferredPixel{frame.area.index(place), (same ? around.same : around.level).value(),
-                         seen.distance, same};
+    const Rgb radiance = same ? around.same.value(seen.pattern) : around.level.value(1);
+    return InferredPixel{frame.area.index(place), radiance, seen.distance, same};
 }
 
 void infer_block(const CloudFrame& frame, const PixelRectangle& block, PixelCaster& caster,
@@ -73,7 +83,7 @@ void infer_block(const CloudFrame& frame, const PixelRectangle& block, PixelCast
     std::array<PixelVisibility, kRaysAtOnce> visibility;
     std::size_t count = 0;
     const auto infer = [&] {
-        caster.probe({places.data(), count}, {visibility.data(), count}, worker);
+        caster.probe({places.data(), count}, {true, kSpacing}, {visibility.data(), count}, worker);
         for (std::size_t i = 0; i < count; ++i)
             if (const auto pixel = infer_pixel(frame, places[i], visibility[i]))
                 found.push_back(*pixel);

@@ -112,7 +112,7 @@ std::vector<std::optional<PixelValue>> TraceList::values() const {
     return values;
 }
 
-void TraceList::show(CloudFrame& frame) {
+void TraceList::show(CloudFrame& frame, bool passing) {
     CloudReport& report = frame.report;
     report.reused = report.pixels - unanswered_;
     for (std::size_t i = 0; i < noise_pairs_.size(); ++i) {
@@ -136,10 +136,14 @@ void TraceList::show(CloudFrame& frame) {
         frame.distance[at] = traced.distance;
         frame.causes[at] = pixel.cause;
         frame.known[at] = 1;
-        if (!frame.surfaces.empty())
-            frame.surfaces[at] =
-                traced_[i].points.count > 0 ? traced_[i].points.points[0].surface : 0;
-        if (!frame.origins.empty()) frame.origins[at] = {PixelOrigin::Kind::traced, 1, 0};
+        if (!frame.surfaces.empty()) {
+            const bool left = traced_[i].points.count > 0;
+            frame.surfaces[at] = left ? traced_[i].points.points[0].surface : 0;
+            frame.patterns[at] = left ? traced_[i].points.points[0].pattern : kNoPattern;
+        }
+        if (!frame.origins.empty())
+            frame.origins[at] = passing ? PixelOrigin{PixelOrigin::Kind::reused, 0, kOldestAge}
+                                        : PixelOrigin{PixelOrigin::Kind::traced, 1, 0};
         ++report.uncached[static_cast<std::size_t>(pixel.cause)];
     }
     report.filled = unanswered_ - answered_;

@@ -84,7 +84,9 @@ class TraceList {
 
     /// Put what was traced into the frame, and into its report. What was not, but is known all the
     /// same, is inferred.
-    void show(CloudFrame& frame);
+    /// @param passing  whether the rays were others than those of the picture of a view that rests,
+    ///                 for which the pixels are to be traced once more
+    void show(CloudFrame& frame, bool passing);
     /// What was traced leaves its points.
     void leave_points(RegionPoints& points) const;
 

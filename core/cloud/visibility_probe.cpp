@@ -117,6 +117,21 @@ float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
     return static_cast<float>(highlights_.slope(hit, walk.segment.direction, lobe));
 }
 
+/// The brightness of the patterns of a surface's chain. Textures are left out: what patterns make
+/// of a perturbed normal is too fine to be seen in passing.
+float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
+    const Scene& scene = tracer_.scene();
+    Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
+    ray.hit = hit;
+    for (ModifierId m = hit.modifier; m != kVoid; m = scene.modifier(m).next) {
+        const ModifierRecord& record = scene.modifier(m);
+        if (record.node && kind_of(record.type) == PrimitiveKind::pattern)
+            (void)record.node->shade(ray, *walk.needs.patterns);
+    }
+    const float value = brightness(ray.pattern);
+    return std::isfinite(value) ? value : 1;
+}
+
 /// Ends a walk at `hit`, or at infinity: sets its result.
 void VisibilityProbe::end(const Walk& walk, const Hit& hit,
                           const SurfaceAppearance& appearance) const {
@@ -130,12 +145,14 @@ void VisibilityProbe::end(const Walk& walk, const Hit& hit,
     if (!hit.exists()) {
         primary.surface = background(walk);
     } else if (appearance.appearance == Appearance::glossy) {
-        if (walk.slopes) slope = glossy_slope(walk, hit, appearance);
+        if (walk.needs.slopes) slope = glossy_slope(walk, hit, appearance);
     } else if (appearance.appearance == Appearance::polished) {
         slope = static_cast<float>(slopes_of(hit, appearance).left);
     } else if (appearance.appearance != Appearance::constant) {
         slope = kMirrorLike;
     }
+    if (walk.needs.patterns != nullptr && appearance.patterned && hit.exists())
+        primary.pattern = pattern_at(walk, hit);
     primary.slope = never_reuse_ ? kNeverReuse : primary.slope + slope;
     if (primary.kind == PointKind::plain && primary.slope > 0) primary.kind = PointKind::glossy;
 }
@@ -217,7 +234,7 @@ void VisibilityProbe::follow(std::vector<Walk>& walks, Scratch& scratch) const {
 }
 
 void VisibilityProbe::find(std::span<const RaySegment> rays, std::span<const Hit> first,
-                           bool slopes, std::span<PixelVisibility> visibility,
+                           const Needs& needs, std::span<PixelVisibility> visibility,
                            Scratch& scratch) const {
     scratch.ahead.clear();
     scratch.images.clear();
@@ -225,7 +242,7 @@ void VisibilityProbe::find(std::span<const RaySegment> rays, std::span<const Hit
         if (!visibility[i].ray) continue;
         visibility[i].direction = rays[i].direction;
         visibility[i].ahead = visibility[i].mirrored = {};
-        Walk walk{&rays[i], &visibility[i].ahead, &visibility[i].mirrored, rays[i], slopes};
+        Walk walk{&rays[i], &visibility[i].ahead, &visibility[i].mirrored, rays[i], needs};
         if (begins(walk, first[i], scratch.images)) scratch.ahead.push_back(walk);
     }
     follow(scratch.ahead, scratch);

@@ -31,12 +31,17 @@ class VisibilityProbe {
     /// Reusable working memory; each thread needs its own.
     class Scratch;
 
+    /// What a caller wants to know that takes time.
+    struct Needs {
+        bool slopes = false;  ///< else slopes are right only where they are kNeverReuse
+        TraceContext* patterns = nullptr;  ///< what patterns are evaluated with; null: not needed
+    };
+
     /// @param rays    of the pixels
     /// @param first   the nearest hit of each ray
-    /// @param slopes  whether slopes are needed; false is cheaper, and slopes are then right only
-    /// where they are kNeverReuse
+    /// @param needs   beside places and surfaces
     /// @param visibility  in and out, for each ray with `ray` true: all members but x and y are set
-    void find(std::span<const RaySegment> rays, std::span<const Hit> first, bool slopes,
+    void find(std::span<const RaySegment> rays, std::span<const Hit> first, const Needs& needs,
               std::span<PixelVisibility> visibility, Scratch& scratch) const;
 
   private:
@@ -47,6 +52,7 @@ class VisibilityProbe {
     void end(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const;
     [[nodiscard]] float glossy_slope(const Walk& walk, const Hit& hit,
                                      const SurfaceAppearance& appearance) const;
+    [[nodiscard]] float pattern_at(const Walk& walk, const Hit& hit) const;
     [[nodiscard]] bool goes_on(Walk& walk, const Hit& hit) const;
     [[nodiscard]] bool begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const;
     void follow(std::vector<Walk>& walks, Scratch& scratch) const;
@@ -64,8 +70,8 @@ struct VisibilityProbe::Walk {
     PrimaryVisibility* primary = nullptr;  ///< result, set at the end
     PrimaryVisibility* image =
         nullptr;  ///< result for the reflection of the first surface with a material; null after it
-    RaySegment segment;     ///< the remaining ray
-    bool slopes = true;     ///< see find()
+    RaySegment segment;  ///< the remaining ray
+    Needs needs;
     int surfaces = 0;       ///< number of surfaces met, before or after the first with a material
     double length = 0;      ///< of the path so far [m]
     std::uint32_t met = 0;  ///< see PrimaryVisibility::surface

@@ -44,8 +44,12 @@ template <>
 inline constexpr int wire::kEnumerators<PointKind> = kPointKinds;
 template <class Wire>
 void visit_fields(Wire& wire, CloudPoint& p) {
-    wire(p.position, p.radiance, p.surface, p.direction, p.max_view_angle, p.kind, p.age, p.old,
-         p.paired);
+    PointKind kind = p.kind;  // a bit-field has no reference
+    bool paired = p.paired;
+    wire(p.position, p.radiance, p.surface, p.direction, p.max_view_angle, kind, p.age, p.old,
+         paired, p.pattern);
+    p.kind = kind;
+    p.paired = paired;
 }
 
 template <>

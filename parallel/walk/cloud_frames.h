@@ -30,6 +30,8 @@ class CloudFrames {
     }
     /// The last frame as one to be refined; nothing before the first one, and without `refine`.
     [[nodiscard]] const ProgressivePicture* progressive();
+    /// Whether a frame of this view would refine the last one.
+    [[nodiscard]] bool refines(const View& view) const { return lead_.rests(view); }
     /// Frames of another size from here on, from the same points. Audits and ages go on.
     void resize(int width, int height) { lead_.resize(width, height); }
     /// Time for each of the next frames; 0: none is too long [s].

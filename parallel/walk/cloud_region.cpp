@@ -29,7 +29,10 @@ CloudRegion::CloudRegion(const PixelRectangle& area, int width, int height,
     frame_.causes.resize(area.pixels());
     frame_.known.resize(area.pixels());
     if (options.refine > 0) frame_.origins.resize(area.pixels());
-    if (options.budget > 0) frame_.surfaces.resize(area.pixels());
+    if (options.budget > 0) {
+        frame_.surfaces.resize(area.pixels());
+        frame_.patterns.resize(area.pixels());
+    }
 }
 
 void CloudRegion::begin(const Camera& camera, const CloudRules& rules) {

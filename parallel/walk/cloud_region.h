@@ -46,8 +46,8 @@ class CloudRegion {
     /// The view rests: trace these of its pixels.
     void refine(std::span<const PixelPlace> places);
 
-    /// Put what was traced into the frame.
-    void show() { to_trace_.show(frame_); }
+    /// Put what was traced into the frame; see TraceList.
+    void show(bool passing) { to_trace_.show(frame_, passing); }
     /// What is not known yet gets the colours of the same surfaces around, as far as there is time.
     /// The caster's `probe` is called.
     void infer(PixelCaster& caster, Executor& executor, const StopFlag& stop,

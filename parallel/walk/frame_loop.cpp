@@ -35,7 +35,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
         if (!exchange.trace(region, tracer, order.sample, executor, stop)) return false;
     }
     if (!order.rests) {
-        region.show();
+        region.show(order.budget > 0);
         region.infer(caster, executor, stop, inferring_deadline(order.budget));
     }
     const AgeCounts ages = order.rests ? region.rest(order.leaves) : region.age(executor);

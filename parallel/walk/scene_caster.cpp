@@ -15,21 +15,32 @@ PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options, int 
     return {camera, options.previous, options.width, options.height, pixels, seed, options.step};
 }
 
+namespace {
+
+FrameOptions with_rays(FrameOptions options, bool passing) {
+    if (passing) options.pixels.jitter = 0;
+    return options;
+}
+
+}  // namespace
+
 SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility,
                          const Camera& camera, const FrameOptions& options,
-                         WorkerContexts& contexts, const StopFlag& stop)
+                         WorkerContexts& contexts, const StopFlag& stop, bool passing)
     : tracer_(tracer),
       probe_(visibility),
       camera_(camera),
-      options_(options),
+      options_(with_rays(options, passing)),
       rays_(rays_of_sample(camera_, options, 0)),
       contexts_(contexts),
       stop_(stop),
+      passing_(passing),
       scratch_(static_cast<std::size_t>(contexts.size())) {}
 
-void SceneCaster::probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-                        int worker) {
-    probe_along(rays_, false, places, visibility, scratch_[static_cast<std::size_t>(worker)]);
+void SceneCaster::probe(std::span<const PixelPlace> places, const ProbeOptions& options,
+                        std::span<PixelVisibility> visibility, int worker) {
+    probe_along(rays_, options.spacing, {false, options.patterns ? &contexts_[worker] : nullptr},
+                places, visibility, scratch_[static_cast<std::size_t>(worker)]);
 }
 
 namespace {
@@ -73,17 +84,35 @@ void SceneCaster::set_out_anyhow(const PixelRays& rays, std::span<const PixelPla
     }
 }
 
-void SceneCaster::probe_along(const PixelRays& rays, bool slopes,
-                              std::span<const PixelPlace> places,
-                              std::span<PixelVisibility> visibility, Scratch& s) const {
+/// The rays of pixels and their nearest hits.
+void SceneCaster::find_hits(const PixelRays& rays, int spacing, std::span<const PixelPlace> places,
+                            std::span<PixelVisibility> visibility, Scratch& s) const {
+    const Geometry& geometry = tracer_.scene().geometry();
     s.segments.resize(places.size());
     s.hits.resize(places.size());
-    if (camera_.view().type == 'v' && rays.pinhole())
-        set_out_plainly(rays, places, s.segments, visibility);
-    else
+    if (camera_.view().type != 'v' || !rays.pinhole()) {
         set_out_anyhow(rays, places, s.segments, visibility);
-    tracer_.scene().geometry().intersect(s.segments, s.hits);
-    probe_.find(s.segments, s.hits, slopes, visibility, s.ways);
+        geometry.intersect(s.segments, s.hits);
+        return;
+    }
+    set_out_plainly(rays, places, s.segments, visibility);
+    if (spacing == 1) return geometry.intersect(s.segments, s.hits);
+    const std::span<const PixelPlace> corners = s.sparse.corners(places, spacing);
+    s.segments.resize(places.size() + corners.size());
+    s.hits.resize(s.segments.size());
+    s.visibility.resize(corners.size());
+    set_out_plainly(rays, corners, std::span(s.segments).subspan(places.size()), s.visibility);
+    s.sparse.find(geometry, s.segments, s.hits);
+    s.segments.resize(places.size());
+    s.hits.resize(places.size());
+}
+
+void SceneCaster::probe_along(const PixelRays& rays, int spacing,
+                              const VisibilityProbe::Needs& needs,
+                              std::span<const PixelPlace> places,
+                              std::span<PixelVisibility> visibility, Scratch& s) const {
+    find_hits(rays, spacing, places, visibility, s);
+    probe_.find(s.segments, s.hits, needs, visibility, s.ways);
 }
 
 void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
@@ -93,7 +122,7 @@ void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixe
     s.values.resize(places.size());
     s.pixel_hits.resize(places.size());
     const PixelRays rays = rays_of_sample(camera_, options_, sample);
-    probe_along(rays, true, places, s.visibility, s);
+    probe_along(rays, 1, {true, passing_ ? &contexts_[worker] : nullptr}, places, s.visibility, s);
     PixelTracer trace_pixels(tracer_, rays, contexts_[worker], stop_);
     trace_pixels(places, s.values, s.pixel_hits);
     for (std::size_t i = 0; i < places.size(); ++i)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/cloud/primary_visibility.h"
+#include "core/cloud/sparse_hits.h"
 #include "core/cloud/visibility_probe.h"
 #include "core/view/pixel_rays.h"
 #include "parallel/frame_options.h"
@@ -20,18 +21,22 @@ namespace lightwalk {
                                        int sample);
 
 /// The camera of one frame, and its rays: those that a picture with the same options has, to the
-/// bit.
+/// bit, or for a frame that is seen for a moment those through the middles of pixels.
 class SceneCaster final : public PixelCaster {
   public:
     /// All but the camera must outlive this.
+    /// @param passing  whether the frame is seen for a moment only: its rays are not jittered, as
+    ///                 jagged edges that change from frame to frame crawl, and traced pixels tell
+    ///                 their patterns
     SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
-                const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop);
+                const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop,
+                bool passing = false);
     SceneCaster(const SceneCaster&) = delete;
     SceneCaster& operator=(const SceneCaster&) = delete;
 
     /// What the pixels' first rays see.
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int worker) override;
+    void probe(std::span<const PixelPlace> places, const ProbeOptions& options,
+               std::span<PixelVisibility> visibility, int worker) override;
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker) override;
     [[nodiscard]] const Camera& camera() const { return camera_; }
@@ -41,8 +46,10 @@ class SceneCaster final : public PixelCaster {
   private:
     /// Of one worker.
     struct Scratch {
+        std::vector<PixelPlace> places;
         std::vector<RaySegment> segments;
         std::vector<Hit> hits;
+        SparseHits sparse;
         VisibilityProbe::Scratch ways;
         std::vector<PixelVisibility> visibility;
         std::vector<PixelValue> values;
@@ -56,8 +63,11 @@ class SceneCaster final : public PixelCaster {
     void set_out_anyhow(const PixelRays& rays, std::span<const PixelPlace> places,
                         std::span<RaySegment> segments,
                         std::span<PixelVisibility> visibility) const;
-    void probe_along(const PixelRays& rays, bool slopes, std::span<const PixelPlace> places,
-                     std::span<PixelVisibility> visibility, Scratch& scratch) const;
+    void find_hits(const PixelRays& rays, int spacing, std::span<const PixelPlace> places,
+                   std::span<PixelVisibility> visibility, Scratch& scratch) const;
+    void probe_along(const PixelRays& rays, int spacing, const VisibilityProbe::Needs& needs,
+                     std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
+                     Scratch& scratch) const;
 
     const Tracer& tracer_;
     const VisibilityProbe& probe_;
@@ -66,6 +76,7 @@ class SceneCaster final : public PixelCaster {
     PixelRays rays_;  ///< of sample 0
     WorkerContexts& contexts_;
     const StopFlag& stop_;
+    bool passing_;
     std::vector<Scratch> scratch_;
 };
 

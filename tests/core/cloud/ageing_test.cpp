@@ -30,8 +30,8 @@ TEST_CASE("cloud: points live on while they are used, and so many frames without
     CHECK(points[0].age == 0);
     CHECK(points[1].age == 25);
     CHECK(points[1].old == 1);
-    CHECK(points[2].kind == PointKind::gone);
-    CHECK(points[3].kind != PointKind::gone);
+    CHECK((points[2].kind == PointKind::gone));
+    CHECK((points[3].kind != PointKind::gone));
     CHECK(points[3].age == 0);
     CHECK(counts[0] == 2);
     CHECK(counts[25] == 1);

@@ -28,8 +28,8 @@ Rgb color_at(const PixelPlace& place) {
 /// Looks at the two surfaces; nothing is to be traced here.
 class TwoSurfaces final : public PixelCaster {
   public:
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int) override {
+    void probe(std::span<const PixelPlace> places, const ProbeOptions&,
+               std::span<PixelVisibility> visibility, int) override {
         for (std::size_t i = 0; i < places.size(); ++i) {
             visibility[i] = {};
             visibility[i].ray = true;
@@ -52,6 +52,7 @@ CloudFrame frame_of_grid(int step) {
     frame.distance.resize(frame.area.pixels());
     frame.known.resize(frame.area.pixels());
     frame.surfaces.resize(frame.area.pixels());
+    frame.patterns.resize(frame.area.pixels(), kNoPattern);
     for (int y = 0; y < kFillHeight; y += step) {
         for (int x = 0; x < kFillWidth; x += step) {
             const PixelPlace place{x, y};
@@ -113,6 +114,55 @@ TEST_CASE(
     (void)fill(apart, caster);
     CHECK(apart.known[table] == 0);
     CHECK(apart.radiance[table] == Rgb{});
+}
+
+TEST_CASE("surface fill: patterns are those of the pixels themselves, light that of others") {
+    // Boards of a wall in even light: neighbours lie on boards of other brightness.
+    const auto pattern_of = [](int x) { return x % 3 == 0 ? 0.5f : x % 3 == 1 ? 1.0f : 2.0f; };
+    constexpr float kLight = 8;
+    CloudFrame frame = frame_of_grid(4);
+    for (int y = 0; y < kFillHeight; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            const std::size_t at = frame.area.index({x, y});
+            frame.radiance[at] = Rgb{kLight, kLight / 2, 0} * pattern_of(x);
+            frame.patterns[at] = encode_pattern(pattern_of(x));
+        }
+    }
+    for (int x = 0; x < 32; ++x) {
+        PixelVisibility visibility;
+        visibility.ray = visibility.ahead.seen = true;
+        visibility.ahead.surface = kWall;
+        visibility.ahead.distance = 4;
+        visibility.ahead.pattern = pattern_of(x);
+        const std::optional<InferredPixel> pixel = infer_pixel(frame, {x, 9}, visibility);
+        REQUIRE(pixel);
+        CAPTURE(x);
+        CHECK(pixel->radiance.r == doctest::Approx(kLight * pattern_of(x)).epsilon(0.05));
+        CHECK(pixel->radiance.g == doctest::Approx(kLight / 2 * pattern_of(x)).epsilon(0.05));
+        CHECK(pixel->radiance.b == 0);
+    }
+}
+
+TEST_CASE("surface fill: where all that is known is black, nothing becomes bright") {
+    CloudFrame frame = frame_of_grid(4);
+    for (std::size_t i = 0; i < frame.patterns.size(); ++i) {
+        frame.radiance[i] = Rgb::grey(0.02f);  // a highlight on a black board
+        frame.patterns[i] = encode_pattern(0.0005f);
+    }
+    PixelVisibility visibility;
+    visibility.ray = visibility.ahead.seen = true;
+    visibility.ahead.surface = kWall;
+    visibility.ahead.distance = 4;
+    for (const float pattern : {0.0f, 0.0005f, 1.0f, 100.0f}) {
+        visibility.ahead.pattern = pattern;
+        const std::optional<InferredPixel> pixel = infer_pixel(frame, {9, 9}, visibility);
+        REQUIRE(pixel);
+        CHECK(pixel->radiance.g >= 0);
+        CHECK(pixel->radiance.g <= 0.08f);
+    }
+    std::fill(frame.patterns.begin(), frame.patterns.end(), encode_pattern(0));
+    visibility.ahead.pattern = 0;
+    CHECK(std::isfinite(infer_pixel(frame, {9, 9}, visibility)->radiance.g));
 }
 
 TEST_CASE("surface fill: pixels without a ray, and those that are known, stay as they are") {

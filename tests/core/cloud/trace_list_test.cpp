@@ -62,8 +62,15 @@ TEST_CASE("trace list: what was traced in time is shown and leaves points, the r
     frame.distance.resize(3);
     frame.causes.resize(3);
     frame.known = {0, 0, 1};
+    frame.origins.resize(3);
     frame.report.pixels = 3;
-    list.show(frame);
+    CloudFrame passing = frame;
+    TraceList(list).show(passing, true);
+    CHECK(passing.origins[0].kind == PixelOrigin::Kind::filled);
+    CHECK(passing.origins[1].kind == PixelOrigin::Kind::reused);
+    list.show(frame, false);
+    CHECK(frame.origins[1].kind == PixelOrigin::Kind::traced);
+    CHECK(frame.radiance == passing.radiance);
     CHECK(frame.radiance == std::vector<Rgb>{Rgb{}, Rgb::grey(2), Rgb::grey(2)});
     CHECK(frame.distance == std::vector<float>{0, 5, 5});
     CHECK(frame.known == std::vector<std::uint8_t>{0, 1, 1});
@@ -104,6 +111,6 @@ TEST_CASE("trace list: some audited pixels are traced twice, and tell how much t
     frame.distance.resize(400);
     frame.causes.resize(400);
     frame.known.resize(400);
-    list.show(frame);
+    list.show(frame, false);
     CHECK(frame.report.audit_floors == std::vector<float>(list.noise_pairs(), 0.5f));
 }

@@ -87,12 +87,12 @@ class WatchedCaster final : public PixelCaster {
     WatchedCaster(SceneCaster& caster, std::atomic<std::size_t>& looked,
                   std::vector<std::uint8_t>& seen)
         : caster_(caster), looked_(looked), seen_(seen) {}
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int worker) override {
+    void probe(std::span<const PixelPlace> places, const ProbeOptions& options,
+               std::span<PixelVisibility> visibility, int worker) override {
         looked_ += places.size();
         for (const PixelPlace& place : places)
             seen_[static_cast<std::size_t>(place.y * kWidth + place.x)] = 1;
-        caster_.probe(places, visibility, worker);
+        caster_.probe(places, options, visibility, worker);
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker) override {
@@ -389,7 +389,7 @@ TEST_CASE("cloud: of one traced pixel in sixteen a frame's edges and most of its
                          list.record(i, traced);
                      });
     }
-    region.show();
+    region.show(false);
     std::vector<Rgb> filled = region.frame().radiance;  // from whatever is around
     fill_gaps(kWidth, kHeight, filled, region.frame().known, SerialTaskRunner());
     region.infer(caster, *executor, room.stop, CloudRegion::Clock::time_point::max());

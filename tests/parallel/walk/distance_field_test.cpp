@@ -78,8 +78,8 @@ class FieldCaster final : public PixelCaster {
         return pixel;
     }
 
-    void probe(std::span<const PixelPlace> places, std::span<PixelVisibility> visibility,
-               int) override {
+    void probe(std::span<const PixelPlace> places, const ProbeOptions&,
+               std::span<PixelVisibility> visibility, int) override {
         for (std::size_t i = 0; i < places.size(); ++i) visibility[i] = cast(places[i]).visibility;
     }
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int,

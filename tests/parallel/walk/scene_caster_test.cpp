@@ -50,7 +50,7 @@ TEST_CASE("the check looks along the rays of the pixels, to the bit, in every ki
             const PixelRays rays(camera, nullptr, options.width, options.height, options.pixels,
                                  options.seed, options.step);
             SceneCaster caster(room.tracer, visibility, camera, options, contexts, stop);
-            caster.probe(places, seen, 0);
+            caster.probe(places, {}, seen, 0);
             for (std::size_t i = 0; i < places.size(); ++i) {
                 const PixelRay expected = rays(places[i].x, places[i].y);
                 REQUIRE(seen[i].ray == expected.ray.has_value());
@@ -71,4 +71,46 @@ TEST_CASE("the check looks along the rays of the pixels, to the bit, in every ki
         }
     }
     CHECK(outside > 0);
+}
+
+TEST_CASE("patterns are told of where they are asked for: of probed pixels, and of traced points") {
+    lightwalk::test::MemoryResources files;
+    files.functions["boards.cal"] = "board = if(Px - 3, .25, 2);\n";
+    TestScene room(R"(
+void brightfunc boards 2 board boards.cal 0 0
+boards plastic wood 0 0 5 .5 .5 .5 0 0
+void glow sky 0 0 4 1 1 1 0
+wood polygon wall 0 0 12  -90 40 -90  90 40 -90  90 40 90  -90 40 90
+)",
+                   TestScene::exact(), files);
+    const VisibilityProbe visibility(room.tracer);
+    const StopFlag stop;
+    WorkerContexts contexts(room.tracer, room.warnings, 1);
+    View ahead = view('v');
+    ahead.horizontal = ahead.vertical = 90;
+    FrameOptions options;
+    options.width = options.height = 16;
+    std::vector<PixelPlace> places;
+    for (const int u : {0, 8})
+        for (int y = 0; y < 8; ++y)
+            for (int x = u; x < u + 8; ++x) places.push_back({x, y});
+    SceneCaster caster(room.tracer, visibility, Camera(ahead), options, contexts, stop, true);
+    std::vector<PixelVisibility> seen(places.size());
+    std::vector<TracedPixel> traced(places.size());
+    caster.trace(places, traced, 0, 0);
+    std::size_t dark = 0;
+    for (const int spacing : {1, 2, 4}) {
+        caster.probe(places, {true, spacing}, seen, 0);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            REQUIRE(seen[i].ahead.seen);
+            const float pattern = seen[i].ahead.position.x > 3 ? 0.25f : 2.0f;
+            dark += pattern < 1 ? 1 : 0;
+            REQUIRE(seen[i].ahead.pattern == pattern);
+            REQUIRE(points_of(traced[i], 0.1).points[0].pattern == encode_pattern(pattern));
+        }
+        caster.probe(places, {false, spacing}, seen, 0);
+        CHECK(seen[0].ahead.pattern == 1);
+    }
+    CHECK(dark > 0);
+    CHECK(dark < 3 * places.size());
 }

@@ -34,6 +34,7 @@ CloudPoint some_point() {
     point.kind = PointKind::mirrored;
     point.age = 255;
     point.paired = true;
+    point.pattern = 3;
     return point;
 }
 
@@ -77,7 +78,7 @@ std::vector<Message> some_messages() {
             FinishedPart{PicturePart{work, std::string("\0\xff bytes", 8)}},
             FinishedPart{part},
             UncachedPixels{3, 1, {{1, 2}, {1, 2}}},
-            PointExchange{3, SharedPoints{{some_point(), {}}}},
+            PointExchange{3, SharedPoints{{some_point(), CloudPoint{}}}},
             PointExchange{3, UsedPixels{{{1, 2}, {3, 4}}, {{5, 6}}}},
             AmbientValues{{some_record(1), some_record(-1e-30F)}},
             Collective{Collective::Group::owners, 9, true, {"a", "", "ccc"}, {1, ~0ULL}},
@@ -122,12 +123,12 @@ TEST_CASE("an ambient record takes 65 bytes and arrives to the bit") {
     CHECK(record.level == expected.level);
 }
 
-TEST_CASE("a point takes 40 bytes and arrives to the bit, and its kind is checked") {
+TEST_CASE("a point takes 41 bytes and arrives to the bit, and its kind is checked") {
     std::string bytes = encode_message(PointExchange{9, SharedPoints{{some_point()}}});
-    CHECK(bytes.size() == 2 + 8 + 1 + 8 + 40);
+    CHECK(bytes.size() == 2 + 8 + 1 + 8 + 41);
     const auto got = std::get<PointExchange>(decode_message(bytes));
     CHECK(std::get<SharedPoints>(got.points).points.at(0) == some_point());
-    bytes[bytes.size() - 4] = static_cast<char>(kPointKinds);
+    bytes[bytes.size() - 5] = static_cast<char>(kPointKinds);
     CHECK_THROWS_AS((void)decode_message(bytes), InputError);
 }
 
