@@ -123,7 +123,8 @@ async function drive(page, address, move) {
     await page.goto(address);
     await settled(page);
     await page.focus("#picture");
-    await page.keyboard.press("x"); // the exposure stays as it is
+    // The exposure stays as it is: this key switches, and the server remembers what an earlier page wished.
+    if (await page.isChecked("#auto")) await page.keyboard.press("x");
     await settled(page);
     const line = await page.context().newCDPSession(page);
     await line.send("Performance.enable");
