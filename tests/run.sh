@@ -18,9 +18,9 @@ if [ -n "$browser" ]; then
 fi
 # shellcheck disable=SC2086  # a list of words
 sh apps/install_packages.sh qemu-user $browser
-if [ -n "$browser" ] && [ ! -d build/npm/node_modules/axe-core ]; then
+if [ -n "$browser" ] && [ ! -d build/npm/node_modules/jpeg-js ]; then
     mkdir -p build/npm
-    npm install --silent --no-audit --no-fund --prefix build/npm playwright-core@1 axe-core@4
+    npm install --silent --no-audit --no-fund --prefix build/npm playwright-core@1 axe-core@4 ws@8 jpeg-js@0.4
 fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"

@@ -53,8 +53,8 @@ export function make_counters(session, navigator, camera) {
             return session.driving;
         },
         get moving() {
-            return navigator.moving;
-        },
+            return navigator.moving || navigator.has_news;
+        }, ///< the eye moves, or a view of it waits to be sent
         get walking() {
             return navigator.walk;
         },

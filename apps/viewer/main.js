@@ -14,7 +14,7 @@ import { Overlay } from "./overlay.js";
 import { start_panels } from "./panels.js";
 import { PathPanel } from "./path_panel.js";
 import { Roles } from "./roles.js";
-import { picture_size, Screen } from "./screen.js";
+import { picture_size, scaled_into, Screen } from "./screen.js";
 import { Session } from "./session.js";
 import { show_phase, start_figures } from "./status.js";
 import { StickMark } from "./stick.js";
@@ -60,8 +60,8 @@ const session = new Session(session_id(), camera.available, screen, {
         glare.answer(message);
     },
     state: server_state,
-    view: ({ view }) => {
-        session.watch(view);
+    view: (message) => {
+        session.watch(message);
         redraw();
     },
     display: ({ display }) => {
@@ -219,8 +219,7 @@ function lost(reason, wait) {
 }
 
 function role_changed(driving) {
-    session.driving = driving;
-    if (!driving) session.shown = session.frame_view = null;
+    session.drive(driving);
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();
@@ -235,16 +234,16 @@ function server_state(message) {
 
 // Frames -----------------------------------------------------------------------------------------
 
-function drawn(frame, depth) {
+function drawn(frame, depth, told) {
     ++counters.frames;
     Object.assign(counters, {
         exposure: frame.exposure,
         at_rest: frame.at_rest,
         final: frame.final,
     });
-    const sent = session.drawn(frame);
+    const sent = session.drawn(frame, told);
     if (sent?.walk && sent.epoch === navigator.epoch) navigator.take_height(frame.eye);
-    camera.take(sent ? session.frame_view : null, depth);
+    camera.take(session.driving && !sent ? null : session.frame_view, depth);
     light.note_exposure(frame.exposure);
     if (awaiting_picture && session.connection.connected) {
         awaiting_picture = false;
@@ -279,13 +278,16 @@ function on_resize() {
     }, kResized);
 }
 
-/** Draw what the eye sees now, if the newest frame is not just that; whether the screen shows what was drawn. */
+/**
+ * Draw what the eye sees now, or in a page that watches what the driver's saw, if the newest frame is not just that; whether
+ * the screen shows what was drawn.
+ */
 function draw_camera() {
-    const size = size_now();
-    const driving = session.driving && navigator.view !== null;
-    const view = driving ? fit_view(navigator.view, size.width, size.height) : null;
-    if (camera.draw(view, size)) session.shown = view;
-    else if (session.driving) session.shown = session.frame_view;
+    const most = size_now();
+    const size = session.driving ? most : scaled_into(most, picture);
+    const own = session.driving && navigator.view;
+    const view = own ? fit_view(own, size.width, size.height) : session.seen;
+    session.shown = camera.draw(view, size) ? view : session.frame_view;
     return camera.draws;
 }
 
@@ -300,7 +302,8 @@ function send(step, now) {
     const view = navigator.ahead(now, ahead);
     const turn = turn_between(view, step.view) * Math.min(1, (apart + 0.3 * ahead) / ahead || 0);
     const factor = margin_for(step.view, turn);
-    return session.send_view({ ...step, view }, size_now(), navigator.epoch, factor);
+    const own = { ...step, view, seen: step.view };
+    return session.send_view(own, size_now(), navigator.epoch, factor);
 }
 
 let ticked = 0;

@@ -50,7 +50,7 @@ export class Measuring {
         if (!this.session_.connection.connected) return;
         const { shown, frame_view } = this.session_;
         // What is seen at x, y is so in the view on the screen, which may be another than the newest one.
-        const own = shown && shown !== frame_view && this.session_.driving ? { view: shown } : {};
+        const own = shown && shown !== frame_view ? { view: shown } : {};
         if (then) this.asked_.clear();
         this.asked_.set(this.session_.ask("pick", { x, y, ...own }), then ?? [x, y]);
     }

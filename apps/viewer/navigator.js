@@ -14,6 +14,7 @@ import { DragSpeed, view_ahead } from "./prediction.js";
 import { dot, length, normalize, subtract } from "./vector.js";
 import { same_place } from "./view.js";
 
+const kHeld = 150; // a drag without a step for so long is held still [ms]
 const kLongestTick = 0.1; // longer pauses of the page count as this, so that the eye does not leap [s]
 const kUndo = 50;
 const kFaster = 3,
@@ -29,6 +30,8 @@ export class Navigator {
         this.keys = new Set();
         this.modifier = "none"; ///< which modifier key is held: none, faster, slower
         this.dragging = false;
+        this.dragged_ = -Infinity; // time of the newest step of a drag [ms]
+        this.held_ = false; // the drag is held still
         this.lean_ = [0, 0];
         this.rates_ = [0, 0, 0, 0, 0];
         this.drag_ = new DragSpeed();
@@ -82,7 +85,7 @@ export class Navigator {
         this.stop_transition();
         this.view = looked(this.view, yaw, pitch);
         this.drag_.step(yaw, pitch, now);
-        this.touched_(now);
+        this.step_drag_(now);
     }
 
     /** Move the eye by a drag of two fingers: to the right and forward [m]. */
@@ -90,7 +93,7 @@ export class Navigator {
         if (!this.view) return;
         this.stop_transition();
         this.view = moved(this.view, [right, forward, 0], this.walk);
-        this.touched_(now);
+        this.step_drag_(now);
     }
 
     /** Take the wish of a stick: [right, forward], each -1 to 1. */
@@ -199,8 +202,8 @@ export class Navigator {
     tick(now) {
         if (!this.view) return null;
         this.advance(now);
+        if (!this.has_news) return null;
         const moving = this.moving;
-        if (!this.changed_ && moving === this.was_moving_) return null;
         const input = this.input_ ?? now;
         this.changed_ = false;
         this.was_moving_ = moving;
@@ -213,6 +216,7 @@ export class Navigator {
         if (!this.view) return;
         const dt = this.last_ === null ? 0 : Math.min((now - this.last_) / 1000, kLongestTick);
         this.last_ = now;
+        this.held_ = now - this.dragged_ > kHeld;
         this.advance_(now, dt);
     }
 
@@ -229,10 +233,15 @@ export class Navigator {
         return view_ahead(dragged, this.rates_, wish, seconds, this.pace_ * this.speed, this.walk);
     }
 
-    /** Whether the eye moves, so that more views will follow soon. */
+    /** Whether tick() has something to return. */
+    get has_news() {
+        return this.view !== null && (this.changed_ || this.moving !== this.was_moving_);
+    }
+
+    /** Whether the eye moves, so that more views will follow soon. A pointer that is held still moves nothing. */
     get moving() {
         const going = this.rates_.some((rate) => rate !== 0) || this.wish_.some((x) => x !== 0);
-        return this.dragging || going || this.way_ !== null;
+        return (this.dragging && !this.held_) || going || this.way_ !== null;
     }
 
     /** What keys and stick ask for; see wish_of(). */
@@ -267,6 +276,12 @@ export class Navigator {
         const at = (time) => between(from, view, (time - now) / duration);
         this.way_ = { at, end: now + duration, to: view };
         ++this.epoch;
+    }
+
+    step_drag_(now) {
+        this.dragged_ = now;
+        this.held_ = false;
+        this.touched_(now);
     }
 
     touched_(now) {

@@ -5,8 +5,8 @@ import { parse_frame } from "./frame.js";
 export class Screen {
     /**
      * @param canvas
-     * @param on  {drawn(frame, depth), skipped(frame), failed(error, frame)}: frame as parse_frame() returns it; depth as
-     *     decode_depth() does, undefined where it is as before; all three must acknowledge the frame to the server
+     * @param on  {drawn(frame, depth, told), skipped(frame), failed(error, frame)}: frame as parse_frame() returns it; depth as
+     *     decode_depth() does, undefined where it is as before; told as receive() took it; all three must acknowledge the frame
      */
     constructor(canvas, on) {
         this.canvas = canvas;
@@ -17,8 +17,11 @@ export class Screen {
         this.newest_complete_ = null;
     }
 
-    /** Take the bytes of a frame; it is drawn when it is decoded and the frames before it are drawn. */
-    receive(buffer) {
+    /**
+     * Take the bytes of a frame; it is drawn when it is decoded and the frames before it are drawn.
+     * @param told  what is known of it from elsewhere
+     */
+    receive(buffer, told) {
         let frame;
         try {
             frame = parse_frame(buffer);
@@ -28,7 +31,7 @@ export class Screen {
         if (frame.complete) this.newest_complete_ = frame;
         const decoded = this.decode_(frame);
         decoded.catch(() => {}); // reported when its turn to be drawn comes
-        this.queue_ = this.queue_.then(() => this.show_(frame, decoded));
+        this.queue_ = this.queue_.then(() => this.show_(frame, decoded, told));
     }
 
     /** Whether a later frame supersedes this one: only a frame that holds all pieces of the picture does. */
@@ -43,18 +46,18 @@ export class Screen {
         return Promise.all([Promise.all(frame.pieces.map(bitmap)), depth ?? undefined]);
     }
 
-    async show_(frame, decoded) {
+    async show_(frame, decoded, told) {
         try {
             const [bitmaps, depth] = await decoded;
             if (this.superseded_(frame)) this.on_.skipped(frame);
-            else this.draw_(frame, bitmaps, depth);
+            else this.draw_(frame, bitmaps, depth, told);
             for (const bitmap of bitmaps) bitmap.close();
         } catch (error) {
             this.on_.failed(error, frame);
         }
     }
 
-    draw_(frame, bitmaps, depth) {
+    draw_(frame, bitmaps, depth, told) {
         const { canvas } = this;
         // Setting a canvas's size clears it, so only when it changes.
         if (canvas.width !== frame.width || canvas.height !== frame.height) {
@@ -64,8 +67,15 @@ export class Screen {
         frame.pieces.forEach(({ x, y, width, height }, k) =>
             this.context_.drawImage(bitmaps[k], x, y, width, height),
         );
-        this.on_.drawn(frame, depth);
+        this.on_.drawn(frame, depth, told);
     }
+}
+
+/** The largest size of the same proportions that is not larger than `most` in width and height [pixels]. */
+export function scaled_into(most, { width, height }) {
+    const factor = Math.min(most.width / width, most.height / height);
+    const pixels = (size) => Math.max(1, Math.round(size * factor));
+    return { width: pixels(width), height: pixels(height) };
 }
 
 /** The picture's size [pixels] for a window: that of the window in device pixels, within the server's limits. */

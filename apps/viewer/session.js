@@ -22,6 +22,8 @@ export class Session {
         this.shown_id = 0;
         this.shown = null; ///< the view that the screen shows; null when it is not known
         this.frame_view = null; ///< the view of the newest frame; null when it is not known
+        this.seen = null; ///< for a page that watches: what the driver saw when the newest frame came; null when it is not known
+        this.told_ = null; // for a page that watches: the newest `view` message {view, seen}
         this.driving = false;
         this.request_ = 0;
         this.sent_ = new Map(); // what was sent as each view, by id: {view, walk, epoch}
@@ -33,7 +35,7 @@ export class Session {
                 on.connected();
             },
             message: (message) => on[message.type]?.(message),
-            frame: (buffer) => screen.receive(buffer),
+            frame: (buffer) => screen.receive(buffer, this.told_),
             lost: (reason, wait) => {
                 this.latency.forget();
                 on.lost(reason, wait);
@@ -54,17 +56,18 @@ export class Session {
 
     /**
      * Send a view.
-     * @param step  as Navigator.tick() gives it
+     * @param step  as Navigator.tick() gives it; seen: what the screen shows meanwhile, where that is another view
      * @param size  of the picture {width, height} [pixels]
      * @param epoch   see Navigator
      * @param factor  how much larger than the window's the picture's angles are; more than 1 for perspective views only
      */
-    send_view({ view, moving, walk, input }, { width, height }, epoch, factor = 1) {
+    send_view({ view, moving, walk, input, seen }, { width, height }, epoch, factor = 1) {
         const own = fit_view(view, width, height);
         const fitted = factor > 1 ? widened(own, factor) : own;
         const id = this.view_id + 1;
-        if (!this.send({ type: "view", id, view: fitted, width, height, moving, walk }))
-            return false;
+        const message = { type: "view", id, view: fitted, width, height, moving, walk };
+        if (seen) message.seen = fit_view(seen, width, height);
+        if (!this.send(message)) return false;
         this.view_id = id;
         this.view = fitted;
         this.sent_.set(id, { view: fitted, walk, epoch, at: performance.now() });
@@ -74,12 +77,13 @@ export class Session {
     }
 
     /**
-     * Acknowledge a frame that is on the screen.
+     * Acknowledge a frame that is on the picture.
+     * @param told  for a page that watches: the `view` message before the frame, null where none has come
      * @returns what was sent as the view that it shows: {view, walk, epoch}; nothing for a page that watches
      */
-    drawn(frame) {
+    drawn(frame, told) {
         this.send({ type: "ack", frame: frame.frame });
-        if (!this.driving) return null;
+        if (!this.driving) return this.watched_(told);
         const sent = this.sent_.get(frame.view_id);
         if (!sent) return null;
         if (this.shown_id !== frame.view_id) this.times.shown(sent.at, performance.now());
@@ -99,8 +103,27 @@ export class Session {
         this.send({ type: "ack", frame: frame.frame });
     }
 
-    /** For a page that watches: the view that the driver sees, from the server's `view` message. */
-    watch(view) {
-        if (!this.driving) this.shown = view;
+    /** For a page that watches: the server's `view` message tells the view of the frames that follow. */
+    watch({ view, seen }) {
+        this.told_ = { view, seen: seen ?? view };
+        // Who has just come may have got the frame before.
+        if (!this.driving && !this.frame_view) this.watched_(this.told_);
+    }
+
+    watched_(told) {
+        this.frame_view = this.shown = told?.view ?? null;
+        this.seen = told?.seen ?? null;
+        return null;
+    }
+
+    /** Who drives has changed. */
+    drive(driving) {
+        // Frames go on to show what the former driver saw until the server tells of another view.
+        if (this.driving && !driving) {
+            const view = this.frame_view;
+            this.told_ = view && { view, seen: view };
+        }
+        if (!driving) this.watched_(this.told_);
+        this.driving = driving;
     }
 }

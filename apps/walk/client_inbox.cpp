@@ -87,7 +87,7 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           [&](const ViewRequest& view) {
                               if (!drives) return;
                               wish.view = view;
-                              driver_lock_.remember(client, view.view);
+                              driver_lock_.remember(client, view.seen.value_or(view.view));
                           },
                           [&](const DisplayRequest& display) {
                               if (!drives) return;

@@ -161,8 +161,9 @@ void RenderLoop::show(Clock::time_point now) {
                          live_.picture().phase == WalkPhase::done};
     screen_.measure_depth(live_.picture(), *view_, eye_height_);
     screen_.show(live_.picture(), wish_.display, view, now);
-    if (told_ != view_) client_inbox_.tell_watchers(walk_text(ViewReply{*view_}));
-    told_ = view_;
+    const ViewReply told{*view_, wish_.view->seen};
+    if (told_ != told) client_inbox_.tell_watchers(walk_text(told));
+    told_ = told;
     shown_ = true;
     shown_at_ = now;
     ++pace_.frames;

@@ -81,10 +81,10 @@ class RenderLoop {
     double eye_height_;
 
     WalkWish wish_;
-    std::optional<View> view_;  ///< that is drawn
-    std::optional<View> told_;  ///< that watchers know
-    bool drawn_ = false;        ///< the picture is of view_, as wished
-    bool shown_ = false;        ///< as it is, with the display that is wished
+    std::optional<View> view_;       ///< that is drawn
+    std::optional<ViewReply> told_;  ///< what watchers know
+    bool drawn_ = false;             ///< the picture is of view_, as wished
+    bool shown_ = false;             ///< as it is, with the display that is wished
     Clock::time_point moved_, shown_at_, measured_at_;
     MovingSize moving_size_;
     double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late

@@ -172,7 +172,9 @@ std::string walk_text(const StateReply& reply) {
 }
 
 std::string walk_text(const ViewReply& reply) {
-    return text_of({{"type", "view"}, {"view", to_json(reply.view)}});
+    Json object{{"type", "view"}, {"view", to_json(reply.view)}};
+    if (reply.seen) object["seen"] = to_json(*reply.seen);
+    return text_of(object);
 }
 
 std::string walk_text(const DisplayReply& reply) {

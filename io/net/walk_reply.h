@@ -94,9 +94,11 @@ struct StateReply {
     int ranks = 1, threads = 1;
     std::uint64_t points = 0;
 };
-/// `view`, to watchers: what the driver sees.
+/// `view`, to watchers: the view of the frames that follow.
 struct ViewReply {
     View view;
+    std::optional<View> seen;  ///< what the driver's screen shows; nothing: `view`
+    friend bool operator==(const ViewReply&, const ViewReply&) = default;
 };
 struct DisplayReply {
     DisplayRequest display;

@@ -129,6 +129,7 @@ ViewRequest read_view_request(const Json& object, WalkSizeLimit limit) {
     request.height = window_side(object, "height");
     request.moving = truth(object, "moving");
     request.walk = truth(object, "walk");
+    if (object.contains("seen")) request.seen = read_view(object["seen"]);
     shrink(request, limit);
     return request;
 }

@@ -29,6 +29,7 @@ struct ViewRequest {
     int width = 0, height = 0;  ///< [pixels], within the limits of parse_walk_request
     bool moving = false;        ///< more views will follow soon
     bool walk = false;          ///< keep the eye at a constant height above the surface below it
+    std::optional<View> seen;   ///< what the page's screen shows meanwhile; nothing: `view`
 };
 /// `ack`: a frame has been drawn on the screen.
 struct AckRequest {

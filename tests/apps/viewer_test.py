@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""The page of `lightwalk walk`: its modules' own tests, and the page in a browser against the real server.
+"""The page of `lightwalk walk`: its modules' own tests, and the page in a browser.
 
     viewer_test.py modules
+    viewer_test.py fake NPM PICTURES
     viewer_test.py page PROGRAM NPM PICTURES
 
-NPM is a folder with node_modules/playwright-core; PICTURES gets a screenshot of each step. Exit status 77: what is
-needed is not there.
+fake: the page against a server that draws a room without a renderer, and misbehaves when it is told to. NPM is a folder with node_modules;
+PICTURES gets a screenshot of each step, or of those that fail. Exit status 77: what is needed is not there.
 """
 import pathlib, shutil, subprocess, sys, tempfile
 
@@ -19,9 +20,23 @@ def modules(node):
     return subprocess.run([node, "--test", *tests]).returncode
 
 
+def lacking(npm, *packages):
+    """Whether a browser or a package is not there, which is then said."""
+    lacks = [name for name in packages if not (pathlib.Path(npm) / "node_modules" / name).is_dir()]
+    lacks += [] if shutil.which("chromium") else ["chromium"]
+    if lacks:
+        print("skipped: no", ", no ".join(lacks), "(tests/run.sh installs what is needed)")
+    return bool(lacks)
+
+
+def fake(node, npm, pictures):
+    if lacking(npm, "playwright-core", "ws", "jpeg-js"):
+        return 77
+    return subprocess.run([node, VIEWER / "page_test.mjs", "--npm", npm, "--pictures", pictures]).returncode
+
+
 def page(node, program, npm, pictures):
-    if not shutil.which("chromium") or not (pathlib.Path(npm) / "node_modules/playwright-core").is_dir():
-        print("skipped: no chromium, or no playwright-core (tests/run.sh installs both)")
+    if lacking(npm, "playwright-core"):
         return 77
     with Server(program) as server:
         # The panel glows with 2 W/(m2 sr), and is the middle of the picture's right half.
@@ -45,4 +60,4 @@ if __name__ == "__main__":
     if not node:
         print("skipped: there is no Node.js")
         sys.exit(77)
-    sys.exit(modules(node) if sys.argv[1] == "modules" else page(node, *sys.argv[2:]))
+    sys.exit({"modules": modules, "fake": fake, "page": page}[sys.argv[1]](node, *sys.argv[2:]))

@@ -243,6 +243,7 @@ function next_frame(socket, client) {
     if (client.drawn !== wish.version) {
         client.drawn = wish.version;
         client.strip = 0;
+        if (driver !== client.id) tell(socket, { type: "view", view, seen: wish.seen });
         pieces = coarse_pieces(jpeg, view, wish, display);
         if (client.depth) pieces.push(depth_piece(view, wish));
         flags = 1;

@@ -63,6 +63,33 @@ test("the input that a view answers is the oldest since the one before", () => {
     assert.equal(tick().input, first + 20);
 });
 
+test("a drag that is held still rests, and goes on when the pointer moves again", () => {
+    const { navigator, tick, now } = standing();
+    navigator.dragging = true;
+    navigator.look(0.1, 0, now());
+    assert.ok(tick().moving);
+    const last = until_rest(() => tick(80)); // nothing is said until it rests
+    assert.deepEqual(last, []);
+    assert.equal(tick(80).moving, false);
+    assert.ok(!navigator.moving && navigator.dragging);
+    assert.equal(tick(500), null);
+    navigator.look(0.1, 0, now() + 16);
+    assert.ok(navigator.moving);
+    assert.ok(tick().moving);
+    navigator.shift(0, 1, now());
+    assert.ok(tick(100).moving);
+});
+
+test("what waits to be said is known", () => {
+    const { navigator, tick } = standing();
+    assert.ok(!navigator.has_news);
+    navigator.touch();
+    assert.ok(navigator.has_news);
+    tick();
+    assert.ok(!navigator.has_news);
+    assert.ok(!new Navigator().has_news);
+});
+
 test("a drag that is held is motion though nothing changes; its end is said once", () => {
     const { navigator, tick, now } = standing();
     navigator.dragging = true;

@@ -34,10 +34,10 @@ const { values: args } = parseArgs({
         pictures: { type: "string" },
         only: { type: "string", default: "" },
         chromium: { type: "string", default: "/usr/bin/chromium" },
-        port: { type: "string", default: "8097" },
+        port: { type: "string", default: "0" },
     },
 });
-const address = `http://127.0.0.1:${args.port}/`;
+const [server, address] = args.npm ? await start_server() : [];
 
 const prank = (name) => fetch(`${address}fake/${name}`);
 const steps = {
@@ -317,6 +317,48 @@ const steps = {
         assert.deepEqual(rest, fit_view(await value(page, "eye"), width, height));
     },
 
+    async "a drag that is held still comes to rest, and goes on with the pointer"(page) {
+        await page.mouse.move(400, 250);
+        await page.mouse.down();
+        await page.mouse.move(440, 250, { steps: 4 });
+        await until(page, () => window.lightwalk.moving);
+        await shown(page);
+        await until(page, () => window.lightwalk.at_rest && !window.lightwalk.camera_draws);
+        const { width, height } = kSize;
+        const rest = fit_view(await value(page, "eye"), width, height);
+        assert.deepEqual(await value(page, "view"), rest);
+        await page.mouse.move(480, 250, { steps: 4 });
+        await page.mouse.up();
+        await shown(page);
+        assert.ok(heading(await value(page, "view")) < heading(rest) - 1);
+    },
+
+    async "a watcher sees what the driver sees, also while frames are ahead of the eye"(page) {
+        const other = await page.context().browser().newPage({ viewport: kSize });
+        await other.goto(address);
+        await until(other, () => window.lightwalk?.frames > 0 && !window.lightwalk.driving);
+        await page.focus("#picture");
+        await page.keyboard.down("ArrowRight");
+        await until(other, () => window.lightwalk.camera_draws);
+        const { shown_view, frame_view } = await other.evaluate(() => ({ ...window.lightwalk }));
+        const { width, height } = kSize;
+        const eye = fit_view(await value(page, "eye"), width, height);
+        assert.ok(Math.abs(shown_view.horizontal - eye.horizontal) < 1e-9);
+        assert.ok(frame_view.horizontal > eye.horizontal);
+        assert.ok(heading(frame_view) > heading(shown_view));
+        await page.keyboard.up("ArrowRight");
+        await shown(page);
+        const rest = await value(page, "view");
+        await until(
+            other,
+            (v) => window.lightwalk.shown_view?.direction[0] === v,
+            rest.direction[0],
+        );
+        await until(other, () => !window.lightwalk.camera_draws);
+        assert.deepEqual(await value(other, "shown_view"), rest);
+        await other.close();
+    },
+
     async "a point is read where it is seen, also while the eye moves"(page) {
         await page.focus("#picture");
         await page.keyboard.down("ArrowLeft");
@@ -369,14 +411,13 @@ async function start_server() {
     const server = spawn(process.execPath, [program, "--npm", args.npm, "--port", args.port], {
         stdio: ["ignore", "pipe", "inherit"],
     });
-    await new Promise((resolve) => server.stdout.once("data", resolve));
-    return server;
+    const said = await new Promise((resolve) => server.stdout.once("data", resolve));
+    return [server, String(said).trim()];
 }
 
 async function run() {
     const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
     if (args.pictures) await mkdir(args.pictures, { recursive: true });
-    const server = await start_server();
     const browser = await chromium.launch({
         executablePath: args.chromium,
         args: ["--no-sandbox"],

@@ -117,6 +117,23 @@ TEST_CASE("render loop: a view that rests becomes the picture that is rendered o
     CHECK(saved.pixels == written.pixels);
 }
 
+TEST_CASE("render loop: watchers are told what the driver sees, where frames show more than that") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    std::string message = view_message(1, 0.25);
+    const std::string seen = R"("seen":{"type":"v","position":[0.5,0,0.5],"direction":[0,1,0],)"
+                             R"("up":[0,0,1],"horizontal":33,"vertical":25},)";
+    message.insert(1, seen);
+    walk.inbox.message(kDriver, message);
+    walk.rest();
+    CHECK(walk.clients.got(kWatcher, "view", "\"seen\""));
+    // Who comes back after a moment finds what was seen.
+    walk.inbox.closed(kDriver);
+    walk.inbox.message(kDriver,
+                       hello("0123456789abcde" + std::to_string(static_cast<int>(kDriver))));
+    CHECK(walk.clients.got(kDriver, "welcome", "\"horizontal\":33"));
+}
+
 TEST_CASE("render loop: before there is a picture questions and files are refused") {
     const LoadedScene scene(room());
     Walk walk(scene);

@@ -108,6 +108,20 @@ TEST_CASE("walk request: what may be missing may, what is not known is ignored")
     const View read_view = read<ViewRequest>(view).view;
     CHECK(read_view.fore == 0);
     CHECK(read_view.lift == 0);
+    CHECK_FALSE(read<ViewRequest>(view).seen);
+}
+
+TEST_CASE("walk request: what the page draws meanwhile is a view, as the one that it asks for") {
+    json message = sound(1);
+    message["seen"] = message["view"];
+    message["seen"]["horizontal"] = 50;
+    const auto request = read<ViewRequest>(message);
+    REQUIRE(request.seen);
+    CHECK(request.seen->horizontal == 50);
+    CHECK(request.view.horizontal == 60);
+    CHECK_FALSE(refusal(1, "/seen", nullptr).empty());
+    message["seen"]["horizontal"] = 0;
+    CHECK_THROWS_AS((void)parse_walk_request(message.dump()), InputError);
 }
 
 TEST_CASE("walk request: every other field that is missing or of another type is refused") {
