@@ -37,11 +37,13 @@ class SparseHits {
         std::uint32_t square;
         std::uint8_t x0, y0, x1, y1;
     };
-    using Square = std::array<std::int32_t, kSide * kSide>;  ///< rays by pixel; kNone: none
+    using Square =
+        std::array<std::int32_t, std::size_t{kSide} * kSide>;  ///< rays by pixel; kNone: none
     static constexpr std::int32_t kNone = -1;
 
     [[nodiscard]] std::int32_t& at(std::uint32_t square, int x, int y) {
-        return squares_[square][static_cast<std::size_t>(y * kSide + x)];
+        const auto row = static_cast<std::size_t>(y) * kSide;
+        return squares_[square][row + static_cast<std::size_t>(x)];
     }
     void begin_square(std::span<const PixelPlace> pixels, int spacing);
     void cast(const Geometry& geometry, std::span<const RaySegment> rays, std::span<Hit> hits);
