@@ -14,14 +14,49 @@ export const shown = (page) =>
 export const gone = (a, b) => Math.hypot(...a.position.map((x, k) => x - b.position[k]));
 export const heading = ({ direction: [x, y] }) => (Math.atan2(x, y) * 180) / Math.PI;
 
-/** Press a key for a while; how far the eye went [m]. */
+/** Press a key for a while, and until the view differs: a busy machine draws few refreshes. How far the eye went [m]. */
 export async function hold(page, key, ms = 400) {
     const before = await value(page, "view");
     await page.keyboard.down(key);
     await page.waitForTimeout(ms);
+    await until(
+        page,
+        ([x, y]) => {
+            const { position, direction } = window.lightwalk.view;
+            const apart = (a, b) => Math.hypot(...a.map((value, k) => value - b[k]));
+            return apart(position, x) > 0.25 || apart(direction, y) > 0.1;
+        },
+        [before.position, before.direction],
+    );
     await page.keyboard.up(key);
     await shown(page);
     return gone(before, await value(page, "view"));
+}
+
+/** How fast the eye goes at most while keys are held [m/s], by the refreshes' own clock. */
+export async function speed_of(page, keys) {
+    for (const key of keys) await page.keyboard.down(key);
+    const fastest = await page.evaluate(
+        () =>
+            new Promise((resolve) => {
+                const speeds = [];
+                let last = null;
+                const look = (time) => {
+                    const [x, y] = window.lightwalk.view.position;
+                    if (last && time > last.time)
+                        speeds.push(
+                            (1000 * Math.hypot(x - last.x, y - last.y)) / (time - last.time),
+                        );
+                    last = { time, x, y };
+                    if (speeds.length < 30) requestAnimationFrame(look);
+                    else resolve(Math.max(...speeds));
+                };
+                requestAnimationFrame(look);
+            }),
+    );
+    for (const key of keys.toReversed()) await page.keyboard.up(key);
+    await shown(page);
+    return fastest;
 }
 
 /** The text of the file that a click saves. */

@@ -63,8 +63,7 @@ export const place_steps = (address) => ({
         assert.ok(await page.isHidden("#reading"));
         for (const act of [() => page.keyboard.press("t"), () => page.click("#level")]) {
             await page.focus("#picture");
-            await page.keyboard.press("PageDown", { delay: 250 });
-            await shown(page);
+            await hold(page, "PageDown");
             assert.ok((await value(page, "view")).direction[2] < -0.05);
             await page.mouse.move(300, 300); // the dock has faded
             await act();
