@@ -13,7 +13,6 @@
 //   detail     correlation of the gradients of both pictures, mean: 1 where all edges and textures are there
 //   frames     a second; width: of the frames, share of what was asked for [%]; reused, inferred, guessed: as the server tells [%]
 //   Mbit/s     of messages from the server
-import { spawn, spawnSync } from "node:child_process";
 import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import os from "node:os";
@@ -21,7 +20,8 @@ import path from "node:path";
 import { parseArgs } from "node:util";
 import { parse_frame } from "../apps/viewer/frame.js";
 import { fit_view } from "../apps/viewer/view.js";
-import { parse_views, view_line } from "../apps/viewer/view_text.js";
+import { parse_views } from "../apps/viewer/view_text.js";
+import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -40,29 +40,15 @@ const { values: args } = parseArgs({
     },
 });
 const kDegrees = 40; // a second
+const kSession = "0123456789abcdef";
 const kPace = 0.8; // eye heights a second
 const kBegin = 1; // after which frames are judged [s]
-const kOff = 0.1 * 255;
 const [width, height] = args.size.split("x").map(Number);
-const words = args.words.split(" ");
-const options = args.options.split(" ");
-const environment = { ...process.env, RAYPATH: ".:../lib" };
+const scene = scene_of(args);
 const load = createRequire(path.resolve(args.npm, "none.js"));
 const WebSocket = load("ws");
 
 const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-
-function start_server(program) {
-    const server = spawn(
-        program,
-        ["walk", "--port", "0", "--quiet", "-vf", args.view, ...options, ...words],
-        { cwd: args.folder, env: environment, stdio: ["ignore", "pipe", "inherit"] },
-    );
-    return new Promise((resolve, reject) => {
-        server.stdout.once("data", (text) => resolve([server, new URL(String(text).trim())]));
-        server.once("exit", () => reject(new Error("the server does not start")));
-    });
-}
 
 /** The view after `t` seconds of a move: about the z axis, and forward and back, two seconds each. */
 function moved(view, move, t, eye_height) {
@@ -89,7 +75,7 @@ class Client {
         this.views = new Map();
         this.bytes = this.id = 0;
         this.socket.on("open", () =>
-            this.say({ type: "hello", session: "0123456789abcdef", depth: true }),
+            this.say({ type: "hello", session: kSession, depth: true, luminance: true }),
         );
         this.loaded = new Promise((resolve) => (this.on_loaded = resolve));
         this.socket.on("message", (data, binary) => this.take(data, binary));
@@ -120,7 +106,7 @@ class Client {
 
 /** Drive a walk; returns the frames to be judged and what was counted. */
 async function drive(program, move) {
-    const [server, address] = await start_server(program);
+    const [server, address] = await start_server(program, scene);
     try {
         const client = new Client(address);
         const { eye_height } = await client.loaded;
@@ -162,82 +148,6 @@ function chosen({ frames }, begin) {
     return Array.from({ length: count }, (_, k) => whole[Math.floor((k * whole.length) / count)]);
 }
 
-/** The true picture of a view, as a data URL. */
-async function rendered(program, view, exposure, folder, seed = 0) {
-    const file = path.join(folder, "true");
-    await writeFile(`${file}.vf`, `${view_line(view)}\n`);
-    const size = ["-x", String(width), "-y", String(height), "-ps", "1", "-pa", "0"];
-    const made = spawnSync(
-        program,
-        [
-            "render",
-            "--quiet",
-            "-vf",
-            `${file}.vf`,
-            ...size,
-            ...options,
-            "--seed",
-            String(seed),
-            "--exposure",
-            String(Math.log2(exposure)),
-            "-o",
-            `${file}.png`,
-            ...words,
-        ],
-        { cwd: args.folder, env: environment },
-    );
-    if (made.status !== 0) throw new Error(String(made.stderr));
-    return `data:image/png;base64,${(await readFile(`${file}.png`)).toString("base64")}`;
-}
-
-/** In a page: how far a frame, given by its pieces, is from the truth; and its picture. */
-async function compare({ pieces, size, truth, most }) {
-    const canvas = (width, height) => {
-        const made = new OffscreenCanvas(width, height);
-        return [made, made.getContext("2d")];
-    };
-    const bitmap = async (url) => createImageBitmap(await (await fetch(url)).blob());
-    const [frame, draw] = canvas(...size);
-    for (const { url, x, y } of pieces) draw.drawImage(await bitmap(url), x, y);
-    const right = await bitmap(truth);
-    const pixels = (image) => {
-        const [made, context] = canvas(right.width, right.height);
-        context.drawImage(image, 0, 0, right.width, right.height);
-        return [made, context.getImageData(0, 0, right.width, right.height).data];
-    };
-    const [shown, a] = pixels(frame);
-    const [, b] = pixels(right);
-    let [squares, off] = [0, 0];
-    for (let k = 0; k < a.length; k += 4) {
-        let worst = 0;
-        for (let c = 0; c < 3; ++c) {
-            const apart = Math.abs(a[k + c] - b[k + c]);
-            squares += apart * apart;
-            worst = Math.max(worst, apart);
-        }
-        if (worst > most) ++off;
-    }
-    let [both, of_a, of_b] = [0, 0, 0];
-    for (const next of [4, 4 * right.width])
-        for (let k = 1; k + next < a.length; k += 4) {
-            const [p, q] = [a[k + next] - a[k], b[k + next] - b[k]];
-            both += p * q;
-            of_a += p * p;
-            of_b += q * q;
-        }
-    const blob = await shown.convertToBlob({ type: "image/png" });
-    return {
-        psnr: 10 * Math.log10((255 * 255) / (squares / (0.75 * a.length))),
-        off: (400 * off) / a.length,
-        detail: both / Math.sqrt(of_a * of_b),
-        picture: btoa(
-            Array.from(new Uint8Array(await blob.arrayBuffer()), (c) =>
-                String.fromCharCode(c),
-            ).join(""),
-        ),
-    };
-}
-
 async function measure(program, kind, move, folder) {
     const { client, begin, seconds } = await drive(program, move);
     const browser = await load("playwright-core").chromium.launch({
@@ -245,14 +155,11 @@ async function measure(program, kind, move, folder) {
         args: ["--no-sandbox"],
     });
     const page = await browser.newPage();
+    const rendered = renderer(program, scene, [width, height], folder);
     const found = [];
     for (const [k, frame] of chosen(client, begin).entries()) {
-        const truth = await rendered(
-            program,
-            client.views.get(frame.view_id),
-            frame.exposure,
-            folder,
-        );
+        const view = client.views.get(frame.view_id);
+        const truth = await rendered(view, frame.exposure);
         const pieces = frame.pieces.map(({ x, y, type, bytes }) => ({
             x,
             y,
@@ -264,13 +171,7 @@ async function measure(program, kind, move, folder) {
             truth,
             most: kOff,
         });
-        const other = await rendered(
-            program,
-            client.views.get(frame.view_id),
-            frame.exposure,
-            folder,
-            1,
-        );
+        const other = await rendered(view, frame.exposure, 1);
         const whole = [{ x: 0, y: 0, url: other }];
         const floor = await page.evaluate(compare, {
             pieces: whole,
@@ -309,15 +210,9 @@ async function measure(program, kind, move, folder) {
 
 const folder = await mkdtemp(path.join(os.tmpdir(), "frame-truth-"));
 if (args.pictures) await mkdir(args.pictures, { recursive: true });
-let titled = false;
+let first = true;
 for (const move of args.moves.split(","))
     for (const [k, program] of args.programs.split(",").entries()) {
-        const row = await measure(path.resolve(program), String(k), move, folder);
-        if (!titled) console.log(Object.keys(row).join("\t"));
-        titled = true;
-        console.log(
-            Object.values(row)
-                .map((x) => (typeof x === "number" ? x.toPrecision(3) : x))
-                .join("\t"),
-        );
+        print_row(await measure(path.resolve(program), String(k), move, folder), first);
+        first = false;
     }

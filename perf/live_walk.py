@@ -82,7 +82,8 @@ class Client:
         self.ident = 0
         self.forget()
         self.loaded = None
-        self.socket.send({"type": "hello", "session": "0123456789abcdef", "depth": not plain})
+        self.socket.send({"type": "hello", "session": "0123456789abcdef", "depth": not plain,
+                          "luminance": True})
 
     def look(self, view, moving=True):
         self.ident += 1

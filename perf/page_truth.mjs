@@ -10,17 +10,16 @@
 //
 //   psnr       of the copies against the rendered pictures, mean and least [dB]
 //   off        pixels of which a channel is off by more than a tenth of white: mean and most [%]
+//   detail     correlation of the gradients of both pictures, mean
 //   refreshes  a second; input: from a key to the refresh that answers it, median and 95 % [ms]; script: the page's own time a refresh [ms]
 //   frames     a second; Mbit/s: of messages from the server
-import { spawn, spawnSync } from "node:child_process";
-import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
+import { mkdir, mkdtemp, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import net from "node:net";
 import os from "node:os";
 import path from "node:path";
 import { parseArgs } from "node:util";
-import { fit_view } from "../apps/viewer/view.js";
-import { view_line } from "../apps/viewer/view_text.js";
+import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -42,26 +41,9 @@ const { values: args } = parseArgs({
 });
 const kMoves = { turn: ["ArrowRight"], walk: ["w"], both: ["w", "ArrowRight"], aside: ["d"] };
 const kBegin = 500; // after which copies are made: the motion is at full speed [ms]
-const kOff = 0.1 * 255;
 const [width, height] = args.size.split("x").map(Number);
 const program = path.resolve(args.program);
-const scene_words = args.words.split(" ");
-const options = args.options.split(" ");
-const environment = { ...process.env, RAYPATH: ".:../lib" };
-
-/** Start the server; returns its process and its address. */
-function start_server() {
-    const words = ["walk", "--port", "0", "--quiet", "-vf", args.view, ...options, ...scene_words];
-    const server = spawn(program, words, {
-        cwd: args.folder,
-        env: environment,
-        stdio: ["ignore", "pipe", "inherit"],
-    });
-    return new Promise((resolve, reject) => {
-        server.stdout.once("data", (text) => resolve([server, new URL(String(text).trim())]));
-        server.once("exit", () => reject(new Error("the server does not start")));
-    });
-}
+const scene = scene_of(args);
 
 /** A port of this machine at which the server is half a round trip away. */
 function delayed(port, ms) {
@@ -175,55 +157,6 @@ async function drive(page, address, move) {
     };
 }
 
-/** The true picture of a view, as a data URL. */
-async function rendered(view, exposure, folder) {
-    const file = path.join(folder, "true");
-    await writeFile(`${file}.vf`, `${view_line(fit_view(view, width, height))}\n`);
-    const size = ["-x", String(width), "-y", String(height), "-ps", "1", "-pa", "0"];
-    const words = [
-        "render",
-        "--quiet",
-        "-vf",
-        `${file}.vf`,
-        ...size,
-        ...options,
-        "--exposure",
-        String(Math.log2(exposure)),
-    ];
-    const made = spawnSync(program, [...words, "-o", `${file}.png`, ...scene_words], {
-        cwd: args.folder,
-        env: environment,
-    });
-    if (made.status !== 0) throw new Error(String(made.stderr));
-    return `data:image/png;base64,${(await readFile(`${file}.png`)).toString("base64")}`;
-}
-
-/** In a page: how far two pictures are apart, and one of both and their difference. */
-async function compare({ shown, truth, most }) {
-    const pixels = async (url) => {
-        const bitmap = await createImageBitmap(await (await fetch(url)).blob());
-        const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-        canvas.getContext("2d").drawImage(bitmap, 0, 0);
-        return canvas.getContext("2d").getImageData(0, 0, bitmap.width, bitmap.height).data;
-    };
-    const [a, b] = [await pixels(shown), await pixels(truth)];
-    let squares = 0,
-        off = 0;
-    for (let k = 0; k < a.length; k += 4) {
-        let worst = 0;
-        for (let c = 0; c < 3; ++c) {
-            const apart = Math.abs(a[k + c] - b[k + c]);
-            squares += apart * apart;
-            worst = Math.max(worst, apart);
-        }
-        if (worst > most) ++off;
-    }
-    return {
-        psnr: 10 * Math.log10((255 * 255) / (squares / (0.75 * a.length))),
-        off: (400 * off) / a.length,
-    };
-}
-
 async function measure(browser, address, kind, move, delay, folder) {
     const context = await browser.newContext({ viewport: { width, height } });
     const page = await context.newPage();
@@ -234,10 +167,13 @@ async function measure(browser, address, kind, move, delay, folder) {
     );
     await context.close();
     const judge = await browser.newPage();
+    const rendered = renderer(program, scene, [width, height], folder);
     const found = [];
     for (const [k, { url, view }] of copies.entries()) {
-        const truth = await rendered(view, exposure, folder);
-        found.push(await judge.evaluate(compare, { shown: url, truth, most: kOff }));
+        const truth = await rendered(view, exposure);
+        const pieces = [{ url, x: 0, y: 0 }];
+        const sizes = { size: [width, height], most: kOff };
+        found.push(await judge.evaluate(compare, { pieces, truth, ...sizes }));
         if (!args.pictures) continue;
         const name = path.join(args.pictures, `${move}-${delay}-${k}`);
         await writeFile(`${name}-${kind}.png`, Buffer.from(url.split(",")[1], "base64"));
@@ -253,6 +189,7 @@ async function measure(browser, address, kind, move, delay, folder) {
         least: Math.min(...found.map(({ psnr }) => psnr)),
         off: mean("off"),
         most: Math.max(...found.map(({ off }) => off)),
+        detail: mean("detail"),
         ...figures,
     };
 }
@@ -260,7 +197,7 @@ async function measure(browser, address, kind, move, delay, folder) {
 const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
 const folder = await mkdtemp(path.join(os.tmpdir(), "page-truth-"));
 if (args.pictures) await mkdir(args.pictures, { recursive: true });
-const [server, url] = await start_server();
+const [server, url] = await start_server(program, scene);
 const browser = await chromium.launch({
     executablePath: args.chromium,
     args: [
@@ -271,7 +208,7 @@ const browser = await chromium.launch({
     ],
 });
 try {
-    let titled = false;
+    let first = true;
     for (const delay of args.delay.split(",").map(Number)) {
         const proxy = await delayed(Number(url.port), delay);
         for (const move of args.moves.split(","))
@@ -284,13 +221,8 @@ try {
                     delay,
                     folder,
                 );
-                if (!titled) console.log(Object.keys(row).join("\t"));
-                titled = true;
-                console.log(
-                    Object.values(row)
-                        .map((x) => (typeof x === "number" ? x.toPrecision(3) : x))
-                        .join("\t"),
-                );
+                print_row(row, first);
+                first = false;
             }
         proxy.close();
     }

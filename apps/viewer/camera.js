@@ -46,6 +46,14 @@ export class Camera {
         if (this.draws) this.keep_();
     }
 
+    /** The picture has other colours than when its frame came. */
+    recoloured() {
+        if (!this.available || this.view_ === null) return;
+        this.again_ = true;
+        this.kept_ = false;
+        if (this.draws) this.keep_();
+    }
+
     keep_() {
         this.kept_ = true;
         const frame = { picture: this.picture_, depth: this.depth_, view: this.view_ };

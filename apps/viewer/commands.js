@@ -7,6 +7,7 @@ import { toggle_full_screen } from "./full_screen.js";
 import { notice } from "./notices.js";
 import { close_panel, toggle_help, toggle_panel, toggle_status } from "./panels.js";
 import { download, download_text, file_name, full_picture, picture_blob } from "./save.js";
+import { film_command } from "./path.js";
 import { listen_for_shortcuts } from "./shortcuts.js";
 import { measurement_table } from "./table.js";
 import { parse_views, path_text, view_line } from "./view_text.js";
@@ -166,7 +167,9 @@ class Commands {
     }
 
     write_path() {
-        download_text(path_text(this.path.keys), this.name_("path.vf"));
+        const name = this.name_("path.vf");
+        download_text(path_text(this.path.keys), name);
+        this.path.tell_film(film_command(name, this.scene()));
     }
 
     write_table() {

@@ -1,12 +1,12 @@
 // A frame as the server sends it, little-endian:
 //  0 "LWF1"; 4 u32 frame; 8 u32 id of the newest view it shows; 12 u16 width; 14 u16 height;
-// 16 u8 flags; 17 u8 0; 18 u16 pieces; 20 f32 exposure; 24 f64 x3 eye position [m];
+// 16 u8 flags; 17 u8 number of the display; 18 u16 pieces; 20 f32 exposure; 24 f64 x3 eye position [m];
 // 48 pieces, each: u16 x, y (from the top left), width, height; u8 codec; u8 x3 0; u32 bytes; bytes.
 
 const kMagic = 0x3146574c; // "LWF1"
 const kHeader = 48;
 const kPieceHeader = 16;
-const kTypes = { 1: "image/jpeg", 2: "image/png", 3: "depth" };
+const kTypes = { 1: "image/jpeg", 2: "image/png", 3: "depth", 4: "luminance" };
 
 /** The piece at byte offset `at`: its place in the picture, its media type and its bytes. */
 function parse_piece(data, at) {
@@ -27,16 +27,17 @@ function parse_piece(data, at) {
 
 /** Add a piece to a frame. */
 function take_piece(result, piece) {
-    if (piece.type !== "depth") return result.pieces.push(piece);
-    if (result.depth || piece.width !== result.width || piece.height !== result.height)
-        throw new Error("frame: its depth is not of its size");
-    result.depth = piece;
+    const { type } = piece;
+    if (type !== "depth" && type !== "luminance") return result.pieces.push(piece);
+    if (result[type] || piece.width !== result.width || piece.height !== result.height)
+        throw new Error(`frame: its ${type} is not of its size`);
+    result[type] = piece;
 }
 
 /**
  * A frame's header and pieces; bytes are views into the buffer.
- * @returns {{frame, view_id, width, height, complete, at_rest, final, exposure, eye, pieces, depth}}
- * depth: the piece with the depth of the pixels, null where there is none; complete: the message holds all pieces of the picture; at_rest: the eye stands still; final: nothing will be refined
+ * @returns {{frame, view_id, width, height, complete, at_rest, final, display, exposure, eye, pieces, depth, luminance}}
+ * depth, luminance: the pieces with those of the pixels, null where there are none; display: number of the settings that its colours are after; complete: the message holds all pieces of the picture; at_rest: the eye stands still; final: nothing will be refined
  * any more. Throws Error for bytes that are no frame.
  */
 export function parse_frame(buffer) {
@@ -52,10 +53,12 @@ export function parse_frame(buffer) {
         complete: (flags & 1) !== 0,
         at_rest: (flags & 2) !== 0,
         final: (flags & 4) !== 0,
+        display: data.getUint8(17),
         exposure: data.getFloat32(20, true),
         eye: [24, 32, 40].map((at) => data.getFloat64(at, true)),
         pieces: [],
         depth: null,
+        luminance: null,
     };
     let at = kHeader;
     for (let k = data.getUint16(18, true); k > 0; --k) {

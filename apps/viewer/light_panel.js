@@ -28,7 +28,8 @@ export class LightPanel {
 
     /** Set the controls to the display and settings that the server has; nothing is sent. */
     take(display, settings) {
-        if (display) this.display = structuredClone({ ...default_display(), ...display });
+        const { mode, exposure, human, scale } = { ...default_display(), ...display };
+        if (display) this.display = structuredClone({ mode, exposure, human, scale });
         if (settings) this.settings = { ...settings };
         this.show_();
     }

@@ -11,7 +11,7 @@ import { Measuring } from "./measuring.js";
 import { Navigator } from "./navigator.js";
 import { cover, notice, show_failures, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
-import { start_panels } from "./panels.js";
+import { is_open, start_panels } from "./panels.js";
 import { PathPanel } from "./path_panel.js";
 import { Roles } from "./roles.js";
 import { picture_size, scaled_into, Screen } from "./screen.js";
@@ -20,6 +20,7 @@ import { show_phase, start_figures } from "./status.js";
 import { StickMark } from "./stick.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
 import { fit_view, same_picture } from "./view.js";
+import { UnderPointer } from "./under_pointer.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
 import { margin_for, turn_between } from "./warp.js";
@@ -36,6 +37,7 @@ let greeted = false; // whether a server has ever sent `welcome`
 let welcomed = false; // whether the server has sent `welcome` on this connection
 let awaiting_picture = true;
 let max_size = [4096, 4096];
+let display_number = 0; // of the newest settings of the display; frames that are after them have it, too
 
 const navigator = new Navigator();
 const screen = new Screen(picture, { drawn, skipped, failed });
@@ -64,8 +66,8 @@ const session = new Session(session_id(), camera.available, screen, {
         session.watch(message);
         redraw();
     },
-    display: ({ display }) => {
-        if (!session.driving) take_display(display);
+    display: (message) => {
+        if (!session.driving) take_display(message);
     },
     refused: ({ text }) => {
         counters.errors.push(text);
@@ -80,7 +82,9 @@ const { measurements, reading } = measuring;
 const glare = new Glare({ changed: redraw });
 const light = new LightPanel({
     display: (display) => {
-        session.send({ type: "display", ...display });
+        display_number = (display_number + 1) & 255;
+        tell_display();
+        if (screen.want(display_number, display)) camera.recoloured();
         show_legend(display);
     },
     settings: (settings) => session.send({ type: "settings", ...settings }),
@@ -128,6 +132,13 @@ new Input(picture, navigator, new StickMark(by_id("stick")), {
     speed: (speed) => notice(`${quantity(speed)} m/s`),
 });
 
+const under = new UnderPointer(picture, {
+    wanted: () =>
+        reading.pick === null &&
+        (light.display.mode === "false" || is_open("light") || is_open("measure")),
+    luminance: () => (camera.draws || awaiting_picture ? null : screen.luminance),
+});
+
 /** The picture's size for this window [pixels]. */
 const size_now = () => picture_size(innerWidth, innerHeight, devicePixelRatio, max_size);
 
@@ -141,6 +152,7 @@ function redraw() {
         sources: glare.sources,
     });
     reading.follow(session.shown);
+    under.show();
 }
 
 // Messages from the server -----------------------------------------------------------------------
@@ -175,13 +187,18 @@ function open_scene(name) {
 
 function take_display(display, settings) {
     light.take(display, settings);
+    display_number = display?.number ?? 0;
+    if (screen.want(display_number, light.display)) camera.recoloured();
     show_legend(light.display);
 }
+
+const tell_display = () =>
+    session.send({ ...light.display, type: "display", number: display_number });
 
 /** After a new connection: send the server what the page knows. */
 function say_all() {
     if (!session.driving) return;
-    session.send({ type: "display", ...light.display });
+    tell_display();
     session.send({ type: "settings", ...light.settings });
     measuring.tell_probes();
     navigator.touch();

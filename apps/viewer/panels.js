@@ -8,6 +8,9 @@ const kIdleMoving = 700; // the same time while the eye moves [ms]
 /** The element id of the panel that is open, or nothing. */
 let open = null;
 
+/** Whether a panel of that name is open. */
+export const is_open = (name) => open === name;
+
 const button_of = (name) => document.querySelector(`#dock [data-panel=${name}]`);
 
 /** Open a panel and close the one that is open. The id of the open panel, or nothing, only closes it. */

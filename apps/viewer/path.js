@@ -25,6 +25,19 @@ export function path_problem(keys) {
     return keys.length > 0 ? null : "a path needs a view";
 }
 
+/** A file's name as a shell takes it. */
+function quoted(name) {
+    if (/^[\w./+:@%][\w./+:@%-]*$/.test(name)) return name;
+    return `'${name.replaceAll("'", "'\\''")}'`;
+}
+
+/** The command that makes a film of a path's file. */
+export function film_command(file, scene) {
+    const film = file.replace(/(\.path)?\.vf$/, ".mp4");
+    const named = [file, film, scene || "SCENE"].map(quoted);
+    return `lightwalk animate --path ${named[0]} -o ${named[1]} ${named[2]}`;
+}
+
 /**
  * The view at a time [s]: a cubic Hermite spline of all numbers of a view, whose slope at a key is that of the line between
  * its neighbours (Catmull & Rom, "A class of local interpolating splines", 1974, for keys at any times), as in

@@ -40,6 +40,14 @@ export class PathPanel {
         return this.keys.length;
     }
 
+    /** Say how the path that was saved becomes a film. */
+    tell_film(command) {
+        by_id("path-text").replaceChildren(
+            "A film of it, where ffmpeg is installed: ",
+            element("code", { textContent: command }),
+        );
+    }
+
     set_keys(keys) {
         this.pause();
         this.keys = keys;

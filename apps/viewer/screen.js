@@ -1,6 +1,7 @@
 // Draws frames: their pieces are decoded concurrently, and drawn in the order of frames.
 import { decode_depth } from "./depth.js";
 import { parse_frame } from "./frame.js";
+import { parse_luminance, Recolour } from "./recolour.js";
 
 export class Screen {
     /**
@@ -13,8 +14,19 @@ export class Screen {
         this.on_ = on;
         this.context_ = canvas.getContext("2d", { alpha: false });
         this.context_.imageSmoothingQuality = "high";
+        this.recolour_ = new Recolour(canvas, this.context_);
         this.queue_ = Promise.resolve();
         this.newest_complete_ = null;
+    }
+
+    /** See Recolour. */
+    want(number, display) {
+        return this.recolour_.want(number, display);
+    }
+
+    /** Luminance of what is on the picture, see tone.js; null where the server tells none. */
+    get luminance() {
+        return this.recolour_.luminance;
     }
 
     /**
@@ -43,14 +55,24 @@ export class Screen {
     decode_(frame) {
         const bitmap = ({ bytes, type }) => createImageBitmap(new Blob([bytes], { type }));
         const depth = frame.depth && decode_depth(frame.depth, frame.width, frame.height);
-        return Promise.all([Promise.all(frame.pieces.map(bitmap)), depth ?? undefined]);
+        const plane = frame.luminance && decode_luminance(frame.luminance, bitmap);
+        return Promise.all([
+            Promise.all(frame.pieces.map(bitmap)),
+            depth ?? undefined,
+            plane ?? undefined,
+        ]);
     }
 
     async show_(frame, decoded, told) {
         try {
-            const [bitmaps, depth] = await decoded;
-            if (this.superseded_(frame)) this.on_.skipped(frame);
-            else this.draw_(frame, bitmaps, depth, told);
+            const [bitmaps, depth, plane] = await decoded;
+            if (this.superseded_(frame)) {
+                plane?.bitmap.close();
+                this.on_.skipped(frame);
+            } else {
+                if (plane !== undefined) this.recolour_.take(plane);
+                this.draw_(frame, bitmaps, depth, told);
+            }
             for (const bitmap of bitmaps) bitmap.close();
         } catch (error) {
             this.on_.failed(error, frame);
@@ -58,17 +80,18 @@ export class Screen {
     }
 
     draw_(frame, bitmaps, depth, told) {
-        const { canvas } = this;
-        // Setting a canvas's size clears it, so only when it changes.
-        if (canvas.width !== frame.width || canvas.height !== frame.height) {
-            canvas.width = frame.width;
-            canvas.height = frame.height;
-        }
+        const context = this.recolour_.begin(frame);
         frame.pieces.forEach(({ x, y, width, height }, k) =>
-            this.context_.drawImage(bitmaps[k], x, y, width, height),
+            context.drawImage(bitmaps[k], x, y, width, height),
         );
+        this.recolour_.end();
         this.on_.drawn(frame, depth, told);
     }
+}
+
+async function decode_luminance(piece, bitmap) {
+    const plane = parse_luminance(piece);
+    return plane && { ...plane, bitmap: await bitmap({ bytes: plane.jpeg, type: "image/jpeg" }) };
 }
 
 /** The largest size of the same proportions that is not larger than `most` in width and height [pixels]. */

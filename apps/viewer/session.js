@@ -29,9 +29,8 @@ export class Session {
         this.sent_ = new Map(); // what was sent as each view, by id: {view, walk, epoch}
         this.connection = new Connection(socket_address(location.href), {
             open: () => {
-                this.send(
-                    depth ? { type: "hello", session: id, depth } : { type: "hello", session: id },
-                );
+                const hello = { type: "hello", session: id, luminance: true };
+                this.send(depth ? { ...hello, depth } : hello);
                 on.connected();
             },
             message: (message) => on[message.type]?.(message),

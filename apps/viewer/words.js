@@ -15,6 +15,14 @@ export function quantity(value) {
     return part ? `${apart}.${part}` : apart;
 }
 
+/** A quantity that is known to a few per cent only: two significant digits. */
+export const rough = (value) =>
+    Number.isFinite(value)
+        ? quantity(Number(value.toPrecision(2)))
+              .replace(/(\.\d*?)0+$/, "$1")
+              .replace(/\.$/, "")
+        : "–";
+
 /** A number that is round already, with all its digits: 0.05, 30, 1 000. */
 export function round_number(value) {
     if (Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-4)) return quantity(value);

@@ -160,6 +160,7 @@ void ClientInbox::greet(ClientId client, const HelloRequest& request) {
     announce_roles();
     inbox_.joined.push_back(client);
     if (request.depth) inbox_.want_depth.push_back(client);
+    if (request.luminance) inbox_.want_luminance.push_back(client);
 }
 
 void ClientInbox::change_roles(ClientId client, bool allowed, const std::string& why_not) {

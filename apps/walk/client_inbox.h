@@ -46,8 +46,8 @@ struct InboxContents {
     std::vector<WalkQuestion> questions;
     std::vector<WalkAck> acks;
     std::vector<ClientId> joined, left;
-    std::vector<ClientId> want_depth;  ///< of those who joined
-    std::vector<WebReply> saves;       ///< who waits for the picture as a file
+    std::vector<ClientId> want_depth, want_luminance;  ///< of those who joined
+    std::vector<WebReply> saves;                       ///< who waits for the picture as a file
 };
 
 /// Answers by itself who drives, and greets; everything else waits in the inbox.

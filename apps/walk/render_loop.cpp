@@ -88,7 +88,7 @@ RenderLoop::Size RenderLoop::size_now() const {
 void RenderLoop::answer(const InboxContents& inbox) {
     screen_.update_clients(inbox);
     if (!inbox.joined.empty()) told_.reset();
-    if (!inbox.want_depth.empty()) shown_ = false;
+    if (!inbox.want_depth.empty() || !inbox.want_luminance.empty()) shown_ = false;
     const Clock::time_point now = Clock::now();
     if (inbox.wish.display != wish_.display) {
         shown_ = false;

@@ -21,6 +21,7 @@ WalkScreen::WalkScreen(Executor& executor)
 void WalkScreen::update_clients(const InboxContents& news) {
     for (const ClientId client : news.joined) clients_.try_emplace(client);
     for (const ClientId client : news.want_depth) clients_[client].wants_depth = true;
+    for (const ClientId client : news.want_luminance) clients_[client].wants_luminance = true;
     for (const ClientId client : news.left) clients_.erase(client);
     acked(news.acks);
 }
@@ -41,38 +42,57 @@ void WalkScreen::cut(int width, int height) {
         for (int x = 0; x < width; x += kPieceWidth)
             pieces_.push_back(
                 {{x, y, std::min(x + kPieceWidth, width), std::min(y + kPieceHeight, height)}});
-    contents_.assign(pieces_.size() + 1, 0);
+    contents_.assign(pieces_.size() + 2, 0);
+    luminance_.begin(width, height);
 }
 
-std::size_t WalkScreen::want_depth() const {
+std::size_t WalkScreen::how_many(bool Client::*want) const {
     return static_cast<std::size_t>(
         std::count_if(clients_.begin(), clients_.end(),
-                      [](const auto& client) { return client.second.wants_depth; }));
+                      [want](const auto& client) { return client.second.*want; }));
+}
+
+std::vector<std::size_t> WalkScreen::missing(const Client& client) const {
+    std::vector<std::size_t> pieces = client.flow.missing(layout(), contents_);
+    const auto unwanted = [&](std::size_t i) {
+        return (i == depth_index() && !client.wants_depth) ||
+               (i == luminance_index() && !client.wants_luminance);
+    };
+    pieces.erase(std::remove_if(pieces.begin(), pieces.end(), unwanted), pieces.end());
+    return pieces;
 }
 
 void WalkScreen::measure_depth(const LivePicture& picture, const View& view, double eye_height) {
     // Not kept for who comes later: it would be that of an earlier picture.
-    if (want_depth() > 0)
+    if (how_many(&Client::wants_depth) > 0)
         depth_.keep(picture, view, eye_height, executor_);
     else
         depth_.forget();
 }
 
-void WalkScreen::show(const LivePicture& picture, const DisplaySettings& settings,
+void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
                       const ShownView& view, Time now) {
     if (picture.width != width_ || picture.height != height_) cut(picture.width, picture.height);
     const BrightnessHistogram brightness(picture.radiance, kLookedAt);
     eye_.look_at(brightness, std::chrono::duration<double>(now - last_look_).count());
     last_look_ = now;
-    const Display display(settings, eye_, brightness);
+    const Display display(request.settings, eye_, brightness);
     exposure_ = static_cast<float>(display.exposure());
+    display_ = request.number;
     view_ = view;
-    contents_.back() = depth_.content();
+    contents_[depth_index()] = depth_.content();
+    const bool measured = how_many(&Client::wants_luminance) > 0;
     const int quality = view.at_rest ? kProgressiveQuality : kMovingQuality;
     executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
         colour(pieces_[i], picture, display, quality);
         contents_[i] = pieces_[i].content;
+        if (measured) luminance_.measure(picture.radiance, pieces_[i].area);
     });
+    if (measured)
+        luminance_.finish(static_cast<float>(display.white()));
+    else
+        luminance_.forget();  // for who comes later it would be that of an earlier picture
+    contents_[luminance_index()] = luminance_.content();
 }
 
 /// A piece that shows the same as before need not be compressed, nor sent, again.
@@ -97,7 +117,7 @@ void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display&
 
 void WalkScreen::compress(std::span<const std::size_t> pieces) {
     executor_.for_each(pieces.size(), [&](std::size_t i, int worker) {
-        if (pieces[i] == pieces_.size()) return;  // the depth, which all workers compress
+        if (pieces[i] >= pieces_.size()) return;  // depth and luminance are by themselves
         Piece& piece = pieces_[pieces[i]];
         if (piece.compressed) return;
         const auto stride = 3 * static_cast<std::size_t>(width_);
@@ -129,13 +149,17 @@ std::shared_ptr<const std::string> WalkScreen::frame_of(std::span<const std::siz
     header.whole = whole;
     header.at_rest = view_.at_rest;
     header.finished = view_.finished;
+    header.display = display_;
     header.exposure = exposure_;
     header.eye = view_.eye;
     std::vector<WalkFramePiece> sent;
     for (const std::size_t i : pieces) {
-        if (i == pieces_.size()) {
+        if (i >= pieces_.size()) {
+            const bool depth = i == depth_index();
             sent.push_back(
-                {0, 0, header.width, header.height, PieceCodec::depth, depth_.bytes(executor_)});
+                {0, 0, header.width, header.height,
+                 depth ? PieceCodec::depth : PieceCodec::luminance,
+                 depth ? depth_.bytes(executor_) : luminance_.bytes(compressors_.front())});
             continue;
         }
         const Piece& piece = pieces_[i];
@@ -154,14 +178,14 @@ void WalkScreen::send(ClientInbox& client_inbox, Time now) {
     for (auto& [id, client] : clients_) {
         if (!client.flow.may_send(now) || !lacks(client)) continue;
         const std::vector<std::size_t> pieces = missing(client);
-        const bool whole = pieces.size() == contents(client).size();
+        const bool whole = pieces.size() == wanted(client);
         std::shared_ptr<const std::string>& frame = made[{whole, pieces}];
         if (!frame) {
             compress(pieces);
             frame = frame_of(pieces, whole);
         }
         client_inbox.send(id, frame);
-        client.flow.sent(frame_, layout(), contents(client), frame->size(), now);
+        client.flow.sent(frame_, layout(), contents_, frame->size(), now);
         client.shown = view_;
     }
 }

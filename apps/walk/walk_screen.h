@@ -12,6 +12,7 @@
 #include "apps/walk/depth_piece.h"
 #include "core/view/pixels.h"
 #include "io/net/frame_flow.h"
+#include "io/net/luminance_plane.h"
 #include "io/picture/display.h"
 #include "io/picture/jpeg.h"
 #include "parallel/executor.h"
@@ -43,13 +44,13 @@ class WalkScreen {
 
     /// Whether all clients draw the camera of the moment themselves, from how far away things are.
     [[nodiscard]] bool all_want_depth() const {
-        return !clients_.empty() && want_depth() == clients_.size();
+        return !clients_.empty() && how_many(&Client::wants_depth) == clients_.size();
     }
     /// Before show(): how far away what the picture shows is, for the pages that want to know.
     /// @param eye_height  see DepthPiece
     void measure_depth(const LivePicture& picture, const View& view, double eye_height);
     /// The newest picture, in its colours.
-    void show(const LivePicture& picture, const DisplaySettings& settings, const ShownView& view,
+    void show(const LivePicture& picture, const DisplayRequest& request, const ShownView& view,
               Time now);
     /// Compress what clients lack, and send it to all that are ready for a frame.
     void send(ClientInbox& client_inbox, Time now);
@@ -66,26 +67,26 @@ class WalkScreen {
     };
     struct Client {
         FrameFlow flow;
-        bool wants_depth = false;
+        bool wants_depth = false, wants_luminance = false;
         std::optional<ShownView> shown;  ///< nothing: no picture yet
     };
 
     void cut(int width, int height);
-    /// Number of the clients that do.
-    [[nodiscard]] std::size_t want_depth() const;
+    [[nodiscard]] std::size_t how_many(bool Client::*want) const;
     void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
     void compress(std::span<const std::size_t> pieces);
-    /// Of the pieces that a client wants: those of the picture, and the depth.
-    [[nodiscard]] std::span<const std::uint64_t> contents(const Client& client) const {
-        return std::span(contents_).first(pieces_.size() + (client.wants_depth ? 1 : 0));
+    // Beside the picture's pieces.
+    [[nodiscard]] std::size_t depth_index() const { return pieces_.size(); }
+    [[nodiscard]] std::size_t luminance_index() const { return pieces_.size() + 1; }
+    [[nodiscard]] std::size_t wanted(const Client& client) const {
+        return pieces_.size() + (client.wants_depth ? 1 : 0) + (client.wants_luminance ? 1 : 0);
     }
     /// How the picture is divided into pieces.
     [[nodiscard]] std::uint64_t layout() const {
         return static_cast<std::uint64_t>(width_) << 32U | static_cast<std::uint64_t>(height_);
     }
-    [[nodiscard]] std::vector<std::size_t> missing(const Client& client) const {
-        return client.flow.missing(layout(), contents(client));
-    }
+    /// The pieces that a client wants and lacks.
+    [[nodiscard]] std::vector<std::size_t> missing(const Client& client) const;
     [[nodiscard]] bool lacks(const Client& client) const {
         return client.shown != view_ || !missing(client).empty();
     }
@@ -98,12 +99,14 @@ class WalkScreen {
     int width_ = 0, height_ = 0;
     std::vector<Piece> pieces_;
     DepthPiece depth_;
-    std::vector<std::uint64_t> contents_{0};  ///< of the pieces, and of the depth
-    std::vector<std::uint8_t> bytes_;         ///< r, g, b of the picture
+    LuminancePlane luminance_;
+    std::vector<std::uint64_t> contents_;  ///< of the pieces, of the depth, of the luminance
+    std::vector<std::uint8_t> bytes_;      ///< r, g, b of the picture
     ShownView view_;
     Adaptation eye_;
     Time last_look_{};
     float exposure_ = 1;
+    std::uint8_t display_ = 0;  ///< number of the settings that the colours are after
     std::uint32_t frame_ = 0;
 };
 

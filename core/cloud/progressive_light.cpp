@@ -8,6 +8,11 @@ namespace {
 
 // Choosing them takes a pass over the picture.
 constexpr std::size_t kMostPixels = 65536;
+// Of a finer grid single pixels are shown only where it does not show that others are not: a wall
+// with dots on it looks worse than a wall that waits [pixels].
+constexpr int kUnseen = 2;
+constexpr float kApart = 0.05f;      // of a distance: more is another surface
+constexpr float kFarWeight = 0.01f;  // of its light; not 0, lest there be none at all
 
 }  // namespace
 
@@ -51,16 +56,21 @@ int ProgressiveLight::whole_grid() const {
     return spacing;
 }
 
-/// What the grid's pixels around have won, weighted as near as they are.
+/// What the grid's pixels around have won, weighted as near as they are, in the picture and in the
+/// room: the light of what is far behind an edge says little.
 Rgb ProgressiveLight::difference(int x, int y, int spacing) const {
     Rgb sum;
     float weights = 0;
+    const float here = work_.distance()[at(x, y)];
     const int left = x - x % spacing, below = y - y % spacing;
     for (const int gy : {below, below + spacing}) {
         for (const int gx : {left, left + spacing}) {
             if (gx >= width_ || gy >= height_) continue;
-            const auto weight =
+            const auto near =
                 static_cast<float>((spacing - std::abs(gx - x)) * (spacing - std::abs(gy - y)));
+            const float there = work_.distance()[at(gx, gy)];
+            const bool apart = std::abs(here - there) > kApart * std::min(here, there);
+            const float weight = apart ? kFarWeight * near : near;
             sum += weight * (work_.radiance()[at(gx, gy)] - before_[at(gx, gy)]);
             weights += weight;
         }
@@ -69,14 +79,16 @@ Rgb ProgressiveLight::difference(int x, int y, int spacing) const {
 }
 
 std::vector<Rgb> ProgressiveLight::picture() const {
-    std::vector<Rgb> shown(work_.radiance().begin(), work_.radiance().end());
     const int spacing = whole_grid();
-    if (spacing <= 1) return shown;
+    if (spacing == 0) return before_;
+    std::vector<Rgb> shown(work_.radiance().begin(), work_.radiance().end());
+    if (spacing == 1) return shown;
     for (int y = 0; y < height_; ++y) {
         for (int x = 0; x < width_; ++x) {
-            if (is_traced(x, y)) continue;
+            const bool of_grid = x % spacing == 0 && y % spacing == 0;
+            if (of_grid || (spacing <= kUnseen && is_traced(x, y))) continue;
             Rgb& pixel = shown[at(x, y)];
-            pixel += difference(x, y, spacing);
+            pixel = before_[at(x, y)] + difference(x, y, spacing);
             // A brighter neighbour's loss may be more than this one has.
             pixel = {std::max(pixel.r, 0.0f), std::max(pixel.g, 0.0f), std::max(pixel.b, 0.0f)};
         }

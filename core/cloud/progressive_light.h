@@ -24,8 +24,9 @@ std::vector<Value> turned_rows(std::span<const Value> rows, int width) {
     return result;
 }
 
-/// A picture that starts as one tracer drew it, and ends as another one draws it. Meanwhile pixels
-/// that are not traced yet get what the difference is around them.
+/// A picture that starts as one tracer drew it, and ends as another one draws it. Meanwhile it
+/// shows the finest grid that is traced as a whole; the other pixels get what the difference is
+/// around them.
 class ProgressiveLight {
   public:
     /// Traces pixels; nothing for those that there was no time for.

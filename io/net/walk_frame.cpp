@@ -22,7 +22,7 @@ void append_header(std::string& out, const WalkFrameHeader& header, std::size_t 
     append(out, header.height, 2);
     append(out, (header.whole ? 1u : 0u) | (header.at_rest ? 2u : 0u) | (header.finished ? 4u : 0u),
            1);
-    append(out, 0, 1);
+    append(out, header.display, 1);
     append(out, pieces, 2);
     append(out, std::bit_cast<std::uint32_t>(header.exposure), 4);
     append(out, std::bit_cast<std::uint64_t>(header.eye.x), 8);

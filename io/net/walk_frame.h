@@ -13,15 +13,16 @@ struct WalkFrameHeader {
     std::uint32_t frame = 0;
     std::uint32_t view = 0;  ///< id of the newest view that the frame shows
     std::uint16_t width = 0, height = 0;
-    bool whole = false;     ///< the message has all pieces of the picture
-    bool at_rest = false;   ///< the eye stands still
-    bool finished = false;  ///< the picture will not be refined any more
-    float exposure = 1;     ///< factor that radiance was multiplied by
-    Vec3 eye;               ///< position of the eye [m]
+    bool whole = false;        ///< the message has all pieces of the picture
+    bool at_rest = false;      ///< the eye stands still
+    bool finished = false;     ///< the picture will not be refined any more
+    std::uint8_t display = 0;  ///< number of the settings that its colours are after
+    float exposure = 1;        ///< factor that radiance was multiplied by
+    Vec3 eye;                  ///< position of the eye [m]
 };
 
-/// depth: see depth_patches.h; empty where the view has none.
-enum class PieceCodec : std::uint8_t { jpeg = 1, png = 2, depth = 3 };
+/// depth: see depth_patches.h; empty where the view has none. luminance: see luminance_plane.h.
+enum class PieceCodec : std::uint8_t { jpeg = 1, png = 2, depth = 3, luminance = 4 };
 
 /// A compressed rectangle of the picture.
 struct WalkFramePiece {

@@ -36,8 +36,10 @@ Json to_json(const std::vector<NamedView>& views) {
     return list;
 }
 
-Json to_json(const DisplayRequest& display) {
+Json to_json(const DisplayRequest& request) {
+    const DisplaySettings& display = request.settings;
     return {
+        {"number", request.number},
         {"mode", display.false_colour ? "false" : "tone"},
         {"exposure", {{"auto", display.automatic}, {"ev", display.ev}}},
         {"human", display.human},

@@ -118,7 +118,10 @@ HelloRequest read_hello(const Json& object) {
     const bool hex = session.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
     if (!hex || session.size() < 16 || session.size() > 64)
         refuse("session", "16 to 64 hex digits");
-    return {session, object.contains("depth") && truth(object, "depth")};
+    const auto wants = [&](const char* name) {
+        return object.contains(name) && truth(object, name);
+    };
+    return {session, wants("depth"), wants("luminance")};
 }
 
 ViewRequest read_view_request(const Json& object, WalkSizeLimit limit) {
@@ -135,7 +138,8 @@ ViewRequest read_view_request(const Json& object, WalkSizeLimit limit) {
 }
 
 DisplayRequest read_display(const Json& object) {
-    DisplayRequest display;
+    DisplayRequest request;
+    DisplaySettings& display = request.settings;
     const std::string& mode = words(object, "mode");
     if (mode != "tone" && mode != "false") refuse("mode", "\"tone\" or \"false\"");
     display.false_colour = mode == "false";
@@ -150,7 +154,9 @@ DisplayRequest read_display(const Json& object) {
     if (!(display.low < display.high)) refuse("scale", "low below high");
     if (display.logarithmic && !(display.low > 0))
         refuse("low", "more than 0 on a logarithmic scale");
-    return display;
+    if (object.contains("number"))
+        request.number = static_cast<std::uint8_t>(number(object, 0, 255, "number"));
+    return request;
 }
 
 SettingsRequest read_settings(const Json& object) {

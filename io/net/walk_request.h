@@ -19,8 +19,9 @@ inline constexpr int kLargestWalkSize = 4096;  ///< width and height of a pictur
 inline constexpr std::size_t kMostProbes = 64;
 
 struct HelloRequest {
-    std::string session;  ///< 16 to 64 hex digits
-    bool depth = false;   ///< frames shall have the depth of their pixels, see depth_patches.h
+    std::string session;     ///< 16 to 64 hex digits
+    bool depth = false;      ///< frames shall have the depth of their pixels, see depth_patches.h
+    bool luminance = false;  ///< and their luminance, see luminance_plane.h
 };
 /// `view`: the view that the page wants to see.
 struct ViewRequest {
@@ -36,7 +37,11 @@ struct AckRequest {
     std::uint32_t frame = 0;
 };
 /// `display`: how radiance becomes colours. Within -40 to 40 stops and 1e12 cd/m².
-using DisplayRequest = DisplaySettings;
+struct DisplayRequest {
+    DisplaySettings settings;
+    std::uint8_t number = 0;  ///< that frames repeat which have these colours
+    friend bool operator==(const DisplayRequest&, const DisplayRequest&) = default;
+};
 /// `settings`: when indirect light is calculated.
 struct SettingsRequest {
     WalkAmbient ambient = WalkAmbient::rest;

@@ -110,7 +110,8 @@ Display::Display(const DisplaySettings& settings, const Adaptation& eye,
         return;
     }
     constexpr double kFading = 0.03;  // see display_pixel()
-    const HighlightCurve curve(settings.automatic ? std::max(1.0, exposure_ * eye.white()) : 16);
+    white_ = settings.automatic ? std::max(1.0, exposure_ * eye.white()) : 16;
+    const HighlightCurve curve(white_);
     fill_table([&](double peak) -> Entry {
         const double before = exposure_ * peak, shown = curve(before);
         const double saturation = 1 / (1 + kFading * std::max(before - shown, 0.0));

@@ -52,6 +52,9 @@ class Display {
 
     /// The factor from radiance to display values, before any curve.
     [[nodiscard]] double exposure() const { return exposure_; }
+    /// What HighlightCurve makes 1, after exposure; 0 for colours that it does not make: those of
+    /// human vision and false ones.
+    [[nodiscard]] double white() const { return white_; }
 
   private:
     struct Entry {
@@ -65,7 +68,7 @@ class Display {
     void show_colours(std::span<const Rgb> pixels, std::span<std::uint8_t> bytes) const;
 
     DisplaySettings settings_;
-    double exposure_ = 1;
+    double exposure_ = 1, white_ = 0;
     std::vector<Entry> table_;  ///< indexed by brightness, or by the largest channel
     std::vector<std::array<std::uint8_t, 3>> colours_;  ///< false colours, indexed by brightness
 };

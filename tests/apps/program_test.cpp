@@ -144,7 +144,7 @@ std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std:
     std::vector<std::string> line{"env",
                                   "OMPI_ALLOW_RUN_AS_ROOT=1",
                                   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
-                                  "ASAN_OPTIONS=detect_leaks=0",
+                                  "ASAN_OPTIONS=detect_leaks=0:handle_sigill=1",
                                   "mpirun",
                                   "--oversubscribe",
                                   "--bind-to",

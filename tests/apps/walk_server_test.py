@@ -307,7 +307,7 @@ def ranks(program):
     if not shutil.which("mpirun"):
         print("skipped: no mpirun here")
         sys.exit(77)
-    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0")
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS="detect_leaks=0:handle_sigill=1")
     mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "-n"]
     rest(program, ["--variant", "ranks"], [*mpirun, "3"])
     rest(program, ["--variant", "hybrid", "-n", "2"], [*mpirun, "2"])

@@ -1,7 +1,15 @@
 // Frames as the protocol has them, of the fake room: JPEG and PNG pieces.
 import { deflateSync } from "node:zlib";
 import { bands_of, depth_of_bands } from "./fake_depth.mjs";
-import { depth_at, exposure_of, paint } from "./fake_scene.mjs";
+import {
+    depth_at,
+    direction_at,
+    exposure_of,
+    kWhite,
+    look,
+    luminance_of,
+    paint,
+} from "./fake_scene.mjs";
 
 const kMoving = 320; // pixels across while moving
 export const kStrips = 8; // pieces of a picture at rest
@@ -50,6 +58,7 @@ export function frame_bytes(number, wish, eye, flags, pieces, display) {
     head.writeUInt16LE(wish.width, 12);
     head.writeUInt16LE(wish.height, 14);
     head.writeUInt8(flags, 16);
+    head.writeUInt8(display.number ?? 0, 17);
     head.writeUInt16LE(pieces.length, 18);
     head.writeFloatLE(exposure_of(display), 20);
     eye.forEach((x, k) => head.writeDoubleLE(x, 24 + 8 * k));
@@ -108,4 +117,26 @@ export function depth_piece(view, { width, height }) {
     const inverse = (x, y) => cells[Math.floor(y / kCell) * columns + Math.floor(x / kCell)];
     const bytes = depth_of_bands(kStep, bands_of(inverse, width, height));
     return { x: 0, y: 0, width, height, codec: 3, bytes };
+}
+
+/** The luminance of a picture, one value for four by four pixels. */
+export function luminance_piece(jpeg, view, { width, height }, display) {
+    const [w, h] = [Math.ceil(width / 4), Math.ceil(height / 4)];
+    const [low, step] = [-2, 0.0625]; // logarithms to the base of 2 [cd/m2]
+    const data = Buffer.alloc(4 * w * h, 255);
+    for (let k = 0; k < w * h; ++k) {
+        const [x, y] = [((k % w) + 0.5) / w, 1 - (Math.floor(k / w) + 0.5) / h];
+        const hit = look(view.position, direction_at(view, x, y));
+        const L = hit ? luminance_of(hit) : 0;
+        const grey =
+            L > 0 ? Math.max(1, Math.min(255, Math.round((Math.log2(L) - low) / step))) : 0;
+        data.fill(grey, 4 * k, 4 * k + 3);
+    }
+    const bytes = Buffer.concat([
+        Buffer.alloc(12),
+        jpeg.encode({ data, width: w, height: h }, 95).data,
+    ]);
+    const white = display.mode === "false" || display.human ? 0 : kWhite;
+    [low, step, white].forEach((x, k) => bytes.writeFloatLE(x, 4 * k));
+    return { x: 0, y: 0, width, height, codec: 4, bytes };
 }

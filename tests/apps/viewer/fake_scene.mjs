@@ -1,5 +1,6 @@
 // A small room that a fake server draws without a renderer: a window, a chequered floor, a ball, a
 // wall of known luminance. Radiance in cd/m2, for pictures that change with the view as real ones do.
+import { HighlightCurve } from "../../../apps/viewer/tone.js";
 
 const kRoom = { low: [-4, -3, 0], high: [4, 3, 3] };
 const kWindows = [
@@ -165,20 +166,31 @@ const turbo = (() => {
         );
 })();
 
+/** Of what is coloured [cd/m2]. */
+export const luminance_of = ({ luminance, colour: [r, g, b] }) =>
+    luminance * (0.265 * r + 0.67 * g + 0.065 * b);
+
 /** Colour bytes of a luminance as a display message wants it. */
 function colour_of(hit, display, factor) {
     if (!hit) return [0, 0, 0];
     if (display.mode === "false") {
         const { low, high, log } = display.scale;
-        const share = log
-            ? Math.log(hit.luminance / low) / Math.log(high / low)
-            : (hit.luminance - low) / (high - low);
+        const L = luminance_of(hit);
+        const share = log ? Math.log(L / low) / Math.log(high / low) : (L - low) / (high - low);
         return turbo(Math.max(0, Math.min(1, share)));
     }
     const L = (hit.luminance / 179) * factor,
-        shown = L / (1 + L * 0.35);
-    return hit.colour.map((c) => 255 * Math.min(1, c * shown) ** (1 / 2.2));
+        peak = L * Math.max(...hit.colour),
+        shown = kCurve.shown(peak);
+    const saturation = 1 / (1 + 0.03 * (peak - shown));
+    return hit.colour.map((c) => {
+        const x = shown * (1 - saturation + (saturation * c * L) / peak);
+        return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
+    });
 }
+
+export const kWhite = 16; // exposed value that is shown as white
+const kCurve = new HighlightCurve(kWhite);
 
 /** The factor that exposure makes of radiance. */
 export const exposure_of = (display) => (display.exposure.auto ? 1.1 : 2 ** display.exposure.ev);

@@ -3,14 +3,21 @@
 //     node fake_server.mjs --npm FOLDER [--port N] [--log]
 //
 // FOLDER has node_modules with ws and jpeg-js. GET /fake/NAME makes it misbehave: fail (the scene
-// cannot be read), reload, drop (breaks connections), refuse, join and leave (another driver).
+// cannot be read), reload, drop (breaks connections), dumb and speak (no frames meanwhile), refuse, join and leave (another driver).
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
-import { coarse_pieces, depth_piece, frame_bytes, kStrips, strip_piece } from "./fake_frames.mjs";
+import {
+    coarse_pieces,
+    depth_piece,
+    frame_bytes,
+    kStrips,
+    luminance_piece,
+    strip_piece,
+} from "./fake_frames.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
 
 const { values: args } = parseArgs({
@@ -65,6 +72,7 @@ let display = {
 let settings = { ambient: "rest" };
 let probes = [];
 let failing = false,
+    dumb = false, // no frames
     guest = null; // guest: a client that is not there
 let wish = null,
     version = 0; // what is to be drawn, and how often it has changed
@@ -120,6 +128,7 @@ function answer(socket, message) {
     const answers = {
         hello: () => {
             client.depth = message.depth === true;
+            client.luminance = message.luminance === true;
             greet(socket, client, message.session);
         },
         ack: () => (client.busy = false),
@@ -128,7 +137,12 @@ function answer(socket, message) {
             wish = { ...message, version: ++version };
             places.set(client.session, message.view);
         },
-        display: () => driving && ((display = message), wish && (wish.version = ++version)),
+        display: () => {
+            if (!driving) return;
+            display = message;
+            if (wish) wish.version = ++version;
+            for (const other of clients.keys()) if (other !== socket) tell(other, message);
+        },
         settings: () => driving && (settings = message),
         pick: () => tell(socket, picked(message)),
         rectangle: () => tell(socket, mean(message)),
@@ -237,7 +251,7 @@ function glare({ id }) {
 
 /** The next frame for a client that has drawn the one before: coarse at once, then strip by strip. */
 function next_frame(socket, client) {
-    if (client.busy || !wish || failing || client.session === undefined) return;
+    if (client.busy || !wish || failing || dumb || client.session === undefined) return;
     const view = present_view();
     let pieces, flags;
     if (client.drawn !== wish.version) {
@@ -246,6 +260,7 @@ function next_frame(socket, client) {
         if (driver !== client.id) tell(socket, { type: "view", view, seen: wish.seen });
         pieces = coarse_pieces(jpeg, view, wish, display);
         if (client.depth) pieces.push(depth_piece(view, wish));
+        if (client.luminance) pieces.push(luminance_piece(jpeg, view, wish, display));
         flags = 1;
     } else if (!wish.moving && client.strip < kStrips) {
         pieces = [strip_piece(jpeg, view, wish, client.strip++, display)];
@@ -292,6 +307,8 @@ const pranks = {
         setTimeout(() => tell_all({ type: "loaded", views: kViews, eye_height: kEyeHeight }), 300);
     },
     drop: () => [...clients.keys()].forEach((socket) => socket.terminate()),
+    dumb: () => (dumb = true),
+    speak: () => (dumb = false),
     refuse: () =>
         tell_all({ type: "refused", text: "A view without a direction cannot be drawn." }),
     join: () => ((guest = 77), tell_roles()),

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { parse_frame } from "../../../apps/viewer/frame.js";
+import { parse_luminance } from "../../../apps/viewer/recolour.js";
 
 /** A frame written by offsets alone, as the protocol's table has them. */
 function frame({
@@ -21,6 +22,7 @@ function frame({
     data.setUint16(12, width, true);
     data.setUint16(14, height, true);
     data.setUint8(16, flags);
+    data.setUint8(17, 200);
     data.setUint16(18, pieces.length, true);
     data.setFloat32(20, 0.5, true);
     [1.25, -2.5, 1e-7].forEach((x, k) => data.setFloat64(24 + 8 * k, x, true));
@@ -45,9 +47,11 @@ test("the header's numbers stand where the protocol has them", () => {
         complete: true,
         at_rest: false,
         final: true,
+        display: 200,
         exposure: 0.5,
         eye: [1.25, -2.5, 1e-7],
         depth: null,
+        luminance: null,
     });
     assert.equal(pieces.length, 2);
 });
@@ -98,12 +102,41 @@ test("what is too long, outside, of an unknown codec or no frame at all is refus
     assert.throws(() => parse_frame(longer.buffer), /after the last piece/);
     assert.throws(() => parse_frame(frame({ pieces: [[5, 0, 4, 2, 1, [1]]] })), /outside/);
     assert.throws(() => parse_frame(frame({ pieces: [[0, 5, 4, 2, 1, [1]]] })), /outside/);
-    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 4, [1]]] })), /codec/);
-    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 3, [1]]] })), /size/);
-    const depth = [0, 0, 8, 6, 3, [1]];
-    assert.throws(() => parse_frame(frame({ pieces: [depth, depth] })), /depth/);
-    assert.deepEqual([...parse_frame(frame({ pieces: [depth] })).depth.bytes], [1]);
+    assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, 5, [1]]] })), /codec/);
+    for (const [codec, name] of [
+        [3, "depth"],
+        [4, "luminance"],
+    ]) {
+        assert.throws(() => parse_frame(frame({ pieces: [[0, 0, 4, 2, codec, [1]]] })), /size/);
+        const piece = [0, 0, 8, 6, codec, [1]];
+        assert.throws(() => parse_frame(frame({ pieces: [piece, piece] })), RegExp(name));
+        assert.deepEqual([...parse_frame(frame({ pieces: [piece] }))[name].bytes], [1]);
+    }
     const other = new Uint8Array(frame());
     other[3] = 0x32;
     assert.throws(() => parse_frame(other.buffer), /not a frame/);
+});
+
+test("a luminance piece has three numbers and a picture; none, and none that make sense, are told apart", () => {
+    const bytes = new Uint8Array(15);
+    const data = new DataView(bytes.buffer);
+    [-3, 0.125, 16].forEach((x, k) => data.setFloat32(4 * k, x, true));
+    bytes.set([0xff, 0xd8, 1], 12);
+    const { jpeg, ...numbers } = parse_luminance({ bytes });
+    assert.deepEqual(numbers, { low: -3, step: 0.125, white: 16 });
+    assert.deepEqual([...jpeg], [0xff, 0xd8, 1]);
+    assert.equal(parse_luminance({ bytes: new Uint8Array(0) }), null);
+    assert.throws(() => parse_luminance({ bytes: bytes.subarray(0, 11) }), /cut off/);
+    for (const [k, wrong] of [
+        [0, NaN],
+        [0, Infinity],
+        [1, 0],
+        [1, -1],
+        [2, -1],
+        [2, NaN],
+    ]) {
+        const other = bytes.slice();
+        new DataView(other.buffer).setFloat32(4 * k, wrong, true);
+        assert.throws(() => parse_luminance({ bytes: other }), /sense/);
+    }
 });

@@ -48,7 +48,7 @@ export async function speed_of(page, keys) {
                             (1000 * Math.hypot(x - last.x, y - last.y)) / (time - last.time),
                         );
                     last = { time, x, y };
-                    if (speeds.length < 30) requestAnimationFrame(look);
+                    if (speeds.length < 12) requestAnimationFrame(look);
                     else resolve(Math.max(...speeds));
                 };
                 requestAnimationFrame(look);

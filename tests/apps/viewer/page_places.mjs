@@ -110,6 +110,10 @@ export const place_steps = (address) => ({
         const count = await page.locator("#keys li").count();
         assert.ok(count >= 3 && count < 30, `${count} keys`);
         const text = await saved_text(page, "#write-path");
+        assert.match(
+            await page.textContent("#path-text"),
+            /lightwalk animate --path room-.*\.path\.vf -o room-.*\.mp4 room\/room\.rad/,
+        );
         const keys = parse_keys(String(text.bytes));
         assert.ok(
             gone(keys[0].view, from) < 0.02,

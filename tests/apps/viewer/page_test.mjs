@@ -15,6 +15,7 @@ import { parseArgs } from "node:util";
 import { fit_view, locate } from "../../../apps/viewer/view.js";
 import { parse_views } from "../../../apps/viewer/view_text.js";
 import { access_steps } from "./page_access.mjs";
+import { colour_steps } from "./page_colours.mjs";
 import {
     gone,
     heading,
@@ -72,6 +73,7 @@ function drawn_camera() {
 const prank = (name) => fetch(`${address}fake/${name}`);
 const steps = {
     ...place_steps(address),
+    ...colour_steps(address, prank),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);

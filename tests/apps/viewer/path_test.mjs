@@ -1,7 +1,14 @@
 // Paths of views: played, recorded, thinned.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { path_problem, path_view, Playback, Recorder, thinned } from "../../../apps/viewer/path.js";
+import {
+    film_command,
+    path_problem,
+    path_view,
+    Playback,
+    Recorder,
+    thinned,
+} from "../../../apps/viewer/path.js";
 import { length, normalize, subtract } from "../../../apps/viewer/vector.js";
 import { parse_keys, path_text } from "../../../apps/viewer/view_text.js";
 
@@ -104,4 +111,14 @@ test("the text of a path has its times; a line without one comes a second after 
         times.map(({ time }) => time),
         [0, 4, 5],
     );
+});
+
+test("the command for a film names path, film and scene, as a shell takes them", () => {
+    assert.equal(
+        film_command("room-1.path.vf", "a/room.rad"),
+        "lightwalk animate --path room-1.path.vf -o room-1.mp4 a/room.rad",
+    );
+    assert.match(film_command("x.vf", "it's here.rad"), / -o x\.mp4 'it'\\''s here\.rad'$/);
+    assert.match(film_command("x.vf", "-o.rad"), / '-o\.rad'$/);
+    assert.match(film_command("x.vf", ""), / SCENE$/);
 });

@@ -27,7 +27,7 @@ LivePicture picture_of(float value) {
 struct Screen {
     Screen() {
         inbox.attach(clients);
-        fixed.automatic = false;
+        fixed.settings.automatic = false;
         join(kDriving);
     }
     void join(ClientId client) {
@@ -55,7 +55,7 @@ struct Screen {
     WalkScreen screen{*executor};
     RecordedClients clients;
     ClientInbox inbox{WelcomeReply{}};
-    DisplaySettings fixed;
+    DisplayRequest fixed;
     WalkScreen::Time now{std::chrono::seconds(100)};
 };
 
@@ -211,4 +211,43 @@ TEST_CASE("walk screen: who comes later gets no depth of an earlier picture") {
     CHECK(number_at<std::uint16_t>(depth, 4) == kScreenWidth / 2);
     CHECK(depth[8] == 3);                             // what it is: depth
     CHECK(number_at<std::uint32_t>(depth, 12) == 0);  // bytes
+}
+
+TEST_CASE(
+    "walk screen: luminance goes to who wants it, with or without depth, and each frame tells "
+    "which colours it has") {
+    Screen all;
+    InboxContents news;
+    news.joined = news.want_luminance = {kWatching};
+    all.screen.update_clients(news);
+    LivePicture picture = picture_of(0.5f);
+    picture.distance.assign(picture.radiance.size(), 2);
+    bool here = true;
+    const auto show = [&](std::uint32_t id, std::uint8_t display) {
+        all.fixed.number = display;
+        all.screen.measure_depth(picture, View{}, 1.6);
+        all.show(picture, id);
+        all.send();
+        all.ack(kDriving);
+        if (here) all.ack(kWatching);
+    };
+    show(1, 7);
+    CHECK(frame_pieces(all.last(kDriving)) == 6);
+    CHECK(frame_pieces(all.last(kWatching)) == 7);
+    CHECK(frame_flags(all.last(kWatching)) == 3);  // whole
+    CHECK(number_at<std::uint8_t>(all.last(kWatching), 17) == 7);
+    show(2, 8);
+    CHECK(frame_pieces(all.last(kWatching)) == 0);
+    CHECK(number_at<std::uint8_t>(all.last(kWatching), 17) == 8);
+    picture.radiance[7] = Rgb::grey(1000);  // far above what is white
+    show(3, 8);
+    REQUIRE(frame_pieces(all.last(kWatching)) == 2);  // of the picture one, and all luminance
+    all.leave(kWatching);
+    here = false;
+    show(4, 8);
+    news.want_depth = {kWatching};
+    all.screen.update_clients(news);
+    here = true;
+    show(5, 8);
+    CHECK(frame_pieces(all.last(kWatching)) == 8);
 }

@@ -23,12 +23,13 @@ TEST_CASE("walk frame: the header is 48 bytes, little-endian, each where it belo
     header.width = 0x0a09;
     header.height = 0x0c0b;
     header.whole = true;
+    header.display = 0x0d;
     header.exposure = 0.15625f;  // 0x3e200000
     header.eye = {1, -2, 0.1};   // 0x3ff0..., 0xc000..., 0x3fb999999999999a
     const std::string expected = bytes_of(
-        {'L', 'W', 'F', '1', 1, 2, 3,    4,    5,    6,    7,    8,    9,    10,   11,   12,
-         1,   0,   0,   0,   0, 0, 0x20, 0x3e, 0,    0,    0,    0,    0,    0,    0xf0, 0x3f,
-         0,   0,   0,   0,   0, 0, 0,    0xc0, 0x9a, 0x99, 0x99, 0x99, 0x99, 0x99, 0xb9, 0x3f});
+        {'L', 'W',  'F', '1', 1, 2, 3,    4,    5,    6,    7,    8,    9,    10,   11,   12,
+         1,   0x0d, 0,   0,   0, 0, 0x20, 0x3e, 0,    0,    0,    0,    0,    0,    0xf0, 0x3f,
+         0,   0,    0,   0,   0, 0, 0,    0xc0, 0x9a, 0x99, 0x99, 0x99, 0x99, 0x99, 0xb9, 0x3f});
     CHECK(expected.size() == 48);
     CHECK(encode_walk_frame(header, {}) == expected);
 }

@@ -20,11 +20,11 @@ const json kViewJson = json::parse(R"({"type": "v", "position": [1.0, 2.0, 1.6],
 TEST_CASE("walk reply: a welcome tells all that a page starts from") {
     WelcomeReply reply{"0.1.0",           3,     true, "cabin.rad", {1280, 720}, 30,
                        {{"door", kView}}, kView, {},   {}};
-    reply.display.false_colour = true;
+    reply.display.settings.false_colour = true;
     reply.settings.ambient = WalkAmbient::always;
     json expected = json::parse(R"({"type": "welcome", "version": "0.1.0", "you": 3,
         "driver": true, "scene": "cabin.rad", "max_size": [1280, 720], "fps": 30.0,
-        "display": {"mode": "false", "exposure": {"auto": true, "ev": 0.0}, "human": false,
+        "display": {"number": 0, "mode": "false", "exposure": {"auto": true, "ev": 0.0}, "human": false,
                     "scale": {"low": 1.0, "high": 10000.0, "log": true}},
         "settings": {"ambient": "always"}})");
     expected["view"] = kViewJson;
@@ -37,7 +37,7 @@ TEST_CASE("walk reply: a welcome tells all that a page starts from") {
 TEST_CASE("walk reply: views and settings come back as the same requests") {
     WelcomeReply reply;
     reply.view = kView;
-    reply.display = {true, false, -1.5, true, 0.25, 2000, false};
+    reply.display = {{true, false, -1.5, true, 0.25, 2000, false}, 9};
     for (const WalkAmbient ambient : {WalkAmbient::rest, WalkAmbient::always, WalkAmbient::off}) {
         reply.settings.ambient = ambient;
         const json told = json::parse(walk_text(reply));

@@ -79,7 +79,17 @@ TEST_CASE("walk request: each message is read as it stands") {
     CHECK_FALSE(view.walk);
     CHECK(read<AckRequest>(sound(2)).frame == 17);
     CHECK(read<DisplayRequest>(sound(3)) ==
-          DisplayRequest{false, false, -2.5, true, 0.1, 3000, true});
+          DisplayRequest{{false, false, -2.5, true, 0.1, 3000, true}, 0});
+    json numbered = sound(3);
+    numbered["number"] = 255;
+    CHECK(read<DisplayRequest>(numbered).number == 255);
+    for (const json& wrong : {json(256), json(-1), json("1")})
+        CHECK_FALSE(refusal(3, "/number", wrong).empty());
+    json hello = sound(0);
+    CHECK_FALSE(read<HelloRequest>(hello).luminance);
+    hello["luminance"] = true;
+    CHECK(read<HelloRequest>(hello).luminance);
+    CHECK_FALSE(read<HelloRequest>(hello).depth);
     CHECK(read<SettingsRequest>(sound(4)).ambient == WalkAmbient::always);
     const auto pick = read<PickRequest>(sound(5));
     CHECK(pick.id == 3);
