@@ -185,11 +185,13 @@ TEST_CASE(
     const LoadedScene scene(room());
     Walk walk(scene, 1e6);  // frames a second: no time at all
     walk.inbox.message(kDriver, view_message(1, 0, 320, 240));
-    walk.rest();
+    walk.loop->step(walk.stop);
+    walk.acknowledge(kDriver);
     const auto width = [&] {
         return number_at<std::uint16_t>(*walk.clients.frames[kDriver].back(), 12);
     };
     const std::uint16_t whole = width();
+    CHECK(whole == 320);
     const auto move = [&](int id, double turned, bool moving) {
         std::string view = view_message(id, turned, 320, 240);
         if (moving) view.replace(view.find("\"moving\":false"), 14, "\"moving\":true");
