@@ -66,6 +66,10 @@ struct ProbesRequest {
 struct GlareRequest {
     std::uint32_t id = 0;
 };
+/// `plan`: the floor plan of where the walk is.
+struct PlanRequest {
+    std::uint32_t id = 0;
+};
 /// `take`: a watcher asks to drive.
 struct TakeRequest {};
 /// `hand`: the driver makes another client the driver.
@@ -73,9 +77,9 @@ struct HandRequest {
     std::uint32_t to = 0;  ///< a client's number
 };
 
-using WalkRequest =
-    std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
-                 PickRequest, MeanRequest, ProbesRequest, GlareRequest, TakeRequest, HandRequest>;
+using WalkRequest = std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest,
+                                 SettingsRequest, PickRequest, MeanRequest, ProbesRequest,
+                                 GlareRequest, PlanRequest, TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {
