@@ -103,7 +103,10 @@ export class PlanPanel {
         this.drawn_ = "";
         by_id("plan-marks").replaceChildren();
         by_id("plan-picture").hidden = !plan;
-        this.say_(plan ? "" : "Drawing the plan…");
+        const drawn = this.on_.may_drive()
+            ? "Click, or choose by arrow keys: Enter goes there."
+            : "";
+        this.say_(plan ? drawn : "Drawing the plan…");
         this.paint_();
     }
 
@@ -178,11 +181,12 @@ export class PlanPanel {
         const length = scale_length(this.plan, 0.3);
         const pixels = (length / this.plan.cell) * scale;
         const { clientWidth: width, clientHeight: height } = by_id("plan");
+        const bar = `M10 ${height - 13}v4h${pixels}v-4M${width - 16} 30v-18l-4 7m4-7l4 7`;
         return [
-            shape("path", { d: `M8 ${height - 12}v4h${pixels}v-4`, class: "bar" }),
-            shape("text", { x: 12, y: height - 13 }, `${round_number(length)} m`),
-            shape("path", { d: `M${width - 14} 30v-16l-4 7m4-7l4 7`, class: "bar" }),
-            shape("text", { x: width - 14, y: 42, "text-anchor": "middle" }, "N"),
+            shape("path", { d: bar, class: "bar under" }),
+            shape("path", { d: bar, class: "bar" }),
+            shape("text", { x: 14, y: height - 14 }, `${round_number(length)} m`),
+            shape("text", { x: width - 16, y: 43, "text-anchor": "middle" }, "N"),
         ];
     }
 

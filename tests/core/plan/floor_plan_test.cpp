@@ -20,16 +20,14 @@ constexpr double kHeight = 1.6;
 /// Writes polygons whose lengths are all in one unit.
 class Builder {
   public:
-    explicit Builder(double unit = 1) : unit_(unit) {
-        text_.precision(17);
-        text_ << "void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .9 .9 .9\n"
-                 "void illum shine 0 0 3 1 1 1\n";
-    }
+    explicit Builder(double unit = 1) : unit_(unit) {}
     Builder& polygon(const std::vector<Vec3>& corners, const std::string& material = "grey") {
-        text_ << material << " polygon p" << ++count_ << " 0 0 " << 3 * corners.size();
+        std::ostringstream line;
+        line.precision(17);
+        line << material << " polygon p" << ++count_ << " 0 0 " << 3 * corners.size();
         for (const Vec3& p : corners)
-            text_ << ' ' << p.x * unit_ << ' ' << p.y * unit_ << ' ' << p.z * unit_;
-        text_ << '\n';
+            line << ' ' << p.x * unit_ << ' ' << p.y * unit_ << ' ' << p.z * unit_;
+        text_ += line.str() + '\n';
         return *this;
     }
     Builder& level(double x0, double y0, double x1, double y1, double z) {
@@ -51,12 +49,14 @@ class Builder {
         wall(-half_x, -half_y, -half_x, half_y).wall(half_x, half_y, half_x, -half_y);
         return level(-half_x, -half_y, half_x, half_y, 0);
     }
-    [[nodiscard]] std::string text() const { return text_.str(); }
+    [[nodiscard]] const std::string& text() const { return text_; }
 
   private:
     double unit_;
     int count_ = 0;
-    std::ostringstream text_;
+    std::string text_ =
+        "void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid glass clear 0 0 3 .9 .9 .9\n"
+        "void illum shine 0 0 3 1 1 1\n";
 };
 
 FloorPlan finished(PlanSurvey& survey, const TaskRunner& task_runner = SerialTaskRunner()) {
