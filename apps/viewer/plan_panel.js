@@ -107,9 +107,7 @@ export class PlanPanel {
         this.drawn_ = "";
         by_id("plan-marks").replaceChildren();
         by_id("plan-picture").hidden = !plan;
-        const drawn = this.on_.may_drive()
-            ? "Click, or choose by arrow keys: Enter goes there."
-            : "";
+        const drawn = this.on_.may_drive() ? "Click to go there." : "";
         this.say_(plan ? drawn : "Drawing the plan…");
         this.paint_();
     }

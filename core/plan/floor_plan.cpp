@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace lightwalk {
@@ -13,9 +12,6 @@ namespace {
 constexpr double kSame = 0.25;   // difference of heights at which a section is the same
 constexpr double kUnder = 0.01;  // the section lies a little lower than the eye, not just where
                                  // sills and rails at eye level end
-constexpr double kReach = 40;    // how far from the eye a plan goes
-constexpr double kAround = 12;   // what is as near as this always belongs to it
-constexpr double kGap = 4;       // and what is no farther beyond twice the distance of the rest
 constexpr double kAlone = 8;     // how far it goes where nothing is cut
 constexpr double kMargin = 1;    // around what it shows
 constexpr double kFinest = 1.0 / 40;     // least side of a cell
@@ -25,33 +21,15 @@ constexpr double kJump = 0.04;           // of heights that gets a line: less th
 constexpr double kDepthUnit = 0.01;
 constexpr double kSteepest = 4;  // slopes beyond it count as this [1]
 
-constexpr int kDirections = 256;  // in which the eye looks for what belongs to the plan
-constexpr double kApart = 0.125;  // least distance of crossings [cells]
+constexpr int kDirections = 768, kDirectionsAtOnce = 256;  // in which the eye looks around
+constexpr double kLeastShare = 0.05;  // of them, in which what belongs to the plan is the nearest
+constexpr double kApart = 0.125;      // least distance of crossings [cells]
+constexpr double kOffBorder = 0.37;  // walls that the extent begins at lie between borders of cells
 constexpr std::size_t kRowsAtOnce = 48;
 
 float slope(double normal, double upward) {
     const double least = std::copysign(std::max(std::abs(upward), kEpsilon), upward);
     return static_cast<float>(std::clamp(-normal / least, -kSteepest, kSteepest));
-}
-
-struct SeenPoint {
-    double distance = 0;  // from the eye, level
-    Vec3 position;
-};
-
-/// The part of what is around the eye that hangs together: farther away there may be hills.
-Bounds connected_part(std::vector<SeenPoint> points, double unit) {
-    std::sort(points.begin(), points.end(),
-              [](const SeenPoint& a, const SeenPoint& b) { return a.distance < b.distance; });
-    Bounds part;
-    double last = 0;
-    for (const SeenPoint& point : points) {
-        const double limit = std::max(kAround * unit, 2 * last + kGap * unit);
-        if (last > 0 && point.distance > limit) break;
-        part.extend(point.position);
-        last = point.distance;
-    }
-    return part;
 }
 
 }  // namespace
@@ -74,23 +52,31 @@ void PlanSurvey::aim(const Vec3& eye, double eye_height) {
     plan_.z = eye.z - kUnder * eye_height;
     const bool sound = eye_height > 0 && std::isfinite(eye_height) && !sight_.bounds().empty();
     stage_ = sound ? Stage::extent : Stage::done;
+    directions_done_ = 0;
+    surroundings_.reset();
+    if (sound) surroundings_.emplace(eye, eye_height);
+}
+
+/// What lies in some of the directions from the eye. True: in all.
+bool PlanSurvey::look_around() {
+    const Vec3 from{eye_.x, eye_.y, plan_.z};
+    const double reach = PlanSurroundings::kReach * eye_height_;
+    for (const int end = directions_done_ + kDirectionsAtOnce; directions_done_ < end;) {
+        const double angle = 2 * kPi * (directions_done_++ + 0.5) / kDirections;
+        const Vec3 along{std::cos(angle), std::sin(angle), 0};
+        bool nearest = true;
+        sight_.follow(from, along, reach, kFinest * eye_height_, [&](const PlanCrossing& crossing) {
+            surroundings_->add(from + crossing.t * along, std::exchange(nearest, false));
+        });
+    }
+    return directions_done_ == kDirections;
 }
 
 /// The plan's rectangle, and the size of its cells.
 void PlanSurvey::set_extent() {
-    const Vec3 from{eye_.x, eye_.y, plan_.z};
-    std::vector<SeenPoint> points;
-    for (int k = 0; k < kDirections; ++k) {
-        const double angle = 2 * kPi * (k + 0.5) / kDirections;
-        const Vec3 along{std::cos(angle), std::sin(angle), 0};
-        sight_.follow(from, along, kReach * eye_height_, kFinest * eye_height_,
-                      [&](const PlanCrossing& crossing) {
-                          points.push_back({crossing.t, from + crossing.t * along});
-                      });
-    }
-    Bounds part = connected_part(std::move(points), eye_height_);
+    Bounds part = surroundings_->part(kLeastShare * kDirections);
     const bool alone = part.empty();
-    part.extend(from);
+    part.extend(eye_);
     const double margin = (alone ? kAlone : kMargin) * eye_height_;
     const Bounds all = sight_.bounds();
     const auto side = [&](double Vec3::*axis) {
@@ -102,14 +88,14 @@ void PlanSurvey::set_extent() {
     const auto [bottom, top] = side(&Vec3::y);
     const double width = right - left, height = top - bottom;
     if (!(width > 0 && height > 0)) return;
-    plan_.cell = std::max(std::max(width, height) / kMostPlanCells, kFinest * eye_height_);
+    plan_.cell = std::max(std::max(width, height) / (kMostPlanCells - 1), kFinest * eye_height_);
     const auto cells = [&](double length) {
-        return std::clamp(static_cast<int>(std::ceil(length / plan_.cell)), 1, kMostPlanCells);
+        return std::min(static_cast<int>(std::ceil(length / plan_.cell)) + 1, kMostPlanCells);
     };
     plan_.width = cells(width);
     plan_.height = cells(height);
-    plan_.left = left;
-    plan_.bottom = bottom;
+    plan_.left = left - kOffBorder * plan_.cell;
+    plan_.bottom = bottom - kOffBorder * plan_.cell;
     const std::size_t count = place(0, plan_.height);
     plan_.cells.assign(count, kPlanEmpty);
     below_.assign(count, {});
@@ -203,7 +189,9 @@ bool PlanSurvey::step(const TaskRunner& task_runner) {
     const auto height = static_cast<std::size_t>(plan_.height);
     const auto width = static_cast<std::size_t>(plan_.width);
     if (stage_ == Stage::extent) {
+        if (!look_around()) return false;
         set_extent();
+        surroundings_.reset();
         stage_ = plan_.width > 0 ? Stage::below : Stage::done;
     } else if (stage_ == Stage::below) {
         const auto first = static_cast<std::size_t>(rows_done_);

@@ -2,10 +2,12 @@
 // A floor plan: what a horizontal section at the eye's height cuts, and what is seen below it.
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/math/task_runner.h"
 #include "core/plan/plan_sight.h"
+#include "core/plan/plan_surroundings.h"
 #include "core/scene/scene.h"
 
 namespace lightwalk {
@@ -30,8 +32,8 @@ struct FloorPlan {
 
 /// Draws plans of a scene in small steps, so that nobody waits long for one of them, and keeps the
 /// last one. Lengths are relative to the eye's height: a scene whose unit is another one has the
-/// same plans. What a plan shows is what lies within 40 eye heights of the eye and hangs together;
-/// landscape far beyond a house is left out. The same plan whatever runs the tasks.
+/// same plans. A plan shows what is large to the eye within 40 eye heights, and what hangs
+/// together with it: of a house in a landscape the house. The same plan whatever runs the tasks.
 class PlanSurvey {
   public:
     /// @param scene       must outlive this
@@ -42,7 +44,7 @@ class PlanSurvey {
     /// its section is within a quarter of an eye height of the eye, and the eye over its cells.
     /// @param eye_height  above the floor; not positive, or not finite: the plan is empty [m]
     void aim(const Vec3& eye, double eye_height);
-    /// Do some of the work: at most some 20,000 rays. True: all is done.
+    /// Do some of the work: some 20,000 rays, at most 100,000. True: all is done.
     [[nodiscard]] bool step(const TaskRunner& task_runner);
     /// The plan that was aimed at, when step() has returned true.
     [[nodiscard]] const FloorPlan& plan() const { return plan_; }
@@ -55,6 +57,7 @@ class PlanSurvey {
         float slope_x = 0, slope_y = 0;  ///< by which the surface rises
     };
     [[nodiscard]] bool shows(const Vec3& eye) const;
+    [[nodiscard]] bool look_around();
     void set_extent();
     void look_down(int row);
     void cut(bool along_x, int line);
@@ -74,7 +77,8 @@ class PlanSurvey {
     Stage stage_ = Stage::done;
     Vec3 eye_;
     double eye_height_ = 0;
-    int rows_done_ = 0;
+    int directions_done_ = 0, rows_done_ = 0;
+    std::optional<PlanSurroundings> surroundings_;  ///< while the extent is sought
     FloorPlan plan_;
     std::vector<Below> below_;
 };
