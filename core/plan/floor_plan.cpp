@@ -21,7 +21,7 @@ constexpr double kJump = 0.04;           // of heights that gets a line: less th
 constexpr double kDepthUnit = 0.01;
 constexpr double kSteepest = 4;  // slopes beyond it count as this [1]
 
-constexpr int kDirections = 768, kDirectionsAtOnce = 256;  // in which the eye looks around
+constexpr int kDirections = 1024, kDirectionsAtOnce = 256;  // in which the eye looks around
 constexpr double kLeastShare = 0.05;  // of them, in which what belongs to the plan is the nearest
 constexpr double kApart = 0.125;      // least distance of crossings [cells]
 constexpr double kOffBorder = 0.37;  // walls that the extent begins at lie between borders of cells

@@ -6,7 +6,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kSquare = 0.75;  // side [eye heights]
+constexpr double kSquare = 0.4;  // side [eye heights]
 constexpr int kHalf = static_cast<int>(PlanSurroundings::kReach / kSquare) + 2;
 constexpr int kSide = 2 * kHalf;  // of the grid, with a border that stays empty [squares]
 

@@ -6,7 +6,7 @@
 
 namespace lightwalk {
 
-/// Places around an eye where there is something, in groups: what is less than about an eye height
+/// Places around an eye where there is something, in groups: what is less than about one eye height
 /// apart hangs together.
 class PlanSurroundings {
   public:
