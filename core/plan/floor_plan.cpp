@@ -12,7 +12,7 @@ namespace {
 constexpr double kSame = 0.25;   // difference of heights at which a section is the same
 constexpr double kUnder = 0.01;  // the section lies a little lower than the eye, not just where
                                  // sills and rails at eye level end
-constexpr double kAlone = 8;     // how far it goes where nothing is cut
+constexpr double kAlone = 12;    // how far it goes where nothing is cut
 constexpr double kMargin = 1;    // around what it shows
 constexpr double kFinest = 1.0 / 40;     // least side of a cell
 constexpr double kThickest = 0.45;       // of walls between faces that face away from each other
@@ -21,11 +21,11 @@ constexpr double kJump = 0.04;           // of heights that gets a line: less th
 constexpr double kDepthUnit = 0.01;
 constexpr double kSteepest = 4;  // slopes beyond it count as this [1]
 
-constexpr int kDirections = 1024, kDirectionsAtOnce = 256;  // in which the eye looks around
+constexpr int kDirections = 1024, kDirectionsAtOnce = 512;  // in which the eye looks around
 constexpr double kLeastShare = 0.05;  // of them, in which what belongs to the plan is the nearest
 constexpr double kApart = 0.125;      // least distance of crossings [cells]
 constexpr double kOffBorder = 0.37;  // walls that the extent begins at lie between borders of cells
-constexpr std::size_t kRowsAtOnce = 48;
+constexpr std::size_t kRowsAtOnce = 128;
 
 float slope(double normal, double upward) {
     const double least = std::copysign(std::max(std::abs(upward), kEpsilon), upward);

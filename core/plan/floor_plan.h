@@ -44,7 +44,7 @@ class PlanSurvey {
     /// its section is within a quarter of an eye height of the eye, and the eye over its cells.
     /// @param eye_height  above the floor; not positive, or not finite: the plan is empty [m]
     void aim(const Vec3& eye, double eye_height);
-    /// Do some of the work: some 20,000 rays, at most 100,000. True: all is done.
+    /// Do some of the work: some 50,000 rays, which take milliseconds. True: all is done.
     [[nodiscard]] bool step(const TaskRunner& task_runner);
     /// The plan that was aimed at, when step() has returned true.
     [[nodiscard]] const FloorPlan& plan() const { return plan_; }

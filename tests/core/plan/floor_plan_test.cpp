@@ -62,7 +62,7 @@ class Builder {
 FloorPlan finished(PlanSurvey& survey, const TaskRunner& task_runner = SerialTaskRunner()) {
     int steps = 1;
     while (!survey.step(task_runner)) ++steps;
-    CHECK(steps <= 5 + kMostPlanCells / 48);
+    CHECK(steps <= 3 + kMostPlanCells / 128);
     return survey.plan();
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("floor plan: of a house in a landscape it shows the house") {
     Builder ground;
     ground.level(-far, -far, far, far, -0.1);
     const FloorPlan empty = plan_of(ground.text());
-    CHECK(empty.width * empty.cell == doctest::Approx(16 * kHeight).epsilon(0.01));
+    CHECK(empty.width * empty.cell == doctest::Approx(24 * kHeight).epsilon(0.01));
     Builder house = ground;
     house.room(5, 4).wall(-50, 60, 50, 60, "grey", -1, 40).wall(900, -900, 900, 900);
     const FloorPlan plan = plan_of(house.text(), {1, 1, kHeight});
