@@ -37,7 +37,7 @@ float slope(double normal, double upward) {
 bool PlanSurvey::shows(const Vec3& eye) const {
     if (!(eye_height_ > 0)) return false;
     if (std::abs(eye.z - eye_.z) > kSame * eye_height_) return false;
-    if (stage_ == Stage::extent) return eye == eye_;
+    if (stage_ == Stage::extent) return length(eye - eye_) <= kMargin * eye_height_;
     const double x = (eye.x - plan_.left) / plan_.cell, y = (eye.y - plan_.bottom) / plan_.cell;
     return x >= 0 && x <= plan_.width && y >= 0 && y <= plan_.height;
 }

@@ -227,6 +227,16 @@ TEST_CASE("floor plan: of a house in a landscape it shows the house") {
     CHECK(value(garden, -5, 0) == kPlanWall);
 }
 
+TEST_CASE("floor plan: it is finished while the eye walks on") {
+    const TestScene scene(Builder().room(4, 3).text());
+    PlanSurvey survey(scene.scene, true);
+    for (int k = 0; k < 20; ++k) {
+        survey.aim({0.1 * k, 0, kHeight}, kHeight);
+        if (survey.step(SerialTaskRunner())) break;
+    }
+    CHECK(survey.plan().cells == plan_of(Builder().room(4, 3).text()).cells);
+}
+
 TEST_CASE("floor plan: it is kept within a storey") {
     Builder builder = Builder().room(4, 3).box(1, 1, 2.2, 1.8, 0, 0.75);
     builder.level(-4, -3, 4, 0, 3).wall(-4, 0, 4, 0, "grey", 3, 5);
