@@ -245,6 +245,7 @@ function keys_of(commands) {
         l: () => toggle_panel("light"),
         v: () => toggle_panel("views"),
         m: () => toggle_panel("measure"),
+        n: () => toggle_panel("plan"),
         i: toggle_status,
         Enter: middle,
         " ": middle,

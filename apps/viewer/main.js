@@ -13,6 +13,7 @@ import { cover, notice, show_failures, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
 import { is_open, start_panels } from "./panels.js";
 import { PathPanel } from "./path_panel.js";
+import { PlanPanel } from "./plan_panel.js";
 import { Roles } from "./roles.js";
 import { picture_size, scaled_into, Screen } from "./screen.js";
 import { Session } from "./session.js";
@@ -61,6 +62,7 @@ const session = new Session(session_id(), camera.available, screen, {
         counters.last_glare = message;
         glare.answer(message);
     },
+    plan: (message) => plan.answer(message),
     state: server_state,
     view: (message) => {
         session.watch(message);
@@ -69,7 +71,8 @@ const session = new Session(session_id(), camera.available, screen, {
     display: (message) => {
         if (!session.driving) take_display(message);
     },
-    refused: ({ text }) => {
+    refused: ({ text, id }) => {
+        if (plan.refused(id)) return;
         counters.errors.push(text);
         notice(text, true);
     },
@@ -102,6 +105,14 @@ const path = new PathPanel(navigator, {
     go: (view) => commands.go(view),
     may_drive: () => session.driving && navigator.view !== null,
     changed: (keys) => keep_scene_item(scene, "path", keys),
+});
+const plan = new PlanPanel({
+    ask: () => session.ask("plan"),
+    eye: present_eye,
+    eye_height: () => navigator.eye_height,
+    walks: () => navigator.walk,
+    go: (position) => commands.go({ ...navigator.view, position }),
+    may_drive: () => session.driving && navigator.view !== null,
 });
 const commands = start_commands({
     navigator,
@@ -141,6 +152,11 @@ const under = new UnderPointer(picture, {
 
 /** The picture's size for this window [pixels]. */
 const size_now = () => picture_size(innerWidth, innerHeight, devicePixelRatio, max_size);
+
+/** The view that the eye has, of a page that watches the driver's; null when it is not known. */
+function present_eye() {
+    return session.driving ? navigator.view : session.seen;
+}
 
 function redraw() {
     const { probes, areas } = measurements;
@@ -210,6 +226,7 @@ function scene_loaded(message) {
     show_failures([]);
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
+    plan.forget();
     cover("Drawing the first picture…");
     if (!navigator.view && views.scene_views.length > 0) {
         home = views.scene_views[0].view;
@@ -228,6 +245,7 @@ function scene_failed({ messages }) {
 function lost(reason, wait) {
     welcomed = false;
     roles.lost();
+    plan.forget();
     counters.ready = false;
     const words =
         reason ||
@@ -339,9 +357,11 @@ function step_now() {
 /** Show the camera of now. */
 function refresh() {
     const drew = camera.draws;
-    if (session.driving) navigator.advance(performance.now());
-    if (draw_camera()) session.latency.shown(session.view_id, performance.now());
+    const now = performance.now();
+    if (session.driving) navigator.advance(now);
+    if (draw_camera()) session.latency.shown(session.view_id, now);
     if (drew || camera.draws) redraw();
+    if (welcomed && counters.ready) plan.refresh(now);
 }
 
 start_panels();

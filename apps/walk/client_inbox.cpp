@@ -115,6 +115,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           [&](const GlareRequest& glare) {
                               ask({client, glare});
                           },
+                          [&](const PlanRequest& plan) {
+                              ask({client, plan});
+                          },
                           [&](const TakeRequest&) {
                               change_roles(client, driver_lock_.acquire(client),
                                            "somebody else drives");

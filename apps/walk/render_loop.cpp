@@ -46,6 +46,8 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       live_(frames, options_.edge_samples),
       answers_(session.tracer(), warnings),
       glare_(session.tracer(), executor, warnings),
+      survey_(session.scene(), session.tracer().options().back_faces_visible),
+      task_runner_(executor),
       eye_height_(eye_height_of(session.scene(), home)) {}
 
 void RenderLoop::step(const StopFlag& stop) {
@@ -61,12 +63,13 @@ void RenderLoop::step(const StopFlag& stop) {
     screen_.send(client_inbox_, Clock::now());
     if (shows && hurries) note_pace(begin);
     report(now);
+    draw_plan();
     if (!wish_.probes.empty() && !hurries && now - measured_at_ >= kProbeInterval) measure_probes();
 }
 
 std::chrono::milliseconds RenderLoop::patience() const {
     if (!wish_.view) return kIdle;
-    if (has_work()) return std::chrono::milliseconds(0);
+    if (has_work() || !plan_questions_.empty()) return std::chrono::milliseconds(0);
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         std::min(screen_.next_chance(), Clock::now() + kIdle) - Clock::now());
     return std::max(left, std::chrono::milliseconds(1));
@@ -209,8 +212,23 @@ void RenderLoop::reply(const WalkQuestion& question) {
                        tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
                    },
                    [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
-                   [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); }},
+                   [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); },
+                   [&](const PlanRequest& plan) {
+                       plan_questions_.insert_or_assign(question.client, plan.id);
+                   }},
         question.ask);
+}
+
+/// A part of it beside each frame, so that none waits for all of it.
+void RenderLoop::draw_plan() {
+    if (plan_questions_.empty()) return;
+    survey_.aim(view_->position, eye_height_);
+    if (!survey_.step(task_runner_)) return;
+    PlanReply reply = plan_reply(survey_.plan());
+    for (const auto& [client, id] : std::exchange(plan_questions_, {})) {
+        reply.id = id;
+        client_inbox_.tell(client, walk_text(reply));
+    }
 }
 
 void RenderLoop::save(const WebReply& reply) {

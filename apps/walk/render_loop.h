@@ -2,6 +2,7 @@
 // A scene in which somebody walks: its pictures, its light, and what browsers are told of both.
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,8 @@
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_screen.h"
 #include "core/cloud/moving_size.h"
+#include "core/plan/floor_plan.h"
+#include "parallel/executor_task_runner.h"
 #include "parallel/walk/live_walk.h"
 
 namespace lightwalk {
@@ -53,6 +56,7 @@ class RenderLoop {
     void reply(const WalkQuestion& question);
     void save(const WebReply& reply);
     void measure_probes();
+    void draw_plan();
     void draw(const StopFlag& stop);
     void show(Clock::time_point now);
     void note_pace(Clock::time_point begin);
@@ -78,6 +82,9 @@ class RenderLoop {
     LiveWalk live_;
     WalkAnswers answers_;
     WalkGlare glare_;
+    PlanSurvey survey_;
+    ExecutorTaskRunner task_runner_;
+    std::map<ClientId, std::uint32_t> plan_questions_;  ///< the newest of each
     double eye_height_;
 
     WalkWish wish_;

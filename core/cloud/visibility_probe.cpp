@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "core/light/light_sources.h"
+#include "core/scene/seen_material.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr int kMostSurfaces = 16;   ///< surfaces that a ray is followed through
-constexpr int kMostAlternates = 8;  ///< length of a chain of alternate materials
+constexpr int kMostSurfaces = 16;  ///< surfaces that a ray is followed through
 
 /// Extends the hash of a path by one surface; never 0.
 std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t frame) {
@@ -49,23 +49,16 @@ VisibilityProbe::VisibilityProbe(const Tracer& tracer)
 
 SurfaceAppearance VisibilityProbe::appearance_of(ModifierId modifier) const {
     const Scene& scene = tracer_.scene();
-    std::optional<ModifierId> material = scene.material_of(modifier);
-    MaterialTraits traits;
-    for (int i = 0; i < kMostAlternates && material; ++i) {
-        if (!scene.modifier(*material).node) return {};
-        traits = scene.modifier(*material).node->traits();
-        if (traits.appearance != Appearance::another) break;
-        modifier = traits.seen;
-        material = scene.material_of(modifier);
-    }
-    if (!material) return {Appearance::absent, 0, 0, 0, false, false};
-    const ModifierRecord& record = scene.modifier(*material);
+    const SeenMaterial seen = seen_material(scene, modifier);
+    const MaterialTraits& traits = seen.traits;
+    if (!seen.material) return {Appearance::absent, 0, 0, 0, false, false};
+    const ModifierRecord& record = scene.modifier(*seen.material);
     SurfaceAppearance appearance;
     appearance.appearance = traits.appearance;
     appearance.gloss = static_cast<float>(traits.gloss);
     appearance.roughness = static_cast<float>(traits.roughness);
     appearance.diffuse = static_cast<float>(traits.diffuse);
-    for (ModifierId m = modifier; m != kVoid; m = scene.modifier(m).next) {
+    for (ModifierId m = seen.first; m != kVoid; m = scene.modifier(m).next) {
         const PrimitiveKind kind = kind_of(scene.modifier(m).type);
         appearance.textured = appearance.textured || kind == PrimitiveKind::texture;
         appearance.patterned = appearance.patterned || kind == PrimitiveKind::pattern;

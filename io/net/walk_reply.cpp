@@ -1,5 +1,9 @@
 #include "io/net/walk_reply.h"
 
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 
 namespace lightwalk {
@@ -75,6 +79,22 @@ const char* word(WalkPhase phase) {
 template <class Value>
 Json or_null(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
+}
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= count ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
 }
 
 }  // namespace
@@ -157,6 +177,28 @@ std::string walk_text(const GlareReply& reply) {
                     {"done", reply.done},
                     {"dgp", reply.dgp},
                     {"sources", list}});
+}
+
+PlanReply plan_reply(const FloorPlan& plan) {
+    PlanReply reply{0, plan.width, plan.height, plan.left, plan.bottom, plan.cell, plan.z, {}};
+    auto size = compressBound(static_cast<uLong>(plan.cells.size()));
+    std::string deflated(size, '\0');
+    if (compress(reinterpret_cast<Bytef*>(deflated.data()), &size, plan.cells.data(),
+                 static_cast<uLong>(plan.cells.size())) != Z_OK)
+        throw std::bad_alloc();
+    reply.cells = base64(std::string_view(deflated).substr(0, size));
+    return reply;
+}
+
+std::string walk_text(const PlanReply& reply) {
+    return text_of({{"type", "plan"},
+                    {"id", reply.id},
+                    {"width", reply.width},
+                    {"height", reply.height},
+                    {"origin", Json::array({reply.left, reply.bottom})},
+                    {"cell", reply.cell},
+                    {"z", reply.z},
+                    {"cells", reply.cells}});
 }
 
 std::string walk_text(const StateReply& reply) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/plan/floor_plan.h"
 #include "io/net/walk_request.h"
 
 namespace lightwalk {
@@ -83,6 +84,17 @@ struct GlareReply {
     double dgp = 0;
     std::vector<GlareOutline> sources;
 };
+struct PlanReply {
+    std::uint32_t id = 0;
+    int width = 0, height = 0;    ///< [cells]; 0 where there is nothing to draw
+    double left = 0, bottom = 0;  ///< x and y of its lower left corner [m]
+    double cell = 0;              ///< side of a cell [m]
+    double z = 0;                 ///< of the section [m]
+    std::string cells;            ///< see plan_reply
+};
+/// The answer but for its number: the plan's cells as bytes, in a zlib stream (RFC 1950), in
+/// base64. Throws std::bad_alloc where zlib finds no memory.
+[[nodiscard]] PlanReply plan_reply(const FloorPlan& plan);
 struct StateReply {
     double fps = 0;
     double reuse = 0;     ///< share of the pixels that points of earlier frames answered
@@ -122,6 +134,7 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const MeanReply& reply);
 [[nodiscard]] std::string walk_text(const ProbesReply& reply);
 [[nodiscard]] std::string walk_text(const GlareReply& reply);
+[[nodiscard]] std::string walk_text(const PlanReply& reply);
 [[nodiscard]] std::string walk_text(const StateReply& reply);
 [[nodiscard]] std::string walk_text(const ViewReply& reply);
 [[nodiscard]] std::string walk_text(const DisplayReply& reply);

@@ -223,6 +223,7 @@ WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit) {
     if (type == "rectangle") return read_rectangle(object);
     if (type == "probes") return read_probes(object);
     if (type == "glare") return GlareRequest{identity(object, "id")};
+    if (type == "plan") return PlanRequest{identity(object, "id")};
     if (type == "take") return TakeRequest{};
     if (type == "hand") return HandRequest{identity(object, "to")};
     throw InputError("unknown type of message \"" + type.substr(0, 32) + "\"");

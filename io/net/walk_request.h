@@ -71,6 +71,10 @@ struct ProbesRequest {
 struct GlareRequest {
     std::uint32_t id = 0;
 };
+/// `plan`: the floor plan of where the walk is.
+struct PlanRequest {
+    std::uint32_t id = 0;
+};
 /// `take`: a watcher asks to drive.
 struct TakeRequest {};
 /// `hand`: the driver makes another client the driver.
@@ -78,9 +82,9 @@ struct HandRequest {
     std::uint32_t to = 0;  ///< a client's number
 };
 
-using WalkRequest =
-    std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
-                 PickRequest, MeanRequest, ProbesRequest, GlareRequest, TakeRequest, HandRequest>;
+using WalkRequest = std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest,
+                                 SettingsRequest, PickRequest, MeanRequest, ProbesRequest,
+                                 GlareRequest, PlanRequest, TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {

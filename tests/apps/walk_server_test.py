@@ -3,7 +3,7 @@
 
     walk_server_test.py PROGRAM [rest|light|roles|mended|returning|slow|abuse|ranks ...]
 """
-import os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request
+import base64, os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request, zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "perf"))
@@ -158,6 +158,8 @@ def roles(program):
         assert not second.told("welcome")["driver"]
         assert second.told("view")["view"]["position"] == VIEW["position"]
         second.frame()
+        plan = second.ask("plan", "plan")
+        assert len(zlib.decompress(base64.b64decode(plan["cells"]))) == plan["width"] * plan["height"] > 0, plan
         second.socket.send({"type": "take"})
         second.told("refused")
         first.socket.close()

@@ -2,13 +2,13 @@
 // wall of known luminance. Radiance in cd/m2, for pictures that change with the view as real ones do.
 import { HighlightCurve } from "../../../apps/viewer/tone.js";
 
-const kRoom = { low: [-4, -3, 0], high: [4, 3, 3] };
-const kWindows = [
+export const kRoom = { low: [-4, -3, 0], high: [4, 3, 3] };
+export const kWindows = [
     [-3.2, -1.2],
     [-0.4, 1.6],
 ]; // x ranges in the wall y = 3
-const kBall = { centre: [1.6, 0.6, 0.7], radius: 0.7 };
-const kTable = { low: [-2.2, -0.6, 0], high: [-0.9, 0.9, 0.75] };
+export const kBall = { centre: [1.6, 0.6, 0.7], radius: 0.7 };
+export const kTable = { low: [-2.2, -0.6, 0], high: [-0.9, 0.9, 0.75] };
 export const kKnownWall = { luminance: 120, material: "plaster", surface: "west_wall" }; // x = -4
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

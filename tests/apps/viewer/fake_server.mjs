@@ -3,7 +3,8 @@
 //     node fake_server.mjs --npm FOLDER [--port N] [--log]
 //
 // FOLDER has node_modules with ws and jpeg-js. GET /fake/NAME makes it misbehave: fail (the scene
-// cannot be read), reload, drop (breaks connections), dumb and speak (no frames meanwhile), refuse, join and leave (another driver).
+// cannot be read), reload, drop (breaks connections), dumb and speak (no frames meanwhile), refuse, join
+// and leave (another driver). The answer is how many plans were asked for.
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -18,6 +19,7 @@ import {
     luminance_piece,
     strip_piece,
 } from "./fake_frames.mjs";
+import { plan_message } from "./fake_plan.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
 
 const { values: args } = parseArgs({
@@ -73,7 +75,8 @@ let settings = { ambient: "rest" };
 let probes = [];
 let failing = false,
     dumb = false, // no frames
-    guest = null; // guest: a client that is not there
+    guest = null, // a client that is not there
+    plans = 0; // how many were asked for
 let wish = null,
     version = 0; // what is to be drawn, and how often it has changed
 const clients = new Map(); // socket -> {id, drawn, strip, busy, frame, session}
@@ -155,6 +158,10 @@ function answer(socket, message) {
             tell(socket, { type: "glare", id: message.id, done: 0.5, dgp: 0.3, sources: [] });
             setTimeout(() => tell(socket, glare(message)), 250);
         },
+        plan: () => {
+            ++plans;
+            tell(socket, planned(message));
+        },
         take: () =>
             driver === null
                 ? ((driver = client.id), tell_roles())
@@ -165,6 +172,11 @@ function answer(socket, message) {
 }
 
 const present_view = () => ({ ...wish.view, position: eye_of(wish) });
+/** As the real server, there is no plan before there is a picture. */
+const planned = ({ id }) =>
+    wish
+        ? plan_message(id, eye_of(wish)[2], kEyeHeight)
+        : { type: "refused", text: "there is no picture yet", id };
 const lux = (hit) => (hit.luminance * Math.PI) / 0.6;
 
 function picked({ id, x, y, view = present_view() }) {
@@ -320,7 +332,7 @@ async function serve(request, response) {
     const { pathname } = new URL(request.url, "http://localhost");
     if (pathname.startsWith("/fake/")) {
         pranks[pathname.slice(6)]?.();
-        return response.end("ok");
+        return response.end(String(plans));
     }
     if (pathname === "/save/picture.hdr")
         return setTimeout(

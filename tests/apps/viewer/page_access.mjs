@@ -5,7 +5,7 @@ import { until } from "./page_helpers.mjs";
 
 export const access_steps = (address, npm) => ({
     async "axe finds nothing wrong with any panel"(page) {
-        for (const panel of ["light", "views", "measure", "save", "help"]) {
+        for (const panel of ["light", "views", "plan", "measure", "save", "help"]) {
             await page.mouse.move(300, 300);
             if (panel === "help") await page.click("#show-help");
             else await page.click(`#dock [data-panel=${panel}]`);
@@ -18,11 +18,11 @@ export const access_steps = (address, npm) => ({
     },
 
     async "Tab reaches every control"(page) {
-        for (const panel of ["light", "views", "measure", "save"]) {
+        for (const panel of ["light", "views", "plan", "measure", "save"]) {
             await page.mouse.move(300, 300);
             await page.click(`#dock [data-panel=${panel}]`);
             const wanted = await page.evaluate(() =>
-                [...document.querySelectorAll("button, select, input, canvas[tabindex]")]
+                [...document.querySelectorAll("button, select, input, [tabindex]")]
                     .filter((e) => !e.disabled && e.offsetParent !== null && e.type !== "radio")
                     .map((e) => e.id || e.textContent),
             );
@@ -61,7 +61,7 @@ export const access_steps = (address, npm) => ({
             [400, 300],
         ]) {
             await other.setViewportSize({ width: size[0], height: size[1] });
-            for (const panel of ["light", "views", "measure", "save"]) {
+            for (const panel of ["light", "views", "plan", "measure", "save"]) {
                 await other.evaluate(
                     (p) => document.querySelector(`#dock [data-panel=${p}]`).click(),
                     panel,

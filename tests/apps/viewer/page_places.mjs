@@ -168,6 +168,88 @@ export const place_steps = (address) => ({
         await shown(page);
     },
 
+    async "the plan shows where the eye is, and a click or the keys go there"(page) {
+        /** Where a place of the scene is on the screen: the fake plan is 10 x 8 m around the origin. */
+        const place = async (x, y) => {
+            const box = await page.locator("#plan").boundingBox();
+            const scale = Math.min(box.width / 10, box.height / 8);
+            return [box.x + box.width / 2 + x * scale, box.y + box.height / 2 - y * scale];
+        };
+        const marks_eye = async () => {
+            const [x, y] = (await value(page, "eye")).position;
+            const wanted = await place(x, y);
+            const box = await page.locator("#plan-marks .eye").boundingBox();
+            const off = [box.x + box.width / 2 - wanted[0], box.y + box.height / 2 - wanted[1]];
+            assert.ok(Math.hypot(...off) < 1.5, `the eye's dot is off by ${off}`);
+        };
+        const goes = (x, y) =>
+            until(
+                page,
+                ([a, b]) => {
+                    const { moving, view } = window.lightwalk;
+                    return !moving && Math.hypot(view.position[0] - a, view.position[1] - b) < 0.06;
+                },
+                [x, y],
+            );
+        const asked = async () => Number(await (await fetch(`${address}fake/plans`)).text());
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+        await page.focus("#picture");
+        await page.keyboard.press("n");
+        await page.waitForSelector("#plan-marks .eye");
+        await marks_eye();
+        const before = await value(page, "view");
+        await page.mouse.click(...(await place(0.5, -2)));
+        await goes(0.5, -2);
+        await shown(page);
+        const there = await value(page, "view");
+        assert.ok(Math.abs(heading(there) - heading(before)) < 1e-6);
+        assert.ok(Math.abs(there.position[2] - 1.6) < 1e-6);
+        await marks_eye();
+        await page.focus("#picture");
+        assert.ok((await hold(page, "a")) > 0.1);
+        await marks_eye();
+        assert.match(await page.getAttribute("#plan", "aria-label"), /from the left.*north-west/);
+        await page.mouse.click(...(await place(-3.98, 0)));
+        await page.waitForSelector("#notice >> text=A wall is there");
+
+        await page.mouse.click(...(await place(0.5, -2)));
+        await goes(0.5, -2);
+        await page.focus("#plan");
+        for (let k = 0; k < 4; ++k) await page.keyboard.press("ArrowUp");
+        assert.match(await page.textContent("#plan-text"), /^1\.\d\d m north$/);
+        await page.keyboard.press("Enter");
+        await goes(0.5, -0.4);
+
+        const count = await asked();
+        await page.focus("#picture");
+        await page.keyboard.down("e");
+        await until(page, () => window.lightwalk.view.position[2] > 2.6);
+        await page.keyboard.up("e");
+        await until(
+            page,
+            async (n) => Number(await (await fetch("/fake/plans")).text()) > n,
+            count,
+        );
+        await page.keyboard.press("g");
+        await until(page, () => Math.abs(window.lightwalk.shown_view?.position[2] - 1.6) < 1e-9);
+        const again = await asked();
+        await fetch(`${address}fake/reload`);
+        await until(
+            page,
+            async (n) => Number(await (await fetch("/fake/plans")).text()) > n,
+            again,
+        );
+        await page.waitForSelector("#plan-marks .eye");
+        await shown(page);
+        await page.keyboard.press("Escape");
+        assert.ok(await page.isHidden("#panel-plan"));
+        await page.keyboard.press("1");
+        await page.waitForTimeout(100);
+        await shown(page);
+    },
+
     async "one thumb moves, the other looks"(page) {
         const line = await page.context().newCDPSession(page);
         const send = (type, ...points) =>

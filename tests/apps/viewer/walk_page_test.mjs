@@ -5,7 +5,7 @@
 //
 // Loads, waits for the first picture, turns, walks, clicks a surface of known luminance L [cd/m2] at
 // X,Y (0..1 from the left and the bottom, seen from view N of the scene) and reads it within 2 %,
-// switches false colour, saves a view, reloads and returns to it, and records a path to path.vf. A screenshot of each
+// switches false colour, saves a view, reloads and returns to it, records a path to path.vf, and opens the plan. A screenshot of each
 // step, and the path, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
@@ -219,6 +219,19 @@ const steps = {
             page.click("#write-path"),
         ]);
         await file.saveAs(path.join(args.pictures, "path.vf"));
+    },
+
+    async "the plan shows something, and the eye in it"(page) {
+        await page.focus("#picture");
+        await page.keyboard.press("n");
+        await page.waitForSelector("#plan-marks .eye", { timeout: kPatience });
+        const inks = await page.evaluate(() => {
+            const canvas = document.querySelector("#plan-picture");
+            const pixels = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            return new Set(new Uint32Array(pixels.data.buffer)).size;
+        });
+        assert.ok(inks > 1, "the plan is empty");
+        assert.match(await page.getAttribute("#plan", "aria-label"), /^The eye is .* facing /);
     },
 };
 

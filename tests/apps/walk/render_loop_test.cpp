@@ -161,6 +161,39 @@ TEST_CASE("render loop: light is told where somebody points, and at pins") {
     CHECK(walk.clients.got(kWatcher, "probes", "\"id\":3"));
 }
 
+TEST_CASE(
+    "render loop: the plan of a place is drawn beside frames, once, and told to whoever asks") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    const auto ask = [&](ClientId client, int id) {
+        walk.inbox.message(client, R"({"type":"plan","id":)" + std::to_string(id) + "}");
+    };
+    const auto steps_until = [&](ClientId client, int id) {
+        const std::string mark = "\"id\":" + std::to_string(id) + ",";
+        for (int i = 1; i < 100; ++i) {
+            walk.loop->step(walk.stop);
+            if (walk.clients.got(client, "plan", mark)) return i;
+        }
+        FAIL("no plan comes");
+        return 0;
+    };
+    ask(kWatcher, 1);
+    walk.loop->step(walk.stop);
+    CHECK(walk.clients.got(kWatcher, "refused", "there is no picture yet"));
+    walk.inbox.message(kDriver, view_message(1, 0.25));
+    walk.rest();
+    const std::size_t frames = walk.clients.frames_of(kDriver);
+    ask(kWatcher, 2);
+    ask(kWatcher, 3);
+    ask(kDriver, 4);
+    CHECK(steps_until(kWatcher, 3) > 1);
+    CHECK_FALSE(walk.clients.got(kWatcher, "plan", "\"id\":2,"));
+    CHECK(walk.clients.got(kDriver, "plan", "\"id\":4,"));
+    CHECK(walk.clients.frames_of(kDriver) == frames);  // the picture was done, and still is
+    ask(kDriver, 5);
+    CHECK(steps_until(kDriver, 5) == 1);
+}
+
 TEST_CASE("render loop: a view that moves is shown at once, and the eye walks on the ground") {
     const LoadedScene scene(room());
     Walk walk(scene);

@@ -1,6 +1,7 @@
 #include "io/net/walk_reply.h"
 
 #include <doctest/doctest.h>
+#include <zlib.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,24 @@ const View kView{'v', {1, 2, 1.6}, {0, 1, 0}, {0, 0, 1}, 60, 40, 0.1, 0, 0, 0.5}
 const json kViewJson = json::parse(R"({"type": "v", "position": [1.0, 2.0, 1.6],
     "direction": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0], "horizontal": 60.0, "vertical": 40.0,
     "fore": 0.1, "aft": 0.0, "shift": 0.0, "lift": 0.5})");
+
+std::string from_base64(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char letter : text) {
+        if (letter == '=') break;
+        const std::size_t digit = digits.find(letter);
+        REQUIRE(digit != std::string::npos);
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes += static_cast<char>(bits >> count & 255);
+    }
+    return bytes;
+}
 
 }  // namespace
 
@@ -79,12 +98,39 @@ TEST_CASE("walk reply: each is the text that the format has for it") {
          R"({"type": "glare", "id": 9, "done": 1.0, "dgp": 0.5, "sources": [
              {"outline": [[0.0, 0.5], [1.0, 1.0]], "luminance": 2000.0, "solid_angle": 0.125,
               "position_index": 1.5}]})");
+    same(walk_text(PlanReply{6, 3, 2, -1.5, 2, 0.25, 1.5, "AAAA"}),
+         R"({"type": "plan", "id": 6, "width": 3, "height": 2, "origin": [-1.5, 2.0],
+             "cell": 0.25, "z": 1.5, "cells": "AAAA"})");
     same(walk_text(StateReply{30, 0.97, 0.015, 0.01, 1e6, WalkPhase::refining, 0.5, 2, 8, 300000}),
          R"({"type": "state", "fps": 30.0, "reuse": 0.97, "inferred": 0.015, "guessed": 0.01,
              "rays_per_second": 1000000.0, "phase": "refining", "share": 0.5, "ranks": 2, "threads": 8, "points": 300000})");
     same(walk_text(RefusedReply{"no", 3}), R"({"type": "refused", "text": "no", "id": 3})");
     same(walk_text(RefusedReply{"no", {}}), R"({"type": "refused", "text": "no"})");
     same(walk_text(ByeReply{"end"}), R"({"type": "bye", "reason": "end"})");
+}
+
+TEST_CASE("walk reply: a plan's cells come back from base64 and zlib") {
+    for (const std::size_t width : {0, 1, 2, 3, 4, 384}) {
+        FloorPlan plan;
+        plan.width = static_cast<int>(width);
+        plan.height = 77;
+        plan.left = -3.5;
+        plan.z = 1.25;
+        for (std::size_t k = 0; k < 77 * width; ++k)
+            plan.cells.push_back(static_cast<std::uint8_t>(k * k / 7 % 256));
+        const PlanReply reply = plan_reply(plan);
+        CHECK(reply.width == plan.width);
+        CHECK(reply.left == -3.5);
+        CHECK(reply.z == 1.25);
+        CHECK(reply.cells.size() % 4 == 0);
+        const std::string packed = from_base64(reply.cells);
+        std::vector<std::uint8_t> cells(plan.cells.size() + 1);
+        auto size = static_cast<uLongf>(cells.size());
+        REQUIRE(uncompress(cells.data(), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                           static_cast<uLong>(packed.size())) == Z_OK);
+        cells.resize(size);
+        CHECK(cells == plan.cells);
+    }
 }
 
 TEST_CASE("walk reply: names that are no UTF-8 and numbers that are none are still JSON") {

@@ -36,6 +36,7 @@ const std::vector<std::string> kSound{
     R"({"type":"hello","session":"0123456789abcdef","depth":true})",
     R"({"type":"pick","id":3,"x":0.25,"y":1,"view":{"type":"v","position":[1,2,1.6],)"
     R"("direction":[0,1,0],"up":[0,0,1],"horizontal":60,"vertical":40.5}})",
+    R"({"type":"plan","id":6})",
 };
 
 /// Fields of these messages that need not be there.
@@ -109,6 +110,7 @@ TEST_CASE("walk request: each message is read as it stands") {
     CHECK(read<GlareRequest>(sound(8)).id == 5);
     (void)read<TakeRequest>(sound(9));
     CHECK(read<HandRequest>(sound(10)).to == 2);
+    CHECK(read<PlanRequest>(sound(13)).id == 6);
 }
 
 TEST_CASE("walk request: what may be missing may, what is not known is ignored") {
