@@ -21,6 +21,7 @@ class RankFrames final : public LiveFrames {
         : LiveFrames(direct, indirect, cloud, options, executor, warnings),
           draw_(std::move(draw)) {}
 
+    void forget_view() override { lead_->abandon(); }
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
     [[nodiscard]] const ProgressivePicture* progressive(const StopFlag& stop) override;

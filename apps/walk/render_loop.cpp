@@ -14,8 +14,15 @@ namespace {
 
 constexpr double kUsualEyeHeight = 1.6;  // [m]
 constexpr double kHighestStep = 0.35;    // as a share of the eye's height
-// At rest most of the time goes to better pixels: compressing them can wait.
-constexpr std::chrono::milliseconds kProgressiveInterval{100};
+// At rest most of the time goes to better pixels: they are shown the more seldom the longer the
+// view rests.
+constexpr double kShownShare = 0.25;                 // of the time since it moved
+constexpr double kLeastShown = 0.1, kMostShown = 1;  // between pictures that are shown [s]
+// Of a place that is new small pictures are drawn until few of their pixels are guessed, then a
+// whole one that takes its time: refined from the first one it would be a blur for seconds.
+constexpr int kSmallSketches = 4;
+constexpr double kFewGuessed = 0.05;
+constexpr double kAtRest = 0.12, kWholeSketch = 0.5;  // of a step [s]: so long a new view may wait
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
 constexpr std::chrono::milliseconds kIdle{100};
@@ -30,6 +37,13 @@ double eye_height_of(const Scene& scene, const View& view) {
 
 bool same_picture(const ViewRequest& a, const ViewRequest& b) {
     return a.view == b.view && a.walk == b.walk && a.width == b.width && a.height == b.height;
+}
+
+/// Whether a view shows hardly anything of what another one shows.
+bool is_elsewhere(const View& a, const View& b, double eye_height) {
+    constexpr double kAcross = 0.7;  // cosine of an angle
+    return length(a.position - b.position) > eye_height ||
+           dot(normalize(a.direction), normalize(b.direction)) < kAcross;
 }
 
 }  // namespace
@@ -57,7 +71,7 @@ void RenderLoop::step(const StopFlag& stop) {
     draw(stop);
     const Clock::time_point now = Clock::now();
     const bool hurries = live_.picture().phase == WalkPhase::moving;
-    const bool shows = drawn_ && (hurries || now - shown_at_ >= kProgressiveInterval);
+    const bool shows = drawn_ && (hurries || now - shown_at_ >= progressive_interval(now));
     if (shows) show(now);
     screen_.acked(client_inbox_.pop_acks());  // of meanwhile: they tell who may be sent a frame
     screen_.send(client_inbox_, Clock::now());
@@ -84,7 +98,8 @@ bool RenderLoop::has_work() const {
 /// A hand may hold still without letting go: then the view rests, though it is said to move.
 RenderLoop::Size RenderLoop::size_now() const {
     const Size whole{wish_.view->width, wish_.view->height};
-    if (!wish_.view->moving || Clock::now() - moved_ > kHeld) return whole;
+    const bool rests = !wish_.view->moving || Clock::now() - moved_ > kHeld;
+    if (rests && small_sketches_ == 0) return whole;
     return {moving_size_.of(whole.width), moving_size_.of(whole.height)};
 }
 
@@ -103,6 +118,10 @@ void RenderLoop::answer(const InboxContents& inbox) {
     if (inbox.wish.view && wish_.view && inbox.wish.view->id != wish_.view->id) shown_ = false;
     wish_ = inbox.wish;
     if (moved) {
+        if (!view_ || is_elsewhere(*view_, wish_.view->view, eye_height_)) {
+            small_sketches_ = kSmallSketches;
+            sketches_ = 1;
+        }
         glare_.forget(client_inbox_);
         view_ = on_the_ground(*wish_.view);
         moved_ = now;
@@ -125,11 +144,21 @@ View RenderLoop::on_the_ground(const ViewRequest& request) const {
     return view;
 }
 
+RenderLoop::Clock::duration RenderLoop::progressive_interval(Clock::time_point now) const {
+    const double rested = std::chrono::duration<double>(now - moved_).count();
+    return std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(std::clamp(kShownShare * rested, kLeastShown, kMostShown)));
+}
+
+/// Of a moving frame's time at least a third is for its steps. At rest they are long, since each
+/// takes a while beside it.
 double RenderLoop::budget() const {
-    const double periods =
-        wish_.view->moving ? moving_size_.periods(wish_.view->width, wish_.view->height) : 1;
-    const double seconds = periods / options_.rate;
-    return std::max(seconds - aside_seconds_, 0.001);
+    constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3;
+    const bool whole_sketch = sketches_ > 0 && small_sketches_ == 0;
+    if (!wish_.view->moving) return whole_sketch ? kWholeSketch : kAtRest;
+    const double seconds =
+        moving_size_.periods(wish_.view->width, wish_.view->height) / options_.rate;
+    return std::max({seconds - aside_seconds_, kLeastShare * seconds, kShortest});
 }
 
 void RenderLoop::draw(const StopFlag& stop) {
@@ -141,19 +170,31 @@ void RenderLoop::draw(const StopFlag& stop) {
     if (!has_work()) return;
     const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
     const Size size = size_now();
+    if (small_sketches_ > 0 || sketches_ > 0) live_.look_anew();
     if (!live_.next(*view_, size.width, size.height, ambient, budget, stop)) return;
     drawn_ = true;
     shown_ = false;
+    note_size(size, budget);
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {
         const CloudReport& report = live_.picture().report;
-        if (wish_.view->moving && size.width == moving_size_.of(wish_.view->width))
-            moving_size_.record(report, budget);
         pace_.reused += static_cast<double>(report.reused);
         pace_.inferred += static_cast<double>(report.inferred);
         pace_.guessed += static_cast<double>(report.filled - report.inferred);
         pace_.pixels += static_cast<double>(report.pixels);
     }
+}
+
+/// What a picture of this size tells of the next one's.
+void RenderLoop::note_size(Size size, double budget) {
+    const LivePicture& picture = live_.picture();
+    const auto pixels = static_cast<double>(picture.radiance.size());
+    const auto guessed = static_cast<double>(picture.report.filled - picture.report.inferred);
+    int& left = small_sketches_ > 0 ? small_sketches_ : sketches_;
+    left = guessed < kFewGuessed * pixels ? 0 : std::max(left - 1, 0);
+    if (picture.phase == WalkPhase::moving && wish_.view->moving &&
+        size.width == moving_size_.of(wish_.view->width))
+        moving_size_.record(picture.report, budget);
 }
 
 /// Not where nothing is new: neither pixels nor their colours.

@@ -52,25 +52,29 @@ class RenderLoop {
         double reused = 0, inferred = 0, guessed = 0, pixels = 0;
     };
 
+    struct Size {
+        int width, height;
+    };
+
     void answer(const InboxContents& inbox);
     void reply(const WalkQuestion& question);
     void save(const WebReply& reply);
     void measure_probes();
     void draw_plan();
     void draw(const StopFlag& stop);
+    void note_size(Size size, double budget);
     void show(Clock::time_point now);
     void note_pace(Clock::time_point begin);
     void report(Clock::time_point now);
     [[nodiscard]] View on_the_ground(const ViewRequest& request) const;
     [[nodiscard]] bool has_work() const;
-    struct Size {
-        int width, height;
-    };
     /// Of the next picture: smaller than wished while the view moves, if there is no time for all
-    /// of it.
+    /// of it, and where the eye comes to a place of which hardly anything is known.
     [[nodiscard]] Size size_now() const;
     /// Time for the steps of the next picture [s].
     [[nodiscard]] double budget() const;
+    /// Between two pictures of a view that rests.
+    [[nodiscard]] Clock::duration progressive_interval(Clock::time_point now) const;
     [[nodiscard]] std::chrono::milliseconds patience() const;
 
     RenderLoopOptions options_;
@@ -88,10 +92,11 @@ class RenderLoop {
     double eye_height_;
 
     WalkWish wish_;
-    std::optional<View> view_;       ///< that is drawn
-    std::optional<ViewReply> told_;  ///< what watchers know
-    bool drawn_ = false;             ///< the picture is of view_, as wished
-    bool shown_ = false;             ///< as it is, with the display that is wished
+    std::optional<View> view_;               ///< that is drawn
+    std::optional<ViewReply> told_;          ///< what watchers know
+    bool drawn_ = false;                     ///< the picture is of view_, as wished
+    bool shown_ = false;                     ///< as it is, with the display that is wished
+    int small_sketches_ = 0, sketches_ = 0;  ///< of a new place, at most: small ones, whole ones
     Clock::time_point moved_, shown_at_, measured_at_;
     MovingSize moving_size_;
     double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late

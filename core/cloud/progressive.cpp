@@ -30,6 +30,13 @@ ProgressiveWork ProgressivePicture::next(std::size_t most) const {
     return work.places.empty() ? steep(most) : work;
 }
 
+bool ProgressivePicture::finished() const {
+    const auto is_open = [](const PixelOrigin& pixel) {
+        return pixel.kind != PixelOrigin::Kind::traced;
+    };
+    return std::none_of(origins_.begin(), origins_.end(), is_open) && steep(1).places.empty();
+}
+
 std::size_t ProgressivePicture::open_pixels() const {
     return static_cast<std::size_t>(std::count_if(
         origins_.begin(), origins_.end(),
@@ -50,7 +57,8 @@ std::vector<Rgb> ProgressivePicture::picture() const {
     known.reserve(origins_.size());
     for (const PixelOrigin& pixel : origins_)
         known.push_back(pixel.kind == PixelOrigin::Kind::filled ? 0 : 1);
-    fill_gaps(width_, height_, shown, known);
+    if (std::find(known.begin(), known.end(), 0) != known.end())
+        fill_gaps(width_, height_, shown, known);
     return shown;
 }
 

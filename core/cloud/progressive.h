@@ -60,6 +60,8 @@ class ProgressivePicture {
     /// pixels that differ by more than a tenth from a neighbour. Empty when the picture is
     /// finished.
     [[nodiscard]] ProgressiveWork next(std::size_t most) const;
+    /// Whether next() has nothing any more.
+    [[nodiscard]] bool finished() const;
     /// Number of pixels that have not been traced.
     [[nodiscard]] std::size_t open_pixels() const;
     /// Number of pixels that are interpolated or guessed.

@@ -8,6 +8,7 @@ namespace {
 
 // Choosing them takes a pass over the picture.
 constexpr std::size_t kMostPixels = 65536;
+constexpr int kOvertureSpacing = 8;  // [pixels]
 // Of a finer grid single pixels are shown only where it does not show that others are not: a wall
 // with dots on it looks worse than a wall that waits [pixels].
 constexpr int kUnseen = 2;
@@ -29,20 +30,26 @@ void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const floa
     }
     work_.begin(radiance, distance, origins);
     chosen_ = {};
+    overture_ = true;
+    for (int y = 0; y < height_; y += kOvertureSpacing)
+        for (int x = 0; x < width_; x += kOvertureSpacing) chosen_.places.push_back({x, y});
 }
 
 bool ProgressiveLight::step(Trace trace) {
-    if (chosen_.places.empty()) chosen_ = work_.next(kMostPixels);
+    if (chosen_.places.empty()) {
+        overture_ = false;
+        chosen_ = work_.next(kMostPixels);
+    }
     if (chosen_.places.empty()) return false;
     const ProgressiveWork work = std::move(chosen_);
     chosen_ = {work.sample, {}};
     const std::vector<std::optional<PixelValue>> values = trace(work);
-    work_.record(work, values);
+    if (!overture_) work_.record(work, values);
     for (std::size_t i = 0; i < work.places.size(); ++i) {
         const PixelPlace& place = work.places[i];
         if (!values[i])
             chosen_.places.push_back(place);
-        else if (work.sample == 0)
+        else if (!overture_ && work.sample == 0)
             --left_[static_cast<std::size_t>(grid_level(place))];
     }
     return true;

@@ -39,7 +39,8 @@ class ProgressiveLight {
     /// @param radiance, distance  row by row from the bottom
     void begin(std::span<const Rgb> radiance, std::span<const float> distance);
 
-    /// Trace more pixels.
+    /// Trace more pixels. The coarsest grids are traced twice: what the tracer stores of indirect
+    /// light, to interpolate it, is sparse and rough until then, and would show as dots.
     /// @return  false: there is nothing left to do
     bool step(Trace trace);
 
@@ -63,6 +64,7 @@ class ProgressiveLight {
     int width_, height_;
     ProgressivePicture work_;
     std::vector<Rgb> before_;
+    bool overture_ = true;           ///< no pixel counts yet, see step()
     std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
     ProgressiveWork chosen_;         ///< of them those that come next
 };

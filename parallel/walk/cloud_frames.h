@@ -35,6 +35,7 @@ class CloudFrames {
     /// Frames of another size from here on, from the same points. Audits and ages go on.
     void resize(int width, int height) { lead_.resize(width, height); }
     /// Time for each of the next frames; 0: none is too long [s].
+    void forget_view() { lead_.abandon(); }
     void set_budget(double seconds) { lead_.set_budget(seconds); }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
     void set_refine(double share) { lead_.set_refine(share); }

@@ -61,6 +61,10 @@ class LiveFrames {
     /// but the next frame is no longer that of render_frame to the bit.
     void resize(int width, int height);
 
+    /// The next frame is drawn as one of a new view, also where its view is not: of what it shows
+    /// more is known by now.
+    virtual void forget_view() = 0;
+
     /// The next frame of a walk: the picture that render_frame makes of the same view when it
     /// traces every pixel, as far as the points of the frames before it tell the truth; the first
     /// frame is that to the bit.
@@ -114,6 +118,7 @@ void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameO
 class LocalFrames final : public LiveFrames {
   public:
     using LiveFrames::LiveFrames;
+    void forget_view() override { frames_->forget_view(); }
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
     [[nodiscard]] const ProgressivePicture* progressive(const StopFlag&) override {

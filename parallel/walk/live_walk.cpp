@@ -26,6 +26,11 @@ void LiveWalk::resize(int width, int height) {
     view_.reset();
 }
 
+void LiveWalk::look_anew() {
+    if (view_) frames_.forget_view();
+    view_.reset();
+}
+
 bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, double budget,
                     const StopFlag& stop) {
     if (width_ == 0 || use_ != use)
@@ -50,8 +55,7 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
                             turned_rows(std::span<const float>(picture_.distance), width));
         return add_light(budget, stop);
     }
-    if (picture != nullptr && !picture->next(1).places.empty())
-        return draw(view, true, budget, stop);
+    if (picture != nullptr && !picture->finished()) return draw(view, true, budget, stop);
     picture_.phase = WalkPhase::done;
     picture_.share = 1;
     picture_.rays = 0;

@@ -35,6 +35,8 @@ class LiveWalk {
     /// Throws what the tracers throw. False: stopped; the picture is the one before.
     [[nodiscard]] bool next(const View& view, int width, int height, WalkAmbient use, double budget,
                             const StopFlag& stop);
+    /// The next picture is one of a new view, also where its view is not: more of it is known now.
+    void look_anew();
     /// The last one; empty before the first.
     [[nodiscard]] const LivePicture& picture() const { return picture_; }
 
