@@ -19,7 +19,7 @@ const kLargest = {
 };
 
 /** The extent, at unit distance, of a picture with a horizontal or vertical size [degrees]; `straight`: the
-* direction along the axis of a cylindrical view. */
+ * direction along the axis of a cylindrical view. */
 function extent_of(type, size, straight) {
     switch (type) {
         case "v":
