@@ -48,8 +48,8 @@ void LuminancePlane::measure(std::span<const Rgb> picture, const PixelRectangle&
             }
             const float L = kEfficacy * sum / static_cast<float>((right - x) * (bottom - y));
             const bool lit = L > 0 && std::isfinite(L);
-            logarithms_[static_cast<std::size_t>(y / kSquare * columns_ + x / kSquare)] =
-                lit ? std::log2(L) : kBlack;
+            const int square = y / kSquare * columns_ + x / kSquare;
+            logarithms_[static_cast<std::size_t>(square)] = lit ? std::log2(L) : kBlack;
         }
     }
 }
