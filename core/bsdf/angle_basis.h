@@ -1,8 +1,8 @@
 #pragma once
-// A basis of matrices of BSDF values: a hemisphere cut into rings of polar angle, each ring into equal
-// sectors. Source: Klems, "A new method for predicting the solar heat gain of complex fenestration
-// systems", ASHRAE Transactions 100 (1994); the names and their numbers: LBNL WINDOW's technical
-// documentation, and genBSDF's manual page.
+// A basis of matrices of BSDF values: a hemisphere cut into rings of polar angle, each ring into
+// equal sectors. Source: Klems, "A new method for predicting the solar heat gain of complex
+// fenestration systems", ASHRAE Transactions 100 (1994); the names and their numbers: LBNL WINDOW's
+// technical documentation, and genBSDF's manual page.
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -24,7 +24,7 @@ struct DiskPoint {
 
 /// A ring as files describe it.
 struct AngleRing {
-    double upper = 0;         ///< its largest polar angle [degrees]; the smallest is the ring before's
+    double upper = 0;  ///< its largest polar angle [degrees]; the smallest is the ring before's
     std::size_t sectors = 1;  ///< the first is centred on azimuth 0
 };
 
@@ -43,7 +43,9 @@ class AngleBasis {
     /// The number of the patch that holds a direction.
     [[nodiscard]] std::size_t index(const DiskPoint& p) const;
     /// A patch's projected solid angle [sr].
-    [[nodiscard]] double solid_angle(std::size_t patch) const { return places_[ring_of(patch)].area; }
+    [[nodiscard]] double solid_angle(std::size_t patch) const {
+        return places_[ring_of(patch)].area;
+    }
     /// The smallest of these.
     [[nodiscard]] double least_solid_angle() const;
     /// A point of the patch from two numbers that are uniform in [0, 1), uniform in projected solid

@@ -7,7 +7,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kFaintest = 0.001;  ///< lobes whose largest total is less are none
+constexpr double kFaintest = 0.001;   ///< lobes whose largest total is less are none
 constexpr double kConserving = 1.01;  ///< largest total that is not warned of
 
 constexpr std::array<const char*, kBsdfParts> kPartNames = {
@@ -60,7 +60,8 @@ void Bsdf::load(BsdfPart part, BsdfPart table, bool reversed) {
     // Of trees of rank 3 no totals are known in reverse; they still scatter the light of sources.
     const auto* tree = std::get_if<BsdfTree>(&*from);
     const bool no_totals = reversed && tree && tree->y.rank() == 3;
-    if (no_totals || split.lobes->largest_total() > kFaintest) component.lobes = std::move(split.lobes);
+    if (no_totals || split.lobes->largest_total() > kFaintest)
+        component.lobes = std::move(split.lobes);
 }
 
 bool Bsdf::transmits() const {
@@ -100,7 +101,8 @@ std::vector<std::string> Bsdf::warnings() const {
 
 std::size_t Bsdf::own_bytes() const {
     std::size_t bytes = 0;
-    for (const std::optional<BsdfTable>& table : data_->parts) bytes += table ? table_bytes(*table) : 0;
+    for (const std::optional<BsdfTable>& table : data_->parts)
+        bytes += table ? table_bytes(*table) : 0;
     for (const BsdfComponent& part : parts_) bytes += part.lobes ? part.lobes->own_bytes() : 0;
     return bytes;
 }

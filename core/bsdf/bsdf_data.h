@@ -28,8 +28,8 @@ struct BsdfMatrix {
 /// dimension 0 is half of 1 less the sine of the incident polar angle, 1 and 2 are the exitant
 /// direction, turned so that light travels along +x.
 struct BsdfTree {
-    TensorTree y;                      ///< luminous
-    std::optional<TensorTree> u, v;    ///< u' and v' of CIE 1976; both, or none: grey
+    TensorTree y;                    ///< luminous
+    std::optional<TensorTree> u, v;  ///< u' and v' of CIE 1976; both, or none: grey
 };
 
 using BsdfTable = std::variant<BsdfMatrix, BsdfTree>;
@@ -46,10 +46,10 @@ inline constexpr std::size_t kBsdfParts = 4;
 
 /// The contents of a file.
 struct BsdfData {
-    std::string name;  ///< the material's, for people
+    std::string name;                                        ///< the material's, for people
     std::array<std::optional<BsdfTable>, kBsdfParts> parts;  ///< nothing: not in the file
-    std::string geometry;  ///< the system's geometry in MGF; "" where the file has none
-    double geometry_unit = 1;  ///< [m]
+    std::string geometry;          ///< the system's geometry in MGF; "" where the file has none
+    double geometry_unit = 1;      ///< [m]
     std::array<double, 3> size{};  ///< width, height, thickness [m]; 0: not in the file
 
     [[nodiscard]] const std::optional<BsdfTable>& part(BsdfPart which) const {

@@ -56,13 +56,16 @@ struct SplitLobes {
 };
 
 /// @param table     kept; must live as long as the lobes
-/// @param reversed  take the values for (e, l) from (l, e): by reciprocity those of light that comes
+/// @param reversed  take the values for (e, l) from (l, e): by reciprocity those of light that
+/// comes
 ///                  from the other side
 /// Throws InputError for trees whose slices are too many to be added up.
 [[nodiscard]] SplitLobes make_matrix_lobes(const BsdfMatrix& table, bool reversed);
 [[nodiscard]] SplitLobes make_tree_lobes(const BsdfTree& table, bool reversed);
 
 /// Whether a least value of so much luminance [1/sr] counts as a Lambertian part.
-[[nodiscard]] inline bool is_lambertian_part(double least) { return least > 0.01 / kPi; }
+[[nodiscard]] inline bool is_lambertian_part(double least) {
+    return least > 0.01 / kPi;
+}
 
 }  // namespace lightwalk

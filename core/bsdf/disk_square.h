@@ -1,6 +1,6 @@
 #pragma once
-// The map between the unit disk and the unit square that keeps areas. Source: Shirley & Chiu, "A low
-// distortion map between disk and square", Journal of Graphics Tools 2(3), 1997.
+// The map between the unit disk and the unit square that keeps areas. Source: Shirley & Chiu, "A
+// low distortion map between disk and square", Journal of Graphics Tools 2(3), 1997.
 #include <cmath>
 
 #include "core/bsdf/angle_basis.h"

@@ -16,9 +16,7 @@ class MatrixLobes final : public BsdfLobes {
     MatrixLobes(const BsdfMatrix& table, bool reversed);
 
     [[nodiscard]] Value value(const DiskPoint& e, const DiskPoint& l) const override;
-    [[nodiscard]] double total(const DiskPoint& e) const override {
-        return totals_[row_of(e)];
-    }
+    [[nodiscard]] double total(const DiskPoint& e) const override { return totals_[row_of(e)]; }
     [[nodiscard]] Sample sample(const DiskPoint& e, double choice, double xi1,
                                 double xi2) const override;
     [[nodiscard]] SolidAngleRange resolution(const DiskPoint& e) const override {

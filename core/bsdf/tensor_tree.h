@@ -1,6 +1,6 @@
 #pragma once
-// A tensor tree: a function on the unit cube of 3 or 4 dimensions that is constant in the cells of a
-// tree. Source: Ward, Kurt & Bonneel, "A practical framework for sharing and rendering real-world
+// A tensor tree: a function on the unit cube of 3 or 4 dimensions that is constant in the cells of
+// a tree. Source: Ward, Kurt & Bonneel, "A practical framework for sharing and rendering real-world
 // bidirectional scattering distribution functions", LBNL-5954E (2012).
 #include <array>
 #include <bit>
@@ -11,9 +11,9 @@
 
 namespace lightwalk {
 
-/// A node has 2^rank entries, one a child: bit i of a child's number is set where it takes the upper
-/// half of dimension i. An entry is a value (a float >= 0, whose sign bit is clear), or the number
-/// of another node with the highest bit set: four bytes a leaf, and as many an inner node.
+/// A node has 2^rank entries, one a child: bit i of a child's number is set where it takes the
+/// upper half of dimension i. An entry is a value (a float >= 0, whose sign bit is clear), or the
+/// number of another node with the highest bit set: four bytes a leaf, and as many an inner node.
 class TensorTree {
   public:
     using Entry = std::uint32_t;
@@ -68,7 +68,7 @@ class HalvingPath {
     HalvingPath() = default;
     explicit HalvingPath(double coordinate) {
         const double scaled = coordinate * (1 << kBits);
-        bits_ = !(scaled > 0) ? 0
+        bits_ = !(scaled > 0)               ? 0
                 : scaled < (1 << kBits) - 1 ? static_cast<std::uint32_t>(scaled)
                                             : (1U << kBits) - 1;
     }

@@ -51,10 +51,9 @@ struct SeenCells {
         list[count++] = seen;
     }
     void sort() {
-        std::stable_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
-                         [](const SeenCell& a, const SeenCell& b) {
-                             return a.luminance > b.luminance;
-                         });
+        std::stable_sort(
+            list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const SeenCell& a, const SeenCell& b) { return a.luminance > b.luminance; });
     }
 };
 
@@ -116,8 +115,7 @@ ThroughPart find_through_part(const BsdfComponent& transmission, const DiskPoint
 bool in_through_part(const DiskPoint& e, const DiskPoint& l, double projected, double least) {
     constexpr double kReach = 2.5 * 4 / kPi;
     const double x = l.x + e.x, y = l.y + e.y;
-    return x * x + y * y <=
-           kReach * (projected + least + 2 * std::sqrt(projected * least));
+    return x * x + y * y <= kReach * (projected + least + 2 * std::sqrt(projected * least));
 }
 
 }  // namespace lightwalk

@@ -74,8 +74,8 @@ class TreeLobes final : public BsdfLobes {
     bool reversed_;
     SliceDimensions dimensions_;
     IncidentCells incident_;
-    float base_ = 0;  ///< luminance of the Lambertian part [1/sr]
-    Rgb taken_;       ///< its colour
+    float base_ = 0;                ///< luminance of the Lambertian part [1/sr]
+    Rgb taken_;                     ///< its colour
     std::vector<SliceSums> cells_;  ///< one an incident cell; none where totals are not known
     std::vector<float> blocks_;     ///< of each cell the sums of its blocks, one after the other
     int finest_ = 0;
@@ -267,7 +267,8 @@ BsdfLobes::Value TreeLobes::value(const DiskPoint& e, const DiskPoint& l) const 
     for (; !TensorTree::is_leaf(entry); ++level) {
         std::size_t incident = point.incident[0].half(level);
         if (dimensions_.incident_count == 2) incident |= point.incident[1].half(level) << 1;
-        const std::size_t exitant = point.exitant[0].half(level) | point.exitant[1].half(level) << 1;
+        const std::size_t exitant = point.exitant[0].half(level) | point.exitant[1].half(level)
+                                                                       << 1;
         entry = table_.y.child(entry, dimensions_.child(incident, exitant));
     }
     const SliceCell leaf{point.exitant[0].cell(level), point.exitant[1].cell(level), level, 0};
@@ -287,9 +288,10 @@ SolidAngleRange TreeLobes::resolution(const DiskPoint& e) const {
 SliceCell TreeLobes::choose(const IncidentPath& incident, std::size_t cell, double choice) const {
     const float* sums = &blocks_[cell * kBlocks];
     const double wanted = choice * static_cast<double>(cells_[cell].total);
-    const auto block = std::min(
-        kBlocks - 1, static_cast<std::size_t>(
-                         std::upper_bound(sums, sums + kBlocks, static_cast<float>(wanted)) - sums));
+    const auto block =
+        std::min(kBlocks - 1,
+                 static_cast<std::size_t>(
+                     std::upper_bound(sums, sums + kBlocks, static_cast<float>(wanted)) - sums));
     double left = wanted - (block > 0 ? static_cast<double>(sums[block - 1]) : 0.0);
     const auto x = static_cast<std::uint32_t>(block % (1U << kBlockLevel)),
                y = static_cast<std::uint32_t>(block >> kBlockLevel);
@@ -305,13 +307,12 @@ SliceCell TreeLobes::choose(const IncidentPath& incident, std::size_t cell, doub
     const int above = kBlockLevel - at.level;
     if (above > 0) return {x, y, kBlockLevel, TensorTree::value(entry)};
     SliceCell chosen{x, y, kBlockLevel, 0};
-    visit_slice(table_.y, dimensions_, incident, entry, {x, y, kBlockLevel, 0},
-                [&](const SliceCell& leaf) {
-                    const double part =
-                        static_cast<double>(left_of(leaf.value)) * leaf.solid_angle();
-                    if (part > 0) chosen = leaf;
-                    return part <= 0 || (left -= part) >= 0;
-                });
+    visit_slice(
+        table_.y, dimensions_, incident, entry, {x, y, kBlockLevel, 0}, [&](const SliceCell& leaf) {
+            const double part = static_cast<double>(left_of(leaf.value)) * leaf.solid_angle();
+            if (part > 0) chosen = leaf;
+            return part <= 0 || (left -= part) >= 0;
+        });
     return chosen;
 }
 

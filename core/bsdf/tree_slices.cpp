@@ -11,7 +11,8 @@ IncidentCells::IncidentCells(const TensorTree& tree, const SliceDimensions& dime
 }
 
 /// Divides a cell as long as any entry over it is divided.
-/// @param over  the nodes and leaves of the tree that lie over the cell, on all of the exitant square
+/// @param over  the nodes and leaves of the tree that lie over the cell, on all of the exitant
+/// square
 std::uint32_t IncidentCells::grow(const TensorTree& tree, const SliceDimensions& dimensions,
                                   const std::vector<TensorTree::Entry>& over,
                                   const std::array<double, 2>& corner, int level) {

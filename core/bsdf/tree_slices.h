@@ -33,8 +33,8 @@ struct SliceCell {
     [[nodiscard]] double solid_angle() const { return kPi * width() * width(); }
 };
 
-/// Calls visit(SliceCell) for the leaves of a slice below an entry, in a fixed order; stops where it
-/// returns false.
+/// Calls visit(SliceCell) for the leaves of a slice below an entry, in a fixed order; stops where
+/// it returns false.
 /// @param at  the entry's cell
 template <class Visit>
 bool visit_slice(const TensorTree& tree, const SliceDimensions& dimensions,

@@ -48,8 +48,8 @@ SpectrumColor::SpectrumColor(WavelengthEnds ends, std::size_t bands) : weights_(
         return;
     }
     const double width = std::abs(ends.last - ends.first);
-    const double wanted =
-        std::floor((kLongestVisible - kShortestVisible) * static_cast<double>(bands) / width + 0.99);
+    const double wanted = std::floor(
+        (kLongestVisible - kShortestVisible) * static_cast<double>(bands) / width + 0.99);
     weigh_resampled(ends, static_cast<std::size_t>(
                               std::clamp(wanted, 1.0, static_cast<double>(kMostSpectralBands))));
 }
@@ -89,14 +89,16 @@ void SpectrumColor::weigh_resampled(WavelengthEnds ends, std::size_t into) {
     }
 }
 
+Rgb SpectrumColor::Sum::color() const {
+    if (!of_.channels_) return color_from_xyz(sum_);
+    return {static_cast<float>(sum_[0]), static_cast<float>(sum_[1]), static_cast<float>(sum_[2])};
+}
+
 Rgb SpectrumColor::operator()(std::span<const double> values) const {
     assert(values.size() == weights_.size());
-    std::array<double, 3> sum{};
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += values[i] * weights_[i][c];
-    }
-    if (!channels_) return color_from_xyz(sum);
-    return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
+    Sum sum(*this);
+    for (std::size_t i = 0; i < values.size(); ++i) sum.add(i, values[i]);
+    return sum.color();
 }
 
 }  // namespace lightwalk

@@ -27,13 +27,26 @@ struct WavelengthEnds {
 /// How spectra of a number of bands become colours. Immutable.
 /// Spectra from long to short wavelengths in at most 24 bands are taken as they are; all others as
 /// the means over at most 24 bands from 380 to 780 nm. Three bands that are given, or that come out
-/// of it, are not taken for a spectrum: they are red, green and blue. As in Radiance's mode of three
-/// channels.
+/// of it, are not taken for a spectrum: they are red, green and blue. As in Radiance's mode of
+/// three channels.
 class SpectrumColor {
   public:
     /// @param ends   edges of the bands [nm], either way round
     /// @param bands  their number, at least 1
     SpectrumColor(WavelengthEnds ends, std::size_t bands);
+    /// A spectrum whose bands are given one by one.
+    class Sum {
+      public:
+        explicit Sum(const SpectrumColor& of) : of_(of) {}
+        void add(std::size_t band, double value) {
+            for (std::size_t c = 0; c < 3; ++c) sum_[c] += value * of_.weights_[band][c];
+        }
+        [[nodiscard]] Rgb color() const;
+
+      private:
+        const SpectrumColor& of_;
+        std::array<double, 3> sum_{};
+    };
     /// @param values  one a band, in the order of the edges
     [[nodiscard]] Rgb operator()(std::span<const double> values) const;
     [[nodiscard]] std::size_t bands() const { return weights_.size(); }

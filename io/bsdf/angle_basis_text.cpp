@@ -71,8 +71,8 @@ NamedBases::NamedBases(const XmlText& document, const pugi::xml_node& definition
 const AngleBasis& NamedBases::find(const XmlText& document, const pugi::xml_node& element) const {
     const auto found = own_.find(trimmed_text(element));
     if (found != own_.end()) return found->second;
-    throw document.error(
-        element, "undefined angle basis \"" + std::string(trimmed_text(element).substr(0, 60)) + "\"");
+    throw document.error(element, "undefined angle basis \"" +
+                                      std::string(trimmed_text(element).substr(0, 60)) + "\"");
 }
 
 }  // namespace lightwalk

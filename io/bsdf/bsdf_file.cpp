@@ -183,7 +183,7 @@ MatrixBlock BsdfReader::read_matrix(const xml_node& block, const NamedBases& bas
         matrix.values = values;
         return matrix;
     }
-    matrix.values.resize(values.size());
+    matrix.values = std::vector<float>(values.size());
     for (std::size_t o = 0; o < exitant; ++o) {
         for (std::size_t i = 0; i < incident; ++i)
             matrix.values[i * exitant + o] = values[o * incident + i];
@@ -216,14 +216,13 @@ std::vector<float> BsdfReader::read_values(XmlNumbers& numbers, MatrixBlock& mat
 }
 
 void BsdfReader::read_trees(const xml_node& layer, int rank) {
-    Blocks<TensorTree> blocks =
-        read_blocks<TensorTree>(layer, true, [&](const xml_node& block) {
-            const xml_node basis = block.child("AngleBasis");
-            if (basis && !same_word(trimmed_text(basis), "LBNL/Shirley-Chiu"))
-                throw document_.error(basis, "the AngleBasis of a tree is not LBNL/Shirley-Chiu");
-            XmlNumbers numbers(document_, block.child("ScatteringData"));
-            return read_tree(rank, numbers);
-        });
+    Blocks<TensorTree> blocks = read_blocks<TensorTree>(layer, true, [&](const xml_node& block) {
+        const xml_node basis = block.child("AngleBasis");
+        if (basis && !same_word(trimmed_text(basis), "LBNL/Shirley-Chiu"))
+            throw document_.error(basis, "the AngleBasis of a tree is not LBNL/Shirley-Chiu");
+        XmlNumbers numbers(document_, block.child("ScatteringData"));
+        return read_tree(rank, numbers);
+    });
     for (std::size_t part = 0; part < kBsdfParts; ++part) {
         auto& [y, u, v] = blocks[part];
         if (!y) continue;
