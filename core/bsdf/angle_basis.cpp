@@ -25,7 +25,7 @@ AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) 
     }
 }
 
-std::size_t AngleBasis::index(const DiskPoint& p) const {
+std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     const double square = p.x * p.x + p.y * p.y;
     std::size_t ring = 0;
     while (ring + 1 < places_.size() && square >= places_[ring].outer) ++ring;
@@ -49,7 +49,7 @@ double AngleBasis::least_solid_angle() const {
     return least;
 }
 
-DiskPoint AngleBasis::sample(std::size_t patch, double xi1, double xi2) const {
+ProjectedDirection AngleBasis::sample(std::size_t patch, double xi1, double xi2) const {
     const std::size_t ring = ring_of(patch);
     const Place& place = places_[ring];
     const double radius = std::sqrt(place.inner + (place.outer - place.inner) * xi1);

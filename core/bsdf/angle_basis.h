@@ -14,11 +14,11 @@ namespace lightwalk {
 
 /// A direction of a hemisphere by its projection along the pole: a point of the unit disk. Areas of
 /// the disk are projected solid angles [sr].
-struct DiskPoint {
+struct ProjectedDirection {
     double x = 0, y = 0;
 };
 /// The unit vector above the disk's point, with z >= 0.
-[[nodiscard]] inline Vec3 above_disk(const DiskPoint& p) {
+[[nodiscard]] inline Vec3 above_disk(const ProjectedDirection& p) {
     return {p.x, p.y, std::sqrt(std::max(0.0, 1 - p.x * p.x - p.y * p.y))};
 }
 
@@ -41,7 +41,7 @@ class AngleBasis {
     [[nodiscard]] const std::vector<AngleRing>& rings() const { return rings_; }
     [[nodiscard]] std::size_t size() const { return patch_count_; }
     /// The number of the patch that holds a direction.
-    [[nodiscard]] std::size_t index(const DiskPoint& p) const;
+    [[nodiscard]] std::size_t index(const ProjectedDirection& p) const;
     /// A patch's projected solid angle [sr].
     [[nodiscard]] double solid_angle(std::size_t patch) const {
         return places_[ring_of(patch)].area;
@@ -50,7 +50,7 @@ class AngleBasis {
     [[nodiscard]] double least_solid_angle() const;
     /// A point of the patch from two numbers that are uniform in [0, 1), uniform in projected solid
     /// angle.
-    [[nodiscard]] DiskPoint sample(std::size_t patch, double xi1, double xi2) const;
+    [[nodiscard]] ProjectedDirection sample(std::size_t patch, double xi1, double xi2) const;
 
   private:
     struct Place {

@@ -35,7 +35,7 @@ std::size_t table_bytes(const BsdfTable& table) {
 
 }  // namespace
 
-Rgb BsdfComponent::value(const DiskPoint& e, const DiskPoint& l) const {
+Rgb BsdfComponent::value(const ProjectedDirection& e, const ProjectedDirection& l) const {
     const Rgb constant = lambertian * static_cast<float>(1 / kPi);
     return lobes ? lobes->value(e, l).f + constant : constant;
 }
@@ -71,7 +71,7 @@ bool Bsdf::transmits() const {
     });
 }
 
-SolidAngleRange Bsdf::resolution(bool front, const DiskPoint& e) const {
+SolidAngleRange Bsdf::resolution(bool front, const ProjectedDirection& e) const {
     SolidAngleRange all{kPi, 0};
     for (const BsdfComponent* part : {&reflection(front), &transmission(front)}) {
         if (!part->lobes) continue;

@@ -15,7 +15,7 @@ struct BsdfComponent {
     Rgb lambertian;  ///< reflectance or transmittance of what is the same in all directions
 
     /// Value with the Lambertian part [1/sr].
-    [[nodiscard]] Rgb value(const DiskPoint& e, const DiskPoint& l) const;
+    [[nodiscard]] Rgb value(const ProjectedDirection& e, const ProjectedDirection& l) const;
 };
 
 /// Immutable; shared by all materials and threads that use the file.
@@ -42,7 +42,7 @@ class Bsdf {
     [[nodiscard]] bool transmits() const;
     /// Over all components with lobes that are seen from this side: the smallest and the largest
     /// projected solid angle that directions about e are told apart by [sr].
-    [[nodiscard]] SolidAngleRange resolution(bool front, const DiskPoint& e) const;
+    [[nodiscard]] SolidAngleRange resolution(bool front, const ProjectedDirection& e) const;
     /// The largest directional-hemispherical total of a component, the Lambertian part included.
     [[nodiscard]] double largest_total(BsdfPart part) const;
     /// One sentence for each component that sends on more light than it gets.

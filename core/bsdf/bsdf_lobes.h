@@ -26,21 +26,22 @@ class BsdfLobes {
         std::uint64_t cell = 0;  ///< which one, for the same e
     };
     struct Sample {
-        DiskPoint l;
+        ProjectedDirection l;
         Rgb color{1, 1, 1};  ///< of brightness 1, or white
     };
 
     virtual ~BsdfLobes() = default;
-    [[nodiscard]] virtual Value value(const DiskPoint& e, const DiskPoint& l) const = 0;
+    [[nodiscard]] virtual Value value(const ProjectedDirection& e,
+                                      const ProjectedDirection& l) const = 0;
     /// The directional-hemispherical total: the integral of f over projected solid angle.
-    [[nodiscard]] virtual double total(const DiskPoint& e) const = 0;
+    [[nodiscard]] virtual double total(const ProjectedDirection& e) const = 0;
     /// A direction of probability f / total over projected solid angle, for total(e) > 0.
     /// @param choice    uniform in [0, 1): which cell
     /// @param xi1, xi2  uniform in [0, 1): where in the cell
-    [[nodiscard]] virtual Sample sample(const DiskPoint& e, double choice, double xi1,
+    [[nodiscard]] virtual Sample sample(const ProjectedDirection& e, double choice, double xi1,
                                         double xi2) const = 0;
     /// The range about e.
-    [[nodiscard]] virtual SolidAngleRange resolution(const DiskPoint& e) const = 0;
+    [[nodiscard]] virtual SolidAngleRange resolution(const ProjectedDirection& e) const = 0;
     /// The smallest projected solid angle of all cells [sr].
     [[nodiscard]] virtual double least_solid_angle() const = 0;
     /// The largest total.

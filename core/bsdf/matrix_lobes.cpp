@@ -15,11 +15,14 @@ class MatrixLobes final : public BsdfLobes {
   public:
     MatrixLobes(const BsdfMatrix& table, bool reversed);
 
-    [[nodiscard]] Value value(const DiskPoint& e, const DiskPoint& l) const override;
-    [[nodiscard]] double total(const DiskPoint& e) const override { return totals_[row_of(e)]; }
-    [[nodiscard]] Sample sample(const DiskPoint& e, double choice, double xi1,
+    [[nodiscard]] Value value(const ProjectedDirection& e,
+                              const ProjectedDirection& l) const override;
+    [[nodiscard]] double total(const ProjectedDirection& e) const override {
+        return totals_[row_of(e)];
+    }
+    [[nodiscard]] Sample sample(const ProjectedDirection& e, double choice, double xi1,
                                 double xi2) const override;
-    [[nodiscard]] SolidAngleRange resolution(const DiskPoint& e) const override {
+    [[nodiscard]] SolidAngleRange resolution(const ProjectedDirection& e) const override {
         const double area = rows_.solid_angle(row_of(e));
         return {area, area};
     }
@@ -40,11 +43,11 @@ class MatrixLobes final : public BsdfLobes {
     void split_colored(const BsdfMatrix& table);
     void add_up();
     /// e is the incident direction as light travels, or the exitant one.
-    [[nodiscard]] std::size_t row_of(const DiskPoint& e) const {
-        return rows_.index(reversed_ ? e : DiskPoint{-e.x, -e.y});
+    [[nodiscard]] std::size_t row_of(const ProjectedDirection& e) const {
+        return rows_.index(reversed_ ? e : ProjectedDirection{-e.x, -e.y});
     }
-    [[nodiscard]] std::size_t column_of(const DiskPoint& l) const {
-        return columns_.index(reversed_ ? DiskPoint{-l.x, -l.y} : l);
+    [[nodiscard]] std::size_t column_of(const ProjectedDirection& l) const {
+        return columns_.index(reversed_ ? ProjectedDirection{-l.x, -l.y} : l);
     }
     /// Where the value of a row and column stands in the table.
     [[nodiscard]] std::size_t place_in_table(std::size_t row, std::size_t column) const {
@@ -122,21 +125,22 @@ void MatrixLobes::add_up() {
     }
 }
 
-BsdfLobes::Value MatrixLobes::value(const DiskPoint& e, const DiskPoint& l) const {
+BsdfLobes::Value MatrixLobes::value(const ProjectedDirection& e,
+                                    const ProjectedDirection& l) const {
     const std::size_t row = row_of(e), column = column_of(l), at = row * columns_.size() + column;
     const Rgb f = tints_.empty() ? Rgb::grey(values_[at]) : tints_[at] * values_[at];
     return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column};
 }
 
-BsdfLobes::Sample MatrixLobes::sample(const DiskPoint& e, double choice, double xi1,
+BsdfLobes::Sample MatrixLobes::sample(const ProjectedDirection& e, double choice, double xi1,
                                       double xi2) const {
     const std::size_t row = row_of(e);
     const auto sums = std::span(cumulative_).subspan(row * columns_.size(), columns_.size());
     const auto found = std::upper_bound(sums.begin(), sums.end(), choice * totals_[row]);
     const std::size_t column =
         std::min(static_cast<std::size_t>(found - sums.begin()), columns_.size() - 1);
-    const DiskPoint l = columns_.sample(column, xi1, xi2);
-    Sample sample{reversed_ ? DiskPoint{-l.x, -l.y} : l, {1, 1, 1}};
+    const ProjectedDirection l = columns_.sample(column, xi1, xi2);
+    Sample sample{reversed_ ? ProjectedDirection{-l.x, -l.y} : l, {1, 1, 1}};
     if (!tints_.empty()) sample.color = tints_[row * columns_.size() + column];
     return sample;
 }

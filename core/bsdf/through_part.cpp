@@ -16,8 +16,8 @@ constexpr double kLeastThrough = 0.0005;  ///< luminous transmittance of a part 
 
 /// Offsets of the directions in which a peak is looked for, in units of the smallest cell's edge:
 /// three rings of eight about the straight one, and four beyond.
-constexpr std::array<DiskPoint, kDirections> offsets() {
-    std::array<DiskPoint, kDirections> all{};
+constexpr std::array<ProjectedDirection, kDirections> offsets() {
+    std::array<ProjectedDirection, kDirections> all{};
     std::size_t count = 1;
     for (const double size : {0.6, 1.2, 1.8}) {
         for (const double x : {-size, 0.0, size}) {
@@ -57,13 +57,14 @@ struct SeenCells {
     }
 };
 
-SeenCells look_around(const BsdfComponent& transmission, const DiskPoint& e, double least) {
-    static constexpr std::array<DiskPoint, kDirections> kOffsets = offsets();
+SeenCells look_around(const BsdfComponent& transmission, const ProjectedDirection& e,
+                      double least) {
+    static constexpr std::array<ProjectedDirection, kDirections> kOffsets = offsets();
     const Rgb constant = transmission.lambertian * static_cast<float>(1 / kPi);
     const double scale = std::sqrt(least);
     const double z = above_disk(e).z;
     SeenCells seen;
-    for (const DiskPoint& offset : kOffsets) {
+    for (const ProjectedDirection& offset : kOffsets) {
         const Vec3 l = normalize({-e.x + offset.x * scale, -e.y + offset.y * scale, z});
         const BsdfLobes::Value value = transmission.lobes->value(e, {l.x, l.y});
         const Rgb f = value.f + constant;
@@ -89,7 +90,7 @@ struct CellSum {
 
 }  // namespace
 
-ThroughPart find_through_part(const BsdfComponent& transmission, const DiskPoint& e) {
+ThroughPart find_through_part(const BsdfComponent& transmission, const ProjectedDirection& e) {
     if (!transmission.lobes) return {};
     const double least = transmission.lobes->least_solid_angle();
     const SeenCells seen = look_around(transmission, e, least);
@@ -112,7 +113,8 @@ ThroughPart find_through_part(const BsdfComponent& transmission, const DiskPoint
     return through;
 }
 
-bool in_through_part(const DiskPoint& e, const DiskPoint& l, double projected, double least) {
+bool in_through_part(const ProjectedDirection& e, const ProjectedDirection& l, double projected,
+                     double least) {
     constexpr double kReach = 2.5 * 4 / kPi;
     const double x = l.x + e.x, y = l.y + e.y;
     return x * x + y * y <= kReach * (projected + least + 2 * std::sqrt(projected * least));

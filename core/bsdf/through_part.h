@@ -15,12 +15,13 @@ struct ThroughPart {
 };
 
 /// The peak about the direction straight on from e, less the Lambertian part.
-[[nodiscard]] ThroughPart find_through_part(const BsdfComponent& transmission, const DiskPoint& e);
+[[nodiscard]] ThroughPart find_through_part(const BsdfComponent& transmission,
+                                            const ProjectedDirection& e);
 
 /// Whether light from l lies, as far as the data can tell, in the part that passes straight.
 /// @param projected  solid angle of the light, projected [sr]
 /// @param least      the smallest projected solid angle of the data [sr]
-[[nodiscard]] bool in_through_part(const DiskPoint& e, const DiskPoint& l, double projected,
-                                   double least);
+[[nodiscard]] bool in_through_part(const ProjectedDirection& e, const ProjectedDirection& l,
+                                   double projected, double least);
 
 }  // namespace lightwalk

@@ -34,14 +34,15 @@ class TreeLobes final : public BsdfLobes {
   public:
     TreeLobes(const BsdfTree& table, bool reversed);
 
-    [[nodiscard]] Value value(const DiskPoint& e, const DiskPoint& l) const override;
-    [[nodiscard]] double total(const DiskPoint& e) const override {
+    [[nodiscard]] Value value(const ProjectedDirection& e,
+                              const ProjectedDirection& l) const override;
+    [[nodiscard]] double total(const ProjectedDirection& e) const override {
         if (cells_.empty()) return 0;
         return static_cast<double>(cells_[cell_of(e)].total);
     }
-    [[nodiscard]] Sample sample(const DiskPoint& e, double choice, double xi1,
+    [[nodiscard]] Sample sample(const ProjectedDirection& e, double choice, double xi1,
                                 double xi2) const override;
-    [[nodiscard]] SolidAngleRange resolution(const DiskPoint& e) const override;
+    [[nodiscard]] SolidAngleRange resolution(const ProjectedDirection& e) const override;
     [[nodiscard]] double least_solid_angle() const override {
         return SliceCell{0, 0, finest_, 0}.solid_angle();
     }
@@ -60,9 +61,9 @@ class TreeLobes final : public BsdfLobes {
     [[nodiscard]] bool is_used(const IncidentPath& incident) const {
         return !is_isotropic() || incident[0].half(0) == 0;
     }
-    [[nodiscard]] IncidentPath incident_path(const DiskPoint& e) const;
-    [[nodiscard]] TreePoint place(const DiskPoint& e, const DiskPoint& l) const;
-    [[nodiscard]] std::size_t cell_of(const DiskPoint& e) const {
+    [[nodiscard]] IncidentPath incident_path(const ProjectedDirection& e) const;
+    [[nodiscard]] TreePoint place(const ProjectedDirection& e, const ProjectedDirection& l) const;
+    [[nodiscard]] std::size_t cell_of(const ProjectedDirection& e) const {
         return incident_.find(incident_path(e));
     }
     [[nodiscard]] float left_of(float value) const { return std::max(0.0f, value - base_); }
@@ -205,42 +206,42 @@ void TreeLobes::add_slice(const IncidentPath& incident, std::size_t& visits) {
 }
 
 /// Where light of e lies among the incident ones: as it travels, or, reversed, as it leaves.
-IncidentPath TreeLobes::incident_path(const DiskPoint& e) const {
+IncidentPath TreeLobes::incident_path(const ProjectedDirection& e) const {
     if (is_isotropic()) {
         const double sine = std::min(1.0, std::sqrt(e.x * e.x + e.y * e.y));
         return {HalvingPath(kNormalIncidence - 0.5 * sine), {}};
     }
-    const SquarePoint at = disk_to_square(reversed_ ? e : DiskPoint{-e.x, -e.y});
+    const SquarePoint at = disk_to_square(reversed_ ? e : ProjectedDirection{-e.x, -e.y});
     return {HalvingPath(at.x), HalvingPath(at.y)};
 }
 
 /// A rotation that takes the way of incident light onto +x.
 struct Turn {
     double cosine = 1, sine = 0;
-    explicit Turn(const DiskPoint& incident) {
+    explicit Turn(const ProjectedDirection& incident) {
         const double size = std::sqrt(incident.x * incident.x + incident.y * incident.y);
         cosine = size > 0 ? -incident.x / size : std::copysign(1.0, -incident.x);
         sine = size > 0 ? -incident.y / size : 0.0;
     }
-    [[nodiscard]] DiskPoint apply(const DiskPoint& p) const {
+    [[nodiscard]] ProjectedDirection apply(const ProjectedDirection& p) const {
         return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x};
     }
-    [[nodiscard]] DiskPoint undo(const DiskPoint& p) const {
+    [[nodiscard]] ProjectedDirection undo(const ProjectedDirection& p) const {
         return {cosine * p.x - sine * p.y, cosine * p.y + sine * p.x};
     }
 };
 
-TreePoint TreeLobes::place(const DiskPoint& e, const DiskPoint& l) const {
+TreePoint TreeLobes::place(const ProjectedDirection& e, const ProjectedDirection& l) const {
     SquarePoint exitant;
     IncidentPath incident;
     if (is_isotropic()) {
-        const DiskPoint& from = reversed_ ? l : e;
-        const DiskPoint& to = reversed_ ? e : l;
+        const ProjectedDirection& from = reversed_ ? l : e;
+        const ProjectedDirection& to = reversed_ ? e : l;
         incident = incident_path(from);
         exitant = disk_to_square(Turn(from).apply(to));
     } else {
         incident = incident_path(e);
-        exitant = disk_to_square(reversed_ ? DiskPoint{-l.x, -l.y} : l);
+        exitant = disk_to_square(reversed_ ? ProjectedDirection{-l.x, -l.y} : l);
     }
     return {incident, {HalvingPath(exitant.x), HalvingPath(exitant.y)}};
 }
@@ -260,7 +261,7 @@ Rgb TreeLobes::color_at(const TreePoint& point, float value) const {
     return without(color_from_xyz(unit) * value, taken_);
 }
 
-BsdfLobes::Value TreeLobes::value(const DiskPoint& e, const DiskPoint& l) const {
+BsdfLobes::Value TreeLobes::value(const ProjectedDirection& e, const ProjectedDirection& l) const {
     const TreePoint point = place(e, l);
     TensorTree::Entry entry = table_.y.root();
     int level = 0;
@@ -277,7 +278,7 @@ BsdfLobes::Value TreeLobes::value(const DiskPoint& e, const DiskPoint& l) const 
     return {color_at(point, TensorTree::value(entry)), leaf.solid_angle(), cell};
 }
 
-SolidAngleRange TreeLobes::resolution(const DiskPoint& e) const {
+SolidAngleRange TreeLobes::resolution(const ProjectedDirection& e) const {
     if (cells_.empty()) return {least_solid_angle(), least_solid_angle()};
     const SliceSums& sums = cells_[cell_of(e)];
     return {SliceCell{0, 0, sums.finest, 0}.solid_angle(),
@@ -316,12 +317,12 @@ SliceCell TreeLobes::choose(const IncidentPath& incident, std::size_t cell, doub
     return chosen;
 }
 
-BsdfLobes::Sample TreeLobes::sample(const DiskPoint& e, double choice, double xi1,
+BsdfLobes::Sample TreeLobes::sample(const ProjectedDirection& e, double choice, double xi1,
                                     double xi2) const {
     const IncidentPath incident = incident_path(e);
     const SliceCell leaf = choose(incident, incident_.find(incident), choice);
     const SquarePoint at{(leaf.x + xi1) * leaf.width(), (leaf.y + xi2) * leaf.width()};
-    DiskPoint l = square_to_disk(at);
+    ProjectedDirection l = square_to_disk(at);
     Sample sample;
     if (table_.u) {
         const TreePoint point{incident, {HalvingPath(at.x), HalvingPath(at.y)}};

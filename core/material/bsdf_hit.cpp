@@ -9,6 +9,8 @@
 namespace lightwalk {
 namespace {
 
+/// Of numbers that -ss below 1 narrows. Beside the very middle, where patches of another basis meet.
+constexpr double kMiddle = 0.5 + 1e-9;
 constexpr double kSmallestNeighbour = 0.12;  ///< smaller cells do not count in a cell's mean
 
 /// What is sampled of a component, or why not.
@@ -23,14 +25,15 @@ struct SampledComponent {
 double sampled_total(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
                      double specular_samples) {
     const double size = std::sqrt(hit.bsdf.resolution(hit.front(), hit.e).largest);
-    const DiskPoint e = jittered(hit, size, specular_samples, ray.random);
+    const ProjectedDirection e = jittered(hit, size, specular_samples, ray.random);
     const double total = sampled.component->lobes->total(e);
     if (!sampled.through || !hit.split) return total;
     return total - static_cast<double>(brightness(hit.through.transmittance));
 }
 
 /// Whether a direction belongs to the part that passes straight.
-bool passes_straight(const BsdfHit& hit, const DiskPoint& e, const DiskPoint& l, double area) {
+bool passes_straight(const BsdfHit& hit, const ProjectedDirection& e, const ProjectedDirection& l,
+                     double area) {
     const double x = l.x + e.x, y = l.y + e.y;
     return hit.split && x * x + y * y <= area;
 }
@@ -41,13 +44,13 @@ void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
     const double specular_samples = tracer.options().specular_samples;
     const BsdfLobes& lobes = *sampled.component->lobes;
     const double area = hit.bsdf.resolution(hit.front(), hit.e).least;
-    const double narrow = std::min(specular_samples, 1.0);
+    const double narrow = std::clamp(specular_samples, 0.0, 1 - 1e-8);
     const int count = rough_sample_count(tracer.options(), ray.weight, ray.weight);
     for (int i = 0; i < count; ++i) {
-        const DiskPoint e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
+        const ProjectedDirection e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
         const double total = lobes.total(e);
-        const double choice = 0.5 + narrow * (ray.random.next() - 0.5);
-        const double xi1 = ray.random.next(), xi2 = ray.random.next();
+        const auto draw = [&] { return kMiddle + narrow * (ray.random.next() - 0.5); };
+        const double choice = draw(), xi1 = draw(), xi2 = draw();
         if (!(total > 0)) continue;
         const BsdfLobes::Sample sample = lobes.sample(e, choice, xi1, xi2);
         if (sampled.through && passes_straight(hit, e, sample.l, area)) continue;
@@ -64,7 +67,8 @@ void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
 
 }  // namespace
 
-DiskPoint jittered(const BsdfHit& hit, double size, double specular_samples, RandomStream& random) {
+ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,
+                            RandomStream& random) {
     const double reach = size * std::min(specular_samples, 1.0);
     if (!(reach > 0)) return hit.e;
     const double dx = reach * (0.5 - random.next()), dy = reach * (0.5 - random.next());
@@ -92,7 +96,7 @@ Rgb BsdfDirect::operator()(const Vec3& wi, double omega) const {
     return constant + (through ? lobes * hit_.pattern : lobes);
 }
 
-Rgb BsdfDirect::lobe(const BsdfComponent& component, const DiskPoint& l, double omega,
+Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l, double omega,
                      double cosine, bool through) const {
     constexpr auto kTiny = static_cast<float>(kEpsilon);
     const BsdfLobes& lobes = *component.lobes;
@@ -105,7 +109,8 @@ Rgb BsdfDirect::lobe(const BsdfComponent& component, const DiskPoint& l, double 
     Rgb sum;
     int counted = 0;
     for (int i = 0; i < count_; ++i) {
-        const DiskPoint e = jittered(hit_, std::sqrt(at.solid_angle), specular_samples_, random);
+        const ProjectedDirection e =
+            jittered(hit_, std::sqrt(at.solid_angle), specular_samples_, random);
         const BsdfLobes::Value near = lobes.value(e, l);
         if (near.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
         ++counted;

@@ -14,9 +14,9 @@ namespace lightwalk {
 struct BsdfFrame {
     Vec3 x, y, z;
 
-    [[nodiscard]] DiskPoint project(const Vec3& v) const { return {dot(x, v), dot(y, v)}; }
+    [[nodiscard]] ProjectedDirection project(const Vec3& v) const { return {dot(x, v), dot(y, v)}; }
     /// @param side  1 for directions on the side of z, -1 for those on the other
-    [[nodiscard]] Vec3 direction(const DiskPoint& p, double side) const {
+    [[nodiscard]] Vec3 direction(const ProjectedDirection& p, double side) const {
         return x * p.x + y * p.y + z * (side * above_disk(p).z);
     }
 };
@@ -25,7 +25,7 @@ struct BsdfFrame {
 struct BsdfHit {
     const Bsdf& bsdf;
     BsdfFrame frame;
-    DiskPoint e;                 ///< towards the viewer
+    ProjectedDirection e;        ///< towards the viewer
     double side = 1;             ///< 1: the viewer is on the side of the frame's z; else -1
     Rgb pattern;                 ///< colours all but the reflected lobes
     Rgb reflected, transmitted;  ///< Lambertian reflectance and transmittance
@@ -44,8 +44,8 @@ struct BsdfHit {
 };
 
 /// e moved by random parts of `size`, which -ss below 1 reduces.
-[[nodiscard]] DiskPoint jittered(const BsdfHit& hit, double size, double specular_samples,
-                                 RandomStream& random);
+[[nodiscard]] ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,
+                                          RandomStream& random);
 
 /// Shades the light of single sources.
 class BsdfDirect {
@@ -56,8 +56,8 @@ class BsdfDirect {
     [[nodiscard]] Rgb operator()(const Vec3& wi, double omega) const;
 
   private:
-    [[nodiscard]] Rgb lobe(const BsdfComponent& component, const DiskPoint& l, double omega,
-                           double cosine, bool through) const;
+    [[nodiscard]] Rgb lobe(const BsdfComponent& component, const ProjectedDirection& l,
+                           double omega, double cosine, bool through) const;
     [[nodiscard]] RandomStream stream_for(const Vec3& wi) const;
 
     const BsdfHit& hit_;

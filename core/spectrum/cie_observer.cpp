@@ -185,8 +185,10 @@ constexpr Cumulative kBelow = cumulative();
 }  // namespace
 
 std::array<double, 3> observer_below(double wavelength) {
-    if (!(wavelength >= kShortest - 1)) return {};
-    const double last = std::min(wavelength + 1 - kShortest, double{kWavelengths - 1});
+    constexpr double kRounding = 1e-6;  // [nm]: edges that are whole but for rounding
+    const double above = wavelength + 1 + kRounding - kShortest;
+    if (!(above >= 0)) return {};
+    const double last = std::min(above, double{kWavelengths - 1});
     return kBelow[static_cast<std::size_t>(last)];
 }
 

@@ -62,7 +62,7 @@ void SpectrumColor::weigh(WavelengthEnds ends) {
             weights_[i][i] = 1;
         } else {
             const double high = ends.first - step * static_cast<double>(i);
-            weights_[i] = observer_between(high - step, high);
+            weights_[i] = observer_between(ends.first - step * static_cast<double>(i + 1), high);
         }
     }
 }

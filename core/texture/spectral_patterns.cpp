@@ -77,46 +77,49 @@ Rgb color_of_file(const ModifierBuild& build) {
     return sum.color();
 }
 
-/// specfunc: a function of the wavelength, at wavelengths that each ray draws anew.
+/// specfunc: a function of the wavelength, at wavelengths that each ray draws anew. As in Radiance
+/// these go down from the longest one in steps of one width, and their values count for equal parts
+/// of the whole range, of which the last step may leave some.
 class SpectralFunction final : public Modifier {
   public:
     explicit SpectralFunction(const ModifierBuild& build)
-        : ends_(clipped_ends(build.primitive)),
-          color_(ends_, step_count(ends_)),
+        : range_(clipped_range(build.primitive)),
+          color_(range_, step_count(range_)),
           binding_(build, 1, {{build.primitive.strings[0], 1}}, 2) {}
 
     bool shade(Ray& ray, TraceContext& context) const override {
         EvalState& state = binding_.begin(ray, context);
         SpectrumColor::Sum sum(color_);
-        const double step = (ends_.last - ends_.first) / static_cast<double>(color_.bands());
-        for (std::size_t i = 0; i < color_.bands(); ++i) {
+        const std::size_t count = color_.bands();
+        const double step = count > 1 ? kStep : range_.last - range_.first;
+        for (std::size_t i = 0; i < count; ++i) {
             const double at = static_cast<double>(i) + 0.5 + kSpread * (ray.random.next() - 0.5);
-            const std::array<double, 1> wavelength{ends_.first + step * at};
-            sum.add(i, binding_.call(0, wavelength, state));
+            const std::array<double, 1> wavelength{range_.last - step * at};
+            sum.add(count - 1 - i, binding_.call(0, wavelength, state));
         }
         if (state.error == EvalError::none) ray.pattern *= sum.color();
         return false;
     }
 
   private:
-    static constexpr double kShortest = 380, kLongest = 780;           // [nm]
-    static constexpr double kLeastStep = (kLongest - kShortest) / 12;  // [nm]
+    static constexpr double kShortest = 380, kLongest = 780;       // [nm]
+    static constexpr double kStep = (kLongest - kShortest) / 12;  // [nm]
     static constexpr double kSpread = 0.9;  ///< part of a step over which wavelengths are drawn
 
-    static WavelengthEnds clipped_ends(const Primitive& primitive) {
+    /// From the shorter to the longer wavelength.
+    static WavelengthEnds clipped_range(const Primitive& primitive) {
         require_arguments(primitive, 2, 2);
         const double a = std::clamp(primitive.reals[0], kShortest, kLongest),
                      b = std::clamp(primitive.reals[1], kShortest, kLongest);
         require_wavelengths(primitive, a, b);
-        return {a, b};
+        return {std::min(a, b), std::max(a, b)};
     }
-    static std::size_t step_count(const WavelengthEnds& ends) {
-        const double count = std::floor(std::abs(ends.last - ends.first) / kLeastStep + 1e-9);
-        return static_cast<std::size_t>(
-            std::clamp(count, 1.0, static_cast<double>(kMostSpectralBands)));
+    static std::size_t step_count(const WavelengthEnds& range) {
+        const double count = std::floor((range.last - range.first) / kStep + 1e-9);
+        return static_cast<std::size_t>(std::max(count, 1.0));
     }
 
-    WavelengthEnds ends_;
+    WavelengthEnds range_;
     SpectrumColor color_;
     FunctionBinding binding_;
 };
