@@ -9,6 +9,11 @@ TensorTree::Entry TensorTree::add(std::span<const Entry> children) {
 }
 
 TensorTree::Entry TensorTree::add_grid(std::span<const float> values, int levels) {
+    if (nodes_.empty()) {  // often the whole tree, of many values
+        std::size_t entries = 0;
+        for (int level = 1; level <= levels; ++level) entries += std::size_t{1} << (rank_ * level);
+        nodes_.reserve(entries);
+    }
     return add_block(values, levels, levels, {});
 }
 
