@@ -9,7 +9,8 @@
 namespace lightwalk {
 namespace {
 
-/// Of numbers that -ss below 1 narrows. Beside the very middle, where patches of another basis meet.
+/// Of numbers that -ss below 1 narrows. Beside the very middle, where patches of another basis
+/// meet.
 constexpr double kMiddle = 0.5 + 1e-9;
 constexpr double kSmallestNeighbour = 0.12;  ///< smaller cells do not count in a cell's mean
 

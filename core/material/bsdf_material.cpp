@@ -29,6 +29,8 @@ class BsdfMaterial final : public Modifier {
         return {.transparent = bsdf_->transmits() || max_component(through_) > 0};
     }
 
+    [[nodiscard]] const Bsdf* bsdf() const override { return bsdf_.get(); }
+
   private:
     static FunctionBinding bind(const ModifierBuild& build, bool thick);
     [[nodiscard]] BsdfPlacement placement(const Ray& ray, TraceContext& context) const;

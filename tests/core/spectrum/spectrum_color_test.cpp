@@ -53,7 +53,7 @@ TEST_CASE("spectrum: the same from either end, where its bands are taken as they
     check_color(b, {0.813565, 0.4034397, 0.06015138}, 2e-3);
 }
 
-TEST_CASE("spectrum: three falling values are red, green and blue; three rising ones a spectrum") {
+TEST_CASE("spectrum: three falling values are red, green and blue, three rising ones a spectrum") {
     check_color(color_of(650, 450, {0.8, 0.5, 0.2}), {0.8, 0.5, 0.2}, 1e-6);
     check_color(color_of(450, 650, {0.2, 0.5, 0.8}), {0.7503211, 0.4681091, 0.1391189}, 2e-3);
 }
