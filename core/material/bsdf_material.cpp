@@ -8,6 +8,7 @@
 #include "core/material/argument_checks.h"
 #include "core/material/bsdf_hit.h"
 #include "core/material/surface_side.h"
+#include "core/model/transform_args.h"
 #include "core/scene/modifier.h"
 #include "core/texture/arguments.h"
 #include "core/texture/function_binding.h"
@@ -25,10 +26,7 @@ class BsdfMaterial final : public Modifier {
   public:
     explicit BsdfMaterial(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
-    [[nodiscard]] MaterialTraits traits() const override {
-        return {.transparent = bsdf_->transmits() || max_component(through_) > 0};
-    }
-
+    [[nodiscard]] MaterialTraits traits() const override;
     [[nodiscard]] const Bsdf* bsdf() const override { return bsdf_.get(); }
 
   private:
@@ -42,13 +40,25 @@ class BsdfMaterial final : public Modifier {
                      TraceContext& context) const;
     void add_direct(Ray& ray, const BsdfHit& hit, TraceContext& context) const;
 
-    bool thick_;  ///< BSDF, whose first string is a thickness; else aBSDF
+    bool always_thick_ = false;  ///< the thickness is a number other than 0
+    bool thick_;                 ///< BSDF, whose first string is a thickness; else aBSDF
     ModifierId next_;
     std::string name_;
     std::shared_ptr<const Bsdf> bsdf_;
     FunctionBinding binding_;     ///< outputs: the up direction, then the thickness of a BSDF
     Rgb front_, back_, through_;  ///< Lambertian reflectances and transmittance added to the data
 };
+
+/// The eye does not see a surface of a constant thickness; through an aBSDF it sees what lies
+/// behind, if anything passes straight along the normal.
+MaterialTraits BsdfMaterial::traits() const {
+    MaterialTraits traits{.transparent = bsdf_->transmits() || max_component(through_) > 0};
+    if (always_thick_)
+        traits.appearance = Appearance::absent;
+    else if (!thick_ && find_through_part(bsdf_->transmission(true), {}).exists())
+        traits.appearance = Appearance::pane;
+    return traits;
+}
 
 FunctionBinding BsdfMaterial::bind(const ModifierBuild& build, bool thick) {
     const std::vector<std::string>& s = build.primitive.strings;
@@ -73,6 +83,9 @@ BsdfMaterial::BsdfMaterial(const ModifierBuild& build)
     if (reals >= 3) front_ = color_argument(primitive);
     if (reals >= 6) back_ = color_argument(primitive, 3);
     if (reals >= 9) through_ = color_argument(primitive, 6);
+    double thickness = 0;
+    always_thick_ =
+        thick_ && parse_real(primitive.strings[0], thickness) && std::abs(thickness) > kEpsilon;
     for (const std::string& warning : bsdf_->warnings()) build.warnings.warn(warning);
 }
 

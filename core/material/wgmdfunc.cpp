@@ -47,6 +47,8 @@ struct PartLobe {
     [[nodiscard]] bool is_smooth() const { return alpha_v <= kEpsilon; }
 };
 
+constexpr double kPaneReflectance = 0.08;  ///< of a usual pane at normal incidence, both sides
+
 /// What one hit makes of the material. Everything faces the viewer.
 struct WgmdShading {
     PartSurface own, reflection, transmission, diffuse;  ///< diffuse: transmitted
@@ -87,10 +89,7 @@ class WgmdFunction final : public Modifier {
   public:
     explicit WgmdFunction(const ModifierBuild& build);
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
-    [[nodiscard]] MaterialTraits traits() const override {
-        return {.transparent = !opaque_ || max_component(through_) > 0,
-                .blocks_shadow_rays = opaque_};
-    }
+    [[nodiscard]] MaterialTraits traits() const override;
 
   private:
     /// A lobe's expressions: strength, and roughness along u and v.
@@ -114,10 +113,20 @@ class WgmdFunction final : public Modifier {
     ModifierId next_, reflection_, transmission_, diffuse_;
     std::string name_;
     FunctionBinding binding_;
-    bool opaque_;  ///< no specular transmission, by the word 0
+    bool clear_ = false;  ///< a pane without roughness or diffuse light, as glazing is written
+    bool opaque_;         ///< no specular transmission, by the word 0
     LobeOutputs mirror_, pane_;
     Rgb front_, back_, through_;
 };
+
+MaterialTraits WgmdFunction::traits() const {
+    MaterialTraits traits{.transparent = !opaque_ || max_component(through_) > 0,
+                          .blocks_shadow_rays = opaque_};
+    if (!clear_) return traits;
+    traits.appearance = Appearance::pane;
+    traits.gloss = kPaneReflectance;
+    return traits;
+}
 
 FunctionBinding WgmdFunction::bind(const ModifierBuild& build) {
     const Primitive& primitive = build.primitive;
@@ -153,7 +162,11 @@ WgmdFunction::WgmdFunction(const ModifierBuild& build)
       pane_{3, opaque_},
       front_(color_argument(build.primitive)),
       back_(color_argument(build.primitive, 3)),
-      through_(color_argument(build.primitive, 6)) {}
+      through_(color_argument(build.primitive, 6)) {
+    const auto zero = [&](std::size_t string) { return build.primitive.strings[string] == "0"; };
+    clear_ = !opaque_ && zero(kReflectionName + 2) && zero(kTransmissionName + 2) &&
+             max_component(front_ + back_ + through_) <= 0;
+}
 
 bool WgmdFunction::shade(Ray& ray, TraceContext& context) const {
     const LightTransport& tracer = context.tracer;

@@ -206,7 +206,7 @@ TEST_CASE("trace: -defaults are rtrace's") {
 
 TEST_CASE("info: counts, bounds, lights with virtual ones, and BSDF files") {
     const TemporaryFolder folder;
-    folder.write("paper.xml", test::matrix_text(".1 .1 .1 .1 .1 .1 .1 .1 .1"));
+    folder.write("paper.xml", lightwalk::test::matrix_text(".1 .1 .1 .1 .1 .1 .1 .1 .1"));
     const std::string scene =
         folder.write("floor.rad", kFloor + "void BSDF paper 6 0 " + folder.path("paper.xml") +
                                       " 0 0 1 . 0 0\npaper sphere ball 0 0 4 0 0 1 1\n");
