@@ -8,11 +8,11 @@
 namespace lightwalk {
 
 /// A point of the unit square; areas are projected solid angles over π.
-struct SquarePoint {
+struct UnitSquarePoint {
     double x = 0, y = 0;
 };
 
-[[nodiscard]] inline SquarePoint disk_to_square(const ProjectedDirection& p) {
+[[nodiscard]] inline UnitSquarePoint disk_to_square(const ProjectedDirection& p) {
     const double radius = std::sqrt(p.x * p.x + p.y * p.y);
     double a = 0, b = 0;
     if (std::abs(p.x) >= std::abs(p.y)) {
@@ -27,7 +27,7 @@ struct SquarePoint {
     return {0.5 * (a + 1), 0.5 * (b + 1)};
 }
 
-[[nodiscard]] inline ProjectedDirection square_to_disk(const SquarePoint& p) {
+[[nodiscard]] inline ProjectedDirection square_to_disk(const UnitSquarePoint& p) {
     const double a = 2 * p.x - 1, b = 2 * p.y - 1;
     if (std::abs(a) >= std::abs(b)) {
         if (a == 0) return {};

@@ -211,7 +211,7 @@ IncidentPath TreeLobes::incident_path(const ProjectedDirection& e) const {
         const double sine = std::min(1.0, std::sqrt(e.x * e.x + e.y * e.y));
         return {HalvingPath(kNormalIncidence - 0.5 * sine), {}};
     }
-    const SquarePoint at = disk_to_square(reversed_ ? e : ProjectedDirection{-e.x, -e.y});
+    const UnitSquarePoint at = disk_to_square(reversed_ ? e : ProjectedDirection{-e.x, -e.y});
     return {HalvingPath(at.x), HalvingPath(at.y)};
 }
 
@@ -232,7 +232,7 @@ struct Turn {
 };
 
 TreePoint TreeLobes::place(const ProjectedDirection& e, const ProjectedDirection& l) const {
-    SquarePoint exitant;
+    UnitSquarePoint exitant;
     IncidentPath incident;
     if (is_isotropic()) {
         const ProjectedDirection& from = reversed_ ? l : e;
@@ -321,7 +321,7 @@ BsdfLobes::Sample TreeLobes::sample(const ProjectedDirection& e, double choice, 
                                     double xi2) const {
     const IncidentPath incident = incident_path(e);
     const SliceCell leaf = choose(incident, incident_.find(incident), choice);
-    const SquarePoint at{(leaf.x + xi1) * leaf.width(), (leaf.y + xi2) * leaf.width()};
+    const UnitSquarePoint at{(leaf.x + xi1) * leaf.width(), (leaf.y + xi2) * leaf.width()};
     ProjectedDirection l = square_to_disk(at);
     Sample sample;
     if (table_.u) {

@@ -110,7 +110,7 @@ void check_samples(const BsdfLobes& lobes, ProjectedDirection e) {
     RandomStream random(3);
     for (int i = 0; i < kSamples; ++i) {
         const double choice = random.next(), xi1 = random.next(), xi2 = random.next();
-        const SquarePoint at = disk_to_square(lobes.sample(e, choice, xi1, xi2).l);
+        const UnitSquarePoint at = disk_to_square(lobes.sample(e, choice, xi1, xi2).l);
         const auto cell = [](double x) {
             return std::clamp(static_cast<int>(x * kCells), 0, kCells - 1);
         };

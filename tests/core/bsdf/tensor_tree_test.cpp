@@ -24,10 +24,10 @@ TEST_CASE("the map of disk and square goes both ways, and keeps areas") {
     int inside = 0;
     constexpr int kPoints = 100000;
     for (int i = 0; i < kPoints; ++i) {
-        const SquarePoint square{random.next(), random.next()};
+        const UnitSquarePoint square{random.next(), random.next()};
         const ProjectedDirection disk = square_to_disk(square);
         CHECK(disk.x * disk.x + disk.y * disk.y <= 1 + 1e-12);
-        const SquarePoint back = disk_to_square(disk);
+        const UnitSquarePoint back = disk_to_square(disk);
         CHECK(back.x == doctest::Approx(square.x).epsilon(1e-9));
         CHECK(back.y == doctest::Approx(square.y).epsilon(1e-9));
         // A disk of any radius and place has its area over π of the square's points.
