@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "core/bsdf/bsdf.h"
 #include "core/math/rgb.h"
 #include "core/math/task_runner.h"
 #include "core/model/column.h"
 #include "core/model/primitive.h"
 
 namespace lightwalk {
+
+class Bsdf;
 
 /// Interpolation table of a Radiance data file. Values are in row-major order, last dimension
 /// fastest.

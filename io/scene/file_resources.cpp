@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/bsdf/bsdf.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
 #include "io/picture/picture_data.h"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/bsdf/bsdf.h"
 #include "core/error.h"
 #include "io/formats/packed.h"
 #include "io/scene/frozen_bsdf.h"

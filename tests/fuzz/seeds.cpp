@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/bsdf/bsdf.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
 #include "io/picture/picture.h"

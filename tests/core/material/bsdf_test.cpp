@@ -1,7 +1,7 @@
 // BSDF, aBSDF and WGMDfunc: energy, sides, shadows and proxies.
 #include <doctest/doctest.h>
 
-#include "core/bsdf/disk_square.h"
+#include "core/bsdf/bsdf.h"
 #include "tests/core/material/surroundings.h"
 #include "tests/tolerance.h"
 
