@@ -1,15 +1,17 @@
 // lightwalk info: what a scene holds.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
 #include "apps/session/scene_session.h"
 #include "apps/warnings.h"
+#include "core/bsdf/bsdf.h"
 #include "core/light/light_sources.h"
-#include "core/material/modifier_factories.h"
 #include "io/ambient/ambient_file.h"
 
 namespace lightwalk {
@@ -31,25 +33,38 @@ void print_counts(const Model& model) {
         std::printf("  %-12s %zu\n", std::string(to_string(type)).c_str(), count);
 }
 
-/// Types that are read and then refused when a surface uses them, each with its first primitive.
-void print_unsupported(const Model& model) {
-    struct Refused {
-        const Primitive* first = nullptr;
-        std::size_t count = 0;
-    };
-    std::map<PrimitiveType, Refused> types;
-    for (const Primitive& primitive : model.modifiers) {
-        const PrimitiveType type = primitive.type;
-        const bool known = type == PrimitiveType::alias || modifier_factory(type) != nullptr;
-        if (known) continue;
-        Refused& refused = types[type];
-        if (refused.count++ == 0) refused.first = &primitive;
+/// What a table holds: "matrix 145 x 145", "tree of rank 4, 16 MB".
+std::string table_words(const BsdfTable& table) {
+    if (const auto* matrix = std::get_if<BsdfMatrix>(&table)) {
+        return "matrix " + std::to_string(matrix->incident.size()) + " x " +
+               std::to_string(matrix->exitant.size());
     }
-    std::printf("unsupported    %s\n", types.empty() ? "nothing" : "");
-    for (const auto& [type, refused] : types) {
-        const std::string first = to_prefix(refused.first->where) + '"' + refused.first->name + '"';
-        std::printf("  %-12s %zu, first %s\n", std::string(to_string(type)).c_str(), refused.count,
-                    printable(first).c_str());
+    const TensorTree& tree = std::get<BsdfTree>(table).y;
+    const std::size_t leaves =
+        tree.nodes().empty() ? 1 : tree.nodes().size() - tree.nodes().size() / tree.children() + 1;
+    return "tree of rank " + std::to_string(tree.rank()) + ", " + std::to_string(leaves) +
+           " leaves";
+}
+
+/// The BSDF files in use, each component with its largest hemispherical total.
+void print_bsdfs(const Scene& scene) {
+    constexpr std::array<const char*, kBsdfParts> kNames = {
+        "transmission front", "transmission back", "reflection front", "reflection back"};
+    std::set<const Bsdf*> all;
+    for (std::size_t i = 0; i < scene.modifier_count(); ++i) {
+        const auto& node = scene.modifier(ModifierId{static_cast<std::int32_t>(i)}).node;
+        const Bsdf* bsdf = node ? node->bsdf() : nullptr;
+        if (!bsdf || !all.insert(bsdf).second) continue;
+        if (all.size() == 1) std::puts("BSDF files, with their largest totals");
+        std::printf("  %s, %.1f MB\n", printable(bsdf->data().name).c_str(),
+                    1e-6 * static_cast<double>(bsdf->own_bytes()));
+        for (std::size_t part = 0; part < kBsdfParts; ++part) {
+            const std::optional<BsdfTable>& table = bsdf->data().parts[part];
+            if (!table) continue;
+            std::printf("    %-18s %5.1f %%, %s\n", kNames[part],
+                        100 * bsdf->largest_total(static_cast<BsdfPart>(part)),
+                        table_words(*table).c_str());
+        }
     }
 }
 
@@ -169,11 +184,11 @@ int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     const auto scene = std::make_shared<CompiledScene>(options.request.source, warnings);
     if (scene->frozen() != nullptr) print_origin(*scene->frozen());
     print_counts(scene->model());
-    print_unsupported(scene->model());
     scene->compile();
     const SceneSession session(scene, settings.light, settings.ambient_file, warnings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());
+    print_bsdfs(session.scene());
     print_memory(session);
     std::printf("time           %.2f s to read, %.2f s to build\n", session.cost().read_seconds,
                 session.cost().build_seconds);

@@ -3,7 +3,7 @@
 # nothing when all is there.
 set -eu
 packages="g++ cmake ninja-build libtbb-dev libembree-dev libopenimageio-dev nlohmann-json3-dev doctest-dev
-libboost-dev libboost-context-dev libturbojpeg0-dev libbenchmark-dev libopenmpi-dev openmpi-bin libzstd-dev zlib1g-dev libxxhash-dev python3 python3-numpy $*"
+libboost-dev libboost-context-dev libturbojpeg0-dev libbenchmark-dev libopenmpi-dev openmpi-bin libzstd-dev zlib1g-dev libxxhash-dev libpugixml-dev python3 python3-numpy $*"
 missing=""
 for package in $packages; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"

@@ -21,9 +21,9 @@ FORBIDDEN_HEADERS = {
 # Folders from the lowest to the highest: a file may include files of its own folder and of those before it.
 # "." are the files that lie in no subfolder; None: not held yet.
 ORDER = {
-    "core": [".", "math", "model", "view", "glare", "function", "geometry", "scene", "plan", "transport", "texture", "light", "virtual_source", "material", "ambient", "batch", "trace", "cloud"],
+    "core": [".", "math", "spectrum", "bsdf", "model", "view", "glare", "function", "geometry", "scene", "plan", "transport", "texture", "light", "virtual_source", "material", "ambient", "batch", "trace", "cloud"],
     "parallel": ["comm", "fibers", ".", "walk", "work_queue", "ranks"],
-    "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "generators", "scene", "net"],
+    "io": ["files", "formats", "options", "picture", "openimageio", "ambient", "rays", "language", "bsdf", "generators", "scene", "net"],
 }
 
 def wrong_includes(root):

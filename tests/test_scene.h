@@ -25,6 +25,8 @@ class MemoryResources final : public Resources {
     std::map<std::string, std::string> functions;
     std::map<std::string, std::shared_ptr<const DataArray>> tables;
     std::map<std::string, std::shared_ptr<const PictureData>> pictures;
+    std::map<std::string, std::shared_ptr<const SpectralPicture>> spectral_pictures;
+    std::map<std::string, std::shared_ptr<const Bsdf>> bsdfs;
     std::map<std::string, std::shared_ptr<const Font>> fonts;
     std::map<std::string, std::shared_ptr<const Model>> octrees;
     std::map<std::string, std::shared_ptr<const MeshModel>> meshes;
@@ -36,6 +38,10 @@ class MemoryResources final : public Resources {
     std::shared_ptr<const PictureData> picture(const std::string& name) override {
         return find(pictures, name);
     }
+    std::shared_ptr<const SpectralPicture> spectral_picture(const std::string& name) override {
+        return find(spectral_pictures, name);
+    }
+    std::shared_ptr<const Bsdf> bsdf(const std::string& name) override { return find(bsdfs, name); }
     std::shared_ptr<const Font> font(const std::string& name) override { return find(fonts, name); }
     std::vector<std::string> text_lines(const std::string& name) override { throw missing(name); }
     std::shared_ptr<const Model> octree(const std::string& name) override {

@@ -146,7 +146,7 @@ void CompiledScene::map_shared(const std::string& path) {
 std::string CompiledScene::share() {
     const Stopwatch watch;
     FreezingResources asked(*resources_);
-    raise_problems(asked);
+    problems_.raise();
     {
         const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
         CallbackWarnings later({});  // they come when the scene is compiled to be rendered
@@ -164,20 +164,10 @@ std::string CompiledScene::share() {
     return shared_->path();
 }
 
-void CompiledScene::raise_problems(Resources& asked) {
-    if (problems_.empty()) return;
-    try {
-        Scene::unsupported(model_, modifier_factory, asked, warnings_).raise();
-    } catch (const InputError& error) {
-        problems_.add(error);
-    }
-    problems_.raise();
-}
-
 void CompiledScene::compile(Resources& asked) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
-    raise_problems(asked);
+    problems_.raise();
     trim_heap();
     scene_ =
         std::make_unique<const Scene>(model_, modifier_factory, asked, warnings_,

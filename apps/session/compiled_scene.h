@@ -77,7 +77,6 @@ class CompiledScene {
     void map_bytes(const SceneSource& source);
     void adopt(std::unique_ptr<FrozenScene> opened);
     void map_shared(const std::string& path);
-    void raise_problems(Resources& asked);
     void trim_heap() const;
 
     WarningSink& warnings_;

@@ -61,7 +61,7 @@ SurfaceAppearance VisibilityProbe::appearance_of(ModifierId modifier) const {
     for (ModifierId m = seen.first; m != kVoid; m = scene.modifier(m).next) {
         const PrimitiveKind kind = kind_of(scene.modifier(m).type);
         appearance.textured = appearance.textured || kind == PrimitiveKind::texture;
-        appearance.patterned = appearance.patterned || kind == PrimitiveKind::pattern;
+        appearance.patterned = appearance.patterned || is_pattern(kind);
     }
     // Patterns on lights are usually measured distributions, which depend on the direction.
     if (is_light(record.type) && appearance.patterned &&
@@ -118,7 +118,7 @@ float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
     ray.hit = hit;
     for (ModifierId m = hit.modifier; m != kVoid; m = scene.modifier(m).next) {
         const ModifierRecord& record = scene.modifier(m);
-        if (record.node && kind_of(record.type) == PrimitiveKind::pattern)
+        if (record.node && is_pattern(kind_of(record.type)))
             (void)record.node->shade(ray, *walk.needs.patterns);
     }
     const float value = brightness(ray.pattern);

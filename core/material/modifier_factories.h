@@ -5,8 +5,7 @@
 
 namespace lightwalk {
 
-/// The factory for modifiers of a type; null for surfaces, aliases, and types that are recognised
-/// and refused (WGMDfunc, BSDF, aBSDF, spectra).
+/// The factory for modifiers of a type; null for surfaces and aliases.
 [[nodiscard]] ModifierFactory modifier_factory(PrimitiveType type);
 
 }  // namespace lightwalk

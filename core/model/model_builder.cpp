@@ -36,19 +36,26 @@ bool nearly_equal(double a, double b) {
     return std::abs(a / b - 1) <= 1e-6;
 }
 
-/// How many leading strings of a primitive name modifiers.
-std::size_t count_references(const Primitive& primitive) {
+/// Which strings of a primitive name modifiers.
+std::vector<std::size_t> reference_strings(const Primitive& primitive) {
+    std::vector<std::size_t> places;
     switch (primitive.type) {
         case PrimitiveType::illum:
         case PrimitiveType::mirror:
         case PrimitiveType::alias:
-            return std::min<std::size_t>(primitive.strings.size(), 1);
+            places = {0};
+            break;
         case PrimitiveType::antimatter:
-            return primitive.strings.size();
+            for (std::size_t i = 0; i < primitive.strings.size(); ++i) places.push_back(i);
+            break;
+        case PrimitiveType::wgmdfunc:
+            places = {0, 4, 8};
+            break;
         default:
-            return is_mixture(primitive.type) ? std::min<std::size_t>(primitive.strings.size(), 2)
-                                              : 0;
+            if (is_mixture(primitive.type)) places = {0, 1};
     }
+    std::erase_if(places, [&](std::size_t i) { return i >= primitive.strings.size(); });
+    return places;
 }
 
 void check_name(std::string_view name, bool names_modifier, const SourceLocation& where) {
@@ -66,9 +73,12 @@ bool same_arguments(const Primitive& a, const Primitive& b) {
         a.reals.size() != b.reals.size() || a.references.size() != b.references.size()) {
         return false;
     }
-    const auto plain = static_cast<std::ptrdiff_t>(a.references.size());
-    return std::equal(a.strings.begin() + plain, a.strings.end(), b.strings.begin() + plain) &&
-           std::equal(a.reals.begin(), a.reals.end(), b.reals.begin(), nearly_equal);
+    const std::vector<std::size_t> names = reference_strings(a);
+    for (std::size_t i = 0; i < a.strings.size(); ++i) {
+        if (a.strings[i] != b.strings[i] && std::ranges::find(names, i) == names.end())
+            return false;
+    }
+    return std::equal(a.reals.begin(), a.reals.end(), b.reals.begin(), nearly_equal);
 }
 
 }  // namespace
@@ -118,8 +128,9 @@ std::int32_t ModelBuilder::reference(const std::string& name) const {
 }
 
 std::vector<std::int32_t> ModelBuilder::references(const Primitive& primitive) const {
-    std::vector<std::int32_t> result(count_references(primitive));
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = reference(primitive.strings[i]);
+    std::vector<std::int32_t> result;
+    for (const std::size_t i : reference_strings(primitive))
+        result.push_back(reference(primitive.strings[i]));
     return result;
 }
 

@@ -25,9 +25,9 @@ struct Primitive {
     std::string name;
     std::vector<std::string> strings;
     std::vector<double> reals;
-    /// What names in string arguments resolve to, index by index: the alias target (never an alias
-    /// itself); s0 of illum and mirror; s0 and s1 of the mixtures; every string of antimatter.
-    /// Empty for all other types.
+    /// What names in string arguments resolve to, in their order: the alias target (never an alias
+    /// itself); s0 of illum and mirror; s0 and s1 of the mixtures; s0, s4 and s8 of WGMDfunc;
+    /// every string of antimatter. Empty for all other types.
     std::vector<std::int32_t> references;
     SourceLocation where;
 };

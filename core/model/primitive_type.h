@@ -21,7 +21,7 @@ enum class PrimitiveKind : std::uint8_t {
     texture,
     pattern,
     mixture,
-    spectrum,
+    spectrum,  ///< a pattern of spectra
     alias,
 };
 
@@ -44,6 +44,10 @@ enum class PrimitiveKind : std::uint8_t {
 }
 [[nodiscard]] inline bool is_mixture(PrimitiveType type) {
     return kind_of(type) == PrimitiveKind::mixture;
+}
+/// Whether the kind colours what it modifies.
+[[nodiscard]] inline bool is_pattern(PrimitiveKind kind) {
+    return kind == PrimitiveKind::pattern || kind == PrimitiveKind::spectrum;
 }
 /// Whether the type is a surface that places another model.
 [[nodiscard]] inline bool is_placement(PrimitiveType type) {

@@ -14,6 +14,8 @@
 
 namespace lightwalk {
 
+class Bsdf;
+
 /// Interpolation table of a Radiance data file. Values are in row-major order, last dimension
 /// fastest.
 struct DataArray {
@@ -32,6 +34,14 @@ struct DataArray {
 struct PictureData {
     std::array<DataArray::Axis, 2> axes;  ///< v, u
     Column<Rgb> values;  ///< row-major from the bottom row up, left to right [W/(m² sr)]
+};
+
+/// A picture of spectra as a table like PictureData, of several values a pixel.
+struct SpectralPicture {
+    std::array<DataArray::Axis, 2> axes;   ///< v, u
+    double first_edge = 0, last_edge = 0;  ///< of the bands, which are of one width [nm]
+    std::size_t bands = 0;                 ///< at least 1
+    std::vector<float> values;             ///< [(v * width + u) * bands + band]
 };
 
 /// A font (.fnt): glyphs of closed polygons on a 0..255 grid.
@@ -62,6 +72,10 @@ class Resources {
         const std::string& name) = 0;  ///< text of a .cal file
     [[nodiscard]] virtual std::shared_ptr<const DataArray> data(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const PictureData> picture(const std::string& name) = 0;
+    [[nodiscard]] virtual std::shared_ptr<const SpectralPicture> spectral_picture(
+        const std::string& name) = 0;
+    /// A file of BSDF data (.xml).
+    [[nodiscard]] virtual std::shared_ptr<const Bsdf> bsdf(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const Font> font(const std::string& name) = 0;
     [[nodiscard]] virtual std::vector<std::string> text_lines(const std::string& name) = 0;
     [[nodiscard]] virtual std::shared_ptr<const Model> octree(const std::string& name) = 0;

@@ -14,6 +14,7 @@ namespace lightwalk {
 
 struct Ray;
 struct TraceContext;
+class Bsdf;
 class FunctionBinding;
 class FunctionEnvironment;
 
@@ -59,6 +60,8 @@ class Modifier {
     /// For a pattern that only multiplies ray.pattern by the value of one function in single
     /// precision (unless that has an error): that function. Else null.
     [[nodiscard]] virtual const FunctionBinding* brightness_function() const { return nullptr; }
+    /// For a material of a BSDF file: what the file says. Else null.
+    [[nodiscard]] virtual const Bsdf* bsdf() const { return nullptr; }
 };
 
 /// Arguments of a modifier factory.
@@ -81,7 +84,7 @@ struct ModifierBuild {
 /// modifier is first shaded.
 using ModifierFactory = std::unique_ptr<const Modifier> (*)(const ModifierBuild&);
 
-/// The factory for a type; null for types that are no modifiers, or recognised and refused.
+/// The factory for a type; null for types that are no modifiers.
 using FindModifierFactory = ModifierFactory (*)(PrimitiveType type);
 
 /// A modifier of a scene, compiled, with its place in the chain.

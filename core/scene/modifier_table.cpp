@@ -78,23 +78,6 @@ void ModifierTable::use(ModifierId id) {
     }
 }
 
-ProblemList ModifierTable::unsupported(FindModifierFactory modifier_factory) const {
-    constexpr std::size_t kToldOfOneType = 10;
-    ProblemList problems;
-    std::set<const Primitive*> known;  // aliases share a primitive
-    for (std::size_t i = 0; i < records_.size(); ++i) {
-        const ModifierRecord& record = records_[i];
-        if (!used_[i] || modifier_factory(record.type) || !known.insert(record.primitive).second)
-            continue;
-        const std::string type(to_string(record.type));
-        problems.add(record.primitive->where,
-                     type + " \"" + record.primitive->name +
-                         "\": this type is recognised but not supported yet",
-                     type, kToldOfOneType);
-    }
-    return problems;
-}
-
 std::vector<NamedFile> ModifierTable::pictures() const {
     constexpr std::size_t kPictureOfColorpict = 3;  // string argument after three functions
     std::vector<NamedFile> files;
@@ -113,7 +96,6 @@ std::vector<NamedFile> ModifierTable::pictures() const {
 void ModifierTable::compile(const std::vector<LoadedModel>& models,
                             FindModifierFactory modifier_factory, Resources& resources,
                             WarningSink& warnings, const TaskRunner& task_runner) {
-    unsupported(modifier_factory).raise();
     resources.prepare(pictures(), task_runner);
     for (const LoadedModel& loaded : models) {
         const auto count = static_cast<std::int32_t>(loaded.contents().modifiers.size());
@@ -122,7 +104,7 @@ void ModifierTable::compile(const std::vector<LoadedModel>& models,
             if (!used_[static_cast<std::size_t>(i)]) continue;
             const Primitive& primitive = *record.primitive;
             const ModifierFactory factory = modifier_factory(record.type);
-            assert(factory);  // unsupported() is empty
+            assert(factory);  // every modifier has one
             const ModifierBuild build{primitive,
                                       ModifierId{i},
                                       record.next,

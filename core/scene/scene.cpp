@@ -193,15 +193,6 @@ Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_fa
     if (extent == SceneExtent::whole) impl_->build_geometry(task_runner, ablation);
 }
 
-ProblemList Scene::unsupported(std::shared_ptr<const Model> model,
-                               FindModifierFactory modifier_factory, Resources& resources,
-                               WarningSink& warnings) {
-    Impl scene(std::move(model), resources, SerialTaskRunner());
-    scene.collect_surfaces(warnings, SerialTaskRunner());
-    scene.use_modifiers();
-    return scene.modifiers.unsupported(modifier_factory);
-}
-
 Scene::~Scene() = default;
 
 const Geometry& Scene::geometry() const {

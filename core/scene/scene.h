@@ -8,7 +8,6 @@
 #include "core/geometry/geometry.h"
 #include "core/math/task_runner.h"
 #include "core/model/resources.h"
-#include "core/problem_list.h"
 #include "core/scene/modifier.h"
 
 namespace lightwalk {
@@ -49,11 +48,6 @@ class Scene {
           const TaskRunner& task_runner = SerialTaskRunner(),
           SceneExtent extent = SceneExtent::whole, const Ablation& ablation = {});
     ~Scene();
-    /// Lists every used modifier whose type is recognised but not supported: for a scene that has
-    /// other errors, so that all are reported together. Throws InputError as the constructor does.
-    [[nodiscard]] static ProblemList unsupported(std::shared_ptr<const Model> model,
-                                                 FindModifierFactory modifier_factory,
-                                                 Resources& resources, WarningSink& warnings);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 

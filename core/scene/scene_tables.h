@@ -8,7 +8,6 @@
 #include "core/function/environment.h"
 #include "core/geometry/geometry.h"
 #include "core/model/resources.h"
-#include "core/problem_list.h"
 #include "core/scene/modifier.h"
 
 namespace lightwalk {
@@ -48,10 +47,7 @@ class ModifierTable {
     explicit ModifierTable(const std::vector<LoadedModel>& models);
     /// Compile the modifier, its chain and everything it names, earlier definitions first.
     void use(ModifierId id);
-    /// Every used primitive whose type has no factory, with its place in the file.
-    [[nodiscard]] ProblemList unsupported(FindModifierFactory modifier_factory) const;
-    /// Compile what `use` marked; throws InputError for a bad modifier, or for all unsupported
-    /// ones.
+    /// Compile what `use` marked; throws InputError for a bad modifier.
     void compile(const std::vector<LoadedModel>& models, FindModifierFactory modifier_factory,
                  Resources& resources, WarningSink& warnings, const TaskRunner& task_runner);
 

@@ -125,4 +125,18 @@ Rgb interpolate(const PictureData& picture, double u, double v) {
     return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
 }
 
+double interpolate(const SpectralPicture& picture, double u, double v, std::size_t band) {
+    const Neighbours row = neighbours(picture.axes[0], v), column = neighbours(picture.axes[1], u);
+    const std::size_t width = picture.axes[1].count;
+    const auto in_row = [&](std::size_t y, double weight) {
+        if (negligible(weight)) return 0.0;
+        const float* pixel = &picture.values[(y * width + column.first) * picture.bands + band];
+        const float right = width > 1 ? pixel[picture.bands] : *pixel;
+        return weight * (column.weight0 * static_cast<double>(*pixel) +
+                         column.weight1 * static_cast<double>(right));
+    };
+    const double sum = in_row(row.first, row.weight0);
+    return picture.axes[0].count > 1 ? sum + in_row(row.first + 1, row.weight1) : sum;
+}
+
 }  // namespace lightwalk

@@ -18,5 +18,8 @@ namespace lightwalk {
 /// Bilinear interpolation in a picture: u to the right, v up; the centres of the border pixels lie
 /// on the ends of the range. Outside it as in a data table.
 [[nodiscard]] Rgb interpolate(const PictureData& picture, double u, double v);
+/// The same in one band of a picture of spectra.
+[[nodiscard]] double interpolate(const SpectralPicture& picture, double u, double v,
+                                 std::size_t band);
 
 }  // namespace lightwalk

@@ -1,67 +1,20 @@
 #include "io/picture/rgbe_picture.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "core/model/transform_args.h"
 #include "io/formats/words.h"
+#include "io/picture/resolution_line.h"
 #include "io/picture/scanline.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr std::size_t kLongestResolution = 31;
 constexpr std::uint64_t kPixelsAlwaysAllowed = 1 << 24, kPixelsPerByte = 64;
 
-InputError bad_picture(const std::string& name, const std::string& problem) {
-    return InputError({name, 0}, "bad picture file: " + problem);
-}
-
-/// Size and order of the scanlines. x counts to the right, y upward.
-struct Resolution {
-    int width = 0, height = 0;
-    bool columns = false;  ///< scanlines are columns
-    bool x_falling = false, y_falling = false;
-
-    [[nodiscard]] int scanlines() const { return columns ? width : height; }
-    [[nodiscard]] int length() const { return columns ? height : width; }
-    [[nodiscard]] bool standard() const { return !columns && !x_falling && y_falling; }
-};
-
-/// Size behind the axis letter at `at`, or 0 when there is none.
-int axis_size(std::string_view line, std::size_t at) {
-    std::string_view rest = line.substr(at + 1);
-    std::string_view word = take_word(rest);
-    word = word.substr(0, word.find_first_of("+-", 1));
-    long size = 0;
-    if (!parse_integer(word, size) || size < 1 || size > std::numeric_limits<int>::max()) return 0;
-    return static_cast<int>(size);
-}
-
-/// A line like "-Y 480 +X 640": the first axis counts scanlines, the second runs along them.
-Resolution take_resolution(std::string_view& bytes, const std::string& name) {
-    const std::string_view line = take_line(bytes);
-    const std::size_t x = line.find('X'), y = line.find('Y');
-    if (line.size() > kLongestResolution || x == std::string_view::npos ||
-        y == std::string_view::npos) {
-        throw bad_picture(name, "no resolution line");
-    }
-    Resolution resolution;
-    resolution.width = axis_size(line, x);
-    resolution.height = axis_size(line, y);
-    if (resolution.width < 1 || resolution.height < 1) {
-        throw bad_picture(
-            name, "bad resolution \"" + std::string(line) + "\", expected two positive sizes");
-    }
-    resolution.columns = x < y;
-    resolution.x_falling = x > 0 && line[x - 1] == '-';
-    resolution.y_falling = y > 0 && line[y - 1] == '-';
-    return resolution;
-}
-
 /// Scanlines in stored order. A scanline has at least four bytes.
-std::vector<Rgbe> take_scanlines(std::string_view bytes, const Resolution& resolution,
+std::vector<Rgbe> take_scanlines(std::string_view bytes, const PictureResolution& resolution,
                                  const std::string& name) {
     const auto scanlines = static_cast<std::size_t>(resolution.scanlines());
     const auto length = static_cast<std::size_t>(resolution.length());
@@ -88,17 +41,14 @@ std::vector<Rgbe> take_scanlines(std::string_view bytes, const Resolution& resol
 }
 
 /// From stored order to rows from the top.
-std::vector<Rgbe> upright(std::vector<Rgbe> stored, const Resolution& resolution) {
+std::vector<Rgbe> upright(std::vector<Rgbe> stored, const PictureResolution& resolution) {
     if (resolution.standard()) return stored;
     std::vector<Rgbe> pixels(stored.size());
     const auto width = static_cast<std::size_t>(resolution.width),
                height = static_cast<std::size_t>(resolution.height);
     for (std::size_t row = 0; row < height; ++row) {
-        const std::size_t y = resolution.y_falling ? row : height - 1 - row;
         for (std::size_t column = 0; column < width; ++column) {
-            const std::size_t x = resolution.x_falling ? width - 1 - column : column;
-            pixels[row * width + column] =
-                resolution.columns ? stored[x * height + y] : stored[y * width + x];
+            pixels[row * width + column] = stored[resolution.stored_index(row, column)];
         }
     }
     return pixels;
@@ -114,7 +64,7 @@ RgbePicture decode_rgbe_picture(std::string_view bytes, const std::string& name,
                           (xyz == XyzPictures::accept && format == "32-bit_rle_xyze");
     if (!accepted) throw bad_picture(name, "format \"" + format + "\", expected 32-bit_rle_rgbe");
     bytes.remove_prefix(picture.header.size);
-    const Resolution resolution = take_resolution(bytes, name);
+    const PictureResolution resolution = take_resolution(bytes, name);
     picture.width = resolution.width;
     picture.height = resolution.height;
     picture.pixels = upright(take_scanlines(bytes, resolution, name), resolution);

@@ -5,8 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include "core/bsdf/bsdf.h"
+#include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
 #include "io/picture/picture_data.h"
+#include "io/picture/spectral_picture.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/scene_reader.h"
 
@@ -64,6 +67,23 @@ std::shared_ptr<const PictureData> FileResources::picture(const std::string& nam
     return cached(pictures_, name, [&] {
         const std::string path = locate_picture(path_, name);
         return std::make_shared<const PictureData>(decode_picture(path_.files().read(path), path));
+    });
+}
+
+std::shared_ptr<const SpectralPicture> FileResources::spectral_picture(const std::string& name) {
+    return cached(spectral_pictures_, name, [&] {
+        const std::string path = path_.locate(name, "spectral picture");
+        return std::make_shared<const SpectralPicture>(
+            decode_spectral_picture(path_.files().read(path), path));
+    });
+}
+
+std::shared_ptr<const Bsdf> FileResources::bsdf(const std::string& name) {
+    return cached(bsdfs_, name, [&] {
+        const std::string path = path_.locate(name, "BSDF file");
+        auto data = std::make_shared<BsdfData>(decode_bsdf(path_.files().read(path), path));
+        if (data->name.empty()) data->name = name;
+        return std::make_shared<const Bsdf>(std::move(data));
     });
 }
 

@@ -21,6 +21,9 @@ class FileResources final : public Resources {
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
     /// If NAME.pic does not exist NAME.hdr is read, and the other way round.
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const SpectralPicture> spectral_picture(
+        const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const Bsdf> bsdf(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Font> font(const std::string& name) override;
     /// Lines longer than 511 bytes are divided there; the last line end is optional.
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
@@ -43,6 +46,8 @@ class FileResources final : public Resources {
     WarningSink& warnings_;
     std::map<std::string, std::shared_ptr<const DataArray>> data_;
     std::map<std::string, std::shared_ptr<const PictureData>> pictures_;
+    std::map<std::string, std::shared_ptr<const SpectralPicture>> spectral_pictures_;
+    std::map<std::string, std::shared_ptr<const Bsdf>> bsdfs_;
     std::map<std::string, std::shared_ptr<const Font>> fonts_;
     std::map<std::string, std::shared_ptr<const Model>> octrees_;
     std::map<std::string, std::shared_ptr<const MeshModel>> meshes_;

@@ -36,6 +36,16 @@ std::shared_ptr<const PictureData> FreezingResources::picture(const std::string&
     return remembered(answers_.pictures, name, [&] { return source_.picture(name); });
 }
 
+std::shared_ptr<const SpectralPicture> FreezingResources::spectral_picture(
+    const std::string& name) {
+    return remembered(answers_.spectral_pictures, name,
+                      [&] { return source_.spectral_picture(name); });
+}
+
+std::shared_ptr<const Bsdf> FreezingResources::bsdf(const std::string& name) {
+    return remembered(answers_.bsdfs, name, [&] { return source_.bsdf(name); });
+}
+
 std::shared_ptr<const Font> FreezingResources::font(const std::string& name) {
     return remembered(answers_.fonts, name, [&] { return source_.font(name); });
 }

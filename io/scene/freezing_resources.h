@@ -31,6 +31,9 @@ class FreezingResources final : public Resources {
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const SpectralPicture> spectral_picture(
+        const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const Bsdf> bsdf(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Font> font(const std::string& name) override;
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
@@ -43,6 +46,8 @@ class FreezingResources final : public Resources {
         ResourceAnswers<std::string> functions;
         ResourceAnswers<std::shared_ptr<const DataArray>> tables;
         ResourceAnswers<std::shared_ptr<const PictureData>> pictures;
+        ResourceAnswers<std::shared_ptr<const SpectralPicture>> spectral_pictures;
+        ResourceAnswers<std::shared_ptr<const Bsdf>> bsdfs;
         ResourceAnswers<std::shared_ptr<const Font>> fonts;
         ResourceAnswers<std::vector<std::string>> texts;
         ResourceAnswers<std::shared_ptr<const Model>> octrees;

@@ -23,6 +23,8 @@ enum class FrozenKind : std::uint32_t {
     picture,
     font,
     pixels,  ///< pixels of a picture
+    bsdf,
+    spectral_picture,
     // Parts of each model; the scene is model number 0.
     model = 16,
     records,

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMostAxes = 6;
 constexpr std::int32_t kFontGrid = 255;
+constexpr std::uint64_t kMostBands = 1000;  ///< of a spectral picture
 
 void pack_axis(PackedWriter& writer, const DataArray::Axis& axis) {
     writer.number(axis.origin);
@@ -91,6 +92,42 @@ std::shared_ptr<const PictureData> map_picture(const FrozenFile& file, std::uint
     const auto finite = [](const Rgb& c) { return std::isfinite(c.r + c.g + c.b); };
     if (!std::ranges::all_of(picture.values, finite)) reader.fail();
     return {mapped, &picture};
+}
+
+void freeze_spectral_picture(const SpectralPicture& picture, std::uint32_t number,
+                             FrozenParts& parts) {
+    PackedWriter writer;
+    for (const DataArray::Axis& axis : picture.axes) pack_axis(writer, axis);
+    writer.number(picture.first_edge);
+    writer.number(picture.last_edge);
+    writer.count(picture.bands);
+    writer.list(picture.values);
+    parts.add(FrozenKind::spectral_picture, number, writer.bytes());
+}
+
+std::shared_ptr<const SpectralPicture> map_spectral_picture(const FrozenFile& file,
+                                                            std::uint32_t number) {
+    PackedReader reader(part_of(file, FrozenKind::spectral_picture, number), file.name(),
+                        "a spectral picture");
+    auto picture = std::make_shared<SpectralPicture>();
+    for (DataArray::Axis& axis : picture->axes) {
+        axis = unpack_axis(reader, 1);
+        if (!axis.points.empty()) reader.fail();
+    }
+    picture->first_edge = reader.number<double>();
+    picture->last_edge = reader.number<double>();
+    const auto bands = reader.number<std::uint64_t>();
+    picture->values = reader.list<float>();
+    reader.end();
+    if (!std::isfinite(picture->first_edge) || !std::isfinite(picture->last_edge) ||
+        picture->first_edge == picture->last_edge || bands < 1 || bands > kMostBands ||
+        picture->values.size() % bands != 0)
+        reader.fail();
+    picture->bands = bands;
+    check_size(reader, picture->axes, picture->values.size() / bands);
+    if (!std::ranges::all_of(picture->values, [](float x) { return std::isfinite(x); }))
+        reader.fail();
+    return picture;
 }
 
 void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts) {

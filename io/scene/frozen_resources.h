@@ -9,6 +9,8 @@ namespace lightwalk {
 
 void freeze_data(const DataArray& data, std::uint32_t number, FrozenParts& parts);
 void freeze_picture(const PictureData& picture, std::uint32_t number, FrozenParts& parts);
+void freeze_spectral_picture(const SpectralPicture& picture, std::uint32_t number,
+                             FrozenParts& parts);
 void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts);
 
 // The inverse of the functions above. They throw InputError for contents that no decoder can have
@@ -17,6 +19,8 @@ void freeze_font(const Font& font, std::uint32_t number, FrozenParts& parts);
                                                         std::uint32_t number);
 [[nodiscard]] std::shared_ptr<const PictureData> map_picture(const FrozenFile& file,
                                                              std::uint32_t number);
+[[nodiscard]] std::shared_ptr<const SpectralPicture> map_spectral_picture(const FrozenFile& file,
+                                                                          std::uint32_t number);
 [[nodiscard]] std::shared_ptr<const Font> map_font(const FrozenFile& file, std::uint32_t number);
 
 }  // namespace lightwalk

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/bsdf/bsdf.h"
 #include "core/error.h"
 #include "io/formats/packed.h"
+#include "io/scene/frozen_bsdf.h"
 #include "io/scene/frozen_model.h"
 #include "io/scene/frozen_resources.h"
 
@@ -83,6 +85,8 @@ void freeze_answers(const FreezingResources::Answers& answers, FrozenParts& part
     pack_answers(writer, answers.texts);
     pack_answers(writer, answers.tables);
     pack_answers(writer, answers.pictures);
+    pack_answers(writer, answers.spectral_pictures);
+    pack_answers(writer, answers.bsdfs);
     pack_answers(writer, answers.fonts);
     pack_answers(writer, answers.octrees);
     pack_answers(writer, answers.meshes);
@@ -92,6 +96,13 @@ void freeze_answers(const FreezingResources::Answers& answers, FrozenParts& part
     });
     freeze_found(answers.pictures, 0, [&](const PictureData& picture, std::uint32_t number) {
         freeze_picture(picture, number, parts);
+    });
+    freeze_found(answers.spectral_pictures, 0,
+                 [&](const SpectralPicture& picture, std::uint32_t number) {
+                     freeze_spectral_picture(picture, number, parts);
+                 });
+    freeze_found(answers.bsdfs, 0, [&](const Bsdf& bsdf, std::uint32_t number) {
+        freeze_bsdf(bsdf.data(), number, parts);
     });
     freeze_found(answers.fonts, 0,
                  [&](const Font& font, std::uint32_t number) { freeze_font(font, number, parts); });
@@ -220,6 +231,8 @@ FrozenScene::FrozenScene(FrozenFile file) : file_(std::move(file)) {
     texts_ = AnswerReader{reader}.answers<std::vector<std::string>>();
     tables_ = AnswerReader{reader}.answers<std::uint32_t>();
     pictures_ = AnswerReader{reader}.answers<std::uint32_t>();
+    spectral_pictures_ = AnswerReader{reader}.answers<std::uint32_t>();
+    bsdfs_ = AnswerReader{reader}.answers<std::uint32_t>();
     fonts_ = AnswerReader{reader}.answers<std::uint32_t>();
     octrees_ = AnswerReader{reader, kRootModel + 1}.answers<std::uint32_t>();
     meshes_ = AnswerReader{reader}.answers<std::uint32_t>();
@@ -242,6 +255,18 @@ std::shared_ptr<const DataArray> FrozenScene::data(const std::string& name) {
 std::shared_ptr<const PictureData> FrozenScene::picture(const std::string& name) {
     const std::uint32_t number = frozen_answer(file_, pictures_, name);
     return mapped_once(mapped_pictures_, number, [&] { return map_picture(file_, number); });
+}
+
+std::shared_ptr<const SpectralPicture> FrozenScene::spectral_picture(const std::string& name) {
+    const std::uint32_t number = frozen_answer(file_, spectral_pictures_, name);
+    return mapped_once(mapped_spectral_pictures_, number,
+                       [&] { return map_spectral_picture(file_, number); });
+}
+
+std::shared_ptr<const Bsdf> FrozenScene::bsdf(const std::string& name) {
+    const std::uint32_t number = frozen_answer(file_, bsdfs_, name);
+    return mapped_once(mapped_bsdfs_, number,
+                       [&] { return std::make_shared<const Bsdf>(map_bsdf(file_, number)); });
 }
 
 std::shared_ptr<const Font> FrozenScene::font(const std::string& name) {

@@ -52,6 +52,9 @@ class FrozenScene final : public Resources {
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const SpectralPicture> spectral_picture(
+        const std::string& name) override;
+    [[nodiscard]] std::shared_ptr<const Bsdf> bsdf(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Font> font(const std::string& name) override;
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
@@ -63,11 +66,14 @@ class FrozenScene final : public Resources {
     // Answers that are parts of the file are stored as the number of the part.
     ResourceAnswers<std::string> functions_;
     ResourceAnswers<std::vector<std::string>> texts_;
-    ResourceAnswers<std::uint32_t> tables_, pictures_, fonts_, octrees_, meshes_;
+    ResourceAnswers<std::uint32_t> tables_, pictures_, spectral_pictures_, bsdfs_, fonts_, octrees_,
+        meshes_;
     template <class T>
     using Mapped = std::map<std::uint32_t, std::shared_ptr<const T>>;
     Mapped<DataArray> mapped_tables_;
     Mapped<PictureData> mapped_pictures_;
+    Mapped<SpectralPicture> mapped_spectral_pictures_;
+    Mapped<Bsdf> mapped_bsdfs_;
     Mapped<Font> mapped_fonts_;
     Mapped<Model> mapped_models_;
     Mapped<MeshModel> mapped_meshes_;

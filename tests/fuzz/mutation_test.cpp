@@ -145,5 +145,8 @@ TEST_CASE("mutated frozen scenes whose digests fit are read or refused") {
     endure(kFuzzTargets[7]);
     endure(kFuzzTargets[7], overwrite);
 }
+TEST_CASE("mutated files of BSDF data are read or refused") {
+    endure(kFuzzTargets[8]);
+}
 
 }  // namespace lightwalk::test

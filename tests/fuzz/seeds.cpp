@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/bsdf/bsdf.h"
+#include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
@@ -10,6 +12,7 @@
 #include "io/scene/frozen_scene.h"
 #include "io/scene/scene_reader.h"
 #include "tests/fuzz/targets.h"
+#include "tests/io/bsdf/bsdf_text.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk::test {
@@ -21,6 +24,8 @@ void light bulb 0 0 3 100 90 80
 void glow sky 0 0 4 1 1 1 0
 void glass pane 0 0 3 .9 .9 .9
 void mirror silver 0 0 3 .8 .8 .8
+void spectrum reddish 0 0 7 400 700 .1 .2 .4 .6 .8
+reddish WGMDfunc coated 13 inherit .1 .05 .05 void .5 0 0 void 1 0 0 . 0 9 .2 .2 .2 .1 .1 .1 0 0 0
 void dielectric ball 0 0 5 .9 .9 .9 1.5 0
 void brightfunc grain 2 if(noise3(Px,Py,Pz),.8,.5) . 0 0
 grain plastic wood 0 0 5 .5 .3 .1 0 0
@@ -37,6 +42,7 @@ dots cylinder post 0 0 7 1 1 0 1 1 2 .1
 brushed cone hat 0 0 8 1 1 2 1 1 2.5 .3 0
 ball sphere crystal 0 0 4 0 .5 1 .3
 pane polygon window 0 0 12 -1 -1 1 1 -1 1 1 -1 2 -1 -1 2
+coated polygon plate2 0 0 12 1 1.9 .2 2 1.9 .2 2 1.9 1.2 1 1.9 1.2
 silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
 !genbox white box .5 .4 .3 | xform -t .2 .3 0 -rz 30
 !xform -n a -a 3 -t .2 0 0 -
@@ -141,6 +147,10 @@ void colorpict image 7 noneg noneg noneg p.hdr . Px Py 0 0
 image plastic painted 0 0 5 .5 .5 .5 0 0
 void brighttext sign 3 f.fnt A B 0 11 -1 -2 0 .5 0 0 0 0 .5 1 .2
 sign plastic lettered 0 0 5 .5 .5 .5 0 0
+void BSDF woven 6 0 m.xml 0 0 1 . 0 0
+void aBSDF slats 5 t.xml 0 0 1 . 0 0
+woven sphere b1 0 0 4 1 -1 1 .3
+slats sphere b2 0 0 4 .4 -1.5 .6 .3
 shaded sphere s1 0 0 4 -1 -1 1 .3
 unseen sphere s2 0 0 4 9 9 9 .3
 measured polygon p1 0 0 9 -2 -2 .1 2 -2 .1 2 2 .1
@@ -161,6 +171,11 @@ std::string frozen_scene() {
     files.tables["d.dat"] = std::make_shared<const DataArray>(decode_data(kData1, "d.dat"));
     files.pictures["p.hdr"] =
         std::make_shared<const PictureData>(decode_picture(encode_hdr(gradient(), {}), "p.hdr"));
+    for (const auto& [name, text] :
+         {std::pair("m.xml", matrix_text("1 2 3 .4 .5 .6 7 8 9")),
+          std::pair("t.xml", tree_text("{ {1} {2} {3} {4} {.5} {6} {7} { 1 2 3 4 5 6 7 8 } }"))})
+        files.bsdfs[name] =
+            std::make_shared<const Bsdf>(std::make_shared<const BsdfData>(decode_bsdf(text, name)));
     files.fonts["f.fnt"] = std::make_shared<const Font>(decode_font(kFont, "f.fnt"));
     files.octrees["tree.oct"] = decode_octree(frozen_octree(), "tree.oct").model;
     files.meshes["stone.rtm"] = std::make_shared<const MeshModel>(decode_mesh(mesh(), "stone.rtm"));
@@ -189,6 +204,11 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_octree) return octrees;
     if (target == read_function_file) return functions;
     static const std::vector<std::string> requests{kViewRequest, kDisplayRequest, kProbesRequest};
+    static const std::vector<std::string> bsdfs{
+        matrix_text("1 2 3\n.4,.5,.6\n7 8 9"), matrix_text("1 2 3 4 5 6 7 8 9", "Rows"),
+        tree_text("{ {1} {2} {3} {4} {.5} {6} {7} { 1 2 3 4 5 6 7 8 } }"),
+        tree_text("{ {.1} {.2} {3} {4} {5} {6} {7} {8} {9} {0} {1} {2} {3} {4} {5} {.6} }", 4)};
+    if (target == read_bsdf_file) return bsdfs;
     if (target == read_picture) return pictures;
     if (target == read_walk_request) return requests;
     static const std::vector<std::string> frozen{frozen_scene()};

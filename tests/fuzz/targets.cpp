@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/bsdf/through_part.h"
 #include "core/function/environment.h"
 #include "core/scene/scene.h"
 #include "core/texture/interpolate.h"
 #include "core/trace/tracer.h"
+#include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
 #include "io/net/walk_request.h"
 #include "io/picture/picture.h"
@@ -111,6 +113,22 @@ bool read_data_file(std::string_view bytes) {
     const bool font = accepts([&] { (void)decode_font(bytes, "mutant.fnt"); });
     const bool mesh = accepts([&] { (void)decode_mesh(bytes, "mutant.rtm"); });
     return data || font || mesh;
+}
+
+bool read_bsdf_file(std::string_view bytes) {
+    return accepts([&] {
+        const Bsdf bsdf(std::make_shared<BsdfData>(decode_bsdf(bytes, "mutant.xml")));
+        const ProjectedDirection e{0.3, -0.4}, l{-0.25, 0.45};
+        for (const bool front : {true, false}) {
+            (void)bsdf.resolution(front, e);
+            (void)find_through_part(bsdf.transmission(front), e);
+            for (const BsdfComponent* part : {&bsdf.transmission(front), &bsdf.reflection(front)}) {
+                (void)part->value(e, l);
+                if (part->lobes && part->lobes->total(e) > 0)
+                    (void)part->lobes->sample(e, 0.3, 0.6, 0.9);
+            }
+        }
+    });
 }
 
 bool read_walk_request(std::string_view bytes) {

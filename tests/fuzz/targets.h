@@ -17,6 +17,7 @@ bool read_octree(std::string_view bytes);         ///< decode an octree, compile
 bool read_function_file(std::string_view bytes);  ///< load, compile and evaluate its variables
 bool read_picture(std::string_view bytes);        ///< as a pattern and as a picture
 bool read_data_file(std::string_view bytes);      ///< data table, font, mesh
+bool read_bsdf_file(std::string_view bytes);      ///< decode, look up, add up and sample
 bool read_walk_request(std::string_view bytes);   ///< a browser's message
 bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, compile, trace
 bool read_resealed(std::string_view bytes);       ///< a frozen scene whose digests are made right
@@ -29,8 +30,8 @@ struct NamedTarget {
     FuzzTarget run;
 };
 inline constexpr NamedTarget kFuzzTargets[] = {
-    {"scene", read_scene_text}, {"octree", read_octree},    {"function", read_function_file},
-    {"picture", read_picture},  {"data", read_data_file},   {"request", read_walk_request},
-    {"frozen", read_frozen},    {"resealed", read_resealed}};
+    {"scene", read_scene_text}, {"octree", read_octree},     {"function", read_function_file},
+    {"picture", read_picture},  {"data", read_data_file},    {"request", read_walk_request},
+    {"frozen", read_frozen},    {"resealed", read_resealed}, {"bsdf", read_bsdf_file}};
 
 }  // namespace lightwalk::test

@@ -71,6 +71,12 @@ class PreparedResources final : public Resources {
     std::shared_ptr<const PictureData> picture(const std::string& name) override {
         return source_.picture(name);
     }
+    std::shared_ptr<const SpectralPicture> spectral_picture(const std::string& name) override {
+        return source_.spectral_picture(name);
+    }
+    std::shared_ptr<const Bsdf> bsdf(const std::string& name) override {
+        return source_.bsdf(name);
+    }
     std::shared_ptr<const Font> font(const std::string& name) override {
         return source_.font(name);
     }

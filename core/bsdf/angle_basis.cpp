@@ -1,0 +1,88 @@
+#include "core/bsdf/angle_basis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightwalk {
+namespace {
+
+double squared_sine(double degrees) {
+    if (degrees >= 90) return 1;
+    const double sine = std::sin(degrees * (kPi / 180));
+    return sine * sine;
+}
+
+}  // namespace
+
+AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) {
+    double inner = 0;
+    for (const AngleRing& ring : rings_) {
+        const double outer = squared_sine(ring.upper);
+        const double area = kPi * (outer - inner) / static_cast<double>(ring.sectors);
+        places_.push_back({inner, outer, area, patch_count_});
+        patch_count_ += ring.sectors;
+        inner = outer;
+    }
+}
+
+std::size_t AngleBasis::index(const ProjectedDirection& p) const {
+    const double square = p.x * p.x + p.y * p.y;
+    std::size_t ring = 0;
+    while (ring + 1 < places_.size() && square >= places_[ring].outer) ++ring;
+    const std::size_t sectors = rings_[ring].sectors;
+    if (sectors == 1) return places_[ring].first;
+    double turn = std::atan2(p.y, p.x) / (2 * kPi);
+    if (turn < 0) turn += 1;
+    const auto sector = static_cast<std::size_t>(turn * static_cast<double>(sectors) + 0.5);
+    return places_[ring].first + sector % sectors;
+}
+
+std::size_t AngleBasis::ring_of(std::size_t patch) const {
+    std::size_t ring = places_.size() - 1;
+    while (patch < places_[ring].first) --ring;
+    return ring;
+}
+
+double AngleBasis::least_solid_angle() const {
+    double least = kPi;
+    for (const Place& place : places_) least = std::min(least, place.area);
+    return least;
+}
+
+ProjectedDirection AngleBasis::sample(std::size_t patch, double xi1, double xi2) const {
+    const std::size_t ring = ring_of(patch);
+    const Place& place = places_[ring];
+    const double radius = std::sqrt(place.inner + (place.outer - place.inner) * xi1);
+    const double sector = static_cast<double>(patch - place.first) + xi2 - 0.5;
+    const double azimuth = 2 * kPi * sector / static_cast<double>(rings_[ring].sectors);
+    return {radius * std::cos(azimuth), radius * std::sin(azimuth)};
+}
+
+std::optional<AngleBasis> klems_basis(std::string_view name) {
+    if (name == "LBNL/Klems Full") {
+        return AngleBasis({{5, 1},
+                           {15, 8},
+                           {25, 16},
+                           {35, 20},
+                           {45, 24},
+                           {55, 24},
+                           {65, 24},
+                           {75, 16},
+                           {90, 12}});
+    }
+    if (name == "LBNL/Klems Half") {
+        return AngleBasis(
+            {{6.5, 1}, {19.5, 8}, {32.5, 12}, {45.5, 16}, {58.5, 20}, {71.5, 12}, {90, 8}});
+    }
+    if (name == "LBNL/Klems Quarter") {
+        return AngleBasis({{9, 1}, {27, 8}, {45, 12}, {63, 12}, {90, 8}});
+    }
+    return std::nullopt;
+}
+
+AngleBasis old_klems_half_basis() {
+    return AngleBasis(
+        {{6.5, 1}, {19.5, 8}, {32.5, 12}, {46.5, 16}, {61.5, 20}, {76.5, 12}, {90, 4}});
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,152 @@
+#include "core/material/bsdf_hit.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/material/rough_samples.h"
+
+namespace lightwalk {
+namespace {
+
+/// Of numbers that -ss below 1 narrows. Beside the very middle, where patches of another basis
+/// meet.
+constexpr double kMiddle = 0.5 + 1e-9;
+constexpr double kSmallestNeighbour = 0.12;  ///< smaller cells do not count in a cell's mean
+
+/// What is sampled of a component, or why not.
+struct SampledComponent {
+    const BsdfComponent* component;
+    RayKind kind;
+    double side;   ///< of its light, see BsdfHit
+    bool through;  ///< transmission
+};
+
+/// The directional-hemispherical total about the hit's direction that samples would carry.
+double sampled_total(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
+                     double specular_samples) {
+    const double size = std::sqrt(hit.bsdf.resolution(hit.front(), hit.e).largest);
+    const ProjectedDirection e = jittered(hit, size, specular_samples, ray.random);
+    const double total = sampled.component->lobes->total(e);
+    if (!sampled.through || !hit.split) return total;
+    return total - static_cast<double>(brightness(hit.through.transmittance));
+}
+
+/// Whether a direction belongs to the part that passes straight.
+bool passes_straight(const BsdfHit& hit, const ProjectedDirection& e, const ProjectedDirection& l,
+                     double area) {
+    const double x = l.x + e.x, y = l.y + e.y;
+    return hit.split && x * x + y * y <= area;
+}
+
+void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
+                 TraceContext& context) {
+    const LightTransport& tracer = context.tracer;
+    const double specular_samples = tracer.options().specular_samples;
+    const BsdfLobes& lobes = *sampled.component->lobes;
+    const double area = hit.bsdf.resolution(hit.front(), hit.e).least;
+    const double narrow = std::clamp(specular_samples, 0.0, 1 - 1e-8);
+    const int count = rough_sample_count(tracer.options(), ray.weight, ray.weight);
+    for (int i = 0; i < count; ++i) {
+        const ProjectedDirection e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
+        const double total = lobes.total(e);
+        const auto draw = [&] { return kMiddle + narrow * (ray.random.next() - 0.5); };
+        const double choice = draw(), xi1 = draw(), xi2 = draw();
+        if (!(total > 0)) continue;
+        const BsdfLobes::Sample sample = lobes.sample(e, choice, xi1, xi2);
+        if (sampled.through && passes_straight(hit, e, sample.l, area)) continue;
+        Rgb coef = sample.color * static_cast<float>(total / count);
+        if (sampled.through) coef *= hit.pattern;
+        Ray child;
+        if (!tracer.spawn(child, sampled.kind, ray, &coef)) continue;
+        child.direction = normalize(hit.frame.direction(sample.l, sampled.side));
+        if (sampled.through) child.origin -= ray.hit.normal * hit.thickness;
+        tracer.trace(child, context);
+        LightTransport::accumulate(ray, child);
+    }
+}
+
+}  // namespace
+
+ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,
+                            RandomStream& random) {
+    const double reach = size * std::min(specular_samples, 1.0);
+    if (!(reach > 0)) return hit.e;
+    const double dx = reach * (0.5 - random.next()), dy = reach * (0.5 - random.next());
+    const Vec3 moved = normalize({hit.e.x + dx, hit.e.y + dy, above_disk(hit.e).z});
+    return {moved.x, moved.y};
+}
+
+BsdfDirect::BsdfDirect(const BsdfHit& hit, Ray& ray, const RenderOptions& options)
+    : hit_(hit),
+      specular_samples_(options.specular_samples),
+      count_(std::max(1, static_cast<int>(4 * options.specular_samples * ray.weight + 0.5))) {
+    if (specular_samples_ > 0) key_ = std::bit_cast<std::uint64_t>(ray.random.next());
+}
+
+Rgb BsdfDirect::operator()(const Vec3& wi, double omega) const {
+    const double k = dot(hit_.facing(), wi), cosine = std::abs(k);
+    if (cosine <= kEpsilon) return {};
+    const bool through = k < 0;
+    const BsdfComponent& component = through ? hit_.transmission() : hit_.reflection();
+    const Rgb constant =
+        (through ? hit_.transmitted : hit_.reflected) * static_cast<float>(cosine * omega / kPi);
+    if (!component.lobes) return constant;
+    const Rgb f = lobe(component, hit_.frame.project(wi), omega, cosine, through);
+    const Rgb lobes = f * static_cast<float>(cosine * omega);
+    return constant + (through ? lobes * hit_.pattern : lobes);
+}
+
+Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l, double omega,
+                     double cosine, bool through) const {
+    constexpr auto kTiny = static_cast<float>(kEpsilon);
+    const BsdfLobes& lobes = *component.lobes;
+    if (through && hit_.split &&
+        in_through_part(hit_.e, l, omega * cosine, lobes.least_solid_angle()))
+        return max_component(hit_.through.surround) > kTiny ? hit_.through.surround : Rgb{};
+    const BsdfLobes::Value at = lobes.value(hit_.e, l);
+    if (!(specular_samples_ > 0)) return brightness(at.f) > kTiny ? at.f : Rgb{};
+    RandomStream random = stream_for({l.x, l.y, cosine});
+    Rgb sum;
+    int counted = 0;
+    for (int i = 0; i < count_; ++i) {
+        const ProjectedDirection e =
+            jittered(hit_, std::sqrt(at.solid_angle), specular_samples_, random);
+        const BsdfLobes::Value near = lobes.value(e, l);
+        if (near.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
+        ++counted;
+        if (brightness(near.f) > kTiny) sum += near.f;
+    }
+    return counted > 0 ? sum * (1 / static_cast<float>(counted)) : Rgb{};
+}
+
+RandomStream BsdfDirect::stream_for(const Vec3& wi) const {
+    std::uint64_t key = key_;
+    for (std::size_t i = 0; i < 3; ++i) key = mix_bits(key ^ std::bit_cast<std::uint64_t>(wi[i]));
+    return RandomStream(key);
+}
+
+UnsampledLobes add_bsdf_samples(Ray& ray, const BsdfHit& hit, TraceContext& context) {
+    const RenderOptions& options = context.tracer.options();
+    UnsampledLobes left;
+    for (const bool through : {false, true}) {
+        const BsdfComponent& component = through ? hit.transmission() : hit.reflection();
+        if (!component.lobes) continue;
+        const SampledComponent sampled{&component,
+                                       through ? kSpecularTransmitted : kSpecularReflected,
+                                       through ? -hit.side : hit.side, through};
+        const double total = sampled_total(ray, hit, sampled, options.specular_samples);
+        if (total > options.specular_threshold + kEpsilon) {
+            add_samples(ray, hit, sampled, context);
+            continue;
+        }
+        const Rgb unsampled = Rgb::grey(static_cast<float>(std::max(0.0, total)));
+        if (through)
+            left.transmitted = unsampled * hit.pattern;
+        else
+            left.reflected = unsampled;
+    }
+    return left;
+}
+
+}  // namespace lightwalk

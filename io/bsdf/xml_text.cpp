@@ -1,0 +1,104 @@
+#include "io/bsdf/xml_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+#include "core/model/transform_args.h"
+#include "io/language/number_text.h"
+
+namespace lightwalk {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\n\f\v";
+constexpr std::string_view kSeparators = " \t\r\n\f\v,";
+constexpr std::string_view kEndOfNumber = " \t\r\n\f\v,{}";
+constexpr double kLargest = 1e30;  ///< no value of a BSDF is larger [1/sr]
+
+bool is_text(const pugi::xml_node& node) {
+    return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
+}
+
+}  // namespace
+
+XmlText::XmlText(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {
+    // Nothing is replaced in texts, so that their offsets are those of the file.
+    const pugi::xml_parse_result result =
+        document_.load_buffer(bytes.data(), bytes.size(), pugi::parse_cdata, pugi::encoding_utf8);
+    if (!result) throw error(result.offset, std::string("bad XML: ") + result.description());
+}
+
+InputError XmlText::error(std::ptrdiff_t offset, const std::string& problem) const {
+    const auto end = bytes_.begin() + std::clamp<std::ptrdiff_t>(
+                                          offset, 0, static_cast<std::ptrdiff_t>(bytes_.size()));
+    const auto line = 1 + std::count(bytes_.begin(), end, '\n');
+    return InputError({name_, static_cast<std::int32_t>(line)}, problem);
+}
+
+std::string_view trimmed_text(const pugi::xml_node& element) {
+    std::string_view text = element.text().get();
+    const std::size_t first = text.find_first_not_of(kBlank);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+    return std::ranges::equal(a, b, [](char x, char y) {
+        return std::tolower(static_cast<unsigned char>(x)) ==
+               std::tolower(static_cast<unsigned char>(y));
+    });
+}
+
+XmlNumbers::XmlNumbers(const XmlText& document, const pugi::xml_node& element)
+    : document_(document), element_(element), at_(element.offset_debug()) {
+    for (piece_ = element.first_child(); piece_ && !is_text(piece_); piece_ = piece_.next_sibling())
+        ;
+    if (piece_) rest_ = piece_.value();
+}
+
+/// Texts with a comment between them are several pieces.
+void XmlNumbers::next_piece() {
+    do {
+        piece_ = piece_.next_sibling();
+    } while (piece_ && !is_text(piece_));
+    rest_ = piece_ ? std::string_view(piece_.value()) : std::string_view();
+}
+
+XmlNumbers::Token XmlNumbers::next() {
+    while (piece_) {
+        const std::size_t skipped = std::min(rest_.find_first_not_of(kSeparators), rest_.size());
+        rest_.remove_prefix(skipped);
+        if (!rest_.empty()) break;
+        next_piece();
+    }
+    if (!piece_) return last_ = Token::end;
+    at_ = piece_.offset_debug() + (rest_.data() - piece_.value());
+    if (rest_[0] != '{' && rest_[0] != '}') return last_ = read_number();
+    last_ = rest_[0] == '{' ? Token::open : Token::close;
+    rest_.remove_prefix(1);
+    return last_;
+}
+
+XmlNumbers::Token XmlNumbers::read_number() {
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kEndOfNumber));
+    if (parse_simple_real(word, value_) != word.size() && !parse_real(word, value_))
+        throw error("found \"" + std::string(word.substr(0, 40)) + "\", expected a number");
+    if (!(std::abs(value_) <= kLargest))
+        throw error("the number " + std::string(word.substr(0, 40)) + " is out of range");
+    rest_.remove_prefix(word.size());
+    return Token::number;
+}
+
+InputError XmlNumbers::error(const std::string& problem) const {
+    return document_.error(at_, problem);
+}
+
+std::size_t XmlNumbers::most_left() const {
+    std::size_t bytes = rest_.size();
+    for (pugi::xml_node other = piece_.next_sibling(); other; other = other.next_sibling())
+        bytes += is_text(other) ? std::strlen(other.value()) : 0;
+    return bytes / 2 + 1;
+}
+
+}  // namespace lightwalk
