@@ -33,7 +33,8 @@ std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     if (sectors == 1) return places_[ring].first;
     double turn = std::atan2(p.y, p.x) / (2 * kPi);
     if (turn < 0) turn += 1;
-    const auto sector = static_cast<std::size_t>(turn * static_cast<double>(sectors) + 0.5);
+    const auto sector =
+        static_cast<std::size_t>(std::floor(turn * static_cast<double>(sectors) + 0.5));
     return places_[ring].first + sector % sectors;
 }
 

@@ -80,7 +80,8 @@ ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_sam
 BsdfDirect::BsdfDirect(const BsdfHit& hit, Ray& ray, const RenderOptions& options)
     : hit_(hit),
       specular_samples_(options.specular_samples),
-      count_(std::max(1, static_cast<int>(4 * options.specular_samples * ray.weight + 0.5))) {
+      count_(std::max(
+          1, static_cast<int>(std::floor(4 * options.specular_samples * ray.weight + 0.5)))) {
     if (specular_samples_ > 0) key_ = std::bit_cast<std::uint64_t>(ray.random.next());
 }
 
