@@ -102,7 +102,7 @@ class SpectralFunction final : public Modifier {
     }
 
   private:
-    static constexpr double kShortest = 380, kLongest = 780;       // [nm]
+    static constexpr double kShortest = 380, kLongest = 780;      // [nm]
     static constexpr double kStep = (kLongest - kShortest) / 12;  // [nm]
     static constexpr double kSpread = 0.9;  ///< part of a step over which wavelengths are drawn
 
