@@ -18,9 +18,9 @@ import { createRequire } from "node:module";
 import os from "node:os";
 import path from "node:path";
 import { parseArgs } from "node:util";
-import { parse_frame } from "../apps/viewer/frame.js";
 import { fit_view } from "../apps/viewer/view.js";
 import { parse_views } from "../apps/viewer/view_text.js";
+import { Client, moved, wait } from "./walk_client.mjs";
 import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
 
 const { values: args } = parseArgs({
@@ -39,76 +39,17 @@ const { values: args } = parseArgs({
         chromium: { type: "string", default: "/usr/bin/chromium" },
     },
 });
-const kDegrees = 40; // a second
-const kSession = "0123456789abcdef";
-const kPace = 0.8; // eye heights a second
 const kBegin = 1; // after which frames are judged [s]
 const [width, height] = args.size.split("x").map(Number);
 const scene = scene_of(args);
 const load = createRequire(path.resolve(args.npm, "none.js"));
 const WebSocket = load("ws");
 
-const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-
-/** The view after `t` seconds of a move: about the z axis, and forward and back, two seconds each. */
-function moved(view, move, t, eye_height) {
-    const angle = move === "walk" ? 0 : (kDegrees * t * Math.PI) / 180;
-    const [x, y, z] = view.direction;
-    const direction = [
-        x * Math.cos(angle) + y * Math.sin(angle),
-        y * Math.cos(angle) - x * Math.sin(angle),
-        z,
-    ];
-    const way =
-        move === "turn" ? 0 : (kPace * eye_height * (2 - Math.abs((t % 4) - 2))) / Math.hypot(x, y);
-    const position = view.position.map((p, k) => p + (k < 2 ? way * view.direction[k] : 0));
-    return { ...view, direction, position };
-}
-
-/** One client: sends views, acknowledges frames and keeps them. */
-class Client {
-    constructor(address) {
-        this.socket = new WebSocket(`ws://127.0.0.1:${address.port}/walk`);
-        this.socket.binaryType = "arraybuffer";
-        this.frames = [];
-        this.states = [];
-        this.views = new Map();
-        this.bytes = this.id = 0;
-        this.socket.on("open", () =>
-            this.say({ type: "hello", session: kSession, depth: true, luminance: true }),
-        );
-        this.loaded = new Promise((resolve) => (this.on_loaded = resolve));
-        this.socket.on("message", (data, binary) => this.take(data, binary));
-    }
-
-    say(message) {
-        this.socket.send(JSON.stringify(message));
-    }
-
-    take(data, binary) {
-        if (!binary) {
-            const message = JSON.parse(Buffer.from(data).toString());
-            if (message.type === "loaded") this.on_loaded(message);
-            if (message.type === "state") this.states.push(message);
-            return;
-        }
-        const frame = parse_frame(data);
-        this.say({ type: "ack", frame: frame.frame });
-        this.bytes += data.byteLength;
-        this.frames.push({ ...frame, at: performance.now() });
-    }
-
-    look(view, moving) {
-        this.views.set(++this.id, view);
-        this.say({ type: "view", id: this.id, view, width, height, moving, walk: false });
-    }
-}
-
 /** Drive a walk; returns the frames to be judged and what was counted. */
 async function drive(program, move) {
     const [server, address] = await start_server(program, scene);
     try {
-        const client = new Client(address);
+        const client = new Client(WebSocket, address, [width, height]);
         const { eye_height } = await client.loaded;
         const first = fit_view(
             parse_views(await readFile(path.join(args.folder, args.view), "utf8"))[0],
