@@ -51,7 +51,7 @@ ScenePtr lead_reading(RankLink& link, const RendererRequest& request, SceneFrom 
             scene->compile();  // which reads more
             word = kRecorded + recorder->take();
         } else {
-            const std::string path = scene->frozen() == nullptr ? scene->share() : std::string();
+            const std::string path = scene->is_frozen() ? std::string() : scene->share();
             word = path.empty() ? std::string(1, kEachItsOwn) : kShared + path;
         }
     } catch (const std::exception&) {
