@@ -172,6 +172,7 @@ Renderer Ranks::open(const RendererRequest& wanted) {
                                : leads()               ? lead_reading(*link_, request, from)
                                                        : follow_reading(*link_, request);
         if (scene) {
+            if (request.settle) request.settle(scene->scene(), request.options);
             backend = std::make_unique<RankBackend>(*link_, scene, request.options);
             facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + request.history};
             if (from != SceneFrom::shared)  // of which there is one copy
@@ -191,7 +192,10 @@ Renderer Ranks::open(const RendererRequest& wanted) {
 }
 
 Renderer open_renderer(const RendererRequest& request) {
-    return Renderer(std::make_unique<LocalBackend>(read_own(request), request.options));
+    const ScenePtr scene = read_own(request);
+    RendererOptions options = request.options;
+    if (request.settle) request.settle(scene->scene(), options);
+    return Renderer(std::make_unique<LocalBackend>(scene, options));
 }
 
 }  // namespace lightwalk

@@ -73,8 +73,8 @@ class LoadedScene {
 };
 
 /// Read a scene and write it, with all that rendering it needs, to one file that is mapped rather
-/// than read. Throws InputError, also for a source that is but a frozen scene or does not consist of
-/// files.
+/// than read. Throws InputError, also for a source that is but a frozen scene or does not consist
+/// of files.
 void freeze_scene(const SceneSource& source, const std::string& path, TakeWarning warn = {});
 
 }  // namespace lightwalk
