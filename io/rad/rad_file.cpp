@@ -85,8 +85,9 @@ void RadFile::assign(std::string_view assignment, const SourceLocation& where) {
     if (value.empty()) return;
     std::vector<RadValue>& all = values_[std::string(variable->name)];
     if (!all.empty() && !variable->many) {
-        warnings_.push_back(to_prefix(where) + std::string(variable->name) +
-                            "= is assigned twice: the last value counts");
+        if (all.back().where.file == where.file)  // else it is set on purpose
+            warnings_.push_back(to_prefix(where) + std::string(variable->name) +
+                                "= is assigned twice: the last value counts");
         all.clear();
     }
     all.push_back({std::string(value), where});

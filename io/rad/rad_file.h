@@ -29,7 +29,7 @@ class RadFile {
 
     /// Take "NAME= value". An empty value says nothing. Throws InputError for an unknown variable.
     void assign(std::string_view assignment, const SourceLocation& where);
-    /// What was assigned twice.
+    /// What was assigned twice in one place.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:

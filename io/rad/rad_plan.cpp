@@ -166,7 +166,7 @@ void take_notices(const RadFile& file, RadPlan& plan) {
         told(file, {"EYESEP", "OPTFILE", "PICTURE", "RAWFILE", "REPORT", "ZFILE", "pfilt", "rvu"});
     if (!unused.empty())
         plan.picture_notices.push_back(unused +
-                                       "not heeded; options name files and filter pictures");
+                                       "not heeded, see --help for options in their place");
 }
 
 }  // namespace

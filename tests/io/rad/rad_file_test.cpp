@@ -63,6 +63,7 @@ TEST_CASE("a variable that has one value takes the last, with a warning") {
     CHECK(file.warnings()[0] == "s.rif:3: QUALITY= is assigned twice: the last value counts");
     file.assign("QUALITY=L", {"QUALITY=L", 0});
     CHECK(file.value("QUALITY")->text == "L");
+    CHECK(file.warnings().size() == 1);
     CHECK(is_rad_assignment("QUAL=High"));
     CHECK_FALSE(is_rad_assignment("QUAL"));
     CHECK_FALSE(is_rad_assignment("room=1.rad"));
