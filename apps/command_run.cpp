@@ -24,6 +24,7 @@ CommandRun::CommandRun(CommonOptions& options, Communicator* communicator)
     redirect_messages(options.error_file, options.request.history);
     warnings_.enable(options.settings.warnings && !options.quiet && speaks());
     check_render_settings(options.settings);
+    for (const std::string& notice : options.notices) warnings_.warn(notice);
 }
 
 void CommandRun::join(const RendererOptions& work) {

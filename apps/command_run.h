@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
+#include "apps/rad_command.h"
 #include "apps/rank_options.h"
 #include "apps/session/run_statistics.h"
 #include "apps/warnings.h"
@@ -63,8 +64,7 @@ template <class Run, class Command>
 int run_command(Command command, const std::vector<std::string>& words, Communicator* ranks) {
     std::optional<Run> run;
     const auto parse = [&](const std::shared_ptr<FileSource>& files) {
-        const OptionTable table = option_table(command, files);
-        read_command_line(OptionWords(words, files), table, command.common);
+        const OptionTable table = take_command_line(command, words, files);
         if (!command.common.show_defaults)
             run.emplace(command, ranks, *files);
         else if (ranks == nullptr || ranks->rank() == 0)

@@ -16,8 +16,11 @@ OptionTable own_table(Command command) {
 
 constexpr const char* kProgramHelp =
     R"(
-SCENE is one octree (.oct), one frozen scene (.lwz), or Radiance scene files in order; "-" is standard input, which
-render and info also read when no scene is named. Library files are looked for along RAYPATH, then in the library that
+SCENE is one octree (.oct), one frozen scene (.lwz), or Radiance scene files in order. Files behind an octree or a frozen
+scene are added to it (base.oct sky.rad), and use its materials by their names. A rad file (.rif) stands for the files that
+it names, its views (-v NAME) and the options that rad(1) would give; what is on the command line comes before it, and may
+set its variables (scene.rif QUALITY=High). "-" is standard input, which render and info also read when no scene is
+named. Library files are looked for along RAYPATH, then in the library that
 comes with Lightwalk.
 
 A first picture, of a room with a window:

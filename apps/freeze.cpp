@@ -5,6 +5,7 @@
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
+#include "apps/rad_command.h"
 #include "apps/session/lightwalk/scene.h"
 #include "apps/warnings.h"
 
@@ -46,9 +47,13 @@ int run_freeze(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     FreezeCommand command;
     CommonOptions& options = command.common;
     read_command_line(OptionWords(line), freeze_table(command), options);
-    check_frozen_output(command.output, options.scene_files());
     StderrWarnings warnings(options.program());
     warnings.enable(!options.quiet);
+    if (const auto plan = named_rad_plan(options, *real_files())) {
+        take_rad_scene(*plan, options);
+        for (const std::string& notice : plan->notices) warnings.warn(notice);
+    }
+    check_frozen_output(command.output, options.scene_files());
     resolve_scene_files(options, "", *real_files());
     freeze_scene(options.request.source, command.output,
                  [&](const std::string& message) { warnings.warn(message); });

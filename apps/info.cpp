@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/common_options.h"
+#include "apps/rad_command.h"
 #include "apps/session/scene_session.h"
 #include "apps/warnings.h"
 #include "core/bsdf/bsdf.h"
@@ -156,6 +157,16 @@ void print_ambient_file(const std::string& path) {
     if (!file.damage.empty()) std::printf("damage         %s\n", printable(file.damage).c_str());
 }
 
+/// The views and rpict's options of a rad file.
+void print_rad_plan(const RadPlan& plan, const Scene& scene) {
+    std::string views, options;
+    for (std::size_t i = 0; i < plan.views.size(); ++i)
+        views += (i > 0 ? ", " : "") + plan.views[i].title(i + 1);
+    for (const std::string& word : rad_option_words(plan, scene)) options += ' ' + word;
+    std::printf("views          %s\n", printable(views).c_str());
+    std::printf("options       %s\n", printable(options).c_str());
+}
+
 OptionTable info_table(CommonOptions& options) {
     return {{options.command, kInfo},
             {render_option_rows(options.settings, LibraryPath::from_environment()),
@@ -171,11 +182,21 @@ OptionTable info_option_table() {
 
 int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     CommonOptions options("info");
-    read_command_line(OptionWords(line), info_table(options), options);
+    const auto read = [&] { read_command_line(OptionWords(line), info_table(options), options); };
+    read();
+    const RadPlanPtr plan = named_rad_plan(options, *real_files());
+    if (plan) {
+        options = CommonOptions("info");
+        take_rad_light(*plan, options.settings, real_files());
+        read();
+        take_rad_scene(*plan, options);
+    }
     RenderSettings& settings = options.settings;
     settings.light.shadow_threshold = 0;  // no statistics of shadows: nothing is rendered
     StderrWarnings warnings(options.program());
     warnings.enable(settings.warnings && !options.quiet);
+    if (plan)
+        for (const std::string& notice : plan->notices) warnings.warn(notice);
     if (options.scene_files().size() == 1 && options.scene_files()[0].ends_with(".amb")) {
         print_ambient_file(options.scene_files()[0]);
         return kSuccessStatus;
@@ -185,6 +206,10 @@ int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     if (scene->frozen() != nullptr) print_origin(*scene->frozen());
     print_counts(scene->model());
     scene->compile();
+    if (plan) {
+        print_rad_plan(*plan, scene->scene());
+        settle_rad_light(*plan, scene->scene(), settings.light);
+    }
     const SceneSession session(scene, settings.light, settings.ambient_file, warnings);
     print_geometry(session.scene());
     print_lights(session.scene(), session.tracer().lights());

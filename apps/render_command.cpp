@@ -36,6 +36,9 @@ std::vector<OptionRow> view_rows(RenderCommand& c, const Files& files) {
           "begins, and its height above the ground is that of the eyes",
           With{.commands = kWalk}}});
     for (OptionRow& row : rows) row.with.then = [&c] { c.view_given = true; };
+    rows.push_back({"-v NAME", &c.rad_view,
+                    "the view of a rad file (scene.rif) of that name or number, or a standard one "
+                    "(X, y, Zl, xyZ ...); without: its first"});
     return rows;
 }
 

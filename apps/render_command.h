@@ -24,6 +24,7 @@ struct RenderCommand {
     std::string checkpoint;             ///< --checkpoint; "" is none
     bool resume = false;                ///< --resume
     double report_interval = 0;         ///< -t [s]
+    std::string rad_view;               ///< -v: of a rad file; "": its first
     int first_frame = 0;                ///< -S: number of the first of a sequence; 0: one picture
     std::optional<WalkCommand> walk;    ///< of `animate` and `walk`; nothing for `render`
     std::optional<ServeCommand> serve;  ///< of `walk`

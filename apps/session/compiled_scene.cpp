@@ -15,6 +15,7 @@
 #include "core/material/modifier_factories.h"
 #include "io/language/primitive_text.h"
 #include "io/scene/binary_models.h"
+#include "io/scene/extended_resources.h"
 #include "io/scene/file_resources.h"
 #include "io/scene/freezing_resources.h"
 #include "io/scene/scene_reader.h"
@@ -92,20 +93,32 @@ void CompiledScene::read(const SceneSource& source) {
     const std::vector<std::string>& names = source.files;
     if (!source.bytes.empty() || !source.primitives.empty())
         throw InputError("a scene comes from files or from memory, not from both");
-    const auto found = std::ranges::find_if(
-        names, [&](const std::string& name) { return is_frozen_scene(name, *files_); });
-    if (found == names.end()) {
-        resources_ = std::make_unique<FileResources>(library_, source.allow_commands, warnings_);
-        MakeTextPipe pipe;
-        if (threads_ > 1) pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
-        model_ =
-            read_scene(names, {library_, source.allow_commands, {}, pipe}, warnings_, &problems_);
-        return;
-    }
-    if (names.size() > 1) throw InputError({*found, 0}, "a frozen scene is all of a scene");
+    const auto is_frozen = [&](const std::string& name) { return is_frozen_scene(name, *files_); };
+    const bool first = is_frozen(names.front());
+    const auto late = std::find_if(names.begin() + 1, names.end(), is_frozen);
+    if (late != names.end()) throw InputError({*late, 0}, kOneBase);
+    if (!first) return read_files(source, nullptr);
     // Every rank maps it itself, also where one reads for all: its pages are shared anyway.
-    adopt(open_frozen_scene(*found, source.allow_stale));
-    files_->note_mapped(*found, frozen_->file().digest());
+    std::unique_ptr<FrozenScene> base = open_frozen_scene(names.front(), source.allow_stale);
+    files_->note_mapped(names.front(), base->file().digest());
+    if (names.size() > 1) return read_files(source, std::move(base));
+    adopt(std::move(base));
+}
+
+/// Scene files, alone or, behind its name, in addition to a frozen scene.
+void CompiledScene::read_files(const SceneSource& source, std::unique_ptr<FrozenScene> base) {
+    auto library = std::make_unique<FileResources>(library_, source.allow_commands, warnings_);
+    MakeTextPipe pipe;
+    if (threads_ > 1) pipe = [](TextSink& next) { return std::make_unique<ParseQueue>(next); };
+    const std::span<const std::string> names = source.files;
+    extended_ = base != nullptr;
+    const SceneReadOptions options{
+        library_, source.allow_commands, {}, pipe, extended_ ? base->model() : nullptr};
+    model_ = read_scene(names.subspan(extended_ ? 1 : 0), options, warnings_, &problems_);
+    frozen_ = base.get();
+    resources_ = std::move(library);
+    if (extended_)
+        resources_ = std::make_unique<ExtendedResources>(std::move(base), std::move(resources_));
 }
 
 void CompiledScene::read_bytes(const SceneSource& source) {

@@ -64,8 +64,10 @@ class CompiledScene {
     /// After compile().
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] Resources& resources() { return *resources_; }
-    /// Null: the scene is not a frozen one.
+    /// The frozen scene on which the scene is built; null: there is none.
     [[nodiscard]] const FrozenScene* frozen() const { return frozen_; }
+    /// Whether a frozen scene is all of it.
+    [[nodiscard]] bool is_frozen() const { return frozen_ != nullptr && !extended_; }
     [[nodiscard]] const FileRecorder& files() const { return *files_; }
     [[nodiscard]] int threads() const { return threads_; }
     [[nodiscard]] const SceneCost& cost() const { return cost_; }
@@ -73,6 +75,7 @@ class CompiledScene {
 
   private:
     void read(const SceneSource& source);
+    void read_files(const SceneSource& source, std::unique_ptr<FrozenScene> base);
     void read_bytes(const SceneSource& source);
     void map_bytes(const SceneSource& source);
     void adopt(std::unique_ptr<FrozenScene> opened);
@@ -86,7 +89,8 @@ class CompiledScene {
     bool trim_heap_;
     Ablation ablation_;
     std::unique_ptr<Resources> resources_;
-    const FrozenScene* frozen_ = nullptr;       ///< where resources_ are those of a frozen scene
+    const FrozenScene* frozen_ = nullptr;       ///< which resources_ keep
+    bool extended_ = false;                     ///< files were added to it
     std::shared_ptr<const MemoryFile> shared_;  ///< with other processes; null: nothing is
     ProblemList problems_;                      ///< of the description, which model_ leaves out
     std::shared_ptr<const Model> model_;

@@ -44,10 +44,12 @@ void freeze_scene(const SceneSource& source, const std::string& path, TakeWarnin
     CallbackWarnings warnings(std::move(warn));
     const auto manifest = std::make_shared<ManifestRecorder>();
     CompiledScene scene(source, warnings, std::make_shared<FileRecorder>(manifest));
-    if (scene.frozen() != nullptr) throw InputError({source.files.front(), 0}, "is frozen already");
+    if (scene.is_frozen()) throw InputError({source.files.front(), 0}, "is frozen already");
     FreezingResources library(scene.resources());
     scene.compile(library);
-    write_frozen_scene(path, scene.scene(), library, manifest->files());
+    std::vector<ManifestFile> files = manifest->files();
+    if (scene.frozen() != nullptr) files = merged_manifest(scene.frozen()->manifest(), files);
+    write_frozen_scene(path, scene.scene(), library, files);
 }
 
 void save_picture(const std::string& path, const RenderedPicture& picture,

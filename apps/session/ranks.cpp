@@ -51,7 +51,7 @@ ScenePtr lead_reading(RankLink& link, const RendererRequest& request, SceneFrom 
             scene->compile();  // which reads more
             word = kRecorded + recorder->take();
         } else {
-            const std::string path = scene->frozen() == nullptr ? scene->share() : std::string();
+            const std::string path = scene->is_frozen() ? std::string() : scene->share();
             word = path.empty() ? std::string(1, kEachItsOwn) : kShared + path;
         }
     } catch (const std::exception&) {
@@ -172,6 +172,7 @@ Renderer Ranks::open(const RendererRequest& wanted) {
                                : leads()               ? lead_reading(*link_, request, from)
                                                        : follow_reading(*link_, request);
         if (scene) {
+            if (request.settle) request.settle(scene->scene(), request.options);
             backend = std::make_unique<RankBackend>(*link_, scene, request.options);
             facts = {"Lightwalk " LIGHTWALK_VERSION, "options: " + request.history};
             if (from != SceneFrom::shared)  // of which there is one copy
@@ -191,7 +192,10 @@ Renderer Ranks::open(const RendererRequest& wanted) {
 }
 
 Renderer open_renderer(const RendererRequest& request) {
-    return Renderer(std::make_unique<LocalBackend>(read_own(request), request.options));
+    const ScenePtr scene = read_own(request);
+    RendererOptions options = request.options;
+    if (request.settle) request.settle(scene->scene(), options);
+    return Renderer(std::make_unique<LocalBackend>(scene, options));
 }
 
 }  // namespace lightwalk

@@ -100,6 +100,22 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
     return ", did you mean \"" + std::string(nearest) + "\"?";
 }
 
+std::shared_ptr<Model> growable_copy(const Model& model) {
+    auto copy = std::make_shared<Model>();
+    copy->modifiers = model.modifiers;
+    copy->surfaces = model.surfaces.own_copy();
+    copy->header = model.header;
+    copy->cube = model.cube;
+    return copy;
+}
+
+ModelBuilder::ModelBuilder(std::shared_ptr<Model> model) : model_(std::move(model)) {
+    model_->shapes.reset();  // those of a part of the surfaces
+    if (model_->cube) model_->cube->holds_all = false;
+    for (std::size_t i = 0; i < model_->modifiers.size(); ++i)
+        enter_name(static_cast<std::int32_t>(i));
+}
+
 std::string ModelBuilder::suggestion(std::string_view name) const {
     std::vector<std::string_view> known;
     known.reserve(names_.size());
@@ -175,9 +191,15 @@ std::int32_t ModelBuilder::add(Primitive primitive) {
     if (primitive.references.empty()) primitive.references = references(primitive);
     const auto index = static_cast<std::int32_t>(model_->modifiers.size());
     model_->modifiers.push_back(std::move(primitive));
-    const auto [entry, is_new] = names_.try_emplace(model_->modifiers.back().name, index);
-    if (!is_new && !equal(index, entry->second)) entry->second = index;
+    enter_name(index);
     return index;
+}
+
+/// From here on the name of a modifier means it.
+void ModelBuilder::enter_name(std::int32_t index) {
+    const std::string& name = model_->modifiers[static_cast<std::size_t>(index)].name;
+    const auto [entry, is_new] = names_.try_emplace(name, index);
+    if (!is_new && !equal(index, entry->second)) entry->second = index;
 }
 
 std::int32_t ModelBuilder::add(const SurfacePrimitive& surface) {

@@ -20,6 +20,12 @@ namespace lightwalk {
 /// (ray.pdf).
 class ModelBuilder {
   public:
+    ModelBuilder() = default;
+    /// Goes on where a model ends: later primitives find its modifiers by their names, and may
+    /// define them anew for those behind them. Its cube may not hold all of them.
+    /// @param model  one whose surfaces are in the process's own memory
+    explicit ModelBuilder(std::shared_ptr<Model> model);
+
     /// What `name` means as a modifier: an index, or kVoidIndex for `void`. Throws InputError
     /// "undefined modifier ..., did you mean ..." for a name that nothing has defined.
     [[nodiscard]] std::int32_t modifier(const std::string& name, const SourceLocation& where) const;
@@ -58,12 +64,16 @@ class ModelBuilder {
     [[nodiscard]] std::int32_t reference(const std::string& name) const;
     [[nodiscard]] std::vector<std::int32_t> references(const Primitive& primitive) const;
     [[nodiscard]] bool equal(std::int32_t a, std::int32_t b) const;
+    void enter_name(std::int32_t index);
     void check_modifier(std::int32_t modifier, const SourceLocation& where) const;
     [[nodiscard]] std::string suggestion(std::string_view name) const;
 
     std::shared_ptr<Model> model_ = std::make_shared<Model>();
     std::unordered_map<std::string, std::int32_t> names_;
 };
+
+/// A copy in the process's own memory, which a builder can go on with.
+[[nodiscard]] std::shared_ptr<Model> growable_copy(const Model& model);
 
 /// ", did you mean "X"?" for the nearest of `known`, or "" when nothing is near.
 [[nodiscard]] std::string did_you_mean(std::string_view name,

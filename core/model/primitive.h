@@ -37,6 +37,7 @@ struct Primitive {
 struct ModelCube {
     double x = 0, y = 0, z = 0;  ///< corner with the smallest coordinates
     double size = 0;             ///< edge [m]
+    bool holds_all = true;       ///< false: surfaces were added since, which it may not hold
 };
 
 class SurfaceShapes;

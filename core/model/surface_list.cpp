@@ -176,6 +176,17 @@ std::size_t SurfaceList::add(const Primitive& surface) {
                 &surface.where.file, surface.where.line});
 }
 
+SurfaceList SurfaceList::own_copy() const {
+    SurfaceList copy;
+    copy.columns_.records.append(columns_.records.values());
+    copy.columns_.reals.append(columns_.reals.values());
+    copy.columns_.corners.append(columns_.corners.values());
+    copy.columns_.text.append(columns_.text.values());
+    copy.columns_.strings.append(columns_.strings.values());
+    copy.columns_.files = columns_.files;
+    return copy;
+}
+
 void SurfaceList::trim() {
     columns_.records.trim();
     columns_.reals.trim();

@@ -94,6 +94,8 @@ class SurfaceList {
     /// of anything (some 2^31 surfaces, 2^32 reals or bytes of text, 2^24 files).
     std::size_t add(const SurfacePrimitive& surface);
     std::size_t add(const Primitive& surface);
+    /// The same surfaces in the process's own memory, where more can be added.
+    [[nodiscard]] SurfaceList own_copy() const;
     /// To be called after the last add(): frees what is only needed while the list grows.
     void trim();
 

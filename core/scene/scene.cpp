@@ -65,6 +65,14 @@ Transform placement_transform(const SurfacePrimitive& primitive) {
     return parsed.transform;
 }
 
+/// Whether an octree's cube is still that of the scene: surfaces added to it may lie outside.
+bool is_whole(const ModelCube& cube, const Bounds& bounds) {
+    if (cube.holds_all || bounds.empty()) return true;
+    const Vec3 &a = bounds.lower, &b = bounds.upper;
+    return a.x >= cube.x && a.y >= cube.y && a.z >= cube.z && b.x <= cube.x + cube.size &&
+           b.y <= cube.y + cube.size && b.z <= cube.z + cube.size;
+}
+
 }  // namespace
 
 void Scene::Impl::collect_surfaces(WarningSink& warnings, const TaskRunner& task_runner) {
@@ -190,7 +198,13 @@ Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_fa
     impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings, task_runner);
     impl_->add_lambertian(modifier_factory, resources, warnings);
     impl_->surfaces.set_traits(impl_->modifiers.all_traits());
-    if (extent == SceneExtent::whole) impl_->build_geometry(task_runner, ablation);
+    if (extent != SceneExtent::whole) return;
+    impl_->build_geometry(task_runner, ablation);
+    const std::optional<ModelCube>& cube = this->model().cube;
+    if (cube && !is_whole(*cube, geometry().bounds()))
+        warnings.warn(
+            "the octree's cube does not hold what was added to it: the cube of all surfaces is "
+            "taken, as of scene files");
 }
 
 Scene::~Scene() = default;
@@ -257,9 +271,10 @@ SceneMemory Scene::memory() const {
 }
 
 SceneCube Scene::cube() const {
-    if (const std::optional<ModelCube>& cube = model().cube)
-        return {{cube->x, cube->y, cube->z}, cube->size};
     const Bounds bounds = impl_->geometry->bounds();
+    const std::optional<ModelCube>& octree = model().cube;
+    if (octree && is_whole(*octree, bounds))
+        return {{octree->x, octree->y, octree->z}, octree->size};
     if (bounds.empty()) return {};
     constexpr double kMargin = 1e-5;  // [m], on each side
     const Vec3 size = bounds.upper - bounds.lower;

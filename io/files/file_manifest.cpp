@@ -2,7 +2,9 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -65,6 +67,16 @@ std::vector<ManifestFile> ManifestRecorder::files() const {
     std::vector<ManifestFile> files;
     for (const auto& [path, file] : files_) files.push_back(file);
     return files;
+}
+
+std::vector<ManifestFile> merged_manifest(std::span<const ManifestFile> base,
+                                          std::span<const ManifestFile> added) {
+    std::vector<ManifestFile> all;
+    const auto by_path = [](const ManifestFile& a, const ManifestFile& b) {
+        return a.path < b.path;
+    };
+    std::ranges::set_union(base, added, std::back_inserter(all), by_path);
+    return all;
 }
 
 std::vector<std::string> changes_since(std::span<const ManifestFile> files) {

@@ -39,6 +39,10 @@ class ManifestRecorder final : public FileSource {
     std::map<std::string, ManifestFile> files_;
 };
 
+/// The files of both, sorted by path; of one that is in both the state is that of `base`.
+[[nodiscard]] std::vector<ManifestFile> merged_manifest(std::span<const ManifestFile> base,
+                                                        std::span<const ManifestFile> added);
+
 /// A phrase for each file that has changed since it was recorded: "room.rad has changed", "sky.cal
 /// is missing", "more.cal is new". A file of equal size and date counts as unchanged without being
 /// read; of others the digests are compared.

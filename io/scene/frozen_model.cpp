@@ -106,12 +106,17 @@ std::vector<Primitive> unpack_modifiers(PackedReader& reader) {
 
 void pack_cube(PackedWriter& writer, const std::optional<ModelCube>& cube) {
     writer.boolean(cube.has_value());
-    writer.number(cube.value_or(ModelCube()));
+    const ModelCube c = cube.value_or(ModelCube());
+    for (const double number : {c.x, c.y, c.z, c.size}) writer.number(number);
+    writer.boolean(c.holds_all);
 }
 
 std::optional<ModelCube> unpack_cube(PackedReader& reader) {
     const bool present = reader.boolean();
-    const auto cube = reader.number<ModelCube>();
+    ModelCube cube;
+    for (double* number : {&cube.x, &cube.y, &cube.z, &cube.size})
+        *number = reader.number<double>();
+    cube.holds_all = reader.boolean();
     if (!std::isfinite(cube.x + cube.y + cube.z) || !std::isfinite(cube.size) || cube.size < 0)
         reader.fail();
     return present ? std::optional(cube) : std::nullopt;

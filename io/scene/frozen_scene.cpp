@@ -175,8 +175,8 @@ const T& frozen_answer(const FrozenFile& file, const ResourceAnswers<T>& answers
                        const std::string& name) {
     const auto known = answers.find(name);
     if (known == answers.end()) {
-        throw InputError({file.name(), 0},
-                         "holds no \"" + name + "\", which was not needed when it was frozen");
+        throw NotFrozen({file.name(), 0},
+                        "holds no \"" + name + "\", which was not needed when it was frozen");
     }
     if (!known->second.found) throw MissingFile(known->second.missing);
     return *known->second.found;
@@ -241,6 +241,18 @@ FrozenScene::FrozenScene(FrozenFile file) : file_(std::move(file)) {
 
 std::shared_ptr<const Model> FrozenScene::model() {
     return mapped_once(mapped_models_, kRootModel, [&] { return map_model(file_, kRootModel); });
+}
+
+bool FrozenScene::knows(const NamedFile& file) const {
+    switch (file.kind) {
+        case NamedFile::Kind::octree:
+            return octrees_.contains(file.name);
+        case NamedFile::Kind::mesh:
+            return meshes_.contains(file.name);
+        case NamedFile::Kind::picture:
+            break;
+    }
+    return pictures_.contains(file.name);
 }
 
 std::string FrozenScene::function_file(const std::string& name) {

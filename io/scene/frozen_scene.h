@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.h"
 #include "core/model/resources.h"
 #include "core/scene/scene.h"
 #include "io/files/file_manifest.h"
@@ -36,6 +37,12 @@ void write_frozen_scene(const std::string& path, const Scene& scene,
 /// bytes.
 [[nodiscard]] bool is_frozen_scene(const std::string& path, FileSource& files);
 
+/// A file that was not needed when a scene was frozen.
+class NotFrozen : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 /// An open frozen scene: the model, and the library files that it was compiled with. Models refer
 /// to the mapped pages, and keep them alive. For one thread, as all Resources.
 class FrozenScene final : public Resources {
@@ -48,7 +55,9 @@ class FrozenScene final : public Resources {
     [[nodiscard]] const std::vector<ManifestFile>& manifest() const { return manifest_; }
     [[nodiscard]] const FrozenFile& file() const { return file_; }
 
-    // Names that were not asked for when the scene was frozen are an InputError.
+    /// Whether such a file was asked for when the scene was frozen.
+    [[nodiscard]] bool knows(const NamedFile& file) const;
+    // Names that were not asked for when the scene was frozen are a NotFrozen error.
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -46,6 +47,29 @@ class SceneReader {
         return {files_.read(path), path};
     }
 
+    /// What files are added to; before anything is read.
+    void begin_with(std::shared_ptr<Model> base) { builder_ = ModelBuilder(std::move(base)); }
+    void begin_with(const SceneText& octree) {
+        OctreeContents contents = decode_octree(octree.bytes, octree.name);
+        if (contents.model) return begin_with(std::move(contents.model));
+        read_files_of(contents, octree.name);
+        cube_->holds_all = false;
+    }
+    /// The scene files of an octree that is not frozen.
+    void read_files_of(OctreeContents& contents, const std::string& name) {
+        for (const std::string& file : contents.scene_files) {
+            SceneText text = open(file);
+            read(text);
+        }
+        if (problems_.empty() && size() != contents.objects) {
+            throw InputError({name, 0}, "bad object count; octree stale? Its scene files hold " +
+                                            std::to_string(size()) + " primitives, expected " +
+                                            std::to_string(contents.objects));
+        }
+        header_ = std::move(contents.header);
+        cube_ = contents.cube;
+    }
+
     void read(std::string_view text, const std::string& name) { read(text, name, nullptr); }
     /// Parses a text whose memory is given back to the system meanwhile.
     void read(SceneText& text) {
@@ -54,7 +78,13 @@ class SceneReader {
     }
 
     [[nodiscard]] std::size_t size() const { return builder_.model().size(); }
-    [[nodiscard]] std::shared_ptr<Model> release() { return builder_.release(); }
+    [[nodiscard]] std::shared_ptr<Model> release() {
+        std::shared_ptr<Model> model = builder_.release();
+        if (!cube_) return model;
+        model->header = std::move(header_);
+        model->cube = cube_;
+        return model;
+    }
 
   private:
     /// Reads the output of the command that stands at `outer`.
@@ -237,6 +267,8 @@ class SceneReader {
     std::string directory_;
     FileSource& files_;  ///< which the runner's library path keeps
     ModelBuilder builder_;
+    std::vector<std::string> header_;  ///< of an octree that is not frozen
+    std::optional<ModelCube> cube_;    ///< of it; nothing: there is none
     CommandRunner runner_;
     WarningSink& warnings_;
     MakeTextPipe make_pipe_;
@@ -245,23 +277,6 @@ class SceneReader {
 }  // namespace
 
 namespace {
-
-std::shared_ptr<const Model> read_scene_files(OctreeContents& contents, const std::string& name,
-                                              SceneReader& reader, const ProblemList& problems) {
-    for (const std::string& file : contents.scene_files) {
-        SceneText text = reader.open(file);
-        reader.read(text);
-    }
-    if (problems.empty() && reader.size() != contents.objects) {
-        throw InputError({name, 0}, "bad object count; octree stale? Its scene files hold " +
-                                        std::to_string(reader.size()) + " primitives, expected " +
-                                        std::to_string(contents.objects));
-    }
-    std::shared_ptr<Model> model = reader.release();
-    model->header = std::move(contents.header);
-    model->cube = contents.cube;
-    return model;
-}
 
 /// Calls read(problems): what it gathers is left to the caller, or thrown where he wants none. An
 /// error that ends the reading comes after what was gathered before it.
@@ -289,7 +304,8 @@ std::shared_ptr<const Model> read_octree(std::string_view bytes, const std::stri
     if (contents.model) return contents.model;
     return gather_problems(problems, [&](ProblemList& list) {
         SceneReader reader(options, warnings, list);
-        return read_scene_files(contents, name, reader, list);
+        reader.read_files_of(contents, name);
+        return reader.release();
     });
 }
 
@@ -299,17 +315,20 @@ std::shared_ptr<const Model> read_scene(std::span<const std::string> files,
     if (files.empty()) throw InputError("no scene: expected one octree, or scene files");
     return gather_problems(problems, [&](ProblemList& list) -> std::shared_ptr<const Model> {
         SceneReader reader(options, warnings, list);
+        if (options.base) reader.begin_with(growable_copy(*options.base));
+        bool first = !options.base;
         for (const std::string& file : files) {
             SceneText text = reader.open(file);
             if (!is_octree(text.bytes)) {
                 reader.read(text);
-                continue;
+            } else if (!first) {
+                throw InputError({text.name, 0}, kOneBase);
+            } else if (files.size() == 1) {
+                return read_octree(text.bytes, text.name, options, warnings, &list);
+            } else {
+                reader.begin_with(text);
             }
-            if (files.size() > 1) {
-                throw InputError({text.name, 0},
-                                 "an octree is a whole scene, expected no other files");
-            }
-            return read_octree(text.bytes, text.name, options, warnings, &list);
+            first = false;
         }
         return reader.release();
     });

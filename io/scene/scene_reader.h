@@ -1,5 +1,6 @@
 #pragma once
-// Reads scenes: one octree, or scene files, whose commands run as built-in generators.
+// Reads scenes: an octree, scene files, whose commands run as built-in generators, or files that
+// are added to an octree.
 #include <memory>
 #include <span>
 #include <string>
@@ -21,9 +22,16 @@ struct SceneReadOptions {
     /// Makes pipes by which generators that write much run concurrently with the parsing of their
     /// output; null: output is parsed on the generator's thread.
     MakeTextPipe pipe = {};
+    /// What scene files are added to, as to an octree; null: nothing.
+    std::shared_ptr<const Model> base = {};
 };
 
-/// Read a scene. `files` is one octree (frozen or not) or any number of scene files in order, where
+/// What is wrong with an octree or frozen scene that does not come first.
+inline constexpr const char* kOneBase =
+    "a scene is built on one octree or frozen scene, which is named before the scene files";
+
+/// Read a scene. `files` is one octree (frozen or not), any number of scene files in order, or
+/// both: the octree, then files that add to it, and use and redefine its modifiers by their names.
 /// "-" is standard input and "!words" a command. Throws InputError "file:line: what is wrong".
 /// Warnings follow Radiance's rules. Commands that may not be run, unknown types and undefined
 /// modifiers do not end the reading: they are collected in `problems`, and the model is made of the

@@ -62,6 +62,29 @@ f(x,y) = g(x) + g(y); g(x) = 1/(1 + x*x) - Exp(-x) + atan2(x, 1);
 const std::string kData1 = "# comment\n2\n0 1 3\n0 0 4 1 2 4 8\n1 2 3 4\n5 6 7 8\n9 10 11 12\n";
 const std::string kFont = "32 0\n65 4 40 30 200 30 200 220 40 220\n66 3 20 20 240 20 130 240\n";
 
+const std::string kRad = R"(# a house
+scene= walls.rad 'the roof.rad' "!xform -rz 5 door.rad"   # and more
+materials= wood.rad
+illum= panes.rad
+mkillum= -ab 1
+ZONE= Interior -1 4.5 0 4 0 3
+QUAL= Med
+DET High
+VARIABILITY= low
+INDIRECT= 2
+PENUMBRAS= T
+EXPOSURE= +1.5
+RESOLUTION= 640 480 1.25
+UP= -Y
+view= entrance -vp 1 1 1.6 \
+    -vd 1 0 0
+view= xyZl -vh 5
+view= -vf side.vf
+render= -av 1 1 1
+AMBFILE= a.amb
+oconv= -i base.oct -r 1000
+)";
+
 const std::string kViewRequest =
     R"({"type":"view","id":7,"view":{"type":"v","position":[1,2,1.6],"direction":[0,1,0],)"
     R"("up":[0,0,1],"horizontal":60,"vertical":40.5,"fore":0.1,"aft":9,"shift":0.25,"lift":-0.5},)"
@@ -211,6 +234,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_bsdf_file) return bsdfs;
     if (target == read_picture) return pictures;
     if (target == read_walk_request) return requests;
+    static const std::vector<std::string> rads{kRad, "scene= a.rad\nview= -vf a.vf\n"};
+    if (target == read_rad_file) return rads;
     static const std::vector<std::string> frozen{frozen_scene()};
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;

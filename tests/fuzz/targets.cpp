@@ -17,6 +17,8 @@
 #include "io/net/walk_request.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
+#include "io/rad/rad_options.h"
+#include "io/rad/rad_views.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/frozen_scene.h"
 #include "io/scene/scene_reader.h"
@@ -128,6 +130,19 @@ bool read_bsdf_file(std::string_view bytes) {
                     (void)part->lobes->sample(e, 0.3, 0.6, 0.9);
             }
         }
+    });
+}
+
+bool read_rad_file(std::string_view bytes) {
+    return accepts([&] {
+        const RadPlan plan = rad_plan(decode_rad_file(bytes, "mutant.rif"));
+        const RadZone zone = plan.zone.value_or(RadZone{true, {0, 0, 0}, {1, 1, 1}});
+        for (const RadView& view : plan.views) (void)rad_view_words(plan, view, zone);
+        for (const RadValue& value : plan.render) (void)words_of(value);
+        (void)rad_light_words(plan);
+        (void)rad_ambient_resolution(plan, zone, 1);
+        (void)rad_scatter_step(plan, zone);
+        (void)find_rad_view(plan, "1");
     });
 }
 

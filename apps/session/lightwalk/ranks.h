@@ -23,6 +23,7 @@ namespace lightwalk {
 
 class FileSource;
 class RankLink;
+class Scene;
 
 /// Who reads a scene's files.
 enum class SceneFrom {
@@ -53,6 +54,8 @@ struct RendererRequest {
     std::string history;  ///< the command line, or whatever else must be the same on all ranks
     std::shared_ptr<FileSource> files;  ///< where the scene's files come from; null: the system
     std::function<void()> when_read;    ///< called before what was read is compiled; none: nobody
+    /// Sets options that depend on the compiled scene, in every process alike; none: nobody.
+    std::function<void(const Scene& scene, RendererOptions& options)> settle = nullptr;
 };
 
 /// Whether mpirun or srun started this process.

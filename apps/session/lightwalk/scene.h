@@ -29,7 +29,8 @@ struct ScenePrimitive {
 
 /// Where a scene comes from: files, bytes in memory or primitives, one of the three.
 struct SceneSource {
-    /// Scene files in order; or one octree; or one frozen scene. "-" is standard input.
+    /// Scene files in order, which may begin with one octree or frozen scene that the others add
+    /// to. "-" is standard input.
     std::vector<std::string> files;
     /// The bytes of an octree, or the text of a scene file.
     std::string bytes;
@@ -72,8 +73,8 @@ class LoadedScene {
 };
 
 /// Read a scene and write it, with all that rendering it needs, to one file that is mapped rather
-/// than read. Throws InputError, also for a source that is frozen already or does not consist of
-/// files.
+/// than read. Throws InputError, also for a source that is but a frozen scene or does not consist
+/// of files.
 void freeze_scene(const SceneSource& source, const std::string& path, TakeWarning warn = {});
 
 }  // namespace lightwalk

@@ -43,4 +43,22 @@ TEST_CASE("an octree's cube is the one that it states, also where it is an insta
     CHECK(placed.scene.cube().size == rounded(10 + 2e-5));
 }
 
+TEST_CASE("an octree's cube stays the scene's while it holds what was added to it") {
+    MemoryResources files;
+    Silence silence;
+    const auto scene_with = [&](double x) {
+        ModelBuilder builder(growable_copy(*model_in_cube({-2, -3, -4, 10})));
+        builder.add(Primitive{
+            PrimitiveType::sphere, builder.modifier("p", {}), "added", {}, {x, 0, 0, 1}, {}, {}});
+        return std::make_unique<const Scene>(builder.release(), modifier_factory, files, silence);
+    };
+    CHECK(scene_with(6.9)->cube().size == 10);
+    CHECK(silence.messages.empty());
+    const auto outgrown = scene_with(7.5);
+    CHECK(outgrown->cube().size == rounded(9.5 + 2e-5));
+    CHECK(outgrown->cube().origin.x == rounded(-1 - 1e-5));
+    REQUIRE(silence.messages.size() == 1);
+    CHECK(silence.messages[0].find("cube of all surfaces") != std::string::npos);
+}
+
 }  // namespace lightwalk::test

@@ -37,11 +37,12 @@ class BinaryWriter {
     std::string bytes_;
 };
 
-/// Header, magic, unit cube.
-inline BinaryWriter begin_file(const std::string& format, int magic) {
+/// Header, magic, cube.
+inline BinaryWriter begin_file(const std::string& format, int magic,
+                               const std::string& edge = "4.5") {
     BinaryWriter file;
     file.raw("#?RADIANCE\noconv -f x.rad\nFORMAT=" + format + "\n\n").integer(magic, 2);
-    file.text("-1").text("-2").text("-3").text("4.5");
+    file.text("-1").text("-2").text("-3").text(edge);
     return file;
 }
 
