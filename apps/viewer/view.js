@@ -146,7 +146,17 @@ export const same_picture = (a, b) =>
  * them.
  */
 export function view_problem(view) {
-    const { type, position, direction, up, horizontal, fore = 0, aft = 0, shift = 0, lift = 0 } = view;
+    const {
+        type,
+        position,
+        direction,
+        up,
+        horizontal,
+        fore = 0,
+        aft = 0,
+        shift = 0,
+        lift = 0,
+    } = view;
     if (!(type in kLargest)) return `unknown view type '${type}'`;
     const numbers = [position, direction, up].flat().concat(horizontal, fore, aft, shift, lift);
     if (numbers.length !== 14 || !numbers.every((x) => Math.abs(x) <= kFarthest))

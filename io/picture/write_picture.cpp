@@ -37,7 +37,7 @@ enum class PictureFormat { radiance, exr, png, jpeg };
 /// number as their ending (of a frame), and devices and pipes get what standard output does.
 std::optional<PictureFormat> format_of(const std::string& path) {
     const std::string extension = extension_of(path);
-    if (extension == ".hdr" || extension == ".pic" || extension == ".unf")
+    if (extension == ".hdr" || extension == ".pic" || extension == ".unf" || extension == ".rgbe")
         return PictureFormat::radiance;
     if (extension == ".exr") return PictureFormat::exr;
     if (extension == ".png") return PictureFormat::png;

@@ -19,7 +19,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kHeaderMark = "#?RADIANCE";  ///< with which octrees begin
+constexpr std::string_view kHeaderMark = "#?";  ///< with which octrees begin
 constexpr int kMaxNesting = 64;  ///< commands that write commands that write commands ...
 
 /// What programs write into files whose names end so is never scene text. Where text is to be read

@@ -15,7 +15,7 @@ const std::string kRoom =
     "void plastic white 0 0 5 .5 .5 .5 0 0\n"
     "white polygon floor 0 0 12  -9 -9 0  9 -9 0  9 9 0  -9 9 0\n";
 
-/// A command line, and whether it is to fail.
+/// All commands that read a scene end with exit status 1 and a message, and write nothing.
 void check_refused(const std::string& scene, const std::string& message,
                    const std::string& input = {}) {
     const TemporaryFolder folder;
@@ -51,7 +51,8 @@ TEST_CASE("an octree, frozen scene or mesh that is empty or cut off is no scene 
          {std::size_t{1}, std::size_t{4}, std::size_t{20}, frozen.size() / 2, frozen.size() - 1})
         check_refused(folder.write("cut.lwz", frozen.substr(0, bytes)), "cut.lwz: ");
     check_refused("-", "standard input: empty");
-    check_refused("-", "standard input: ", "#?RADIANCE\n");
+    for (const std::string cut : {"#?", "#?RAD", "#?RADIANCE\n"})
+        check_refused("-", "standard input: ", cut);
     for (const std::string name : {"in.oct", "in.rtm"}) {
         const std::string file = folder.write(name, "");
         const std::string type = name == "in.oct" ? "instance" : "mesh";
@@ -86,4 +87,17 @@ TEST_CASE("a command of a scene that fails, or whose file is missing, is an erro
     const ProgramResult empty = run_program({"info", with("!xform " + nothing)});
     CHECK(empty.status == 0);
     CHECK(empty.err.find("empty file") != std::string::npos);
+}
+
+TEST_CASE("info: a pattern or material whose file is missing cannot be rendered") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write(
+        "room.rad",
+        "void brightdata p 4 noop none.dat . Px 0 0\np plastic white 0 0 5 1 1 1 0 0\n" +
+            kRoom.substr(kRoom.find('\n') + 1));
+    const ProgramResult result = run_program({"info", "-w", scene});
+    CHECK(result.status == 1);
+    CHECK(result.err.find("room.rad:1: brightdata \"p\": cannot find data file") !=
+          std::string::npos);
+    CHECK(result.out.find("primitives") != std::string::npos);
 }

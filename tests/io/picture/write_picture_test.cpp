@@ -30,8 +30,8 @@ Picture picture() {
 TEST_CASE("the extension tells the kind of picture") {
     const TemporaryFolder folder;
     const PictureHeader header{{"history"}};
-    for (const std::string name :
-         {"a.hdr", "a.pic", "a.HDR", "a.unf", "a", ".hdr", "hdr", "a.", "a.b/a", "frame.007"}) {
+    for (const std::string name : {"a.hdr", "a.pic", "a.HDR", "a.unf", "a", ".hdr", "hdr", "a.",
+                                   "a.b/a", "frame.007", "a.rgbe"}) {
         fs::create_directories(fs::path(folder.path(name)).parent_path());
         CHECK_NOTHROW(check_picture_name(folder.path(name)));
         CHECK(is_radiance_picture(folder.path(name)));
@@ -46,7 +46,7 @@ TEST_CASE("the extension tells the kind of picture") {
         write_picture(folder.path(name), picture(), header, {});
         CHECK(read_file(folder.path(name)).starts_with("\xff\xd8\xff"));
     }
-    CHECK(folder.files().size() == 14);
+    CHECK(folder.files().size() == 15);
     for (const std::string name : {"a.tif", "a.TIFF", "a.mp4", "a.hdr.gz", "a.b/a.c", "a.7z"}) {
         CHECK_THROWS_AS(check_picture_name(folder.path(name)), InputError);
         CHECK_THROWS_WITH_AS(write_picture(folder.path(name), picture(), header, {}),
@@ -54,7 +54,7 @@ TEST_CASE("the extension tells the kind of picture") {
     }
     CHECK_THROWS_AS(write_picture(folder.path("empty.png"), {}, header, {}), InputError);
     CHECK_THROWS_AS(write_picture(folder.path("empty.exr"), {}, header, {}), InputError);
-    CHECK(folder.files().size() == 14);
+    CHECK(folder.files().size() == 15);
 }
 
 TEST_CASE("a pipe gets a Radiance picture, whatever its name") {
