@@ -101,6 +101,14 @@ void print_lights(const Scene& scene, const LightSources& lights) {
     }
 }
 
+/// Throws InputError for a scene of which a ray may meet what cannot be shaded.
+void expect_all_files(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.modifier_count(); ++i) {
+        const auto& node = scene.modifier(ModifierId{static_cast<std::int32_t>(i)}).node;
+        if (node && node->problem() != nullptr) throw InputError(*node->problem());
+    }
+}
+
 /// How many files a frozen scene was made from.
 void print_origin(const FrozenScene& frozen) {
     const auto files = std::ranges::count_if(frozen.manifest(), &ManifestFile::exists);
@@ -217,6 +225,7 @@ int run_info(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     print_memory(session);
     std::printf("time           %.2f s to read, %.2f s to build\n", session.cost().read_seconds,
                 session.cost().build_seconds);
+    expect_all_files(session.scene());
     return kSuccessStatus;
 }
 

@@ -117,13 +117,14 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
     return {
         {"Output", SectionTitle{"render"}},
         {"-o FILE", &output.picture,
-         ".hdr .pic: Radiance picture; .exr: float; .png .jpg: for the screen. Without -o a "
-         "Radiance picture goes to standard output. A file of that name is replaced when the new "
-         "one is whole",
+         ".hdr .pic .unf, or no ending: Radiance picture; .exr: float; .png .jpg: for the screen. "
+         "Without -o a Radiance picture goes to standard output. A file of that name is replaced "
+         "when the new one is whole",
          With{.commands = kRender}},
         {"-o FILE", &output.picture,
          "name of the frames' files, with %d or %04d for their numbers, from 1: frame%04d.hdr .exr "
-         ".png .jpg. Pictures for the screen are all exposed as the first one (--exposure EV: "
+         ".png .jpg (frame%04d: Radiance pictures). Pictures for the screen are all exposed as the "
+         "first one (--exposure EV: "
          "fixed). FILE.mp4: a film, by the program ffmpeg where it is installed",
          With{.commands = kAnimate}},
         {"-z FILE", &output.depth,
@@ -179,11 +180,13 @@ std::vector<OptionRow> refused_rows() {
 
 void check_outputs(const RenderCommand& command) {
     const SeriesOutput& output = command.output;
-    if (output.xyz && !output.picture.empty() && !is_radiance_picture(output.picture))
+    const std::string first = frame_name(output.picture, 1);
+    const bool film = command.walk && is_film(first);
+    if (!first.empty() && !film) check_picture_name(first);  // before any work is done
+    if (output.xyz && !output.picture.empty() && !is_radiance_picture(first))
         throw UsageError("option -pXYZ: only Radiance pictures (.hdr, .pic) hold CIE XYZ");
     if (command.resume && command.checkpoint.empty())
         throw UsageError("option --resume: name the file with --checkpoint");
-    (void)frame_name(output.picture, 0);
     (void)frame_name(output.depth, 0);
 }
 

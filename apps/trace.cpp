@@ -36,8 +36,14 @@ class TraceRun final : CommandRun {
 
     int run() {
         join(task().options);
-        if (!tree_) return share_out([this] { return trace(ranks()); });
-        return speaks() ? trace(nullptr) : kSuccessStatus;  // trees are told one after the other
+        int status = kSuccessStatus;
+        if (!tree_)
+            status = share_out([this] { return trace(ranks()); });
+        else if (speaks())
+            status = trace(nullptr);  // trees are told one after the other
+        // After the answers to all rays before it, and when no rank waits for another any more.
+        if (speaks() && !reader_.problem().empty()) throw InputError(reader_.problem());
+        return status;
     }
 
   private:
@@ -54,6 +60,10 @@ class TraceRun final : CommandRun {
             put_header(backend.session().compiled().model());
             answer_all(renderer);
             if (expected_ > 0 && read_ < expected_) warnings().warn("unexpected EOF on input");
+            if (reader_.misaligned_line() > 0)
+                warnings().warn("standard input:" + std::to_string(reader_.misaligned_line()) +
+                                ": a ray begins within this line and ends in another one, "
+                                "expected six numbers a line");
             flush();
             seconds = watch.seconds();
         });

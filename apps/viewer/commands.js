@@ -10,6 +10,7 @@ import { download, download_text, file_name, full_picture, picture_blob } from "
 import { film_command } from "./path.js";
 import { listen_for_shortcuts } from "./shortcuts.js";
 import { measurement_table } from "./table.js";
+import { view_problem } from "./view.js";
 import { parse_views, path_text, view_line } from "./view_text.js";
 
 /** Whether the system asks for reduced motion: the eye then goes to another view at once, without a transition. */
@@ -29,6 +30,8 @@ class Commands {
     /** Go to a view; `chosen`: it becomes an entry of the browser's history. */
     go(view, chosen = true) {
         if (!view || !this.session.driving) return;
+        const problem = view_problem(view);
+        if (problem) return notice(`The view cannot be drawn: ${problem}`, true);
         if (chosen) this.chosen();
         this.navigator.jump(view, performance.now(), still() ? 0 : undefined);
         this.show_back_();

@@ -71,8 +71,9 @@ const session = new Session(session_id(), camera.available, screen, {
     display: (message) => {
         if (!session.driving) take_display(message);
     },
-    refused: ({ text, id }) => {
-        if (plan.refused(id)) return;
+    refused: ({ text, id, view }) => {
+        if (id !== undefined && plan.refused(id)) return;
+        if (view !== undefined) view_refused();
         counters.errors.push(text);
         notice(text, true);
     },
@@ -234,6 +235,12 @@ function scene_loaded(message) {
     }
     navigator.touch();
     measuring.tell_probes();
+}
+
+/** The eye returns to where the newest frame was seen from, lest the same view is sent again. */
+function view_refused() {
+    const seen = session.frame_view ?? views.scene_views[0]?.view;
+    if (seen && navigator.view && !same_picture(seen, navigator.view)) navigator.place(seen);
 }
 
 function scene_failed({ messages }) {

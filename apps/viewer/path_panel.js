@@ -2,7 +2,7 @@
 import { by_id, element, remove_button } from "./dom.js";
 import { notice } from "./notices.js";
 import { path_problem, path_view, Playback, Recorder } from "./path.js";
-import { fit_view } from "./view.js";
+import { fit_view, view_problem } from "./view.js";
 import { parse_keys } from "./view_text.js";
 import { round_number } from "./words.js";
 
@@ -26,10 +26,7 @@ export class PathPanel {
     }
 
     restore(keys) {
-        const sound = ({ time, view }) =>
-            Number.isFinite(time) &&
-            Array.isArray(view?.position) &&
-            Array.isArray(view?.direction);
+        const sound = ({ time, view }) => Number.isFinite(time) && view && !view_problem(view);
         this.keys = keys.filter(sound);
         this.show_();
     }

@@ -2,6 +2,9 @@
 // See the manual page rpict(1), "-vt".
 import { cross, dot, length, normalize, subtract } from "./vector.js";
 
+const kFarthest = 1e9; // largest number that the server accepts
+const kLeast = 1e-6; // sizes and clipping distances below this are none
+
 const radians = (degrees) => (degrees * Math.PI) / 180;
 const degrees = (angle) => (angle * 180) / Math.PI;
 
@@ -137,3 +140,32 @@ export const same_picture = (a, b) =>
     same_place(a, b) &&
     Math.abs(a.horizontal - b.horizontal) < 1e-6 &&
     Math.abs(a.vertical - b.vertical) < 1e-6;
+
+/**
+ * Why a view cannot be drawn; "" where it can. Sizes that are too large for the type are no reason, as fit_view() limits
+ * them.
+ */
+export function view_problem(view) {
+    const {
+        type,
+        position,
+        direction,
+        up,
+        horizontal,
+        fore = 0,
+        aft = 0,
+        shift = 0,
+        lift = 0,
+    } = view;
+    if (!(type in kLargest)) return `unknown view type '${type}'`;
+    const numbers = [position, direction, up].flat().concat(horizontal, fore, aft, shift, lift);
+    if (numbers.length !== 14 || !numbers.every((x) => Math.abs(x) <= kFarthest))
+        return "a number is missing or larger than 1e9";
+    if (fore < -kLeast || aft < -kLeast || (aft > kLeast && aft <= fore))
+        return "illegal fore/aft clipping plane";
+    if (length(direction) === 0) return "zero view direction";
+    if (length(up) === 0) return "zero view up vector";
+    if (length(cross(normalize(direction), normalize(up))) < 1e-12)
+        return "view up parallel to view direction";
+    return horizontal > kLeast ? "" : "illegal horizontal view size";
+}

@@ -1,4 +1,5 @@
 // Views as text in Radiance's format: lines of view files, and paths of key views.
+import { view_problem } from "./view.js";
 
 /** A number with its significant digits, without an exponent where that is possible. */
 function number_text(value, digits) {
@@ -90,17 +91,19 @@ function apply_options(words, view) {
 /**
  * The keys {time [s], view} of a view file or path, one for each view line; options that a line does not have are taken
  * from the line before, and a time that it does not have is a second after the last. Throws Error when there is
- * no view.
+ * no view, and for one that cannot be drawn.
  */
 export function parse_keys(text) {
     const keys = [];
     let view = kStart;
-    for (const line of text.split(/\r?\n/)) {
+    for (const [number, line] of text.split(/\r?\n/).entries()) {
         const found = kViewLine.exec(line);
         if (!found) continue;
         const result = apply_options(found[2].trim().split(/\s+/), view);
         if (result.applied === 0) continue;
         view = result.view;
+        const problem = view_problem(view);
+        if (problem) throw new Error(`line ${number + 1}: ${problem}`);
         const next = keys.length === 0 ? 0 : keys.at(-1).time + 1;
         keys.push({ time: found[1] === undefined ? next : Number(found[1]), view });
     }

@@ -70,13 +70,24 @@ void ClientInbox::set_views(const View& home, std::vector<NamedView> views) {
 void ClientInbox::opened(ClientId) {}
 
 void ClientInbox::message(ClientId client, std::string_view text) {
-    const WalkRequest request = parse_walk_request(text, welcome_.max_size);
-    const std::lock_guard lock(mutex_);
-    if (!std::holds_alternative<HelloRequest>(request) && !driver_lock_.is_here(client))
-        throw InputError("the first message must be hello");
-    accept(client, request);
-    has_news_ = true;
-    news_.notify_one();
+    try {
+        const WalkRequest request = parse_walk_request(text, welcome_.max_size);
+        const std::lock_guard lock(mutex_);
+        if (!std::holds_alternative<HelloRequest>(request)) expect_greeted(client);
+        accept(client, request);
+        has_news_ = true;
+        news_.notify_one();
+    } catch (const UndrawableView& error) {
+        const std::lock_guard lock(mutex_);
+        expect_greeted(client);
+        RefusedReply refusal{std::string("The view cannot be drawn: ") + error.what(), {}};
+        (error.kind() == UndrawableView::Kind::view ? refusal.view : refusal.id) = error.id();
+        sender_->send_text(client, walk_text(refusal));
+    }
+}
+
+void ClientInbox::expect_greeted(ClientId client) const {
+    if (!driver_lock_.is_here(client)) throw InputError("the first message must be hello");
 }
 
 /// What steers the walk counts from the driver alone.

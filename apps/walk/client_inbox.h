@@ -85,6 +85,8 @@ class ClientInbox final : public WebHandler {
     void save(const std::string& path, WebReply reply) override;
 
   private:
+    /// Throws InputError: all but `hello` come after it.
+    void expect_greeted(ClientId client) const;
     void accept(ClientId client, const WalkRequest& request);
     void greet(ClientId client, const HelloRequest& request);
     /// After a request to drive: all are told who does, or the client why nothing changes.

@@ -33,7 +33,8 @@ struct Hit {
 enum class Visibility : std::uint8_t {
     clear,          ///< nothing but material-less surfaces in between
     blocked,        ///< an opaque surface lies in between
-    needs_shading,  ///< no opaque surface, but at least one surface of ShadowClass::needs_shading
+    needs_shading,  ///< no opaque surface, but at least one of ShadowClass::needs_shading, or one
+                    ///< that nearly coincides with the target: the nearest hit tells which is seen
 };
 
 /// Axis-aligned bounds.
@@ -87,8 +88,10 @@ struct Blocker {
 
 /// A shadow query: what lies between a point and a light?
 struct ShadowQuery {
-    RaySegment ray;                 ///< up to the light
-    SurfaceId target = kNoSurface;  ///< a surface that casts no shadow: the light itself
+    /// Up to the light: where a target is given, t_max is the distance of its crossing.
+    RaySegment ray;
+    /// The light's own surface: it casts no shadow, and takes part in the tie rule.
+    SurfaceId target = kNoSurface;
     Blocker* last =
         nullptr;  ///< cache of the last blocker, read and updated; affects speed only; may be null
 };
@@ -123,7 +126,8 @@ class Geometry {
     /// Nearest hit with one given finite surface of the scene itself (not inside an instance).
     [[nodiscard]] Hit intersect_surface(SurfaceId surface, const RaySegment& ray) const;
 
-    /// Visibility between the origin and t_max; arguments as in ShadowQuery.
+    /// Visibility between the origin and t_max, exclusive; with a target, whether a ray of any
+    /// other kind would meet it. Arguments as in ShadowQuery.
     [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target,
                                         Blocker* last = nullptr) const;
     /// Visibility of many shadow queries at once; answers.size() == queries.size(). Faster only

@@ -9,6 +9,9 @@
 namespace lightwalk {
 namespace {
 
+/// By so much distances may differ that are calculated in two ways [m].
+constexpr double kSameCrossing = 1e-3 * kEpsilon;
+
 void begin_tracing(TracedRay& ray, const RaySegment& segment) {
     ray.origin = segment.origin;
     ray.direction = segment.direction;
@@ -215,7 +218,7 @@ void PlacedScene::begin(ShadowRay& ray, const RaySegment& segment, SurfaceId tar
     begin_tracing(ray, segment);
     ray.t_max = ray.limit;
     ray.target = target;
-    if (target != kNoSurface) ray.limit += kEpsilon;
+    if (target != kNoSurface) ray.limit += kEpsilon + kSameCrossing;
     ray.result = Visibility::clear;
     ray.target_precedence.reset();
 }
@@ -226,10 +229,27 @@ ShadowClass PlacedScene::shadow_class(const ShadowRay& ray, PrimitiveRef what) c
                                             : models_[ray.local_model].shadow(what.primitive);
 }
 
-bool PlacedScene::is_in_the_way(ShadowRay& ray, const Candidate& candidate) const {
-    if (ray.target == kNoSurface || candidate.what.instance != kWorld)
-        return candidate.t < ray.t_max;
-    if (candidate.t < ray.t_max - kEpsilon) return true;
+Obstacle PlacedScene::obstacle(ShadowRay& ray, const Candidate& candidate) const {
+    if (ray.target == kNoSurface)
+        return candidate.t < ray.t_max ? Obstacle::in_front : Obstacle::none;
+    if (candidate.t < ray.t_max - coincidence_ - kSameCrossing) return Obstacle::in_front;
+    return beside_target(ray, candidate);
+}
+
+/// The target is met if it is what `resolve` would choose. Of two surfaces this is decided here, by
+/// the same rule; where rounding, a third surface or a placed model may have a say it is left open.
+Obstacle PlacedScene::beside_target(ShadowRay& ray, const Candidate& candidate) const {
+    const double ahead = ray.t_max - candidate.t;
+    if (candidate.what.instance != kWorld)
+        return ahead < -kSameCrossing ? Obstacle::none : Obstacle::unsure;
+    if (ahead > kEpsilon + kSameCrossing) return Obstacle::in_front;
+    if (hides_target(ray, candidate))
+        return ahead >= -kSameCrossing ? Obstacle::in_front : Obstacle::unsure;
+    return ahead > kEpsilon - kSameCrossing ? Obstacle::unsure : Obstacle::none;
+}
+
+/// Whether the crossing is preferred to the target where they coincide.
+bool PlacedScene::hides_target(ShadowRay& ray, const Candidate& candidate) const {
     if (!ray.target_precedence) {
         const Hit on_target = intersect_surface(ray.target, {ray.origin, ray.direction, ray.limit});
         const Surface light = surface(ray.target);
@@ -251,8 +271,9 @@ bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (!candidate) return false;
     const ShadowClass shadow = shadow_class(ray, what);
     if (shadow == ShadowClass::ignored) return false;
-    if (!is_in_the_way(ray, *candidate)) return false;
-    if (shadow != ShadowClass::blocks) {
+    const Obstacle found = obstacle(ray, *candidate);
+    if (found == Obstacle::none) return false;
+    if (shadow != ShadowClass::blocks || found == Obstacle::unsure) {
         ray.result = Visibility::needs_shading;
         return false;
     }

@@ -20,6 +20,13 @@ struct LocalRay {
     double size = 1;
 };
 
+/// What a crossing means for a shadow ray's way to its target.
+enum class Obstacle : std::uint8_t {
+    none,      ///< it lies behind the target, or coincides with it and is not seen
+    in_front,  ///< it is met instead of the target
+    unsure,    ///< so near the target that only the search for the nearest hit tells which is met
+};
+
 /// A primitive of a placed model.
 struct PrimitiveRef {
     InstanceId instance = kWorld;
@@ -60,7 +67,7 @@ struct NearestRay : TracedRay {
 
 /// A shadow search: what lies between a point and a light.
 struct ShadowRay : TracedRay {
-    double t_max = kHuge;
+    double t_max = kHuge;  ///< to the target, where there is one; else to where the search ends [m]
     SurfaceId target = kNoSurface;
     Visibility result = Visibility::clear;
     PrimitiveRef blocker;  ///< where blocked
@@ -119,7 +126,9 @@ class PlacedScene {
     [[nodiscard]] std::optional<Candidate> cross(TracedRay& ray, PrimitiveRef what) const;
     [[nodiscard]] Precedence precedence(const Candidate& candidate) const;
     [[nodiscard]] ShadowClass shadow_class(const ShadowRay& ray, PrimitiveRef what) const;
-    [[nodiscard]] bool is_in_the_way(ShadowRay& ray, const Candidate& candidate) const;
+    [[nodiscard]] Obstacle obstacle(ShadowRay& ray, const Candidate& candidate) const;
+    [[nodiscard]] Obstacle beside_target(ShadowRay& ray, const Candidate& candidate) const;
+    [[nodiscard]] bool hides_target(ShadowRay& ray, const Candidate& candidate) const;
     [[nodiscard]] Bounds model_bounds(std::uint32_t model,
                                       std::vector<std::optional<Bounds>>& cubes) const;
 

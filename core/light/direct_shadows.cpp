@@ -109,12 +109,16 @@ ShadowQuery DirectCalculation::shadow_query(const LightCandidate& candidate) {
     const ShadingPoint& point = point_of(candidate);
     const bool local = !source.is_distant() || source.is_virtual();
     ShadowQuery query;
-    query.ray = {point.position, candidate.direction,
-                 local ? candidate.distance - kEpsilon : kHuge};
-    // Rays through the surface keep what is left to the aft clipping plane.
-    if (point.limited && goes_through(*point.ray, candidate.direction))
-        query.ray.t_max = std::min(query.ray.t_max, point.ray->limit - point.ray->hit.t);
+    query.ray = {point.position, candidate.direction, local ? candidate.distance : kHuge};
     query.target = local ? source.object : kNoSurface;
+    // Rays through the surface keep what is left to the aft clipping plane.
+    if (point.limited && goes_through(*point.ray, candidate.direction)) {
+        const double end = farthest_hit(point.ray->limit - point.ray->hit.t);
+        if (end < query.ray.t_max) {
+            query.ray.t_max = end;
+            query.target = kNoSurface;
+        }
+    }
     query.last = &shared_.blockers[static_cast<std::size_t>(candidate.source)];
     return query;
 }

@@ -47,4 +47,14 @@ void require_index(const Primitive& primitive, double index) {
                                           "\": illegal index of refraction: it must be positive");
 }
 
+ModifierId alternate_of(const ModifierBuild& build) {
+    const Primitive& primitive = build.primitive;
+    if (primitive.strings.empty()) return kVoid;
+    if (!build.undefined(0)) return build.reference(0);
+    build.warnings.warn(to_prefix(primitive.where) + std::string(to_string(primitive.type)) +
+                        " \"" + primitive.name + "\": undefined modifier \"" +
+                        primitive.strings[0] + "\"");
+    return kVoid;
+}
+
 }  // namespace lightwalk

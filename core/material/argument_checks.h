@@ -4,6 +4,7 @@
 
 #include "core/math/rgb.h"
 #include "core/model/primitive.h"
+#include "core/scene/modifier.h"
 
 namespace lightwalk {
 
@@ -19,6 +20,10 @@ void require_most_strings(const Primitive& primitive, std::size_t count);
 
 /// Throws InputError unless `index`, an index of refraction, is a positive number.
 void require_index(const Primitive& primitive, double index);
+
+/// What an illum or a mirror shows instead of itself: its first string argument; void where that is
+/// missing, or where nothing has that name, which is a warning.
+[[nodiscard]] ModifierId alternate_of(const ModifierBuild& build);
 
 /// The real arguments number first, first + 1 and first + 2 as a colour.
 [[nodiscard]] inline Rgb color_argument(const Primitive& primitive, std::size_t first = 0) {

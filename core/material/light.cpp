@@ -40,9 +40,7 @@ Light::Light(const ModifierBuild& build) : type_(build.primitive.type), next_(bu
     require_exact_reals(primitive, spot ? 7 : type_ == PrimitiveType::glow ? 4 : 3);
     color_ = color_argument(primitive);
     if (type_ == PrimitiveType::glow) influence_ = primitive.reals[3];
-    if (type_ == PrimitiveType::illum && !primitive.strings.empty() && !build.undefined(0)) {
-        alternate_ = build.reference(0);
-    }
+    if (type_ == PrimitiveType::illum) alternate_ = alternate_of(build);
     if (spot) cone_ = spot_cone(primitive);
 }
 

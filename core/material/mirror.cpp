@@ -35,7 +35,7 @@ Mirror::Mirror(const ModifierBuild& build)
     require_exact_reals(build.primitive, 3);
     require_most_strings(build.primitive, 1);
     color_ = color_argument(build.primitive);
-    if (has_alternate_ && !build.undefined(0)) alternate_ = build.reference(0);
+    alternate_ = alternate_of(build);
     transparent_alternate_ = alternate_ != kVoid && build.is_transparent(alternate_);
 }
 

@@ -9,9 +9,12 @@ namespace lightwalk {
     return limit > kEpsilon;
 }
 
-/// How far a ray with this aft clipping distance can meet surfaces [m].
+/// How far a ray with this aft clipping distance can meet surfaces [m]. A surface that coincides
+/// with the clipping plane, beyond it or short of it, is not met, so that a ray from point to point
+/// ends before the surface that holds the second one. Coincident means up to kEpsilon apart; a
+/// little more counts, so that rounding does not decide about surfaces that are kEpsilon apart.
 [[nodiscard]] constexpr double farthest_hit(double limit) {
-    return is_limited(limit) ? limit : kHuge;
+    return is_limited(limit) ? limit - 1.05 * kEpsilon : kHuge;
 }
 
 /// What is left of an aft clipping distance behind a surface that lies `t` away; 0 (none) stays 0.

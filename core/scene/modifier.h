@@ -62,6 +62,8 @@ class Modifier {
     [[nodiscard]] virtual const FunctionBinding* brightness_function() const { return nullptr; }
     /// For a material of a BSDF file: what the file says. Else null.
     [[nodiscard]] virtual const Bsdf* bsdf() const { return nullptr; }
+    /// For one that cannot be shaded, as its file is missing: what shade() throws. Else null.
+    [[nodiscard]] virtual const std::string* problem() const { return nullptr; }
 };
 
 /// Arguments of a modifier factory.

@@ -27,6 +27,7 @@ class UnavailableModifier final : public Modifier {
   public:
     explicit UnavailableModifier(std::string problem) : problem_(std::move(problem)) {}
     [[nodiscard]] bool shade(Ray&, TraceContext&) const override { throw InputError(problem_); }
+    [[nodiscard]] const std::string* problem() const override { return &problem_; }
 
   private:
     std::string problem_;

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "core/error.h"
@@ -76,6 +78,29 @@ class TemporaryFile {
     fs::path path_;
 };
 
+/// The open descriptor that a name stands for; nothing for names of other files.
+std::optional<int> descriptor_named(const std::string& path) {
+    if (path == "/dev/stdout") return STDOUT_FILENO;
+    if (path == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        if (!path.starts_with(folder)) continue;
+        int number = -1;
+        const char* const end = path.data() + path.size();
+        const auto [rest, error] = std::from_chars(path.data() + folder.size(), end, number);
+        if (error == std::errc() && rest == end) return number;
+    }
+    return std::nullopt;
+}
+
+/// To where the process writes already: behind what it has written, also where that is a file.
+void write_to_descriptor(const std::string& path, int descriptor,
+                         std::span<const std::string_view> pieces) {
+    OpenFile file(::fcntl(descriptor, F_DUPFD_CLOEXEC, 0));
+    int failed = file.write(pieces);
+    if (failed == 0) failed = file.close();
+    if (failed != 0) throw write_error(path, failed);
+}
+
 /// Devices and pipes can't be replaced by renaming.
 void write_directly(const std::string& path, std::span<const std::string_view> pieces) {
     OpenFile file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -91,6 +116,8 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
 }
 
 void write_file_atomically(const std::string& path, std::span<const std::string_view> pieces) {
+    if (const std::optional<int> descriptor = descriptor_named(path))
+        return write_to_descriptor(path, *descriptor, pieces);
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {

@@ -7,8 +7,8 @@
 namespace lightwalk {
 
 /// Writes a file atomically: a temporary file in the same folder is renamed when it is complete,
-/// and removed when that fails. Links are followed; devices and pipes are written to directly.
-/// Throws InputError.
+/// and removed when that fails. Links are followed; devices and pipes are written to directly, and
+/// /dev/stdout, /dev/fd/N by the descriptor that is open already. Throws InputError.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 /// Writes the concatenation of `pieces` atomically.
 void write_file_atomically(const std::string& path, std::span<const std::string_view> pieces);

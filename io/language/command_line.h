@@ -11,8 +11,7 @@
 
 namespace lightwalk {
 
-/// The error of a command that cannot be run, or exceeds a limit. It ends the reading of the scene,
-/// unlike a command that runs and fails.
+/// The error of a command that cannot be run, or exceeds a limit. It ends the reading of the scene.
 class CommandError : public InputError {
   public:
     using InputError::InputError;
@@ -31,6 +30,13 @@ class UnknownCommandError : public CommandError {
 
   private:
     std::string program_;
+};
+
+/// The error of a command that runs and fails, so that a part of the scene is missing. What else is
+/// wrong with the scene can be told, too.
+class FailedCommandError : public CommandError {
+  public:
+    using CommandError::CommandError;
 };
 
 struct CommandWord {

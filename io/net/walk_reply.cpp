@@ -230,6 +230,7 @@ std::string walk_text(const DisplayReply& reply) {
 std::string walk_text(const RefusedReply& reply) {
     Json object{{"type", "refused"}, {"text", reply.text}};
     if (reply.id) object["id"] = *reply.id;
+    if (reply.view) object["view"] = *reply.view;
     return text_of(object);
 }
 

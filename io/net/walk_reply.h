@@ -118,7 +118,8 @@ struct DisplayReply {
 /// `refused`: a request cannot be answered.
 struct RefusedReply {
     std::string text;
-    std::optional<std::uint32_t> id;
+    std::optional<std::uint32_t> id;                   ///< of the question
+    std::optional<std::uint32_t> view = std::nullopt;  ///< the id of one that cannot be drawn
 };
 /// `bye`, the last message before the server closes the connection.
 struct ByeReply {

@@ -18,6 +18,12 @@ constexpr double kBrightest = 1e12;  // [cd/m²]: a thousand times the sun's
 constexpr double kMostStops = 40;    // limit of the exposure, up and down
 constexpr double kShortestNormal = 1e-6;
 
+/// A number that stands where it should, but has no value, or one beyond what can be used.
+class UnusableNumber : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 [[noreturn]] void refuse(const std::string& name, const char* expected) {
     throw InputError("\"" + name + "\": expected " + expected);
 }
@@ -30,9 +36,12 @@ const Json& field(const Json& object, const char* name) {
 }
 
 double number(const Json& value, const char* name, double low, double high) {
+    if (value.is_null())  // as which JavaScript writes numbers that are not finite
+        throw UnusableNumber("\"" + std::string(name) + "\": expected a finite number");
     if (!value.is_number()) refuse(name, "a number");
     const double x = value.get<double>();
-    if (!(x >= low && x <= high)) refuse(name, "a number within its range");
+    if (!(x >= low && x <= high))
+        throw UnusableNumber("\"" + std::string(name) + "\": expected a number within its range");
     return x;
 }
 
@@ -77,7 +86,7 @@ double optional_number(const Json& object, const char* name) {
     return object.contains(name) ? number(object, -kFarthest, kFarthest, name) : 0;
 }
 
-View read_view(const Json& object) {
+View read_any_view(const Json& object) {
     View view;
     const std::string& type = words(object, "type");
     if (type.size() != 1) refuse("type", "one of the letters v l c h a s");
@@ -91,7 +100,19 @@ View read_view(const Json& object) {
     view.aft = optional_number(object, "aft");
     view.shift = optional_number(object, "shift");
     view.lift = optional_number(object, "lift");
-    if (const std::optional<std::string> wrong = Camera::problem(view)) throw InputError(*wrong);
+    return view;
+}
+
+/// @param id  of the request, for the answer to a view that cannot be drawn
+View read_view(const Json& object, std::uint32_t id, UndrawableView::Kind kind) {
+    View view;
+    try {
+        view = read_any_view(object);
+    } catch (const UnusableNumber& error) {
+        throw UndrawableView(error.what(), id, kind);
+    }
+    if (const std::optional<std::string> wrong = Camera::problem(view))
+        throw UndrawableView(*wrong, id, kind);
     return view;
 }
 
@@ -127,12 +148,13 @@ HelloRequest read_hello(const Json& object) {
 ViewRequest read_view_request(const Json& object, WalkSizeLimit limit) {
     ViewRequest request;
     request.id = identity(object, "id");
-    request.view = read_view(field(object, "view"));
+    request.view = read_view(field(object, "view"), request.id, UndrawableView::Kind::view);
     request.width = window_side(object, "width");
     request.height = window_side(object, "height");
     request.moving = truth(object, "moving");
     request.walk = truth(object, "walk");
-    if (object.contains("seen")) request.seen = read_view(object["seen"]);
+    if (object.contains("seen"))
+        request.seen = read_view(object["seen"], request.id, UndrawableView::Kind::view);
     shrink(request, limit);
     return request;
 }
@@ -170,7 +192,8 @@ SettingsRequest read_settings(const Json& object) {
 PickRequest read_pick(const Json& object) {
     PickRequest request{identity(object, "id"), number(object, 0, 1, "x"),
                         number(object, 0, 1, "y"), std::nullopt};
-    if (object.contains("view")) request.view = read_view(object["view"]);
+    if (object.contains("view"))
+        request.view = read_view(object["view"], request.id, UndrawableView::Kind::question);
     return request;
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.h"
 #include "core/view/view.h"
 #include "core/view/walk_state.h"
 #include "io/picture/display.h"
@@ -91,10 +92,25 @@ struct WalkSizeLimit {
     int width = kLargestWalkSize, height = kLargestWalkSize;
 };
 
+/// A message is sound but for a view that cannot be drawn: no reason to end the connection.
+class UndrawableView : public InputError {
+  public:
+    enum class Kind { view, question };
+    /// @param id  of the request
+    UndrawableView(const std::string& problem, std::uint32_t id, Kind kind)
+        : InputError(problem), id_(id), kind_(kind) {}
+    [[nodiscard]] std::uint32_t id() const { return id_; }
+    [[nodiscard]] Kind kind() const { return kind_; }
+
+  private:
+    std::uint32_t id_;
+    Kind kind_;
+};
+
 /// Parse a message. A size larger than `limit` is reduced in proportion, to at least one pixel.
 /// Throws InputError, without a place, for everything that io/net/README.md does not allow: text
 /// beyond 64 KB, JSON nested deeper than 8, unknown types, fields that are missing or of another
-/// type, numbers beyond their range.
+/// type, numbers beyond their range; UndrawableView where that is so of a view alone.
 [[nodiscard]] WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit = {});
 
 }  // namespace lightwalk

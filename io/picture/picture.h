@@ -32,11 +32,14 @@ struct PictureHeader {
 [[nodiscard]] Picture read_hdr(std::string_view bytes, const std::string& name,
                                PictureHeader* header = nullptr);
 
-/// Write a picture in the format of the extension: .hdr .pic (Radiance), .exr (float RGB), .png
-/// .jpg .jpeg (sRGB, see tone.h). The file is written atomically. Throws InputError with the path
-/// for other extensions and failed writes.
+/// Write a picture in the format of the extension: .hdr .pic .unf (Radiance), .exr (float RGB),
+/// .png .jpg .jpeg (sRGB, see tone.h). Names without one, or with a number in its place, devices
+/// and pipes get a Radiance picture. The file is written atomically. Throws InputError with the
+/// path for other extensions and failed writes.
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone);
+/// Throws the InputError of write_picture for a path whose extension promises another format.
+void check_picture_name(const std::string& path);
 /// Whether write_picture writes a Radiance picture for this name.
 [[nodiscard]] bool is_radiance_picture(const std::string& path);
 /// Write depths: for a `path` that ends in .exr as one float channel Z, otherwise as raw native

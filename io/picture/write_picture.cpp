@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <optional>
+#include <system_error>
 
 #include "core/error.h"
 #include "io/files/atomic_file.h"
@@ -19,50 +21,80 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-/// The result of `encode`; the path is added to the message of its errors.
-template <class Encode>
-std::string encode_for(const std::string& path, const Encode& encode) {
+/// The result of `make`; the path is added to the message of its errors.
+template <class Make>
+std::string encode_for(const std::string& path, const Make& make) {
     try {
-        return encode();
+        return make();
     } catch (const InputError& error) {
         throw InputError({path, 0}, std::string("cannot write: ") + error.what());
     }
 }
 
-std::string encode_by_extension(const std::string& extension, const Picture& picture,
-                                const PictureHeader& header, const ToneMapping& tone) {
-    if (extension == ".exr") return encode_exr(picture, header);
-    if (extension == ".png") return encode_png(picture, choose_tone(picture, tone));
-    if (extension == ".jpg" || extension == ".jpeg")
-        return encode_jpeg(picture, choose_tone(picture, tone));
+enum class PictureFormat { radiance, exr, png, jpeg };
+
+/// Names without an ending, with that of an unfiltered picture (.unf, as of Radiance's rad), with a
+/// number as their ending (of a frame), and devices and pipes get what standard output does.
+std::optional<PictureFormat> format_of(const std::string& path) {
+    const std::string extension = extension_of(path);
+    if (extension == ".hdr" || extension == ".pic" || extension == ".unf" || extension == ".rgbe")
+        return PictureFormat::radiance;
+    if (extension == ".exr") return PictureFormat::exr;
+    if (extension == ".png") return PictureFormat::png;
+    if (extension == ".jpg" || extension == ".jpeg") return PictureFormat::jpeg;
+    if (extension.find_first_not_of("0123456789", 1) == std::string::npos)
+        return PictureFormat::radiance;
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    if (std::filesystem::exists(status) && std::filesystem::is_other(status))
+        return PictureFormat::radiance;
+    return std::nullopt;
+}
+
+PictureFormat known_format_of(const std::string& path) {
+    if (const std::optional<PictureFormat> format = format_of(path)) return *format;
+    throw InputError({path, 0},
+                     "unknown kind of picture \"" + extension_of(path) +
+                         "\", expected .hdr .pic .unf .exr .png .jpg .jpeg or no ending");
+}
+
+std::string encode(PictureFormat format, const Picture& picture, const PictureHeader& header,
+                   const ToneMapping& tone) {
+    switch (format) {
+        case PictureFormat::exr:
+            return encode_exr(picture, header);
+        case PictureFormat::png:
+            return encode_png(picture, choose_tone(picture, tone));
+        case PictureFormat::jpeg:
+            return encode_jpeg(picture, choose_tone(picture, tone));
+        case PictureFormat::radiance:
+            break;
+    }
     return encode_hdr(picture, header);
 }
 
 }  // namespace
 
+void check_picture_name(const std::string& path) {
+    (void)known_format_of(path);
+}
+
 bool is_radiance_picture(const std::string& path) {
-    const std::string extension = extension_of(path);
-    return extension == ".hdr" || extension == ".pic";
+    return format_of(path) == PictureFormat::radiance;
 }
 
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone) {
-    const std::string extension = extension_of(path);
-    for (const char* known : {".hdr", ".pic", ".exr", ".png", ".jpg", ".jpeg"}) {
-        if (extension != known) continue;
-        const auto encode = [&] { return encode_by_extension(extension, picture, header, tone); };
-        write_file_atomically(path, encode_for(path, encode));
-        return;
-    }
-    throw InputError({path, 0}, "unknown kind of picture \"" + extension +
-                                    "\", expected .hdr .pic .exr .png .jpg or .jpeg");
+    const PictureFormat format = known_format_of(path);
+    write_file_atomically(path,
+                          encode_for(path, [&] { return encode(format, picture, header, tone); }));
 }
 
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth) {
     assert(depth.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     if (extension_of(path) == ".exr") {
-        const auto encode = [&] { return encode_exr(width, height, depth); };
-        write_file_atomically(path, encode_for(path, encode));
+        write_file_atomically(path,
+                              encode_for(path, [&] { return encode_exr(width, height, depth); }));
         return;
     }
     write_file_atomically(

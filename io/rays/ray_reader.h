@@ -35,22 +35,40 @@ class RayReader {
   public:
     RayReader(int descriptor, NumberFormat format) : descriptor_(descriptor), format_(format) {}
 
-    /// The next ray. Nothing at the end of the input; an incomplete ray and a word that is no
-    /// number count as the end.
+    /// The next ray. Nothing at the end of the input, and where something is wrong with it: see
+    /// problem().
     [[nodiscard]] std::optional<InputRay> next();
     /// Whether next() would block, because no byte of another ray has arrived.
     [[nodiscard]] bool drained();
 
+    /// Why the input could not be read to its end: a word that is no number, an incomplete ray, a
+    /// number that is not finite, an error of the system; with the line, or for binary input the
+    /// ray, where it stands. "": nothing is wrong so far.
+    [[nodiscard]] const std::string& problem() const { return problem_; }
+    /// The first line of text within which a ray begins that ends in another line, as where lines
+    /// have seven columns: legal, but hardly meant. 0: none so far.
+    [[nodiscard]] std::size_t misaligned_line() const { return misaligned_line_; }
+
   private:
+    enum class Found { number, end, fault };
     bool fill();
-    [[nodiscard]] bool number(double& value);
-    [[nodiscard]] bool word(std::string& text);
+    [[nodiscard]] Found number(double& value);
+    [[nodiscard]] Found number_of_text(double& value);
+    [[nodiscard]] Found number_of_bytes(double& value);
+    [[nodiscard]] Found word(std::string& text);
     [[nodiscard]] int byte();  ///< -1 at the end
+    void note_lines(std::size_t first_line);
+    Found fail(const std::string& what);
 
     int descriptor_;
     NumberFormat format_;
-    std::string buffer_;
+    std::string buffer_, problem_;
     std::size_t at_ = 0;
+    std::size_t rays_ = 0;       ///< read so far
+    std::size_t line_ = 1;       ///< of the next byte of text
+    std::size_t word_line_ = 1;  ///< of the word that was read last
+    std::size_t last_line_ = 0;  ///< in which the ray before ended
+    std::size_t misaligned_line_ = 0;
     bool ended_ = false;
 };
 

@@ -144,7 +144,8 @@ void RayRecords::append_field(char letter, const RayRecord& traced, const Scene&
         case 'M': {
             const std::optional<ModifierId> material =
                 hit ? scene.material_of(ray.hit.modifier) : std::nullopt;
-            return name(material ? scene.modifier(*material).name : "void");
+            // Of an alias, or an alias of one, the name of what it stands for.
+            return name(material ? scene.modifier(*material).primitive->name : "void");
         }
         case 'r':
             return append_color(traced.sensor ? Rgb{} : ray.mirrored, output);

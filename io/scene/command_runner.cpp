@@ -168,7 +168,7 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
     return output;
 }
 
-/// One program of a pipeline. One that fails is a warning.
+/// One program of a pipeline.
 std::string CommandRunner::run_stage(const SimpleCommand& words, const std::string& command,
                                      const SourceLocation& where, GeneratorContext& context) {
     try {
@@ -178,9 +178,8 @@ std::string CommandRunner::run_stage(const SimpleCommand& words, const std::stri
         if (std::string_view(error.what()).starts_with(prefix)) throw;
         throw CommandError(where, error.what());
     } catch (const InputError& error) {
-        warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
-                       "\": " + error.what());
-        return {};
+        throw FailedCommandError(
+            where, "bad status from \"" + abbreviate_command(command) + "\": " + error.what());
     }
 }
 
@@ -203,10 +202,8 @@ std::string CommandRunner::run_shell(const std::string& command, const std::stri
     if (output->size() > kMaxGeneratedBytes) {
         throw CommandError(where, "\"" + abbreviate_command(command) + "\" writes too much");
     }
-    if (!good) {
-        warnings_.warn(to_prefix(where) + "bad status from \"" + abbreviate_command(command) +
-                       "\"");
-    }
+    if (!good)
+        throw FailedCommandError(where, "bad status from \"" + abbreviate_command(command) + "\"");
     return *std::move(output);
 }
 

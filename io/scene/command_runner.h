@@ -19,10 +19,10 @@ class CommandRunner {
         : library_(std::move(library)), allow_commands_(allow_commands), warnings_(warnings) {}
 
     /// Run `command`, which may begin with '!', in `directory` ("" is the process's) with an empty
-    /// standard input, and return its output. A command that fails causes the warning "bad status
-    /// from ..."; its output is used. Throws UnknownCommandError for programs that are not built in
-    /// (unless commands are allowed), CommandError for commands that nest too deep or write too
-    /// much.
+    /// standard input, and return its output. Throws FailedCommandError "bad status from ..." where
+    /// a command fails: Radiance warns and goes on without a part of the scene. Throws
+    /// UnknownCommandError for programs that are not built in (unless commands are allowed),
+    /// CommandError for commands that nest too deep or write too much.
     [[nodiscard]] std::string run(const std::string& command, const std::string& directory,
                                   const SourceLocation& where);
     /// Run `command` and pass its output to `sink`: in parts if its last program writes so, else as

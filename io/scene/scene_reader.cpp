@@ -1,5 +1,6 @@
 #include "io/scene/scene_reader.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,21 @@
 namespace lightwalk {
 namespace {
 
+constexpr std::string_view kHeaderMark = "#?";  ///< with which octrees begin
 constexpr int kMaxNesting = 64;  ///< commands that write commands that write commands ...
+
+/// What programs write into files whose names end so is never scene text. Where text is to be read
+/// from one, a program has left it that failed: empty, cut off in its header, or an error message.
+/// It must not pass for a scene of nothing.
+void refuse_binary_names(std::string_view bytes, const std::string& name) {
+    constexpr std::array<std::pair<std::string_view, const char*>, 3> kKinds{
+        {{".oct", "an octree"}, {".lwz", "a frozen scene"}, {".rtm", "scene text, but a mesh"}}};
+    for (const auto& [ending, kind] : kKinds) {
+        if (!name.ends_with(ending)) continue;
+        throw InputError({name, 0},
+                         std::string("not ") + kind + (bytes.empty() ? ": the file is empty" : ""));
+    }
+}
 
 /// The bytes of one argument, and what messages call it.
 struct SceneText {
@@ -38,7 +53,12 @@ class SceneReader {
 
     /// Open a scene argument: a file, "-", or "!command".
     SceneText open(const std::string& argument) {
-        if (argument == "-") return {files_.standard_input(), "standard input"};
+        if (argument == "-") {
+            SceneText text{files_.standard_input(), "standard input"};
+            if (text.bytes.empty())  // whatever was to write it has failed
+                throw InputError({text.name, 0}, "empty, expected an octree or scene text");
+            return text;
+        }
         if (!argument.empty() && argument[0] == '!') {
             return {runner_.run(argument, directory_, {abbreviate_command(argument), 0}),
                     abbreviate_command(argument)};
@@ -109,9 +129,12 @@ class SceneReader {
     void read(std::string_view text, const std::string& name, FadingText* fading) {
         if (text.find('\0') != std::string_view::npos)
             throw InputError({name, 0}, "neither an octree nor scene text: it holds zero bytes");
+        refuse_binary_names(text, name);
         const std::size_t before = size();
         SceneTokenizer tokens(text, name);
         read_items(tokens, nullptr, 0, fading);
+        if (size() == before && problems_.empty() && text.starts_with(kHeaderMark))
+            throw InputError({name, 0}, "an information header without an end, expected an octree");
         warn_if_empty(before, name);
     }
 
@@ -153,8 +176,10 @@ class SceneReader {
             TextSink& pieces = pipe ? static_cast<TextSink&>(*pipe) : output;
             runner_.run(command, directory_, where, pieces);
         } catch (const UnknownCommandError& error) {
-            problems_.add(where, message_of(error, where), "command " + error.program());
-            skipped_command_ = true;
+            skip_command(error, where, error.program(), pipe.get());
+            return;
+        } catch (const FailedCommandError& error) {
+            skip_command(error, where, message_of(error, where), pipe.get());
             return;
         } catch (...) {
             if (pipe) pipe->finish();  // what is wrong in an earlier piece comes first
@@ -162,6 +187,14 @@ class SceneReader {
         }
         if (pipe) pipe->finish();
         warn_if_empty(before, name);
+    }
+
+    /// Go on without the command's output, or without the rest of it.
+    void skip_command(const CommandError& error, const SourceLocation& where,
+                      const std::string& kind, TextPipe* pipe) {
+        if (pipe != nullptr) pipe->finish();  // what is wrong in an earlier piece comes first
+        problems_.add(where, message_of(error, where), "command " + kind);
+        skipped_command_ = true;
     }
 
     void read_item(SceneTokenizer& tokens, const SourceLocation* outer) {

@@ -1,6 +1,8 @@
 // lightwalk trace and info, from outside.
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -110,6 +112,110 @@ TEST_CASE("trace: -I gives the irradiance at a point, -ld limits rays, -i takes 
     CHECK(std::stod(seen) == doctest::Approx(std::stod(sensor)).epsilon(1e-3));
     CHECK(run_program({"trace", "-h", "-ld", "-oLs", scene}, "0 0 3 0 0 -2").out ==
           "1.000000e+10\t*\t\n");
+}
+
+TEST_CASE("trace: a limited ray ends before the surface that holds its end, whatever rounds") {
+    const TemporaryFolder folder;
+    const std::string scene =
+        folder.write("floor.rad", kFloor +
+                                      "void glass pane 0 0 3 .9 .9 .9\n"
+                                      "pane ring window 0 0 8 0 0 .4 0 0 1 0 9\n");
+    const auto hits = [&](double excess, const std::vector<std::string>& options) {
+        std::string rays;
+        for (int k = 1; k <= 120; ++k) {
+            const double x = k * 0.03, z = k % 2 == 0 ? 0.3 : 1 + k * 0.01;
+            const double scale = 1 + excess / std::hypot(x, z);
+            std::ostringstream line;
+            line.precision(12);
+            line << x << " 0 " << z << ' ' << -x * scale << " 0 " << -z * scale << '\n';
+            rays += line.str();
+        }
+        std::vector<std::string> words{"trace", "-h", "-w", "-ld+", "-dt", "0", "-n", "1"};
+        words.insert(words.end(), options.begin(), options.end());
+        words.push_back(scene);
+        const std::string out = run_program(words, rays).out;
+        std::size_t found = 0;
+        for (std::size_t at = out.find("floor"); at != std::string::npos;
+             at = out.find("floor", at + 1))
+            ++found;
+        return found;
+    };
+    for (const double excess : {-1e-3, -1e-5, -1e-6, 0.0, 1e-9, 5e-7, 1e-6}) {
+        CAPTURE(excess);
+        CHECK(hits(excess, {"-os"}) == 0);
+        CHECK(hits(excess, {"-ovs"}) == 0);
+        CHECK(hits(excess, {"-i", "-ovs"}) == 0);
+        CHECK(hits(excess, {"-oTs"}) == 0);
+    }
+    for (const double excess : {1.2e-6, 1e-5, 1e-3}) {
+        CAPTURE(excess);
+        CHECK(hits(excess, {"-os"}) == 60);    // the others meet the window first
+        CHECK(hits(excess, {"-oTs"}) == 120);  // through the window
+    }
+}
+
+TEST_CASE("trace: -oM names what stands behind aliases, -om the alias") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("aliases.rad", R"(
+void plastic white 0 0 5 .5 .4 .3 0 0
+void alias layer1 white
+void alias layer2 layer1
+void brightfunc half 2 .5 . 0 0
+half alias layer3 layer2
+void light lamp 0 0 3 1 1 1
+void alias layer4 lamp
+void mixfunc mix 4 white lamp .5 . 0 0
+void alias layer5 mix
+inherit alias layer6 layer1
+void alias layer7 half
+layer7 plastic plain 0 0 5 .1 .1 .1 0 0
+void plastic white 0 0 5 .2 .2 .2 0 0
+white sphere s0 0 0 4 0 0 0 .4
+layer1 sphere s1 0 0 4 1 0 0 .4
+layer2 sphere s2 0 0 4 2 0 0 .4
+layer3 sphere s3 0 0 4 3 0 0 .4
+layer4 sphere s4 0 0 4 4 0 0 .4
+layer5 sphere s5 0 0 4 5 0 0 .4
+layer6 sphere s6 0 0 4 6 0 0 .4
+plain sphere s7 0 0 4 7 0 0 .4
+half sphere s8 0 0 4 8 0 0 .4
+)");
+    std::string rays;
+    for (int x = 0; x < 9; ++x) rays += std::to_string(x) + " 0 5 0 0 -1\n";
+    // All of this is what Radiance's rtrace 6.1 prints.
+    const std::string expected =
+        "s0\twhite\twhite\t\ns1\tlayer1\twhite\t\ns2\tlayer2\twhite\t\n"
+        "s3\tlayer3\twhite\t\ns4\tlayer4\tlamp\t\ns5\tlayer5\tmix\t\n"
+        "s6\tlayer6\twhite\t\ns7\tplain\tplain\t\ns8\thalf\tvoid\t\n";
+    CHECK(run_program({"trace", "-h", "-w", "-osmM", scene}, rays).out == expected);
+    const std::string frozen = folder.path("aliases.lwz");
+    REQUIRE(run_program({"freeze", "--quiet", scene, "-o", frozen}).status == 0);
+    CHECK(run_program({"trace", "-h", "-w", "-osmM", frozen}, rays).out == expected);
+}
+
+TEST_CASE("trace: a line that is no ray is an error after the answers to those before it") {
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("floor.rad", kFloor);
+    const std::string rays = "1 1 3 0 0 -1\n2 1 3 0 0 -1\n";
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{}, {"-n", "1"}, {"-I", "-ovs"}, {"-oTs"}, {"-w", "-x", "1"}}) {
+        std::vector<std::string> words{"trace", "-h", "-os"};
+        words.insert(words.end(), options.begin(), options.end());
+        words.push_back(scene);
+        const ProgramResult sound = run_program(words, "\n" + rays + "\n \r\n");
+        CHECK(sound.status == 0);
+        const ProgramResult bad = run_program(words, rays + "sensor 3 1 3 0 0 -1\n" + rays);
+        CHECK(bad.status == 1);
+        CHECK(bad.out == sound.out);
+        CHECK(bad.err == "standard input:3: expected six numbers for each ray, found \"sensor\"\n");
+        const ProgramResult cut = run_program(words, rays + "1 2 3\n");
+        CHECK(cut.status == 1);
+        CHECK(cut.out == sound.out);
+    }
+    const ProgramResult columns =
+        run_program({"trace", "-h", "-os", scene}, "1 1 3 0 0 -1 7\n2 1 3 0 0\n");
+    CHECK(columns.status == 0);
+    CHECK(columns.err.find("standard input:1: a ray begins within this line") != std::string::npos);
 }
 
 TEST_CASE("trace: -ot and -oT print trees of rays as rtrace does") {

@@ -45,7 +45,7 @@ pane polygon window 0 0 12 -1 -1 1 1 -1 1 1 -1 2 -1 -1 2
 coated polygon plate2 0 0 12 1 1.9 .2 2 1.9 .2 2 1.9 1.2 1 1.9 1.2
 silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
 !genbox white box .5 .4 .3 | xform -t .2 .3 0 -rz 30
-!xform -n a -a 3 -t .2 0 0 -
+!genbox white step .1 .1 .1 | xform -n a -a 3 -t .2 0 0
 !genworm white w "cos(t)" "sin(t)" t .1 5
 !gensky 6 21 12 +s
 )rad";

@@ -83,3 +83,14 @@ test("a file without views is an error", () => {
     for (const text of ["", "hello", "VIEW=", "preview -vp 1 2 3", "rvu.log -vp 1 2 3"])
         assert.throws(() => parse_views(text), /no line like "VIEW= /);
 });
+
+test("a view that cannot be drawn is an error with its line; angles that are too large are limited later", () => {
+    const down = "VIEW= -vp 0 0 2 -vd 0 1 0 -vu 0 0 1\nVIEW= -vd 0 0 -1\n";
+    assert.throws(() => parse_views(down), /^Error: line 2: view up parallel to view direction$/);
+    assert.throws(() => parse_views("VIEW= -vp 3e9 0 0"), /line 1: a number is missing or larger/);
+    assert.throws(() => parse_views("VIEW= -vd 0 0 0"), /zero view direction/);
+    assert.throws(() => parse_views("VIEW= -vu 0 0 0"), /zero view up vector/);
+    assert.throws(() => parse_views("VIEW= -vh 0"), /illegal horizontal view size/);
+    assert.throws(() => parse_views("VIEW= -vo 2 -va 1"), /illegal fore.aft clipping plane/);
+    assert.equal(parse_views("VIEW= -vh 200")[0].horizontal, 200);
+});

@@ -57,6 +57,30 @@ TEST_CASE("inbox: of the driver's views the newest counts and stays, those of wa
     }
 }
 
+TEST_CASE("inbox: a view that cannot be drawn is refused, and the walk stays where it is") {
+    Inbox all;
+    const auto changed = [](const std::string& from, const std::string& to) {
+        std::string text = view_message(7, 3);
+        REQUIRE(text.find(from) != std::string::npos);
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const std::string down = changed("[0,1,-0.05]", "[0,0,-1]"),
+                      far = changed("[3.000000,", "[3e9,"),
+                      nowhere = changed("[3.000000,", "[null,");
+    CHECK_THROWS_AS(all.inbox.message(kFirst, down), InputError);  // before hello
+    all.join(kFirst);
+    all.join(kSecond);
+    all.inbox.message(kFirst, view_message(1, 0.5));
+    for (const std::string& text : {down, far, nowhere}) {
+        all.clients.texts.clear();
+        all.inbox.message(kFirst, text);
+        CHECK(all.clients.got(kFirst, "refused", "The view cannot be drawn: "));
+        CHECK(all.clients.got(kFirst, "refused", "\"view\":7"));
+        CHECK(all.inbox.pop(kNow).wish.view->id == 1);
+    }
+    CHECK_THROWS_AS(all.inbox.message(kFirst, changed("[3.000000,", "[\"a\",")), InputError);
+}
+
 TEST_CASE("inbox: questions come to whoever draws once, and beyond 64 they are refused") {
     Inbox all;
     all.join(kFirst);

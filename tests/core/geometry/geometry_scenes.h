@@ -287,9 +287,10 @@ class BruteForce {
         visit(0, Transform{}, kWorld, nullptr, kWorld, ray);
         return best_;
     }
-    [[nodiscard]] Visibility visibility(const RaySegment& ray, SurfaceId target) {
+    /// Of what lies before ray.t_max.
+    [[nodiscard]] Visibility visibility(const RaySegment& ray) {
         Visibility result = Visibility::clear;
-        visit_shadow(0, Transform{}, nullptr, ray, target, result);
+        visit_shadow(0, Transform{}, nullptr, ray, result);
         return result;
     }
 
@@ -348,11 +349,11 @@ class BruteForce {
         }
     }
     void visit_shadow(std::size_t model, const Transform& place, const Placement* override_by,
-                      const RaySegment& ray, SurfaceId target, Visibility& result) const {
+                      const RaySegment& ray, Visibility& result) const {
         for (const Crossing& c : crossings(model, place, ray)) {
             const ShadowClass shadow =
                 at(override_by ? override_by->surface : c.id).traits().shadow;
-            if (c.id == target || c.t >= ray.t_max || shadow == ShadowClass::ignored) continue;
+            if (c.t >= ray.t_max || shadow == ShadowClass::ignored) continue;
             if (shadow == ShadowClass::blocks)
                 result = Visibility::blocked;
             else if (result == Visibility::clear)
@@ -360,7 +361,7 @@ class BruteForce {
         }
         for (const Placement& p : tables_.input.models[model].placements) {
             visit_shadow(p.model, p.transform * place,
-                         !override_by && p.overrides ? &p : override_by, ray, target, result);
+                         !override_by && p.overrides ? &p : override_by, ray, result);
         }
     }
 

@@ -92,3 +92,13 @@ TEST_CASE("rough samples see only what the direct calculation leaves out") {
 TEST_CASE("patterns colour what is emitted") {
     CHECK(seen("void brightfunc p 2 .25 . 0 0\np light m 0 0 3 8 8 8\n", kFront) == 2);
 }
+
+TEST_CASE("an alternate that nothing defines is a warning with its place, and stands for void") {
+    for (const char* type : {"illum", "mirror"}) {
+        TestScene scene("void " + std::string(type) + " pane\n1 lost\n0\n3 1 1 1\n" +
+                        "pane ring r\n0\n0\n8 0 0 0 0 0 1 0 1\n");
+        REQUIRE(!scene.warnings.messages.empty());
+        CHECK(scene.warnings.messages[0] ==
+              "test.rad:1: " + std::string(type) + " \"pane\": undefined modifier \"lost\"");
+    }
+}

@@ -160,3 +160,31 @@ TEST_CASE("facing mirrors: the number of virtual sources is bounded, whatever -d
     CHECK(TestScene(scene, with_redirections(1000000)).tracer.lights().virtual_count() <=
           2 * static_cast<std::size_t>(kMaxRedirections));
 }
+
+TEST_CASE("a flat lamp beside an upright mirror shines on from where it appears, however high") {
+    // Radiance 6.1's rtrace drops the image of a lamp that faces up where the middle of the mirror
+    // lies below the lamp (2.845e-03 here, as with -dr 0), and has it (4.898e-03) with the part of
+    // the mirror alone by which the light comes, z from 2.2.
+    const auto at_ceiling = [](const std::string& mirror, int redirections) {
+        const std::string room =
+            "void plastic white\n0\n0\n5 .8 .8 .8 0 0\nvoid light lamp\n0\n0\n3 25 25 25\n"
+            "white polygon ceiling\n0\n0\n12 -1.5 1 2.5 -1.5 10 2.5 1.5 10 2.5 1.5 1 2.5\n";
+        const auto panel = [](const std::string& name, double from, double to) {
+            return "lamp polygon " + name + "\n0\n0\n12 -1.4 " + std::to_string(from) +
+                   " 2.11 -1.4 " + std::to_string(to) + " 2.11 -1.34 " + std::to_string(to) +
+                   " 2.11 -1.34 " + std::to_string(from) + " 2.11\n";
+        };
+        TestScene scene(room + mirror + panel("panel", 8.5, 7.5) +
+                            (mirror.empty() ? panel("image", 12.5, 11.5) : std::string()),
+                        with_redirections(redirections));
+        return static_cast<double>(scene.trace({-.5, 9.9, 2.4}, {0, 0, 1}).value.r);
+    };
+    const auto mirror = [](const std::string& low) {
+        return "void mirror glass\n0\n0\n3 1 1 1\nglass polygon wall\n0\n0\n12 -1.5 10 " + low +
+               " 1.5 10 " + low + " 1.5 10 2.5 -1.5 10 2.5\n";
+    };
+    CHECK(at_ceiling(mirror("0"), 0) == printed(4, 2.845e-3));
+    CHECK(at_ceiling(mirror("0"), 1) == printed(4, 4.898e-3));
+    CHECK(at_ceiling(mirror("2.2"), 1) == printed(4, 4.898e-3));
+    CHECK(at_ceiling("", 0) == printed(4, 4.898e-3));  // two lamps, no mirror
+}

@@ -1,7 +1,9 @@
 #include "io/files/atomic_file.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -38,6 +40,22 @@ TEST_CASE("links are followed, devices written to directly") {
     CHECK(read_file(folder.path("real")) == "new");
     write_file_atomically("/dev/null", "gone");
     CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("what an open descriptor's name gets stands behind what was written to it before") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("log");
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    REQUIRE(descriptor >= 0);
+    REQUIRE(::write(descriptor, "first ", 6) == 6);
+    for (const std::string directory : {"/dev/fd/", "/proc/self/fd/"})
+        write_file_atomically(directory + std::to_string(descriptor), "more ");
+    REQUIRE(::write(descriptor, "last", 4) == 4);
+    ::close(descriptor);
+    CHECK(read_file(path) == "first more more last");
+    CHECK_THROWS_AS(write_file_atomically("/dev/fd/" + std::to_string(descriptor), "x"),
+                    InputError);
+    CHECK(folder.files().size() == 1);
 }
 
 TEST_CASE("a failed write names the file and leaves nothing") {

@@ -34,9 +34,8 @@ std::string write_scene(const TemporaryFolder& folder) {
     folder.write("points", "0 0 1 0 1 1");
     return folder.write("room.rad",
                         "!xform *.part\n"
-                        "!genprism a prism points 3 -l 0 0 1\n"
+                        "!genprism a prism points -l 0 0 1\n"
                         "!printf 'void glow c 0 0 4 1 2 3 0\\n'; true $HOME\n"
-                        "!cat nowhere\n"
                         "a sphere ball 0 0 4 0 0 0 1\n");
 }
 

@@ -106,6 +106,7 @@ TEST_CASE("walk reply: each is the text that the format has for it") {
              "rays_per_second": 1000000.0, "phase": "refining", "share": 0.5, "ranks": 2, "threads": 8, "points": 300000})");
     same(walk_text(RefusedReply{"no", 3}), R"({"type": "refused", "text": "no", "id": 3})");
     same(walk_text(RefusedReply{"no", {}}), R"({"type": "refused", "text": "no"})");
+    same(walk_text(RefusedReply{"no", {}, 9}), R"({"type": "refused", "text": "no", "view": 9})");
     same(walk_text(ByeReply{"end"}), R"({"type": "bye", "reason": "end"})");
 }
 

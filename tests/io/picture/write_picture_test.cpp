@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <cstring>
+#include <filesystem>
 #include <string>
+#include <thread>
 
 #include "core/error.h"
 #include "io/files/library_path.h"
@@ -12,6 +15,7 @@
 
 using namespace lightwalk;
 using test::TemporaryFolder;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -26,7 +30,11 @@ Picture picture() {
 TEST_CASE("the extension tells the kind of picture") {
     const TemporaryFolder folder;
     const PictureHeader header{{"history"}};
-    for (const std::string name : {"a.hdr", "a.pic", "a.HDR"}) {
+    for (const std::string name : {"a.hdr", "a.pic", "a.HDR", "a.unf", "a", ".hdr", "hdr", "a.",
+                                   "a.b/a", "frame.007", "a.rgbe"}) {
+        fs::create_directories(fs::path(folder.path(name)).parent_path());
+        CHECK_NOTHROW(check_picture_name(folder.path(name)));
+        CHECK(is_radiance_picture(folder.path(name)));
         write_picture(folder.path(name), picture(), header, {});
         CHECK(read_file(folder.path(name)) == encode_hdr(picture(), header));
     }
@@ -38,14 +46,27 @@ TEST_CASE("the extension tells the kind of picture") {
         write_picture(folder.path(name), picture(), header, {});
         CHECK(read_file(folder.path(name)).starts_with("\xff\xd8\xff"));
     }
-    CHECK(folder.files().size() == 7);
-    for (const std::string name : {"a.tif", "a", ".hdr", "hdr"}) {
+    CHECK(folder.files().size() == 15);
+    for (const std::string name : {"a.tif", "a.TIFF", "a.mp4", "a.hdr.gz", "a.b/a.c", "a.7z"}) {
+        CHECK_THROWS_AS(check_picture_name(folder.path(name)), InputError);
         CHECK_THROWS_WITH_AS(write_picture(folder.path(name), picture(), header, {}),
                              doctest::Contains("unknown kind of picture"), InputError);
     }
     CHECK_THROWS_AS(write_picture(folder.path("empty.png"), {}, header, {}), InputError);
     CHECK_THROWS_AS(write_picture(folder.path("empty.exr"), {}, header, {}), InputError);
-    CHECK(folder.files().size() == 7);
+    CHECK(folder.files().size() == 15);
+}
+
+TEST_CASE("a pipe gets a Radiance picture, whatever its name") {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.path("picture.pipe");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    std::string bytes;
+    std::thread reader([&] { bytes = read_file(pipe); });
+    write_picture(pipe, picture(), {{"history"}}, {});
+    reader.join();
+    CHECK(bytes == encode_hdr(picture(), {{"history"}}));
+    CHECK(fs::is_fifo(pipe));
 }
 
 TEST_CASE("the same picture and header give the same .exr, whenever it is written") {

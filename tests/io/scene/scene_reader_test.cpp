@@ -228,16 +228,65 @@ TEST_CASE("commands are replaced by what they write, and keep their place in mes
           "room.rad:2: !cat bad.rad:3: undefined modifier \"blue\"");
 }
 
-TEST_CASE("a failed command is a warning and reading goes on, a file without objects is one, too") {
-    const Parsed scene =
-        parse(kPlastic + "!xform -t 1 0 no_such_file\n!cat no_such_file\n" + kBall);
-    CHECK(scene.size() == 2);
-    REQUIRE(scene.warnings.size() == 4);
-    CHECK(scene.warnings[0].starts_with(
-        "room.rad:2: bad status from \"!xform -t 1 0 no_such_file\": "));
-    CHECK(scene.warnings[1] == "room.rad:2: !xform -t 1 0 no_such_file: empty file");
-    CHECK(scene.warnings[2].starts_with("room.rad:3: bad status from \"!cat no_such_file\": "));
+TEST_CASE(
+    "every command that fails is an error with its place, for a part of the scene is missing") {
+    const TemporaryFolder folder;
+    folder.write("lamp.rad", kPlastic + kBall + "red shpere b 0 0 4 0 0 3 .1\n" + kBall);
+    folder.write("inner.rad", "!xform -t 1 0 0 no_such_file\n");
+    const Parsed scene = parse(kPlastic + "!xform -t 1 0 lamp.rad\n!cat no_such_file\n" +
+                                   "!xform -t 1 0 0 lamp.rad\n!xform inner.rad\n" +
+                                   "!gensurf red s t t '1/(s-s)+1e308*10*s' 2 2\n" + kBall,
+                               inside(folder.path()));
+    const auto says = [&](const std::string& text) {
+        CAPTURE(text);
+        CHECK(scene.error.find(text) != std::string::npos);
+    };
+    says("room.rad:2: bad status from \"!xform -t 1 0 lamp.rad\": ");
+    says("room.rad:3: bad status from \"!cat no_such_file\": ");
+    says("room.rad:4: bad status from \"!xform -t 1 0 0 lamp.rad\": ");
+    says("lamp.rad:3: ");
+    says("unknown type \"shpere\"");
+    says("room.rad:5: bad status from \"!xform ");
+    says("no_such_file");
+    says("room.rad:6: bad status from \"!gensurf red s t");
     CHECK(parse("# nothing\n").warnings == std::vector<std::string>{"room.rad: empty file"});
+    CHECK(parse("# nothing\n").error.empty());
+}
+
+TEST_CASE("a failed command is told once, however often it stands in the scene") {
+    const Parsed scene =
+        parse("!xform -t 1 0 0 none\n!xform -t 2 0 0 none\n!xform -t 1 0 0 none\n");
+    CHECK(scene.error ==
+          "room.rad:1: bad status from \"!xform -t 1 0 0 none\": cannot find scene file \"none\" "
+          "in /nonexistent (and 1 more)\n"
+          "room.rad:2: bad status from \"!xform -t 2 0 0 none\": cannot find scene file \"none\" "
+          "in /nonexistent");
+}
+
+TEST_CASE("what is named like an octree, a frozen scene or a mesh is no scene text") {
+    const TemporaryFolder folder;
+    const SceneReadOptions options = inside(folder.path());
+    test::Silence silence;
+    const auto error_of = [&](const std::string& name, const std::string& bytes) -> std::string {
+        const std::vector<std::string> files{folder.write(name, bytes)};
+        try {
+            (void)read_scene(files, options, silence);
+        } catch (const InputError& error) {
+            return std::string(error.what()).substr(folder.path().size() + 1);
+        }
+        return {};
+    };
+    CHECK(error_of("a.oct", "") == "a.oct: not an octree: the file is empty");
+    CHECK(error_of("b.oct", "#?RADIANCE\n") == "b.oct: not an octree");
+    CHECK(error_of("c.oct", "# oconv: fatal\n") == "c.oct: not an octree");
+    CHECK(error_of("a.lwz", "") == "a.lwz: not a frozen scene: the file is empty");
+    CHECK(error_of("b.lwz", "light") == "b.lwz: not a frozen scene");
+    CHECK(error_of("a.rtm", "") == "a.rtm: not scene text, but a mesh: the file is empty");
+    CHECK(error_of("d", "#?RADIANCE\noconv a.rad\n#FORMAT") == "d:2: undefined modifier \"oconv\"");
+    CHECK(error_of("e", "#?RADIANCE\n# oconv\n") ==
+          "e: an information header without an end, expected an octree");
+    CHECK(error_of("a.rad", "").empty());
+    CHECK(silence.messages.size() == 1);
 }
 
 TEST_CASE("an error far within a long file has its exact line, and quotes what stands there") {
@@ -306,13 +355,12 @@ TEST_CASE("unknown programs need leave, and then run in the scene's directory") 
           "one");
     SceneReadOptions options = inside(folder.path());
     options.allow_commands = true;
-    const Parsed scene =
-        parse("!echo void sphere $(cat name.txt) 0 0 4 0 0 0 1; exit 3\n", options);
+    const Parsed scene = parse("!echo void sphere $(cat name.txt) 0 0 4 0 0 0 1\n", options);
     REQUIRE(scene.size() == 1);
     CHECK(scene.at(0).name == "ball");
-    CHECK(scene.warnings ==
-          std::vector<std::string>{"room.rad:1: bad status from \"!echo void sphere $(cat "
-                                   "name.txt) 0 0 4 0 0 0 1; exit 3\""});
+    CHECK(scene.warnings.empty());
+    CHECK(parse("!echo void sphere b 0 0 4 0 0 0 1; exit 3\n", options).error ==
+          "room.rad:1: bad status from \"!echo void sphere b 0 0 4 0 0 0 1; exit 3\"");
 }
 
 TEST_CASE("commands do not read the program's input") {
