@@ -1,5 +1,7 @@
 #include "io/scene/scene_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -18,12 +20,30 @@
 namespace lightwalk {
 namespace {
 
+bool ends_with_any_case(std::string_view name, std::string_view ending) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    return name.size() >= ending.size() &&
+           std::ranges::equal(name.substr(name.size() - ending.size()), ending, {}, lower);
+}
+
 constexpr int kMaxNesting = 64;  ///< commands that write commands that write commands ...
 
 /// The bytes of one argument, and what messages call it.
 struct SceneText {
     std::string bytes, name;
 };
+
+/// Files that a generator makes a scene of, by their ending.
+constexpr std::array<std::pair<std::string_view, const char*>, 1> kConverters = {
+    {{".ies", "ies2rad"}}};
+
+/// The generator for a file of this name; null for scene files and octrees.
+const char* converter_of(const std::string& name) {
+    for (const auto& [ending, program] : kConverters) {
+        if (ends_with_any_case(name, ending)) return program;
+    }
+    return nullptr;
+}
 
 class SceneReader {
   public:
@@ -35,13 +55,17 @@ class SceneReader {
           warnings_(warnings),
           make_pipe_(options.pipe) {}
 
-    /// Open a scene argument: a file, "-", or "!command".
+    /// Open a scene argument: a file, "-", or "!command". A luminaire's file becomes a scene whose
+    /// names are the file's.
     SceneText open(const std::string& argument) {
         if (argument == "-") return {files_.standard_input(), "standard input"};
         if (!argument.empty() && argument[0] == '!') {
             return {runner_.run(argument, directory_, {abbreviate_command(argument), 0}),
                     abbreviate_command(argument)};
         }
+        if (const char* converter = converter_of(argument))
+            return {runner_.convert({converter, "-s", "-o", argument, argument}, directory_),
+                    argument};
         const std::string path = path_from(directory_, argument);
         return {files_.read(path), path};
     }

@@ -148,5 +148,8 @@ TEST_CASE("mutated frozen scenes whose digests fit are read or refused") {
 TEST_CASE("mutated files of BSDF data are read or refused") {
     endure(kFuzzTargets[8]);
 }
+TEST_CASE("mutated photometric data and lamp tables are read or refused") {
+    endure(kFuzzTargets[9]);
+}
 
 }  // namespace lightwalk::test

@@ -50,6 +50,12 @@ silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
 !gensky 6 21 12 +s
 )rad";
 
+const std::string kIes =
+    "IESNA:LM-63-2002\n[LAMP] xenon\nTILT=INCLUDE\n2\n3\n0 45 90\n1 .9 .8\n1 1000 2 3 2 1 2 -.3 "
+    "-.3 .2\n.9 1 60\n0 45 180\n0 90\n10 20 30 40 50 60\n";
+const std::string kLampTable =
+    "# lamps\n/cool[- ]white/ .373 .385 .85\n/\\<fluor/ (cool white)\n%x.*y% .3 .3 1\n";
+
 const std::string kFunctions = R"({ comments { nest } }
 a = if(Px - .5, noise3(Px,Py,Pz)*k, sqrt(max(0, Dz)));
 k : 3*PI/2;
@@ -212,6 +218,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_picture) return pictures;
     if (target == read_walk_request) return requests;
     static const std::vector<std::string> frozen{frozen_scene()};
+    static const std::vector<std::string> luminaires{kIes, kLampTable};
+    if (target == read_luminaire) return luminaires;
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;
 }

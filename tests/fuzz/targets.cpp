@@ -14,7 +14,10 @@
 #include "core/trace/tracer.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
+#include "io/generators/luminaire_scene.h"
 #include "io/net/walk_request.h"
+#include "io/photometry/ies_file.h"
+#include "io/photometry/lamp_table.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/scene/binary_models.h"
@@ -129,6 +132,23 @@ bool read_bsdf_file(std::string_view bytes) {
             }
         }
     });
+}
+
+bool read_luminaire(std::string_view bytes) {
+    const auto show = [](const Photometry& photometry) {
+        (void)luminaire_scene(photometry, {"mutant", "mutant.dat"});
+        (void)decode_data(luminaire_data(photometry), "mutant.dat");
+    };
+    const bool ies = accepts([&] {
+        const IesFile file = decode_ies(bytes, "mutant.ies");
+        show(file.photometry);
+        if (file.tilt) (void)decode_data(tilt_data(*file.tilt), "mutant.dat");
+    });
+    const bool lamps = accepts([&] {
+        const LampTable table(bytes, "mutant.tab");
+        if (const auto lamp = table.find("a cool white fluorescent lamp")) (void)lamp->color();
+    });
+    return ies || lamps;
 }
 
 bool read_walk_request(std::string_view bytes) {

@@ -21,6 +21,7 @@ bool read_bsdf_file(std::string_view bytes);      ///< decode, look up, add up a
 bool read_walk_request(std::string_view bytes);   ///< a browser's message
 bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, compile, trace
 bool read_resealed(std::string_view bytes);       ///< a frozen scene whose digests are made right
+bool read_luminaire(std::string_view bytes);      ///< photometric data, a table of lamps
 
 /// Valid inputs for each target; generated, so that the tests need no files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
@@ -30,8 +31,9 @@ struct NamedTarget {
     FuzzTarget run;
 };
 inline constexpr NamedTarget kFuzzTargets[] = {
-    {"scene", read_scene_text}, {"octree", read_octree},     {"function", read_function_file},
-    {"picture", read_picture},  {"data", read_data_file},    {"request", read_walk_request},
-    {"frozen", read_frozen},    {"resealed", read_resealed}, {"bsdf", read_bsdf_file}};
+    {"scene", read_scene_text},   {"octree", read_octree},     {"function", read_function_file},
+    {"picture", read_picture},    {"data", read_data_file},    {"request", read_walk_request},
+    {"frozen", read_frozen},      {"resealed", read_resealed}, {"bsdf", read_bsdf_file},
+    {"luminaire", read_luminaire}};
 
 }  // namespace lightwalk::test
