@@ -16,15 +16,10 @@
 #include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/command_runner.h"
+#include "io/scene/obj_scene.h"
 
 namespace lightwalk {
 namespace {
-
-bool ends_with_any_case(std::string_view name, std::string_view ending) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    return name.size() >= ending.size() &&
-           std::ranges::equal(name.substr(name.size() - ending.size()), ending, {}, lower);
-}
 
 constexpr int kMaxNesting = 64;  ///< commands that write commands that write commands ...
 
@@ -40,7 +35,7 @@ constexpr std::array<std::pair<std::string_view, const char*>, 1> kConverters = 
 /// The generator for a file of this name; null for scene files and octrees.
 const char* converter_of(const std::string& name) {
     for (const auto& [ending, program] : kConverters) {
-        if (ends_with_any_case(name, ending)) return program;
+        if (has_ending(name, ending)) return program;
     }
     return nullptr;
 }
@@ -55,8 +50,8 @@ class SceneReader {
           warnings_(warnings),
           make_pipe_(options.pipe) {}
 
-    /// Open a scene argument: a file, "-", or "!command". A luminaire's file becomes a scene whose
-    /// names are the file's.
+    /// Open a scene argument: a file, "-", or "!command". A luminaire's file becomes a scene
+    /// whose names are the file's, and an object file one of meshes.
     SceneText open(const std::string& argument) {
         if (argument == "-") return {files_.standard_input(), "standard input"};
         if (!argument.empty() && argument[0] == '!') {
@@ -67,6 +62,7 @@ class SceneReader {
             return {runner_.convert({converter, "-s", "-o", argument, argument}, directory_),
                     argument};
         const std::string path = path_from(directory_, argument);
+        if (has_ending(argument, ".obj")) return {read_object(argument, path), path};
         return {files_.read(path), path};
     }
 
@@ -81,6 +77,13 @@ class SceneReader {
     [[nodiscard]] std::shared_ptr<Model> release() { return builder_.release(); }
 
   private:
+    std::string read_object(const std::string& name, const std::string& path) {
+        const auto defined = [this](const std::string& modifier) {
+            return builder_.is_defined(modifier);
+        };
+        return obj_scene(name, path, files_, defined, warnings_);
+    }
+
     /// Reads the output of the command that stands at `outer`.
     class OutputReader final : public TextSink {
       public:

@@ -151,5 +151,8 @@ TEST_CASE("mutated files of BSDF data are read or refused") {
 TEST_CASE("mutated photometric data and lamp tables are read or refused") {
     endure(kFuzzTargets[9]);
 }
+TEST_CASE("mutated object files and their materials are read or refused") {
+    endure(kFuzzTargets[10]);
+}
 
 }  // namespace lightwalk::test

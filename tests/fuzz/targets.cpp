@@ -23,6 +23,8 @@
 #include "io/scene/binary_models.h"
 #include "io/scene/frozen_scene.h"
 #include "io/scene/scene_reader.h"
+#include "io/wavefront/mtl_file.h"
+#include "io/wavefront/obj_mesh.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk::test {
@@ -149,6 +151,31 @@ bool read_luminaire(std::string_view bytes) {
         if (const auto lamp = table.find("a cool white fluorescent lamp")) (void)lamp->color();
     });
     return ies || lamps;
+}
+
+bool read_wavefront(std::string_view bytes) {
+    const bool object = accepts([&] {
+        const ObjFile file = decode_obj(bytes, "mutant.obj");
+        MemoryResources resources;
+        resources.meshes["mutant"] =
+            std::make_shared<const MeshModel>(mesh_of_obj(file, std::nullopt, {}));
+        for (const ObjFile::Face& face : file.faces) (void)triangulate(file, face, 1);
+        Silence silence;
+        SceneReadOptions options;
+        options.library = LibraryPath(std::vector<std::string>{});
+        trace_some(parse_scene("void plastic p 0 0 5 .5 .5 .5 0 0\np mesh m 1 mutant 0 0\n",
+                               "mutant.rad", options, silence),
+                   resources);
+    });
+    const bool materials = accepts([&] {
+        Silence silence;
+        SceneReadOptions options;
+        options.library = LibraryPath(std::vector<std::string>{});
+        for (const MtlMaterial& material : decode_mtl(bytes, "mutant.mtl"))
+            trace_some(
+                parse_scene(mtl_scene(material, std::nullopt), "mutant.rad", options, silence));
+    });
+    return object && materials;
 }
 
 bool read_walk_request(std::string_view bytes) {
