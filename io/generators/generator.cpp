@@ -7,7 +7,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Generator>, 12> kGenerators = {{
+constexpr std::array<std::pair<std::string_view, Generator>, 13> kGenerators = {{
     {"xform", &run_xform},
     {"genbox", &run_genbox},
     {"gensurf", &run_gensurf},
@@ -19,6 +19,7 @@ constexpr std::array<std::pair<std::string_view, Generator>, 12> kGenerators = {
     {"gendaylit", &run_gendaylit},
     {"replmarks", &run_replmarks},
     {"ies2rad", &run_ies2rad},
+    {"ldt2rad", &run_ldt2rad},
     {"obj2rad", &run_obj2rad},
 }};
 

@@ -60,6 +60,7 @@ DataCoordinates coordinates_c(const Photometry& photometry) {
     if (range <= 90) return {{"src_phi4", "src_theta"}, {}};
     if (range > 180) return {{"src_phi", "src_theta"}, {}};
     if (std::abs(first - 90) > kAngleTolerance) return {{"src_phi2", "src_theta"}, {}};
+    // As ies2rad has it, by which the planes of 90 and of 270 degrees change places.
     return {{"src_phi2+90", "src_theta"}, {"-rz", "-90"}};
 }
 

@@ -29,8 +29,8 @@ struct SceneText {
 };
 
 /// Files that a generator makes a scene of, by their ending.
-constexpr std::array<std::pair<std::string_view, const char*>, 1> kConverters = {
-    {{".ies", "ies2rad"}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 2> kConverters = {
+    {{".ies", "ies2rad"}, {".ldt", "ldt2rad"}}};
 
 /// The generator for a file of this name; null for scene files and octrees.
 const char* converter_of(const std::string& name) {

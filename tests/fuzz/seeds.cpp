@@ -53,6 +53,11 @@ silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
 const std::string kIes =
     "IESNA:LM-63-2002\n[LAMP] xenon\nTILT=INCLUDE\n2\n3\n0 45 90\n1 .9 .8\n1 1000 2 3 2 1 2 -.3 "
     "-.3 .2\n.9 1 60\n0 45 180\n0 90\n10 20 30 40 50 60\n";
+const std::string kEulumdat =
+    "maker\n1\n4\n4\n90\n3\n45\nr\nn\nn\nf\nd\n600\n600\n90\n400\n300\n0\n0\n0\n0\n100\n80\n1\n0\n1"
+    "\n1\n"
+    "LED\n2000\n3000\n80\n20\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n0\n90\n180\n270\n0\n45\n90\n100\n90\n80"
+    "\n110\n95\n85\n";
 const std::string kLampTable =
     "# lamps\n/cool[- ]white/ .373 .385 .85\n/\\<fluor/ (cool white)\n%x.*y% .3 .3 1\n";
 
@@ -227,7 +232,7 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_picture) return pictures;
     if (target == read_walk_request) return requests;
     static const std::vector<std::string> frozen{frozen_scene()};
-    static const std::vector<std::string> luminaires{kIes, kLampTable};
+    static const std::vector<std::string> luminaires{kIes, kLampTable, kEulumdat};
     if (target == read_luminaire) return luminaires;
     static const std::vector<std::string> objects{kObject, kObjectMaterials};
     if (target == read_wavefront) return objects;

@@ -16,6 +16,7 @@
 #include "io/formats/decode.h"
 #include "io/generators/luminaire_scene.h"
 #include "io/net/walk_request.h"
+#include "io/photometry/eulumdat.h"
 #include "io/photometry/ies_file.h"
 #include "io/photometry/lamp_table.h"
 #include "io/picture/picture.h"
@@ -150,7 +151,8 @@ bool read_luminaire(std::string_view bytes) {
         const LampTable table(bytes, "mutant.tab");
         if (const auto lamp = table.find("a cool white fluorescent lamp")) (void)lamp->color();
     });
-    return ies || lamps;
+    const bool ldt = accepts([&] { show(decode_eulumdat(bytes, "mutant.ldt").photometry); });
+    return ies || lamps || ldt;
 }
 
 bool read_wavefront(std::string_view bytes) {
