@@ -30,6 +30,9 @@ class ModelBuilder {
     /// "undefined modifier ..., did you mean ..." for a name that nothing has defined.
     [[nodiscard]] std::int32_t modifier(const std::string& name, const SourceLocation& where) const;
 
+    /// Whether something has defined a modifier of this name.
+    [[nodiscard]] bool is_defined(const std::string& name) const { return names_.contains(name); }
+
     /// Add a primitive whose `modifier` is an index into this model's modifiers (or void) and whose
     /// `references` are still empty; returns its index among the modifiers or the surfaces. Throws
     /// InputError for an illegal name, and for a modifier that is none. A modifier that equals the

@@ -53,11 +53,23 @@ std::optional<std::string> answer_of(const std::string& recorded) {
 
 }  // namespace
 
+bool FileSource::keep(const std::string& path, std::string bytes) {
+    const auto [at, is_new] = kept_.try_emplace(path);
+    const bool same = is_new || at->second == bytes;
+    at->second = std::move(bytes);
+    return same;
+}
+
 bool FileSource::readable(const std::string& path) {
-    return answer(Question::readable, path, 0).has_value();
+    return keeps(path) || answer(Question::readable, path, 0).has_value();
 }
 
 std::string FileSource::read(const std::string& path, std::size_t limit) {
+    if (const auto kept = kept_.find(path); kept != kept_.end()) {
+        if (kept->second.size() > limit)
+            throw InputError({path, 0}, "larger than " + std::to_string(limit) + " bytes");
+        return kept->second;
+    }
     return answer(Question::bytes, path, limit).value_or("");
 }
 

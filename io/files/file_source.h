@@ -14,7 +14,8 @@ namespace lightwalk {
 
 inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 
-/// Everything that readers take from outside the process, as questions and answers. For one thread.
+/// Everything that readers take from outside the process, as questions and answers, and the files
+/// that generators make beside their output, which are nowhere else. For one thread.
 class FileSource {
   public:
     enum class Question : char {
@@ -43,6 +44,16 @@ class FileSource {
     [[nodiscard]] std::string standard_input();
     [[nodiscard]] std::vector<std::string> matches(const std::string& pattern);
     [[nodiscard]] std::optional<std::string> place(const std::string& name);
+
+    /// Keep a file in memory: from now on `readable` and `read` know `path` by these bytes,
+    /// whatever the source says. Whoever repeats the reading makes it again, so it is no answer of
+    /// the source, and neither recorded nor sent.
+    /// @return  false when other bytes stood there, which are forgotten
+    bool keep(const std::string& path, std::string bytes);
+    [[nodiscard]] bool keeps(const std::string& path) const { return kept_.contains(path); }
+
+  private:
+    std::map<std::string, std::string> kept_;
 };
 
 /// The source that asks the operating system: files, environment and standard input of the process.

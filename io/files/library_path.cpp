@@ -92,6 +92,7 @@ LibraryPath LibraryPath::relative_to(const std::string& directory) const {
 
 std::optional<std::string> LibraryPath::find(const std::string& name) const {
     if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;
+    if (std::string path = path_from(base_, name); files_->keeps(path)) return path;
     if (name[0] == '/' || name[0] == '.') {
         const std::string path = path_from(base_, name);
         return files_->readable(path) ? std::optional(path) : std::nullopt;

@@ -18,7 +18,8 @@ class LibraryPath {
     explicit LibraryPath(std::vector<std::string> directories,
                          std::shared_ptr<FileSource> files = real_files());
 
-    /// The first readable regular file of this name along the path; nothing when there is none.
+    /// The first readable regular file of this name along the path; nothing when there is none. A
+    /// file that a generator has made, and the source keeps, comes first.
     /// Names that begin with / or . are not searched for; ~ and ~user are home directories.
     [[nodiscard]] std::optional<std::string> find(const std::string& name) const;
     /// The result of find(); throws MissingFile "cannot find KIND \"NAME\" in A:B:C" when there is

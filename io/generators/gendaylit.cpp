@@ -23,7 +23,7 @@ constexpr std::string_view kGendaylitUsage =
     "[-P clearness brightness | -W direct diffuse | -G direct diffuse | -L direct diffuse | -E "
     "global] "
     "[options]";
-constexpr double kEfficacy = 179;                 ///< Radiance's lumens per watt
+constexpr double kLumensPerWatt = 179;            ///< Radiance's lumens per watt
 constexpr double kMaxIrradiance = 1367;           ///< [W/m²]
 constexpr double kMaxIlluminance = 127500;        ///< [lx]
 constexpr double kSunAngle = 0.533;               ///< [deg]
@@ -279,7 +279,7 @@ SkyOutput sky_output(const DaylitOptions& sky, const Weather& weather, const Sol
     const double solid_angle = 2 * kPi * (1 - std::cos(kSunAngle / 2 * kPi / 180));
     DaylightPair light = weather.illuminance;
     if (sky.units == SkyUnits::solar_radiance) light = weather.irradiance;
-    const double efficacy = sky.units == SkyUnits::visible_radiance ? kEfficacy : 1;
+    const double efficacy = sky.units == SkyUnits::visible_radiance ? kLumensPerWatt : 1;
     SkyOutput result;
     result.scale = light.diffuse / (efficacy * integral);
     result.sun = light.direct / (efficacy * solid_angle);

@@ -7,7 +7,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Generator>, 10> kGenerators = {{
+constexpr std::array<std::pair<std::string_view, Generator>, 13> kGenerators = {{
     {"xform", &run_xform},
     {"genbox", &run_genbox},
     {"gensurf", &run_gensurf},
@@ -18,6 +18,9 @@ constexpr std::array<std::pair<std::string_view, Generator>, 10> kGenerators = {
     {"gensky", &run_gensky},
     {"gendaylit", &run_gendaylit},
     {"replmarks", &run_replmarks},
+    {"ies2rad", &run_ies2rad},
+    {"ldt2rad", &run_ldt2rad},
+    {"obj2rad", &run_obj2rad},
 }};
 
 }  // namespace

@@ -106,6 +106,15 @@ void CommandRunner::run(const std::string& command, const std::string& directory
     sink.push(run_to(command, directory, where, &sink));
 }
 
+std::string CommandRunner::convert(const std::vector<std::string>& args,
+                                   const std::string& directory) {
+    const LibraryPath library = library_.relative_to(directory);
+    GeneratorContext context{library, directory, {}, false, warnings_, {}};
+    std::string output = find_generator(args[0])(args, context);
+    charge(output.size(), {args.back(), 0});
+    return output;
+}
+
 std::string CommandRunner::run_to(const std::string& command, const std::string& directory,
                                   const SourceLocation& where, TextSink* sink) {
     const DepthGuard guard(depth_);

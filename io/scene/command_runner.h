@@ -30,6 +30,11 @@ class CommandRunner {
     void run(const std::string& command, const std::string& directory, const SourceLocation& where,
              TextSink& sink);
 
+    /// The output of the built-in generator args[0]. Unlike a command's failure an InputError is
+    /// thrown.
+    [[nodiscard]] std::string convert(const std::vector<std::string>& args,
+                                      const std::string& directory);
+
   private:
     class Output;
 

@@ -11,7 +11,9 @@
 #include "io/picture/picture_data.h"
 #include "io/picture/spectral_picture.h"
 #include "io/scene/binary_models.h"
+#include "io/scene/obj_scene.h"
 #include "io/scene/scene_reader.h"
+#include "io/wavefront/obj_mesh.h"
 
 namespace lightwalk {
 namespace {
@@ -117,9 +119,30 @@ std::shared_ptr<const Model> FileResources::octree(const std::string& name) {
 
 std::shared_ptr<const MeshModel> FileResources::mesh(const std::string& name) {
     return cached(meshes_, name, [&] {
+        if (const std::optional<ObjName> object = obj_name(name)) return obj_mesh(*object);
         const std::string path = path_.locate(name, "mesh file");
         return std::make_shared<const MeshModel>(decode_mesh(path_.files().read(path), path));
     });
+}
+
+/// The file is decoded once for all of its parts.
+std::shared_ptr<const MeshModel> FileResources::obj_mesh(const ObjName& name) {
+    const std::string path = path_.locate(name.file, "object file");
+    const ObjFile file = decode_obj(path_.files().read(path), path);
+    if (!name.material) {
+        // The scene names pictures as it names this file, unless the library path leads to it.
+        const bool here = path == path_from(path_.base(), name.file);
+        Model materials =
+            obj_materials(file, path, directory_of(here ? name.file : path), path_, warnings_);
+        return std::make_shared<const MeshModel>(
+            mesh_of_obj(file, std::nullopt, std::move(materials)));
+    }
+    for (const std::string& material : materials_of(file)) {
+        if (material != *name.material)
+            meshes_.emplace(name.file + kObjPart + material,
+                            std::make_shared<const MeshModel>(mesh_of_obj(file, material, {})));
+    }
+    return std::make_shared<const MeshModel>(mesh_of_obj(file, name.material, {}));
 }
 
 /// A file's bytes, and what they turn out to be.
@@ -162,6 +185,7 @@ bool FileResources::is_known(const NamedFile& file) const {
 }
 
 std::optional<FileResources::Reading> FileResources::read(const NamedFile& file) {
+    if (file.kind == NamedFile::Kind::mesh && obj_name(file.name)) return std::nullopt;
     try {
         std::string path;
         if (file.kind == NamedFile::Kind::picture)

@@ -12,6 +12,8 @@
 
 namespace lightwalk {
 
+struct ObjName;
+
 /// For one thread, which builds a scene. Relative names, also those inside an octree that is not
 /// frozen, are resolved against `path`'s base directory.
 class FileResources final : public Resources {
@@ -28,6 +30,8 @@ class FileResources final : public Resources {
     /// Lines longer than 511 bytes are divided there; the last line end is optional.
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
+    /// A compiled mesh, or an object file (.obj): all of it, with the materials of its mtllib, or
+    /// as FILE#NAME the faces of one material, without any.
     [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
     /// Reads files one after the other, a bounded number of bytes at a time, and decodes them in
     /// parallel. Octrees that are not frozen are read when they are asked for.
@@ -36,6 +40,7 @@ class FileResources final : public Resources {
 
   private:
     struct Reading;
+    [[nodiscard]] std::shared_ptr<const MeshModel> obj_mesh(const ObjName& name);
     [[nodiscard]] bool is_known(const NamedFile& file) const;
     /// The bytes of a file; nothing if it does not exist or cannot be read.
     [[nodiscard]] std::optional<Reading> read(const NamedFile& file);

@@ -1,5 +1,6 @@
 #include "io/scene/scene_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/command_runner.h"
+#include "io/scene/obj_scene.h"
 
 namespace lightwalk {
 namespace {
@@ -41,6 +43,18 @@ struct SceneText {
     std::string bytes, name;
 };
 
+/// Files that a generator makes a scene of, by their ending.
+constexpr std::array<std::pair<std::string_view, const char*>, 2> kConverters = {
+    {{".ies", "ies2rad"}, {".ldt", "ldt2rad"}}};
+
+/// The generator for a file of this name; null for scene files and octrees.
+const char* converter_of(const std::string& name) {
+    for (const auto& [ending, program] : kConverters) {
+        if (has_ending(name, ending)) return program;
+    }
+    return nullptr;
+}
+
 class SceneReader {
   public:
     SceneReader(const SceneReadOptions& options, WarningSink& warnings, ProblemList& problems)
@@ -51,7 +65,8 @@ class SceneReader {
           warnings_(warnings),
           make_pipe_(options.pipe) {}
 
-    /// Open a scene argument: a file, "-", or "!command".
+    /// Open a scene argument: a file, "-", or "!command". A luminaire's file becomes a scene
+    /// whose names are the file's, and an object file one of meshes.
     SceneText open(const std::string& argument) {
         if (argument == "-") {
             SceneText text{files_.standard_input(), "standard input"};
@@ -63,7 +78,11 @@ class SceneReader {
             return {runner_.run(argument, directory_, {abbreviate_command(argument), 0}),
                     abbreviate_command(argument)};
         }
+        if (const char* converter = converter_of(argument))
+            return {runner_.convert({converter, "-s", "-o", argument, argument}, directory_),
+                    argument};
         const std::string path = path_from(directory_, argument);
+        if (has_ending(argument, ".obj")) return {read_object(argument, path), path};
         return {files_.read(path), path};
     }
 
@@ -107,6 +126,13 @@ class SceneReader {
     }
 
   private:
+    std::string read_object(const std::string& name, const std::string& path) {
+        const auto defined = [this](const std::string& modifier) {
+            return builder_.is_defined(modifier);
+        };
+        return obj_scene(name, path, files_, defined, warnings_);
+    }
+
     /// Reads the output of the command that stands at `outer`.
     class OutputReader final : public TextSink {
       public:

@@ -151,5 +151,11 @@ TEST_CASE("mutated files of BSDF data are read or refused") {
 TEST_CASE("mutated rad files are read or refused") {
     endure(kFuzzTargets[9]);
 }
+TEST_CASE("mutated photometric data and lamp tables are read or refused") {
+    endure(kFuzzTargets[10]);
+}
+TEST_CASE("mutated object files and their materials are read or refused") {
+    endure(kFuzzTargets[11]);
+}
 
 }  // namespace lightwalk::test

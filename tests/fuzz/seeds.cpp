@@ -50,6 +50,26 @@ silver polygon glassy 0 0 12 -2 1.9 .2 -1 1.9 .2 -1 1.9 1.2 -2 1.9 1.2
 !gensky 6 21 12 +s
 )rad";
 
+const std::string kIes =
+    "IESNA:LM-63-2002\n[LAMP] xenon\nTILT=INCLUDE\n2\n3\n0 45 90\n1 .9 .8\n1 1000 2 3 2 1 2 -.3 "
+    "-.3 .2\n.9 1 60\n0 45 180\n0 90\n10 20 30 40 50 60\n";
+const std::string kEulumdat =
+    "maker\n1\n4\n4\n90\n3\n45\nr\nn\nn\nf\nd\n600\n600\n90\n400\n300\n0\n0\n0\n0\n100\n80\n1\n0\n1"
+    "\n1\n"
+    "LED\n2000\n3000\n80\n20\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n0\n90\n180\n270\n0\n45\n90\n100\n90\n80"
+    "\n110\n95\n85\n";
+const std::string kLampTable =
+    "# lamps\n/cool[- ]white/ .373 .385 .85\n/\\<fluor/ (cool white)\n%x.*y% .3 .3 1\n";
+
+const std::string kObject =
+    "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .2\nv .5 .2 0\nvn 0 0 1\nvn .1 0 2\nvt 0 0\nvt "
+    "1 .5\n"
+    "o thing\ng part\nf 1 2 3 4 5\nusemtl red\nf 1/1/1 2/2/2 -1/1/1\nf 1//1 2//2 \\\n3//1 4//1\n";
+const std::string kObjectMaterials =
+    "newmtl a\nKd .8 .7 .6\nKs .1 .1 .1\nNs 100\nillum 2\nnewmtl b\nKd .2 .2 .2\nKs .7 .5 .3\nNs "
+    "20\nd "
+    ".5\nnewmtl c\nd .1\nTf 1 .9 .8\nNi 1.5\nillum 4\nnewmtl d\nKe 3 2 1\nmap_Kd -s 1 1 1 a.hdr\n";
+
 const std::string kFunctions = R"({ comments { nest } }
 a = if(Px - .5, noise3(Px,Py,Pz)*k, sqrt(max(0, Dz)));
 k : 3*PI/2;
@@ -237,6 +257,10 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     static const std::vector<std::string> rads{kRad, "scene= a.rad\nview= -vf a.vf\n"};
     if (target == read_rad_file) return rads;
     static const std::vector<std::string> frozen{frozen_scene()};
+    static const std::vector<std::string> luminaires{kIes, kLampTable, kEulumdat};
+    if (target == read_luminaire) return luminaires;
+    static const std::vector<std::string> objects{kObject, kObjectMaterials};
+    if (target == read_wavefront) return objects;
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;
 }

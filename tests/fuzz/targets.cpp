@@ -14,7 +14,11 @@
 #include "core/trace/tracer.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
+#include "io/generators/luminaire_scene.h"
 #include "io/net/walk_request.h"
+#include "io/photometry/eulumdat.h"
+#include "io/photometry/ies_file.h"
+#include "io/photometry/lamp_table.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/rad/rad_options.h"
@@ -22,6 +26,8 @@
 #include "io/scene/binary_models.h"
 #include "io/scene/frozen_scene.h"
 #include "io/scene/scene_reader.h"
+#include "io/wavefront/mtl_file.h"
+#include "io/wavefront/obj_mesh.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk::test {
@@ -144,6 +150,49 @@ bool read_rad_file(std::string_view bytes) {
         (void)rad_scatter_step(plan, zone);
         (void)find_rad_view(plan, "1");
     });
+}
+
+bool read_luminaire(std::string_view bytes) {
+    const auto show = [](const Photometry& photometry) {
+        (void)luminaire_scene(photometry, {"mutant", "mutant.dat"});
+        (void)decode_data(luminaire_data(photometry), "mutant.dat");
+    };
+    const bool ies = accepts([&] {
+        const IesFile file = decode_ies(bytes, "mutant.ies");
+        show(file.photometry);
+        if (file.tilt) (void)decode_data(tilt_data(*file.tilt), "mutant.dat");
+    });
+    const bool lamps = accepts([&] {
+        const LampTable table(bytes, "mutant.tab");
+        if (const auto lamp = table.find("a cool white fluorescent lamp")) (void)lamp->color();
+    });
+    const bool ldt = accepts([&] { show(decode_eulumdat(bytes, "mutant.ldt").photometry); });
+    return ies || lamps || ldt;
+}
+
+bool read_wavefront(std::string_view bytes) {
+    const bool object = accepts([&] {
+        const ObjFile file = decode_obj(bytes, "mutant.obj");
+        MemoryResources resources;
+        resources.meshes["mutant"] =
+            std::make_shared<const MeshModel>(mesh_of_obj(file, std::nullopt, {}));
+        for (const ObjFile::Face& face : file.faces) (void)triangulate(file, face, 1);
+        Silence silence;
+        SceneReadOptions options;
+        options.library = LibraryPath(std::vector<std::string>{});
+        trace_some(parse_scene("void plastic p 0 0 5 .5 .5 .5 0 0\np mesh m 1 mutant 0 0\n",
+                               "mutant.rad", options, silence),
+                   resources);
+    });
+    const bool materials = accepts([&] {
+        Silence silence;
+        SceneReadOptions options;
+        options.library = LibraryPath(std::vector<std::string>{});
+        for (const MtlMaterial& material : decode_mtl(bytes, "mutant.mtl"))
+            trace_some(
+                parse_scene(mtl_scene(material, std::nullopt), "mutant.rad", options, silence));
+    });
+    return object && materials;
 }
 
 bool read_walk_request(std::string_view bytes) {

@@ -22,6 +22,8 @@ bool read_walk_request(std::string_view bytes);   ///< a browser's message
 bool read_rad_file(std::string_view bytes);       ///< variables, views and options
 bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, compile, trace
 bool read_resealed(std::string_view bytes);       ///< a frozen scene whose digests are made right
+bool read_luminaire(std::string_view bytes);      ///< photometric data, a table of lamps
+bool read_wavefront(std::string_view bytes);      ///< an object file as a mesh, a material file
 
 /// Valid inputs for each target; generated, so that the tests need no files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
@@ -31,9 +33,9 @@ struct NamedTarget {
     FuzzTarget run;
 };
 inline constexpr NamedTarget kFuzzTargets[] = {
-    {"scene", read_scene_text}, {"octree", read_octree},     {"function", read_function_file},
-    {"picture", read_picture},  {"data", read_data_file},    {"request", read_walk_request},
-    {"frozen", read_frozen},    {"resealed", read_resealed}, {"bsdf", read_bsdf_file},
-    {"rad", read_rad_file}};
+    {"scene", read_scene_text}, {"octree", read_octree},       {"function", read_function_file},
+    {"picture", read_picture},  {"data", read_data_file},      {"request", read_walk_request},
+    {"frozen", read_frozen},    {"resealed", read_resealed},   {"bsdf", read_bsdf_file},
+    {"rad", read_rad_file},     {"luminaire", read_luminaire}, {"wavefront", read_wavefront}};
 
 }  // namespace lightwalk::test
