@@ -25,7 +25,6 @@ struct BsdfComponent {
 /// on BSDF directions.
 class Bsdf {
   public:
-    /// Throws InputError for data that cannot be used.
     explicit Bsdf(std::shared_ptr<const BsdfData> data);
 
     [[nodiscard]] const BsdfData& data() const { return *data_; }

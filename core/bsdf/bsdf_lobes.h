@@ -24,6 +24,9 @@ class BsdfLobes {
         Rgb f;                   ///< [1/sr]
         double solid_angle = 0;  ///< projected, of the cell [sr]
         std::uint64_t cell = 0;  ///< which one, for the same e
+        /// False where there is nothing but the Lambertian part. Cells of matrices never are so: as
+        /// in Radiance, which tells equal ones apart by small differences.
+        bool has_lobe = true;
     };
     struct Sample {
         ProjectedDirection l;
@@ -60,7 +63,6 @@ struct SplitLobes {
 /// @param reversed  take the values for (e, l) from (l, e): by reciprocity those of light that
 /// comes
 ///                  from the other side
-/// Throws InputError for trees whose slices are too many to be added up.
 [[nodiscard]] SplitLobes make_matrix_lobes(const BsdfMatrix& table, bool reversed);
 [[nodiscard]] SplitLobes make_tree_lobes(const BsdfTree& table, bool reversed);
 

@@ -129,7 +129,7 @@ BsdfLobes::Value MatrixLobes::value(const ProjectedDirection& e,
                                     const ProjectedDirection& l) const {
     const std::size_t row = row_of(e), column = column_of(l), at = row * columns_.size() + column;
     const Rgb f = tints_.empty() ? Rgb::grey(values_[at]) : tints_[at] * values_[at];
-    return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column};
+    return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column, true};
 }
 
 BsdfLobes::Sample MatrixLobes::sample(const ProjectedDirection& e, double choice, double xi1,

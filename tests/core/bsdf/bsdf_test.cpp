@@ -234,6 +234,45 @@ TEST_CASE("BSDF: what is made of a tree of 16^4 leaves takes less than the leave
     CHECK(bsdf.own_bytes() < std::size_t{65536} * sizeof(float) * 2);
 }
 
+TEST_CASE("BSDF: sums over a tree take time in proportion to its nodes, however uneven they are") {
+    // Over a corner of the incident square there are 65536 exitant leaves, and over one of these
+    // 16384 incident cells: leaf by leaf the slices would take a billion steps.
+    BsdfTree table{TensorTree(4), {}, {}};
+    const auto divide = [&](const std::function<TensorTree::Entry(std::size_t)>& child) {
+        std::array<TensorTree::Entry, 16> children{};
+        for (std::size_t c = 0; c < 16; ++c) children[c] = child(c);
+        return table.y.add(children);
+    };
+    const auto leaf = [](float value) { return TensorTree::leaf(value); };
+    const std::function<TensorTree::Entry(int, float)> incident = [&](int levels, float value) {
+        return divide([&](std::size_t c) {
+            return c >> 2 == 0 && levels > 1 ? incident(levels - 1, value) : leaf(value);
+        });
+    };
+    const std::function<TensorTree::Entry(int, bool, float)> exitant = [&](int levels, bool corner,
+                                                                           float value) {
+        return divide([&](std::size_t c) {
+            // Half of the exitant square is dark.
+            const float below = levels < 8 ? value : (c >> 2 & 1U) == 0 ? 0.2f : 0.0f;
+            if ((c & 3U) != 0) return leaf(below);
+            const bool in_corner = corner && c == 0;
+            if (levels > 1) return exitant(levels - 1, in_corner, below);
+            return in_corner ? incident(7, below) : leaf(below);
+        });
+    };
+    table.y.set_root(exitant(8, true, 0));
+    REQUIRE(table.y.sound());
+    const Bsdf bsdf = bsdf_of(BsdfPart::front_transmission, table);
+    const BsdfLobes& lobes = *bsdf.transmission(true).lobes;
+    std::vector<ProjectedDirection> directions(std::begin(kDirections), std::end(kDirections));
+    for (const double x : {0x1p-16, 0x1p-12, 0x1p-7}) {
+        const ProjectedDirection travel = square_to_disk({x, 0.7 * x});
+        directions.push_back({-travel.x, -travel.y});
+    }
+    for (const ProjectedDirection& e : directions)
+        CHECK(lobes.total(e) == doctest::Approx(0.1 * kPi).epsilon(1e-5));
+}
+
 TEST_CASE("through part: a peak over a constant passes straight, a smooth lobe does not") {
     const AngleBasis full = *klems_basis("LBNL/Klems Full");
     BsdfMatrix peak{full, full, std::vector<float>(full.size() * full.size(), 0.05f), {}};
