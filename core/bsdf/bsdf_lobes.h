@@ -1,5 +1,7 @@
 #pragma once
 // A component of a BSDF from tables, less its Lambertian part: values, totals and samples.
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +14,14 @@ namespace lightwalk {
 /// Range of projected solid angles [sr] between which the table tells directions apart.
 struct SolidAngleRange {
     double least = 0, largest = 0;
+};
+
+/// A direction to the viewer as one component's table is looked up for it: made once for many
+/// lights.
+struct BsdfLookup {
+    ProjectedDirection e;
+    std::size_t row = 0;                ///< of a matrix
+    std::array<HalvingPath, 2> path{};  ///< into a tree
 };
 
 /// A component for light that comes from one side and leaves to one side. Directions are given by
@@ -34,17 +44,17 @@ class BsdfLobes {
     };
 
     virtual ~BsdfLobes() = default;
-    [[nodiscard]] virtual Value value(const ProjectedDirection& e,
-                                      const ProjectedDirection& l) const = 0;
+    [[nodiscard]] virtual BsdfLookup look_up(const ProjectedDirection& e) const = 0;
+    [[nodiscard]] virtual Value value(const BsdfLookup& e, const ProjectedDirection& l) const = 0;
     /// The directional-hemispherical total: the integral of f over projected solid angle.
-    [[nodiscard]] virtual double total(const ProjectedDirection& e) const = 0;
+    [[nodiscard]] virtual double total(const BsdfLookup& e) const = 0;
     /// A direction of probability f / total over projected solid angle, for total(e) > 0.
     /// @param choice    uniform in [0, 1): which cell
     /// @param xi1, xi2  uniform in [0, 1): where in the cell
-    [[nodiscard]] virtual Sample sample(const ProjectedDirection& e, double choice, double xi1,
+    [[nodiscard]] virtual Sample sample(const BsdfLookup& e, double choice, double xi1,
                                         double xi2) const = 0;
     /// The range about e.
-    [[nodiscard]] virtual SolidAngleRange resolution(const ProjectedDirection& e) const = 0;
+    [[nodiscard]] virtual SolidAngleRange resolution(const BsdfLookup& e) const = 0;
     /// The smallest projected solid angle of all cells [sr].
     [[nodiscard]] virtual double least_solid_angle() const = 0;
     /// The largest total.

@@ -31,15 +31,17 @@ class TreeLobes final : public BsdfLobes {
   public:
     TreeLobes(const BsdfTree& table, bool reversed);
 
-    [[nodiscard]] Value value(const ProjectedDirection& e,
-                              const ProjectedDirection& l) const override;
-    [[nodiscard]] double total(const ProjectedDirection& e) const override {
-        if (!incident_.has_sums()) return 0;
-        return static_cast<double>(incident_.sums(cell_of(e)).total);
+    [[nodiscard]] BsdfLookup look_up(const ProjectedDirection& e) const override {
+        return {e, 0, incident_path(e)};
     }
-    [[nodiscard]] Sample sample(const ProjectedDirection& e, double choice, double xi1,
+    [[nodiscard]] Value value(const BsdfLookup& e, const ProjectedDirection& l) const override;
+    [[nodiscard]] double total(const BsdfLookup& e) const override {
+        if (!incident_.has_sums()) return 0;
+        return static_cast<double>(incident_.sums(incident_.find(e.path)).total);
+    }
+    [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
-    [[nodiscard]] SolidAngleRange resolution(const ProjectedDirection& e) const override;
+    [[nodiscard]] SolidAngleRange resolution(const BsdfLookup& e) const override;
     [[nodiscard]] double least_solid_angle() const override {
         return SliceCell{0, 0, incident_.finest(), 0}.solid_angle();
     }
@@ -50,10 +52,7 @@ class TreeLobes final : public BsdfLobes {
   private:
     [[nodiscard]] bool is_isotropic() const { return table_.y.rank() == 3; }
     [[nodiscard]] IncidentPath incident_path(const ProjectedDirection& e) const;
-    [[nodiscard]] TreePoint place(const ProjectedDirection& e, const ProjectedDirection& l) const;
-    [[nodiscard]] std::size_t cell_of(const ProjectedDirection& e) const {
-        return incident_.find(incident_path(e));
-    }
+    [[nodiscard]] TreePoint place(const BsdfLookup& e, const ProjectedDirection& l) const;
     [[nodiscard]] float left_of(float value) const {
         return std::max(0.0f, value - common_.luminance);
     }
@@ -166,16 +165,16 @@ struct Turn {
     }
 };
 
-TreePoint TreeLobes::place(const ProjectedDirection& e, const ProjectedDirection& l) const {
+TreePoint TreeLobes::place(const BsdfLookup& e, const ProjectedDirection& l) const {
     UnitSquarePoint exitant;
     IncidentPath incident;
     if (is_isotropic()) {
-        const ProjectedDirection& from = reversed_ ? l : e;
-        const ProjectedDirection& to = reversed_ ? e : l;
-        incident = incident_path(from);
+        const ProjectedDirection& from = reversed_ ? l : e.e;
+        const ProjectedDirection& to = reversed_ ? e.e : l;
+        incident = reversed_ ? incident_path(l) : e.path;
         exitant = disk_to_square(Turn(from).apply(to));
     } else {
-        incident = incident_path(e);
+        incident = e.path;
         exitant = disk_to_square(reversed_ ? ProjectedDirection{-l.x, -l.y} : l);
     }
     return {incident, {HalvingPath(exitant.x), HalvingPath(exitant.y)}};
@@ -196,7 +195,7 @@ Rgb TreeLobes::color_at(const TreePoint& point, float value) const {
     return without(color_from_xyz(unit) * value, common_.color);
 }
 
-BsdfLobes::Value TreeLobes::value(const ProjectedDirection& e, const ProjectedDirection& l) const {
+BsdfLobes::Value TreeLobes::value(const BsdfLookup& e, const ProjectedDirection& l) const {
     const TreePoint point = place(e, l);
     TensorTree::Entry entry = table_.y.root();
     int level = 0;
@@ -214,9 +213,9 @@ BsdfLobes::Value TreeLobes::value(const ProjectedDirection& e, const ProjectedDi
     return {color_at(point, value), leaf.solid_angle(), cell, left_of(value) > kTiny};
 }
 
-SolidAngleRange TreeLobes::resolution(const ProjectedDirection& e) const {
+SolidAngleRange TreeLobes::resolution(const BsdfLookup& e) const {
     if (!incident_.has_sums()) return {least_solid_angle(), least_solid_angle()};
-    const SliceSums& sums = incident_.sums(cell_of(e));
+    const SliceSums& sums = incident_.sums(incident_.find(e.path));
     return {SliceCell{0, 0, sums.finest, 0}.solid_angle(),
             SliceCell{0, 0, sums.coarsest, 0}.solid_angle()};
 }
@@ -253,9 +252,9 @@ SliceCell TreeLobes::choose(const IncidentPath& incident, std::size_t cell, doub
     return chosen;
 }
 
-BsdfLobes::Sample TreeLobes::sample(const ProjectedDirection& e, double choice, double xi1,
+BsdfLobes::Sample TreeLobes::sample(const BsdfLookup& e, double choice, double xi1,
                                     double xi2) const {
-    const IncidentPath incident = incident_path(e);
+    const IncidentPath& incident = e.path;
     const SliceCell leaf = choose(incident, incident_.find(incident), choice);
     const UnitSquarePoint at{(leaf.x + xi1) * leaf.width(), (leaf.y + xi2) * leaf.width()};
     ProjectedDirection l = square_to_disk(at);
@@ -265,7 +264,7 @@ BsdfLobes::Sample TreeLobes::sample(const ProjectedDirection& e, double choice, 
         sample.color = tint_of(color_at(point, leaf.value));
     }
     if (is_isotropic())
-        l = Turn(e).undo(l);
+        l = Turn(e.e).undo(l);
     else if (reversed_)
         l = {-l.x, -l.y};
     sample.l = l;

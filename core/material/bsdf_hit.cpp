@@ -26,9 +26,10 @@ struct SampledComponent {
 /// The directional-hemispherical total about the hit's direction that samples would carry.
 double sampled_total(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
                      double specular_samples) {
-    const double size = std::sqrt(hit.bsdf.resolution(hit.front(), hit.e).largest);
+    const double size = std::sqrt(hit.resolution.largest);
     const ProjectedDirection e = jittered(hit, size, specular_samples, ray.random);
-    const double total = sampled.component->lobes->total(e);
+    const BsdfLobes& lobes = *sampled.component->lobes;
+    const double total = lobes.total(lobes.look_up(e));
     if (!sampled.through || !hit.split) return total;
     return total - static_cast<double>(brightness(hit.through.transmittance));
 }
@@ -45,16 +46,17 @@ void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
     const LightTransport& tracer = context.tracer;
     const double specular_samples = tracer.options().specular_samples;
     const BsdfLobes& lobes = *sampled.component->lobes;
-    const double area = hit.bsdf.resolution(hit.front(), hit.e).least;
+    const double area = hit.resolution.least;
     const double narrow = std::clamp(specular_samples, 0.0, 1 - 1e-8);
     const int count = rough_sample_count(tracer.options(), ray.weight, ray.weight);
     for (int i = 0; i < count; ++i) {
         const ProjectedDirection e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
-        const double total = lobes.total(e);
+        const BsdfLookup lookup = lobes.look_up(e);
+        const double total = lobes.total(lookup);
         const auto draw = [&] { return kMiddle + narrow * (ray.random.next() - 0.5); };
         const double choice = draw(), xi1 = draw(), xi2 = draw();
         if (!(total > 0)) continue;
-        const BsdfLobes::Sample sample = lobes.sample(e, choice, xi1, xi2);
+        const BsdfLobes::Sample sample = lobes.sample(lookup, choice, xi1, xi2);
         if (sampled.through && passes_straight(hit, e, sample.l, area)) continue;
         Rgb coef = sample.color * static_cast<float>(total / count);
         if (sampled.through) coef *= hit.pattern;
@@ -68,6 +70,19 @@ void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
 }
 
 }  // namespace
+
+void look_up_viewer(BsdfHit& hit) {
+    SolidAngleRange all{kPi, 0};
+    for (const bool through : {false, true}) {
+        const BsdfComponent& part = through ? hit.transmission() : hit.reflection();
+        if (!part.lobes) continue;
+        BsdfLookup& lookup = through ? hit.in_transmission : hit.in_reflection;
+        lookup = part.lobes->look_up(hit.e);
+        const SolidAngleRange range = part.lobes->resolution(lookup);
+        all = {std::min(all.least, range.least), std::max(all.largest, range.largest)};
+    }
+    if (all.largest > 0) hit.resolution = all;
+}
 
 ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,
                             RandomStream& random) {
@@ -106,7 +121,7 @@ Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l
     if (through && hit_.split &&
         in_through_part(hit_.e, l, omega * cosine, lobes.least_solid_angle()))
         return max_component(hit_.through.surround) > kTiny ? hit_.through.surround : Rgb{};
-    const BsdfLobes::Value at = lobes.value(hit_.e, l);
+    const BsdfLobes::Value at = lobes.value(through ? hit_.in_transmission : hit_.in_reflection, l);
     if (!(specular_samples_ > 0)) return brightness(at.f) > kTiny ? at.f : Rgb{};
     // The mean is that of values with the Lambertian part, of which those that have no lobe count
     // as nothing; then the part is taken off again. Lobes that end beside e lose light that way, as
@@ -118,7 +133,7 @@ Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l
     for (int i = 0; i < count_; ++i) {
         const ProjectedDirection e =
             jittered(hit_, std::sqrt(at.solid_angle), specular_samples_, random);
-        const BsdfLobes::Value near = lobes.value(e, l);
+        const BsdfLobes::Value near = lobes.value(lobes.look_up(e), l);
         if (near.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
         ++counted;
         if (near.has_lobe) sum += near.f + lambertian;
