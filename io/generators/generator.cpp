@@ -7,7 +7,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Generator>, 10> kGenerators = {{
+constexpr std::array<std::pair<std::string_view, Generator>, 11> kGenerators = {{
     {"xform", &run_xform},
     {"genbox", &run_genbox},
     {"gensurf", &run_gensurf},
@@ -18,6 +18,7 @@ constexpr std::array<std::pair<std::string_view, Generator>, 10> kGenerators = {
     {"gensky", &run_gensky},
     {"gendaylit", &run_gendaylit},
     {"replmarks", &run_replmarks},
+    {"pkgBSDF", &run_pkgbsdf},
 }};
 
 }  // namespace

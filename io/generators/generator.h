@@ -31,7 +31,7 @@ struct GeneratorContext {
 using Generator = std::string (*)(std::span<const std::string> args, GeneratorContext& context);
 
 /// The generator of this name: xform, genbox, gensurf, genrev, genworm, genprism, genblinds,
-/// gensky, gendaylit or replmarks. Null for other names.
+/// gensky, gendaylit, replmarks or pkgBSDF. Null for other names.
 [[nodiscard]] Generator find_generator(const std::string& program);
 
 /// The largest output that is held in memory as a whole, so that hostile counts cannot exhaust it;
@@ -51,5 +51,6 @@ std::string run_genblinds(std::span<const std::string> args, GeneratorContext& c
 std::string run_gensky(std::span<const std::string> args, GeneratorContext& context);
 std::string run_gendaylit(std::span<const std::string> args, GeneratorContext& context);
 std::string run_replmarks(std::span<const std::string> args, GeneratorContext& context);
+std::string run_pkgbsdf(std::span<const std::string> args, GeneratorContext& context);
 
 }  // namespace lightwalk
