@@ -46,7 +46,8 @@ std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     if (sectors == 1) return places_[ring].first;
     const double azimuth = pseudo_azimuth(p);
     const double* ends = &ends_[places_[ring].first];
-    auto sector = static_cast<std::size_t>(azimuth * 0.25 * static_cast<double>(sectors) + 0.5);
+    auto sector =
+        static_cast<std::size_t>(std::floor(azimuth * 0.25 * static_cast<double>(sectors) + 0.5));
     while (sector > 0 && azimuth < ends[sector - 1]) --sector;
     while (sector < sectors && azimuth >= ends[sector]) ++sector;
     return places_[ring].first + (sector < sectors ? sector : 0);

@@ -41,14 +41,15 @@ bool passes_straight(const BsdfHit& hit, const ProjectedDirection& e, const Proj
     return hit.split && x * x + y * y <= area;
 }
 
-void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
+/// @param share  of the light that they carry together: -lw bounds their number
+void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled, double share,
                  TraceContext& context) {
     const LightTransport& tracer = context.tracer;
     const double specular_samples = tracer.options().specular_samples;
     const BsdfLobes& lobes = *sampled.component->lobes;
     const double area = hit.resolution.least;
     const double narrow = std::clamp(specular_samples, 0.0, 1 - 1e-8);
-    const int count = rough_sample_count(tracer.options(), ray.weight, ray.weight);
+    const int count = rough_sample_count(tracer.options(), ray.weight, share * ray.weight);
     for (int i = 0; i < count; ++i) {
         const ProjectedDirection e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
         const BsdfLookup lookup = lobes.look_up(e);
@@ -158,7 +159,8 @@ UnsampledLobes add_bsdf_samples(Ray& ray, const BsdfHit& hit, TraceContext& cont
                                        through ? -hit.side : hit.side, through};
         const double total = sampled_total(ray, hit, sampled, options.specular_samples);
         if (total > options.specular_threshold + kEpsilon) {
-            add_samples(ray, hit, sampled, context);
+            const double tint = through ? static_cast<double>(max_component(hit.pattern)) : 1;
+            add_samples(ray, hit, sampled, tint * total, context);
             continue;
         }
         const Rgb unsampled = Rgb::grey(static_cast<float>(std::max(0.0, total)));

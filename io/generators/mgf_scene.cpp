@@ -174,7 +174,7 @@ class MgfReader {
 
     /// The current material's name; its primitives are written where they have changed.
     std::string material(SceneWriter& out) {
-        const std::string name = materials_.name().empty() ? "mat" : materials_.name();
+        std::string name = materials_.name().empty() ? "mat" : materials_.name();
         const std::string text = material_text(materials_.current(), name);
         std::string& written = written_[name];
         if (written != text) out.text(written = text);

@@ -71,6 +71,16 @@ TEST_CASE("furnace: BSDFs that lose nothing show radiance 1, sampled or left to 
     }
 }
 
+TEST_CASE("furnace: the limit of weights makes a BSDF's samples fewer, not darker") {
+    const auto bsdf = bsdf_of(quarter(0, 0.25), quarter(0, 0.75));
+    RenderOptions options = deep();
+    options.specular_threshold = 0;
+    options.specular_samples = 64;
+    options.weight_limit = 0.02;
+    TestScene scene(kFurnace + kBsdf + sheet("pane"), options, with_file(bsdf));
+    CHECK(relative_error(scene.trace({-0.6, -0.3, 1}, {0.6, 0.3, -1}).value.g, 1) < 1e-4);
+}
+
 TEST_CASE("a BSDF stops the light of sources, an aBSDF passes its straight part") {
     const AngleBasis full = *klems_basis("LBNL/Klems Full");
     BsdfMatrix peak{full, full, std::vector<float>(full.size() * full.size(), 0.0f), {}};
