@@ -66,6 +66,10 @@ void print_bsdfs(const Scene& scene) {
                         100 * bsdf->largest_total(static_cast<BsdfPart>(part)),
                         table_words(*table).c_str());
         }
+        if (!bsdf->data().geometry.empty()) {
+            std::printf("    geometry           %.1f kB of MGF, for pkgBSDF\n",
+                        1e-3 * static_cast<double>(bsdf->data().geometry.size()));
+        }
     }
 }
 

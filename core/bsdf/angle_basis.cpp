@@ -12,6 +12,14 @@ double squared_sine(double degrees) {
     return sine * sine;
 }
 
+/// From 0 to 4, rising with the azimuth from 0 to 2π, at the price of a division.
+double pseudo_azimuth(const ProjectedDirection& p) {
+    const double size = std::abs(p.x) + std::abs(p.y);
+    const double height = size > 0 ? p.y / size : 0;
+    if (p.x < 0) return 2 - height;
+    return p.y < 0 ? 4 + height : height;
+}
+
 }  // namespace
 
 AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) {
@@ -21,6 +29,11 @@ AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) 
         const double area = kPi * (outer - inner) / static_cast<double>(ring.sectors);
         places_.push_back({inner, outer, area, patch_count_});
         patch_count_ += ring.sectors;
+        for (std::size_t k = 0; k < ring.sectors; ++k) {
+            const double azimuth =
+                2 * kPi * (static_cast<double>(k) + 0.5) / static_cast<double>(ring.sectors);
+            ends_.push_back(pseudo_azimuth({std::cos(azimuth), std::sin(azimuth)}));
+        }
         inner = outer;
     }
 }
@@ -31,11 +44,13 @@ std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     while (ring + 1 < places_.size() && square >= places_[ring].outer) ++ring;
     const std::size_t sectors = rings_[ring].sectors;
     if (sectors == 1) return places_[ring].first;
-    double turn = std::atan2(p.y, p.x) / (2 * kPi);
-    if (turn < 0) turn += 1;
-    const auto sector =
-        static_cast<std::size_t>(std::floor(turn * static_cast<double>(sectors) + 0.5));
-    return places_[ring].first + sector % sectors;
+    const double azimuth = pseudo_azimuth(p);
+    const double* ends = &ends_[places_[ring].first];
+    auto sector =
+        static_cast<std::size_t>(std::floor(azimuth * 0.25 * static_cast<double>(sectors) + 0.5));
+    while (sector > 0 && azimuth < ends[sector - 1]) --sector;
+    while (sector < sectors && azimuth >= ends[sector]) ++sector;
+    return places_[ring].first + (sector < sectors ? sector : 0);
 }
 
 std::size_t AngleBasis::ring_of(std::size_t patch) const {

@@ -62,6 +62,8 @@ class AngleBasis {
 
     std::vector<AngleRing> rings_;
     std::vector<Place> places_;  ///< one a ring
+    /// Of each patch where its sector ends, as pseudo_azimuth.
+    std::vector<double> ends_;
     std::size_t patch_count_ = 0;
 };
 

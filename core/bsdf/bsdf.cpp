@@ -37,7 +37,7 @@ std::size_t table_bytes(const BsdfTable& table) {
 
 Rgb BsdfComponent::value(const ProjectedDirection& e, const ProjectedDirection& l) const {
     const Rgb constant = lambertian * static_cast<float>(1 / kPi);
-    return lobes ? lobes->value(e, l).f + constant : constant;
+    return lobes ? lobes->value(lobes->look_up(e), l).f + constant : constant;
 }
 
 Bsdf::Bsdf(std::shared_ptr<const BsdfData> data) : data_(std::move(data)) {
@@ -69,16 +69,6 @@ bool Bsdf::transmits() const {
         const BsdfComponent& part = transmission(front);
         return part.lobes || max_component(part.lambertian) > 0;
     });
-}
-
-SolidAngleRange Bsdf::resolution(bool front, const ProjectedDirection& e) const {
-    SolidAngleRange all{kPi, 0};
-    for (const BsdfComponent* part : {&reflection(front), &transmission(front)}) {
-        if (!part->lobes) continue;
-        const SolidAngleRange range = part->lobes->resolution(e);
-        all = {std::min(all.least, range.least), std::max(all.largest, range.largest)};
-    }
-    return all.largest > 0 ? all : SolidAngleRange{kPi, kPi};
 }
 
 double Bsdf::largest_total(BsdfPart part) const {

@@ -25,7 +25,6 @@ struct BsdfComponent {
 /// on BSDF directions.
 class Bsdf {
   public:
-    /// Throws InputError for data that cannot be used.
     explicit Bsdf(std::shared_ptr<const BsdfData> data);
 
     [[nodiscard]] const BsdfData& data() const { return *data_; }
@@ -40,9 +39,6 @@ class Bsdf {
     }
     /// Whether any light passes.
     [[nodiscard]] bool transmits() const;
-    /// Over all components with lobes that are seen from this side: the smallest and the largest
-    /// projected solid angle that directions about e are told apart by [sr].
-    [[nodiscard]] SolidAngleRange resolution(bool front, const ProjectedDirection& e) const;
     /// The largest directional-hemispherical total of a component, the Lambertian part included.
     [[nodiscard]] double largest_total(BsdfPart part) const;
     /// One sentence for each component that sends on more light than it gets.

@@ -3,6 +3,7 @@
 // measured or computed. See LBNL WINDOW's XML schema (BSDF-v1.4.xsd) and Radiance's genBSDF.
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,9 +49,10 @@ inline constexpr std::size_t kBsdfParts = 4;
 struct BsdfData {
     std::string name;                                        ///< the material's, for people
     std::array<std::optional<BsdfTable>, kBsdfParts> parts;  ///< nothing: not in the file
-    std::string geometry;          ///< the system's geometry in MGF; "" where the file has none
-    double geometry_unit = 1;      ///< [m]
-    std::array<double, 3> size{};  ///< width, height, thickness [m]; 0: not in the file
+    std::string geometry;            ///< the system's geometry in MGF; "" where the file has none
+    double geometry_unit = 1;        ///< [m]
+    std::int32_t geometry_line = 0;  ///< of the file, where it begins
+    std::array<double, 3> size{};    ///< width, height, thickness [m]; 0: not in the file
 
     [[nodiscard]] const std::optional<BsdfTable>& part(BsdfPart which) const {
         return parts[static_cast<std::size_t>(which)];

@@ -1,5 +1,7 @@
 #pragma once
 // A component of a BSDF from tables, less its Lambertian part: values, totals and samples.
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +16,14 @@ struct SolidAngleRange {
     double least = 0, largest = 0;
 };
 
+/// A direction to the viewer as one component's table is looked up for it: made once for many
+/// lights.
+struct BsdfLookup {
+    ProjectedDirection e;
+    std::size_t row = 0;                ///< of a matrix
+    std::array<HalvingPath, 2> path{};  ///< into a tree
+};
+
 /// A component for light that comes from one side and leaves to one side. Directions are given by
 /// their projections onto the surface, those of unit vectors that point away from it: `e` to the
 /// viewer, on whose side data is looked up as that of the incident light, and `l` to the light.
@@ -24,6 +34,9 @@ class BsdfLobes {
         Rgb f;                   ///< [1/sr]
         double solid_angle = 0;  ///< projected, of the cell [sr]
         std::uint64_t cell = 0;  ///< which one, for the same e
+        /// False where there is nothing but the Lambertian part. Cells of matrices never are so: as
+        /// in Radiance, which tells equal ones apart by small differences.
+        bool has_lobe = true;
     };
     struct Sample {
         ProjectedDirection l;
@@ -31,17 +44,17 @@ class BsdfLobes {
     };
 
     virtual ~BsdfLobes() = default;
-    [[nodiscard]] virtual Value value(const ProjectedDirection& e,
-                                      const ProjectedDirection& l) const = 0;
+    [[nodiscard]] virtual BsdfLookup look_up(const ProjectedDirection& e) const = 0;
+    [[nodiscard]] virtual Value value(const BsdfLookup& e, const ProjectedDirection& l) const = 0;
     /// The directional-hemispherical total: the integral of f over projected solid angle.
-    [[nodiscard]] virtual double total(const ProjectedDirection& e) const = 0;
+    [[nodiscard]] virtual double total(const BsdfLookup& e) const = 0;
     /// A direction of probability f / total over projected solid angle, for total(e) > 0.
     /// @param choice    uniform in [0, 1): which cell
     /// @param xi1, xi2  uniform in [0, 1): where in the cell
-    [[nodiscard]] virtual Sample sample(const ProjectedDirection& e, double choice, double xi1,
+    [[nodiscard]] virtual Sample sample(const BsdfLookup& e, double choice, double xi1,
                                         double xi2) const = 0;
     /// The range about e.
-    [[nodiscard]] virtual SolidAngleRange resolution(const ProjectedDirection& e) const = 0;
+    [[nodiscard]] virtual SolidAngleRange resolution(const BsdfLookup& e) const = 0;
     /// The smallest projected solid angle of all cells [sr].
     [[nodiscard]] virtual double least_solid_angle() const = 0;
     /// The largest total.
@@ -60,7 +73,6 @@ struct SplitLobes {
 /// @param reversed  take the values for (e, l) from (l, e): by reciprocity those of light that
 /// comes
 ///                  from the other side
-/// Throws InputError for trees whose slices are too many to be added up.
 [[nodiscard]] SplitLobes make_matrix_lobes(const BsdfMatrix& table, bool reversed);
 [[nodiscard]] SplitLobes make_tree_lobes(const BsdfTree& table, bool reversed);
 

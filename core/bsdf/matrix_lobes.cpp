@@ -15,15 +15,15 @@ class MatrixLobes final : public BsdfLobes {
   public:
     MatrixLobes(const BsdfMatrix& table, bool reversed);
 
-    [[nodiscard]] Value value(const ProjectedDirection& e,
-                              const ProjectedDirection& l) const override;
-    [[nodiscard]] double total(const ProjectedDirection& e) const override {
-        return totals_[row_of(e)];
+    [[nodiscard]] BsdfLookup look_up(const ProjectedDirection& e) const override {
+        return {e, row_of(e), {}};
     }
-    [[nodiscard]] Sample sample(const ProjectedDirection& e, double choice, double xi1,
+    [[nodiscard]] Value value(const BsdfLookup& e, const ProjectedDirection& l) const override;
+    [[nodiscard]] double total(const BsdfLookup& e) const override { return totals_[e.row]; }
+    [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
-    [[nodiscard]] SolidAngleRange resolution(const ProjectedDirection& e) const override {
-        const double area = rows_.solid_angle(row_of(e));
+    [[nodiscard]] SolidAngleRange resolution(const BsdfLookup& e) const override {
+        const double area = rows_.solid_angle(e.row);
         return {area, area};
     }
     [[nodiscard]] double least_solid_angle() const override {
@@ -125,16 +125,15 @@ void MatrixLobes::add_up() {
     }
 }
 
-BsdfLobes::Value MatrixLobes::value(const ProjectedDirection& e,
-                                    const ProjectedDirection& l) const {
-    const std::size_t row = row_of(e), column = column_of(l), at = row * columns_.size() + column;
+BsdfLobes::Value MatrixLobes::value(const BsdfLookup& e, const ProjectedDirection& l) const {
+    const std::size_t row = e.row, column = column_of(l), at = row * columns_.size() + column;
     const Rgb f = tints_.empty() ? Rgb::grey(values_[at]) : tints_[at] * values_[at];
-    return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column};
+    return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column, true};
 }
 
-BsdfLobes::Sample MatrixLobes::sample(const ProjectedDirection& e, double choice, double xi1,
+BsdfLobes::Sample MatrixLobes::sample(const BsdfLookup& e, double choice, double xi1,
                                       double xi2) const {
-    const std::size_t row = row_of(e);
+    const std::size_t row = e.row;
     const auto sums = std::span(cumulative_).subspan(row * columns_.size(), columns_.size());
     const auto found = std::upper_bound(sums.begin(), sums.end(), choice * totals_[row]);
     const std::size_t column =

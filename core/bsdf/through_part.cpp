@@ -48,29 +48,25 @@ struct SeenCells {
         for (std::size_t i = 0; i < count; ++i) {
             if (list[i].cell == seen.cell) return;
         }
-        list[count++] = seen;
-    }
-    void sort() {
-        std::stable_sort(
-            list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count),
-            [](const SeenCell& a, const SeenCell& b) { return a.luminance > b.luminance; });
+        std::size_t at = count++;
+        for (; at > 0 && list[at - 1].luminance < seen.luminance; --at) list[at] = list[at - 1];
+        list[at] = seen;
     }
 };
 
-SeenCells look_around(const BsdfComponent& transmission, const ProjectedDirection& e,
-                      double least) {
+SeenCells look_around(const BsdfComponent& transmission, const BsdfLookup& lookup, double least) {
     static constexpr std::array<ProjectedDirection, kDirections> kOffsets = offsets();
     const Rgb constant = transmission.lambertian * static_cast<float>(1 / kPi);
     const double scale = std::sqrt(least);
+    const ProjectedDirection& e = lookup.e;
     const double z = above_disk(e).z;
     SeenCells seen;
     for (const ProjectedDirection& offset : kOffsets) {
         const Vec3 l = normalize({-e.x + offset.x * scale, -e.y + offset.y * scale, z});
-        const BsdfLobes::Value value = transmission.lobes->value(e, {l.x, l.y});
+        const BsdfLobes::Value value = transmission.lobes->value(lookup, {l.x, l.y});
         const Rgb f = value.f + constant;
         seen.add({f, value.solid_angle, static_cast<double>(brightness(f)), value.cell});
     }
-    seen.sort();
     return seen;
 }
 
@@ -92,8 +88,13 @@ struct CellSum {
 
 ThroughPart find_through_part(const BsdfComponent& transmission, const ProjectedDirection& e) {
     if (!transmission.lobes) return {};
+    return find_through_part(transmission, transmission.lobes->look_up(e));
+}
+
+ThroughPart find_through_part(const BsdfComponent& transmission, const BsdfLookup& looked_up) {
+    if (!transmission.lobes) return {};
     const double least = transmission.lobes->least_solid_angle();
-    const SeenCells seen = look_around(transmission, e, least);
+    const SeenCells seen = look_around(transmission, looked_up, least);
     if (!(seen.list[0].luminance > kEpsilon)) return {};
     CellSum peak, surround;
     for (std::size_t i = 0; i < seen.count; ++i) {
@@ -111,6 +112,13 @@ ThroughPart find_through_part(const BsdfComponent& transmission, const Projected
     through.surround =
         without(surround.flux * static_cast<float>(1 / surround.solid_angle), constant);
     return through;
+}
+
+const ThroughPart& RecentThroughPart::find(const BsdfComponent& of,
+                                           const ProjectedDirection& from) {
+    if (transmission != &of || e.x != from.x || e.y != from.y)
+        *this = {&of, from, find_through_part(of, from)};
+    return part;
 }
 
 bool in_through_part(const ProjectedDirection& e, const ProjectedDirection& l, double projected,

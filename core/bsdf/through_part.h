@@ -15,8 +15,21 @@ struct ThroughPart {
 };
 
 /// The peak about the direction straight on from e, less the Lambertian part.
+/// @param looked_up  e in the transmission's table
+[[nodiscard]] ThroughPart find_through_part(const BsdfComponent& transmission,
+                                            const BsdfLookup& looked_up);
 [[nodiscard]] ThroughPart find_through_part(const BsdfComponent& transmission,
                                             const ProjectedDirection& e);
+
+/// The part that a thread has found last: shadow rays to a sun ask for the same one again and
+/// again.
+struct RecentThroughPart {
+    const BsdfComponent* transmission = nullptr;
+    ProjectedDirection e;
+    ThroughPart part;
+
+    [[nodiscard]] const ThroughPart& find(const BsdfComponent& of, const ProjectedDirection& from);
+};
 
 /// Whether light from l lies, as far as the data can tell, in the part that passes straight.
 /// @param projected  solid angle of the light, projected [sr]

@@ -7,21 +7,18 @@
 #include "core/bsdf/bsdf_color.h"
 #include "core/bsdf/bsdf_lobes.h"
 #include "core/bsdf/tree_slices.h"
-#include "core/error.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr int kBlockLevel = 3;  ///< sums are kept of blocks of this level of the exitant square
-constexpr std::size_t kBlocks = std::size_t{1} << (2 * kBlockLevel);
+constexpr auto kTiny = static_cast<float>(kEpsilon);
 constexpr double kNormalIncidence = 0.5 - 1e-6;  ///< of the incident coordinate of rank 3
 constexpr double kMostLambertian = 1.5 / kPi;    ///< a larger least value is no Lambertian part
-constexpr std::size_t kMostVisits = std::size_t{1} << 30;  ///< leaves of all slices together
 
-/// What one incident cell sees.
-struct SliceSums {
-    float total = 0;
-    std::uint8_t coarsest = 0, finest = 0;  ///< levels of its leaves
+/// What a tree has in common over all directions that it is looked up for.
+struct CommonPart {
+    float luminance = 0;  ///< [1/sr]
+    Rgb color;
 };
 
 /// Both directions where they stand in the tree.
@@ -34,39 +31,31 @@ class TreeLobes final : public BsdfLobes {
   public:
     TreeLobes(const BsdfTree& table, bool reversed);
 
-    [[nodiscard]] Value value(const ProjectedDirection& e,
-                              const ProjectedDirection& l) const override;
-    [[nodiscard]] double total(const ProjectedDirection& e) const override {
-        if (cells_.empty()) return 0;
-        return static_cast<double>(cells_[cell_of(e)].total);
+    [[nodiscard]] BsdfLookup look_up(const ProjectedDirection& e) const override {
+        return {e, 0, incident_path(e)};
     }
-    [[nodiscard]] Sample sample(const ProjectedDirection& e, double choice, double xi1,
+    [[nodiscard]] Value value(const BsdfLookup& e, const ProjectedDirection& l) const override;
+    [[nodiscard]] double total(const BsdfLookup& e) const override {
+        if (!incident_.has_sums()) return 0;
+        return static_cast<double>(incident_.sums(incident_.find(e.path)).total);
+    }
+    [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
-    [[nodiscard]] SolidAngleRange resolution(const ProjectedDirection& e) const override;
+    [[nodiscard]] SolidAngleRange resolution(const BsdfLookup& e) const override;
     [[nodiscard]] double least_solid_angle() const override {
-        return SliceCell{0, 0, finest_, 0}.solid_angle();
+        return SliceCell{0, 0, incident_.finest(), 0}.solid_angle();
     }
-    [[nodiscard]] double largest_total() const override { return largest_total_; }
-    [[nodiscard]] std::size_t own_bytes() const override {
-        return incident_.own_bytes() + cells_.size() * sizeof(SliceSums) +
-               blocks_.size() * sizeof(float);
-    }
-    [[nodiscard]] Rgb lambertian() const { return taken_ * static_cast<float>(kPi); }
+    [[nodiscard]] double largest_total() const override { return incident_.largest_total(); }
+    [[nodiscard]] std::size_t own_bytes() const override { return incident_.own_bytes(); }
+    [[nodiscard]] Rgb lambertian() const { return common_.color * static_cast<float>(kPi); }
 
   private:
-    void split();
-    void add_up();
-    void add_slice(const IncidentPath& incident, std::size_t& visits);
     [[nodiscard]] bool is_isotropic() const { return table_.y.rank() == 3; }
-    [[nodiscard]] bool is_used(const IncidentPath& incident) const {
-        return !is_isotropic() || incident[0].half(0) == 0;
-    }
     [[nodiscard]] IncidentPath incident_path(const ProjectedDirection& e) const;
-    [[nodiscard]] TreePoint place(const ProjectedDirection& e, const ProjectedDirection& l) const;
-    [[nodiscard]] std::size_t cell_of(const ProjectedDirection& e) const {
-        return incident_.find(incident_path(e));
+    [[nodiscard]] TreePoint place(const BsdfLookup& e, const ProjectedDirection& l) const;
+    [[nodiscard]] float left_of(float value) const {
+        return std::max(0.0f, value - common_.luminance);
     }
-    [[nodiscard]] float left_of(float value) const { return std::max(0.0f, value - base_); }
     [[nodiscard]] Rgb color_at(const TreePoint& point, float value) const;
     [[nodiscard]] SliceCell choose(const IncidentPath& incident, std::size_t cell,
                                    double choice) const;
@@ -74,28 +63,13 @@ class TreeLobes final : public BsdfLobes {
     const BsdfTree& table_;
     bool reversed_;
     SliceDimensions dimensions_;
-    IncidentCells incident_;
-    float base_ = 0;                ///< luminance of the Lambertian part [1/sr]
-    Rgb taken_;                     ///< its colour
-    std::vector<SliceSums> cells_;  ///< one an incident cell; none where totals are not known
-    std::vector<float> blocks_;     ///< of each cell the sums of its blocks, one after the other
-    int finest_ = 0;
-    double largest_total_ = 0;
+    CommonPart common_;       ///< the Lambertian part
+    IncidentCells incident_;  ///< without sums where totals are not known
 };
 
 SliceDimensions dimensions_of(const TensorTree& tree, bool reversed) {
     if (tree.rank() == 3) return {0, 1, 1};
     return reversed ? SliceDimensions{2, 2, 0} : SliceDimensions{0, 2, 2};
-}
-
-TreeLobes::TreeLobes(const BsdfTree& table, bool reversed)
-    : table_(table),
-      reversed_(reversed),
-      dimensions_(dimensions_of(table.y, reversed)),
-      incident_(table.y, dimensions_) {
-    split();
-    add_up();
-    incident_.forget_corners();
 }
 
 /// Calls visit(y, u, v) for the values of three trees of one rank in all cells that they have in
@@ -135,74 +109,34 @@ float least_leaf(const TensorTree& tree) {
     return least;
 }
 
-void TreeLobes::split() {
-    const auto xyz_of = [](double y, double u, double v) {
-        const Xyz unit = xyz_of_uv(u, v);
-        return Xyz{y * unit[0], y, y * unit[2]};
-    };
-    if (!table_.u) {
-        const float least = least_leaf(table_.y);
-        const auto m = static_cast<double>(least);
-        if (!is_lambertian_part(m) || m >= kMostLambertian) return;
-        base_ = least;
-        taken_ = Rgb::grey(least);
-        return;
+/// Where that is too little or too much to be a Lambertian part: nothing.
+CommonPart common_part(const BsdfTree& table) {
+    const auto counts = [](double m) { return is_lambertian_part(m) && m < kMostLambertian; };
+    if (!table.u) {
+        const float least = least_leaf(table.y);
+        if (!counts(static_cast<double>(least))) return {};
+        return {least, Rgb::grey(least)};
     }
     LeastColor least;
-    visit_together({&table_.y, &*table_.u, &*table_.v},
-                   {table_.y.root(), table_.u->root(), table_.v->root()}, table_.y.children(),
+    visit_together({&table.y, &*table.u, &*table.v},
+                   {table.y.root(), table.u->root(), table.v->root()}, table.y.children(),
                    [&](float y, float u, float v) {
-                       least.add(xyz_of(static_cast<double>(y), static_cast<double>(u),
-                                        static_cast<double>(v)));
+                       const Xyz unit = xyz_of_uv(static_cast<double>(u), static_cast<double>(v));
+                       const auto luminance = static_cast<double>(y);
+                       least.add({luminance * unit[0], luminance, luminance * unit[2]});
                    });
     const Xyz common = least.xyz();
-    if (!is_lambertian_part(common[1]) || common[1] >= kMostLambertian) return;
-    base_ = static_cast<float>(common[1]);
-    taken_ = color_from_xyz(common);
+    if (!counts(common[1])) return {};
+    return {static_cast<float>(common[1]), color_from_xyz(common)};
 }
 
-void TreeLobes::add_up() {
-    std::size_t visits = 0;
-    const bool totals = !(is_isotropic() && reversed_);
-    for (std::size_t cell = 0; cell < incident_.size(); ++cell)
-        add_slice(incident_.corner(cell), visits);
-    if (!totals) {
-        cells_ = {};
-        blocks_ = {};
-        largest_total_ = 0;
-    }
-}
-
-void TreeLobes::add_slice(const IncidentPath& incident, std::size_t& visits) {
-    SliceSums sums;
-    sums.coarsest = 255;
-    std::array<double, kBlocks> blocks{};
-    const auto add = [&](const SliceCell& leaf) {
-        if (++visits > kMostVisits) throw InputError("tensor tree: its cells are too uneven");
-        sums.coarsest = std::min(sums.coarsest, static_cast<std::uint8_t>(leaf.level));
-        sums.finest = std::max(sums.finest, static_cast<std::uint8_t>(leaf.level));
-        const double part = static_cast<double>(left_of(leaf.value)) * leaf.solid_angle();
-        const int deeper = leaf.level - kBlockLevel;
-        if (deeper >= 0) {
-            blocks[(leaf.y >> deeper << kBlockLevel) + (leaf.x >> deeper)] += part;
-            return true;
-        }
-        const std::uint32_t side = 1U << -deeper;
-        for (std::uint32_t y = leaf.y * side; y < (leaf.y + 1) * side; ++y) {
-            for (std::uint32_t x = leaf.x * side; x < (leaf.x + 1) * side; ++x)
-                blocks[(y << kBlockLevel) + x] += part / (side * side);
-        }
-        return true;
-    };
-    if (is_used(incident)) {
-        visit_slice(table_.y, dimensions_, incident, table_.y.root(), {}, add);
-        finest_ = std::max(finest_, int{sums.finest});
-    }
-    double sum = 0;
-    for (const double block : blocks) blocks_.push_back(static_cast<float>(sum += block));
-    sums.total = static_cast<float>(sum);
-    largest_total_ = std::max(largest_total_, sum);
-    cells_.push_back(sums);
+TreeLobes::TreeLobes(const BsdfTree& table, bool reversed)
+    : table_(table),
+      reversed_(reversed),
+      dimensions_(dimensions_of(table.y, reversed)),
+      common_(common_part(table)),
+      incident_(table.y, dimensions_, common_.luminance) {
+    if (is_isotropic() && reversed_) incident_.forget_sums();
 }
 
 /// Where light of e lies among the incident ones: as it travels, or, reversed, as it leaves.
@@ -231,16 +165,16 @@ struct Turn {
     }
 };
 
-TreePoint TreeLobes::place(const ProjectedDirection& e, const ProjectedDirection& l) const {
+TreePoint TreeLobes::place(const BsdfLookup& e, const ProjectedDirection& l) const {
     UnitSquarePoint exitant;
     IncidentPath incident;
     if (is_isotropic()) {
-        const ProjectedDirection& from = reversed_ ? l : e;
-        const ProjectedDirection& to = reversed_ ? e : l;
-        incident = incident_path(from);
+        const ProjectedDirection& from = reversed_ ? l : e.e;
+        const ProjectedDirection& to = reversed_ ? e.e : l;
+        incident = reversed_ ? incident_path(l) : e.path;
         exitant = disk_to_square(Turn(from).apply(to));
     } else {
-        incident = incident_path(e);
+        incident = e.path;
         exitant = disk_to_square(reversed_ ? ProjectedDirection{-l.x, -l.y} : l);
     }
     return {incident, {HalvingPath(exitant.x), HalvingPath(exitant.y)}};
@@ -258,10 +192,10 @@ Rgb TreeLobes::color_at(const TreePoint& point, float value) const {
     const auto used = std::span(path).first(static_cast<std::size_t>(table_.y.rank()));
     const Xyz unit = xyz_of_uv(static_cast<double>(find_leaf(*table_.u, used).value),
                                static_cast<double>(find_leaf(*table_.v, used).value));
-    return without(color_from_xyz(unit) * value, taken_);
+    return without(color_from_xyz(unit) * value, common_.color);
 }
 
-BsdfLobes::Value TreeLobes::value(const ProjectedDirection& e, const ProjectedDirection& l) const {
+BsdfLobes::Value TreeLobes::value(const BsdfLookup& e, const ProjectedDirection& l) const {
     const TreePoint point = place(e, l);
     TensorTree::Entry entry = table_.y.root();
     int level = 0;
@@ -275,20 +209,21 @@ BsdfLobes::Value TreeLobes::value(const ProjectedDirection& e, const ProjectedDi
     const SliceCell leaf{point.exitant[0].cell(level), point.exitant[1].cell(level), level, 0};
     const std::uint64_t cell =
         std::uint64_t{leaf.x} << 40 | std::uint64_t{leaf.y} << 16 | static_cast<unsigned>(level);
-    return {color_at(point, TensorTree::value(entry)), leaf.solid_angle(), cell};
+    const float value = TensorTree::value(entry);
+    return {color_at(point, value), leaf.solid_angle(), cell, left_of(value) > kTiny};
 }
 
-SolidAngleRange TreeLobes::resolution(const ProjectedDirection& e) const {
-    if (cells_.empty()) return {least_solid_angle(), least_solid_angle()};
-    const SliceSums& sums = cells_[cell_of(e)];
+SolidAngleRange TreeLobes::resolution(const BsdfLookup& e) const {
+    if (!incident_.has_sums()) return {least_solid_angle(), least_solid_angle()};
+    const SliceSums& sums = incident_.sums(incident_.find(e.path));
     return {SliceCell{0, 0, sums.finest, 0}.solid_angle(),
             SliceCell{0, 0, sums.coarsest, 0}.solid_angle()};
 }
 
 /// The leaf of a slice at a share of its total.
 SliceCell TreeLobes::choose(const IncidentPath& incident, std::size_t cell, double choice) const {
-    const float* sums = &blocks_[cell * kBlocks];
-    const double wanted = choice * static_cast<double>(cells_[cell].total);
+    const float* sums = incident_.blocks(cell);
+    const double wanted = choice * static_cast<double>(incident_.sums(cell).total);
     const auto block =
         std::min(kBlocks - 1,
                  static_cast<std::size_t>(
@@ -317,9 +252,9 @@ SliceCell TreeLobes::choose(const IncidentPath& incident, std::size_t cell, doub
     return chosen;
 }
 
-BsdfLobes::Sample TreeLobes::sample(const ProjectedDirection& e, double choice, double xi1,
+BsdfLobes::Sample TreeLobes::sample(const BsdfLookup& e, double choice, double xi1,
                                     double xi2) const {
-    const IncidentPath incident = incident_path(e);
+    const IncidentPath& incident = e.path;
     const SliceCell leaf = choose(incident, incident_.find(incident), choice);
     const UnitSquarePoint at{(leaf.x + xi1) * leaf.width(), (leaf.y + xi2) * leaf.width()};
     ProjectedDirection l = square_to_disk(at);
@@ -329,7 +264,7 @@ BsdfLobes::Sample TreeLobes::sample(const ProjectedDirection& e, double choice, 
         sample.color = tint_of(color_at(point, leaf.value));
     }
     if (is_isotropic())
-        l = Turn(e).undo(l);
+        l = Turn(e.e).undo(l);
     else if (reversed_)
         l = {-l.x, -l.y};
     sample.l = l;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/bsdf/bsdf_color.h"
 #include "core/material/rough_samples.h"
 
 namespace lightwalk {
@@ -25,9 +26,10 @@ struct SampledComponent {
 /// The directional-hemispherical total about the hit's direction that samples would carry.
 double sampled_total(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
                      double specular_samples) {
-    const double size = std::sqrt(hit.bsdf.resolution(hit.front(), hit.e).largest);
+    const double size = std::sqrt(hit.resolution.largest);
     const ProjectedDirection e = jittered(hit, size, specular_samples, ray.random);
-    const double total = sampled.component->lobes->total(e);
+    const BsdfLobes& lobes = *sampled.component->lobes;
+    const double total = lobes.total(lobes.look_up(e));
     if (!sampled.through || !hit.split) return total;
     return total - static_cast<double>(brightness(hit.through.transmittance));
 }
@@ -39,21 +41,23 @@ bool passes_straight(const BsdfHit& hit, const ProjectedDirection& e, const Proj
     return hit.split && x * x + y * y <= area;
 }
 
-void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
+/// @param share  of the light that they carry together: -lw bounds their number
+void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled, double share,
                  TraceContext& context) {
     const LightTransport& tracer = context.tracer;
     const double specular_samples = tracer.options().specular_samples;
     const BsdfLobes& lobes = *sampled.component->lobes;
-    const double area = hit.bsdf.resolution(hit.front(), hit.e).least;
+    const double area = hit.resolution.least;
     const double narrow = std::clamp(specular_samples, 0.0, 1 - 1e-8);
-    const int count = rough_sample_count(tracer.options(), ray.weight, ray.weight);
+    const int count = rough_sample_count(tracer.options(), ray.weight, share * ray.weight);
     for (int i = 0; i < count; ++i) {
         const ProjectedDirection e = jittered(hit, std::sqrt(area), specular_samples, ray.random);
-        const double total = lobes.total(e);
+        const BsdfLookup lookup = lobes.look_up(e);
+        const double total = lobes.total(lookup);
         const auto draw = [&] { return kMiddle + narrow * (ray.random.next() - 0.5); };
         const double choice = draw(), xi1 = draw(), xi2 = draw();
         if (!(total > 0)) continue;
-        const BsdfLobes::Sample sample = lobes.sample(e, choice, xi1, xi2);
+        const BsdfLobes::Sample sample = lobes.sample(lookup, choice, xi1, xi2);
         if (sampled.through && passes_straight(hit, e, sample.l, area)) continue;
         Rgb coef = sample.color * static_cast<float>(total / count);
         if (sampled.through) coef *= hit.pattern;
@@ -67,6 +71,19 @@ void add_samples(Ray& ray, const BsdfHit& hit, const SampledComponent& sampled,
 }
 
 }  // namespace
+
+void look_up_viewer(BsdfHit& hit) {
+    SolidAngleRange all{kPi, 0};
+    for (const bool through : {false, true}) {
+        const BsdfComponent& part = through ? hit.transmission() : hit.reflection();
+        if (!part.lobes) continue;
+        BsdfLookup& lookup = through ? hit.in_transmission : hit.in_reflection;
+        lookup = part.lobes->look_up(hit.e);
+        const SolidAngleRange range = part.lobes->resolution(lookup);
+        all = {std::min(all.least, range.least), std::max(all.largest, range.largest)};
+    }
+    if (all.largest > 0) hit.resolution = all;
+}
 
 ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,
                             RandomStream& random) {
@@ -105,20 +122,24 @@ Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l
     if (through && hit_.split &&
         in_through_part(hit_.e, l, omega * cosine, lobes.least_solid_angle()))
         return max_component(hit_.through.surround) > kTiny ? hit_.through.surround : Rgb{};
-    const BsdfLobes::Value at = lobes.value(hit_.e, l);
+    const BsdfLobes::Value at = lobes.value(through ? hit_.in_transmission : hit_.in_reflection, l);
     if (!(specular_samples_ > 0)) return brightness(at.f) > kTiny ? at.f : Rgb{};
+    // The mean is that of values with the Lambertian part, of which those that have no lobe count
+    // as nothing; then the part is taken off again. Lobes that end beside e lose light that way, as
+    // they do in Radiance (measured: what its rtrace shows of trees of two values).
+    const Rgb lambertian = component.lambertian * static_cast<float>(1 / kPi);
     RandomStream random = stream_for({l.x, l.y, cosine});
     Rgb sum;
     int counted = 0;
     for (int i = 0; i < count_; ++i) {
         const ProjectedDirection e =
             jittered(hit_, std::sqrt(at.solid_angle), specular_samples_, random);
-        const BsdfLobes::Value near = lobes.value(e, l);
+        const BsdfLobes::Value near = lobes.value(lobes.look_up(e), l);
         if (near.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
         ++counted;
-        if (brightness(near.f) > kTiny) sum += near.f;
+        if (near.has_lobe) sum += near.f + lambertian;
     }
-    return counted > 0 ? sum * (1 / static_cast<float>(counted)) : Rgb{};
+    return counted > 0 ? without(sum * (1 / static_cast<float>(counted)), lambertian) : Rgb{};
 }
 
 RandomStream BsdfDirect::stream_for(const Vec3& wi) const {
@@ -138,7 +159,8 @@ UnsampledLobes add_bsdf_samples(Ray& ray, const BsdfHit& hit, TraceContext& cont
                                        through ? -hit.side : hit.side, through};
         const double total = sampled_total(ray, hit, sampled, options.specular_samples);
         if (total > options.specular_threshold + kEpsilon) {
-            add_samples(ray, hit, sampled, context);
+            const double tint = through ? static_cast<double>(max_component(hit.pattern)) : 1;
+            add_samples(ray, hit, sampled, tint * total, context);
             continue;
         }
         const Rgb unsampled = Rgb::grey(static_cast<float>(std::max(0.0, total)));

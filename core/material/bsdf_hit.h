@@ -30,8 +30,12 @@ struct BsdfHit {
     Rgb pattern;                 ///< colours all but the reflected lobes
     Rgb reflected, transmitted;  ///< Lambertian reflectance and transmittance
     double thickness = 0;        ///< 0: none [m]
-    bool split = false;          ///< the part that passes straight is traced by a ray of its own
-    ThroughPart through;         ///< that part, without the pattern
+    BsdfLookup in_reflection{}, in_transmission{};  ///< e in the tables, where these have lobes
+    /// Over all components with lobes that are seen from this side: the smallest and the largest
+    /// projected solid angle that directions about e are told apart by [sr].
+    SolidAngleRange resolution{kPi, kPi};
+    bool split = false;     ///< the part that passes straight is traced by a ray of its own
+    ThroughPart through{};  ///< that part, without the pattern
 
     [[nodiscard]] bool front() const { return side > 0; }
     /// The frame's normal towards the viewer.
@@ -42,6 +46,9 @@ struct BsdfHit {
         return transmission().lobes || max_component(transmitted) > static_cast<float>(kEpsilon);
     }
 };
+
+/// Look e up in the tables of the hit's side, for lights and samples.
+void look_up_viewer(BsdfHit& hit);
 
 /// e moved by random parts of `size`, which -ss below 1 reduces.
 [[nodiscard]] ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_samples,

@@ -55,7 +55,7 @@ MaterialTraits BsdfMaterial::traits() const {
     MaterialTraits traits{.transparent = bsdf_->transmits() || max_component(through_) > 0};
     if (always_thick_)
         traits.appearance = Appearance::absent;
-    else if (!thick_ && find_through_part(bsdf_->transmission(true), {}).exists())
+    else if (!thick_ && find_through_part(bsdf_->transmission(true), ProjectedDirection{}).exists())
         traits.appearance = Appearance::pane;
     return traits;
 }
@@ -159,15 +159,16 @@ std::optional<BsdfHit> BsdfMaterial::prepare(Ray& ray, const BsdfPlacement& plac
                 ray.pattern,
                 {},
                 {},
-                placed.thickness,
-                false,
-                {}};
+                placed.thickness};
     const bool front = hit.front();
     hit.reflected = (hit.reflection().lambertian + (front ? front_ : back_)) * ray.pattern;
     hit.transmitted = (hit.transmission().lambertian + through_) * ray.pattern;
-    const bool scattered = ray.in(kSpecular | kAmbient);
-    if (!thick_ && (ray.in(kShadow) || !scattered)) {
-        hit.through = find_through_part(hit.transmission(), hit.e);
+    const bool shadow = ray.in(kShadow), scattered = ray.in(kSpecular | kAmbient);
+    if (!shadow) look_up_viewer(hit);
+    if (!thick_ && (shadow || !scattered)) {
+        if (!context.through_part) context.through_part = make_opaque<RecentThroughPart>();
+        hit.through = shadow ? context.through_part->find(hit.transmission(), hit.e)
+                             : find_through_part(hit.transmission(), hit.in_transmission);
         hit.split = hit.through.exists() && max_component(ray.pattern) > 0;
     }
     return hit;

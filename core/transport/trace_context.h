@@ -22,6 +22,7 @@ struct LightScratch;
 struct MissingAmbient;
 struct NewAmbientRecords;
 struct Ray;
+struct RecentThroughPart;
 
 /// Owns an object whose type only higher folders know; who makes it says how it is destroyed.
 template <class T>
@@ -124,6 +125,7 @@ struct TraceContext {
     PathState path;
     FunctionScratch functions;
     Opaque<LightScratch> light{nullptr, nullptr};  ///< buffers of direct light; made when needed
+    Opaque<RecentThroughPart> through_part{nullptr, nullptr};  ///< of aBSDF; made when needed
     BatchState batches;
     AmbientCollection ambient;
 };

@@ -103,7 +103,12 @@ void BsdfReader::read_material(const xml_node& material) {
 void BsdfReader::read_geometry(const xml_node& geometry) {
     if (!geometry || !same_word(geometry.attribute("format").value(), "MGF")) return;
     const xml_node block = geometry.child("MGFblock");
-    data_.geometry = trimmed_text(block);
+    const std::string_view text = trimmed_text(block);
+    data_.geometry = text;
+    if (!text.empty()) {
+        const pugi::xml_text all = block.text();
+        data_.geometry_line = document_.line(all.data().offset_debug() + (text.data() - all.get()));
+    }
     data_.geometry_unit = 1;
     const std::string_view unit = block.attribute("unit").value();
     for (const auto& [name, size] :

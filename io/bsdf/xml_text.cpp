@@ -29,11 +29,14 @@ XmlText::XmlText(std::string_view bytes, const std::string& name) : bytes_(bytes
     if (!result) throw error(result.offset, std::string("bad XML: ") + result.description());
 }
 
-InputError XmlText::error(std::ptrdiff_t offset, const std::string& problem) const {
+std::int32_t XmlText::line(std::ptrdiff_t offset) const {
     const auto end = bytes_.begin() + std::clamp<std::ptrdiff_t>(
                                           offset, 0, static_cast<std::ptrdiff_t>(bytes_.size()));
-    const auto line = 1 + std::count(bytes_.begin(), end, '\n');
-    return InputError({name_, static_cast<std::int32_t>(line)}, problem);
+    return static_cast<std::int32_t>(1 + std::count(bytes_.begin(), end, '\n'));
+}
+
+InputError XmlText::error(std::ptrdiff_t offset, const std::string& problem) const {
+    return InputError({name_, line(offset)}, problem);
 }
 
 std::string_view trimmed_text(const pugi::xml_node& element) {

@@ -21,6 +21,8 @@ class XmlText {
     XmlText(std::string_view bytes, const std::string& name);
 
     [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
+    /// The line of a byte, from 1.
+    [[nodiscard]] std::int32_t line(std::ptrdiff_t offset) const;
     [[nodiscard]] InputError error(std::ptrdiff_t offset, const std::string& problem) const;
     [[nodiscard]] InputError error(const pugi::xml_node& at, const std::string& problem) const {
         return error(at.offset_debug(), problem);

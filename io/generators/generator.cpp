@@ -7,7 +7,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Generator>, 13> kGenerators = {{
+constexpr std::array<std::pair<std::string_view, Generator>, 14> kGenerators = {{
     {"xform", &run_xform},
     {"genbox", &run_genbox},
     {"gensurf", &run_gensurf},
@@ -21,6 +21,7 @@ constexpr std::array<std::pair<std::string_view, Generator>, 13> kGenerators = {
     {"ies2rad", &run_ies2rad},
     {"ldt2rad", &run_ldt2rad},
     {"obj2rad", &run_obj2rad},
+    {"pkgBSDF", &run_pkgbsdf},
 }};
 
 }  // namespace

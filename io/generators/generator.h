@@ -31,7 +31,7 @@ struct GeneratorContext {
 using Generator = std::string (*)(std::span<const std::string> args, GeneratorContext& context);
 
 /// The generator of this name: xform, genbox, gensurf, genrev, genworm, genprism, genblinds,
-/// gensky, gendaylit, replmarks, ies2rad, ldt2rad or obj2rad. Null for other names.
+/// gensky, gendaylit, replmarks, ies2rad, ldt2rad, obj2rad or pkgBSDF. Null for other names.
 [[nodiscard]] Generator find_generator(const std::string& program);
 
 /// The largest output that is held in memory as a whole, so that hostile counts cannot exhaust it;
@@ -55,5 +55,6 @@ std::string run_obj2rad(std::span<const std::string> args, GeneratorContext& con
 // Both keep the files that they make in the context's source of files (FileSource::keep).
 std::string run_ies2rad(std::span<const std::string> args, GeneratorContext& context);
 std::string run_ldt2rad(std::span<const std::string> args, GeneratorContext& context);
+std::string run_pkgbsdf(std::span<const std::string> args, GeneratorContext& context);
 
 }  // namespace lightwalk

@@ -117,6 +117,9 @@ void freeze_bsdf(const BsdfData& data, std::uint32_t number, FrozenParts& parts)
     PackedWriter writer;
     writer.text(data.name);
     writer.number(data.size);
+    writer.text(data.geometry);
+    writer.number(data.geometry_unit);
+    writer.number(data.geometry_line);
     for (const std::optional<BsdfTable>& table : data.parts) pack_table(writer, table);
     parts.add(FrozenKind::bsdf, number, writer.bytes());
 }
@@ -126,6 +129,9 @@ std::shared_ptr<const BsdfData> map_bsdf(const FrozenFile& file, std::uint32_t n
     auto data = std::make_shared<BsdfData>();
     data->name = reader.text();
     data->size = reader.number<std::array<double, 3>>();
+    data->geometry = reader.text();
+    data->geometry_unit = reader.number<double>();
+    data->geometry_line = reader.number<std::int32_t>();
     for (std::optional<BsdfTable>& table : data->parts) table = unpack_table(reader);
     reader.end();
     return data;

@@ -128,12 +128,14 @@ bool read_bsdf_file(std::string_view bytes) {
         const Bsdf bsdf(std::make_shared<BsdfData>(decode_bsdf(bytes, "mutant.xml")));
         const ProjectedDirection e{0.3, -0.4}, l{-0.25, 0.45};
         for (const bool front : {true, false}) {
-            (void)bsdf.resolution(front, e);
             (void)find_through_part(bsdf.transmission(front), e);
             for (const BsdfComponent* part : {&bsdf.transmission(front), &bsdf.reflection(front)}) {
                 (void)part->value(e, l);
-                if (part->lobes && part->lobes->total(e) > 0)
-                    (void)part->lobes->sample(e, 0.3, 0.6, 0.9);
+                if (!part->lobes) continue;
+                const BsdfLookup lookup = part->lobes->look_up(e);
+                (void)part->lobes->resolution(lookup);
+                if (part->lobes->total(lookup) > 0)
+                    (void)part->lobes->sample(lookup, 0.3, 0.6, 0.9);
             }
         }
     });

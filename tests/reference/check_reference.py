@@ -65,10 +65,10 @@ def ambient_cases(program, data):
 
 def bsdf_cases(program, data):
     """BSDF files and spectra. Rows of several rays are means, whose limits are six standard errors. Spectral rendering (-cs) is
-    not supported. Of two rows the reference's means are not understood yet: light that a coarse reflected cell of a tree of rank 3
-    gets from its jittered neighbours, and what a hemisphere of rays sees through a proxy, which is 1 % more than the sum of its file's totals."""
+    not supported. One row is left out, of a hemisphere of 256 rays that falls on Klems' patches: by numbers of rays the reference's mean
+    is 0.7 % less to 1.9 % more than the sum of the file's totals, .3591, and 0.8 % more for this number; ours is .3586 to .3594 for all."""
     folder, good, count = data / "spec" / "6-cases", 0, 0
-    open_rows = {("09-direct-tree3.rad", "4000"), ("52-ambient-proxy-behind.rad", "100")}
+    open_rows = {("52-ambient-proxy-behind.rad", "100")}
     for row in table(folder / "index.tsv"):
         options, n = row["options"].split(), int(row["n"] or 1)
         if "-cs" in options or (row["scene"], row["n"]) in open_rows:

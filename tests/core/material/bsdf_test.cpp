@@ -1,6 +1,10 @@
 // BSDF, aBSDF and WGMDfunc: energy, sides, shadows and proxies.
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "core/bsdf/bsdf.h"
 #include "tests/core/material/surroundings.h"
 #include "tests/tolerance.h"
@@ -67,6 +71,16 @@ TEST_CASE("furnace: BSDFs that lose nothing show radiance 1, sampled or left to 
     }
 }
 
+TEST_CASE("furnace: the limit of weights makes a BSDF's samples fewer, not darker") {
+    const auto bsdf = bsdf_of(quarter(0, 0.25), quarter(0, 0.75));
+    RenderOptions options = deep();
+    options.specular_threshold = 0;
+    options.specular_samples = 64;
+    options.weight_limit = 0.02;
+    TestScene scene(kFurnace + kBsdf + sheet("pane"), options, with_file(bsdf));
+    CHECK(relative_error(scene.trace({-0.6, -0.3, 1}, {0.6, 0.3, -1}).value.g, 1) < 1e-4);
+}
+
 TEST_CASE("a BSDF stops the light of sources, an aBSDF passes its straight part") {
     const AngleBasis full = *klems_basis("LBNL/Klems Full");
     BsdfMatrix peak{full, full, std::vector<float>(full.size() * full.size(), 0.0f), {}};
@@ -103,6 +117,35 @@ TEST_CASE("a BSDF of a thickness is there for scattered rays of its own side onl
         "void glow g 0 0 4 1 1 1 0\ng source up 0 0 4 0 0 1 180\n" + proxy + mirror_floor, options,
         with_file(bsdf));
     CHECK(room.trace({0.1, 0.2, 1.5}, {0, 0, 1}).value.g < 1e-3f);
+}
+
+TEST_CASE("a BSDF's lobe that ends beside the direction counts with its Lambertian part, or not") {
+    // What rtrace shows of such a tree: of four values about e those without a lobe count as
+    // nothing, and the mean is never less than the Lambertian part.
+    std::vector<float> values(64, 0.1f);
+    for (std::size_t i = 0; i < 16; ++i) values[i] = 0.3f;  // incident sines above a half
+    BsdfTree tree{TensorTree(3), {}, {}};
+    tree.y.set_root(tree.y.add_grid(values, 2));
+    RenderOptions options = TestScene::exact();
+    options.specular_samples = 1;
+    options.specular_threshold = 1;
+    TestScene scene(kSun + kBsdf + sheet("pane"), options, with_file(bsdf_of(std::nullopt, tree)));
+    const auto seen = [&](const Vec3& direction, std::uint32_t sample) {
+        return static_cast<double>(scene.trace(-direction, direction, sample).value.g);
+    };
+    const double coarse = seen({0.02, 0, -1}, 0);
+    std::array<int, 4> counts{};
+    for (std::uint32_t sample = 0; sample < 400; ++sample) {
+        const double value = seen({0.5, 0.2, -1}, sample) / coarse;
+        const std::array<double, 4> possible{1, 1.5, 2.25, 3};
+        std::size_t nearest = 0;
+        for (std::size_t i = 1; i < 4; ++i) {
+            if (std::abs(value - possible[i]) < std::abs(value - possible[nearest])) nearest = i;
+        }
+        CHECK(value == doctest::Approx(possible[nearest]).epsilon(1e-4));
+        ++counts[nearest];
+    }
+    for (const int count : counts) CHECK(count > 5);
 }
 
 TEST_CASE("a BSDF whose up runs along the normal is black, and says so") {
