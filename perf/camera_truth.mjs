@@ -114,6 +114,7 @@ async function start_camera([width, height]) {
     const { decode_depth } = await import("/page/depth.js");
     const canvas = document.createElement("canvas");
     const picture = document.createElement("canvas");
+    Object.assign(canvas, { width, height });
     const reprojection = new Reprojection(canvas);
     window.take = async ({ pieces, depth, size, view }) => {
         if (pieces.length > 0) Object.assign(picture, { width: size[0], height: size[1] });
@@ -178,8 +179,7 @@ async function measure(browser, address, move, folder) {
         await page.evaluate(() => {
             const picture = document.createElement("canvas");
             window.take = async ({ pieces, size }) => {
-                if (pieces.length > 0)
-                    Object.assign(picture, { width: size[0], height: size[1] });
+                if (pieces.length > 0) Object.assign(picture, { width: size[0], height: size[1] });
                 const context = picture.getContext("2d", { alpha: false });
                 for (const { url, x, y } of pieces)
                     context.drawImage(
