@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/bsdf/bsdf.h"
+#include "tests/core/material/bsdf_files.h"
 #include "tests/core/material/surroundings.h"
 #include "tests/tolerance.h"
 
@@ -13,32 +13,6 @@ using namespace lightwalk;
 using namespace lightwalk::test;
 
 namespace {
-
-/// A matrix over Klems' quarter basis with the same value everywhere but on the diagonal.
-BsdfMatrix quarter(double constant, double peak = 0) {
-    const AngleBasis basis = *klems_basis("LBNL/Klems Quarter");
-    BsdfMatrix matrix{basis, basis, {}, {}};
-    for (std::size_t i = 0; i < basis.size(); ++i) {
-        for (std::size_t o = 0; o < basis.size(); ++o)
-            matrix.y.push_back(
-                static_cast<float>(constant + (i == o ? peak / basis.solid_angle(i) : 0)));
-    }
-    return matrix;
-}
-
-std::shared_ptr<const Bsdf> bsdf_of(std::optional<BsdfTable> transmission,
-                                    std::optional<BsdfTable> reflection) {
-    auto data = std::make_shared<BsdfData>();
-    data->name = "test";
-    data->parts = {transmission, transmission, reflection, reflection};
-    return std::make_shared<const Bsdf>(data);
-}
-
-MemoryResources with_file(std::shared_ptr<const Bsdf> bsdf) {
-    MemoryResources files;
-    files.bsdfs["a.xml"] = std::move(bsdf);
-    return files;
-}
 
 const std::string kBsdf = "void BSDF m 6 0 a.xml 0 1 0 . 0 0\n",
                   kApertured = "void aBSDF m 5 a.xml 0 1 0 . 0 0\n";
