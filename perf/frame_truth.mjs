@@ -5,7 +5,7 @@
 //         [--moves turn,walk] [--size 1280x720] [--seconds 6] [--samples 12] [--pictures FOLDER]
 //
 // FOLDER has node_modules with ws and playwright-core; the browser starts when the walk is over, and only compares. A move is a turn of
-// 40 degrees a second, a walk of 1.3 m/s (of an eye 1.6 m high), or both. One line for each program and move:
+// 40 degrees a second, a look that way and back, a walk of 1.3 m/s (of an eye 1.6 m high) and back, or both. One line for each program and move:
 //
 //   psnr       of the frames, enlarged to the size asked for, against the rendered pictures, mean and least [dB]
 //   off        pixels of which a channel is off by more than a tenth of white: mean and most [%]

@@ -7,17 +7,24 @@ const kPace = 0.8; // eye heights a second
 
 export const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
-/** The view after `t` seconds of a move: about the z axis, and forward and back, two seconds each. */
+/** Of a way there and back, two seconds each, how far one is after `t` seconds [s]. */
+const there_and_back = (t) => 2 - Math.abs((t % 4) - 2);
+
+/**
+ * The view after `t` seconds of a move: `turn` about the z axis, `look` the same there and back, `walk` forward and back, `both` a walk and a
+ * turn.
+ */
 export function moved(view, move, t, eye_height) {
-    const angle = move === "walk" ? 0 : (kDegrees * t * Math.PI) / 180;
+    const turns = { turn: t, both: t, look: there_and_back(t), walk: 0 }[move];
+    const angle = (kDegrees * turns * Math.PI) / 180;
     const [x, y, z] = view.direction;
     const direction = [
         x * Math.cos(angle) + y * Math.sin(angle),
         y * Math.cos(angle) - x * Math.sin(angle),
         z,
     ];
-    const way =
-        move === "turn" ? 0 : (kPace * eye_height * (2 - Math.abs((t % 4) - 2))) / Math.hypot(x, y);
+    const goes = move === "walk" || move === "both";
+    const way = goes ? (kPace * eye_height * there_and_back(t)) / Math.hypot(x, y) : 0;
     const position = view.position.map((p, k) => p + (k < 2 ? way * view.direction[k] : 0));
     return { ...view, direction, position };
 }

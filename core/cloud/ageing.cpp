@@ -21,22 +21,29 @@ std::uint32_t share_for(std::size_t least, std::size_t all) {
 
 AgeCounts age_points(std::span<CloudPoint> points, std::span<const std::uint8_t> used,
                      std::span<const ImagePlace> places, const CloudLife& life,
-                     std::span<std::uint8_t> keep) {
+                     std::span<PointFate> fates) {
     AgeCounts counts{};
     for (std::size_t i = 0; i < points.size(); ++i) {
         CloudPoint& point = points[i];
-        keep[i] = 0;
+        fates[i] = PointFate::gone;
         if (point.kind == PointKind::gone) continue;
         const bool useful = used[i] != 0;
         point.age = useful ? 0 : static_cast<std::uint8_t>(std::min(point.age + 1, kOldestAge));
         point.old = static_cast<std::uint8_t>(std::min(point.old + 1, kOldestAge));
+        const bool shown = places[i].distance > 0;
+        const bool away = places[i].distance == 0 && life.awake > 0;
         const bool stays =
-            useful || (life.supersaturated && point.age <= life.age && places[i].distance > 0);
+            useful ||
+            (life.supersaturated && point.age <= (away ? life.awake : life.age) && (shown || away));
+        if (!stays && away) {
+            fates[i] = PointFate::sleeps;
+            continue;
+        }
         if (!stays) {
             point.kind = PointKind::gone;
             continue;
         }
-        keep[i] = 1;
+        fates[i] = PointFate::stays;
         ++counts[point.age];
     }
     return counts;

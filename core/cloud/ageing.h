@@ -16,7 +16,12 @@ inline constexpr int kOldestAge = 255;
 struct CloudLife {
     int age = 25;  ///< unused frames after which a point is dropped, at most kOldestAge
     bool supersaturated = true;  ///< false: a point that a frame did not use is dropped
+    int awake = 0;  ///< frames after which a point out of the picture falls asleep; 0: it is
+                    ///< dropped at once
 };
+
+/// What becomes of a point.
+enum class PointFate : std::uint8_t { gone, stays, sleeps };
 
 /// Numbers of points by age.
 using AgeCounts = std::array<std::size_t, kOldestAge + 1>;
@@ -25,13 +30,13 @@ using AgeCounts = std::array<std::size_t, kOldestAge + 1>;
 /// become PointKind::gone.
 /// @param points  a part of the cloud
 /// @param used    for each of them: not 0 where it was used
-/// @param places  for each of them: where the frame showed it
-/// @param keep    for each of them, set: 1 where it stays, 0 where it is too old, unused or out of
-///                the picture, or was gone before
+/// @param places  for each of them: where the frame showed it; distances below 0: another owner's
+/// @param fates   for each of them, set: gone where it is too old, unused or out of the picture, or
+///                was gone before
 /// @return        the ages of those that stay
 [[nodiscard]] AgeCounts age_points(std::span<CloudPoint> points, std::span<const std::uint8_t> used,
                                    std::span<const ImagePlace> places, const CloudLife& life,
-                                   std::span<std::uint8_t> keep);
+                                   std::span<PointFate> fates);
 
 /// Which points are dropped when there are too many: those unused longest, and of one age those
 /// whose lot() is lowest. The choice depends on the points only, not on which rank keeps them.

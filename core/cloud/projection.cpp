@@ -45,6 +45,25 @@ inline ImagePlace PointProjector::in_perspective(const Vec3& point) const {
             shown ? static_cast<float>(distance) : 0.0f};
 }
 
+/// Not where all corners of the box lie beyond one side of the view's pyramid.
+bool PointProjector::may_show(const Vec3& lower, const Vec3& upper) const {
+    if (!perspective_) return true;
+    constexpr unsigned kSides = 5;
+    unsigned beyond = (1u << kSides) - 1;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 w =
+            Vec3{(corner & 1) != 0 ? upper.x : lower.x, (corner & 2) != 0 ? upper.y : lower.y,
+                 (corner & 4) != 0 ? upper.z : lower.z} -
+            eye_;
+        const double depth = dot(w, forward_);
+        const double x = dot(w, across_) + shift_ * depth, y = dot(w, upward_) + lift_ * depth;
+        beyond &= (depth <= nearest_ ? 1u : 0u) | (x < 0 ? 2u : 0u) |
+                  (x > width_ * depth ? 4u : 0u) | (y < 0 ? 8u : 0u) |
+                  (y > height_ * depth ? 16u : 0u);
+    }
+    return beyond == 0;
+}
+
 ImagePlace PointProjector::operator()(const Vec3& point) const {
     if (perspective_) return in_perspective(point);
     const Camera::ImagePosition at = camera_.locate(point);

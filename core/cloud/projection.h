@@ -36,6 +36,9 @@ class PointProjector {
     [[nodiscard]] ImagePlace operator()(const Vec3& point) const;
     /// The places of many points; points that are gone get none.
     void operator()(std::span<const CloudPoint> points, std::span<ImagePlace> places) const;
+    /// Whether the picture may show a point of a box. Of views that are not perspective: true.
+    [[nodiscard]] bool may_show(const Vec3& lower, const Vec3& upper) const;
+    [[nodiscard]] bool is_perspective() const { return perspective_; }
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }

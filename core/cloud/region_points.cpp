@@ -20,6 +20,7 @@ void RegionPoints::begin(const Camera& camera) {
 }
 
 void RegionPoints::project(const TaskRunner& task_runner) {
+    if (projector_->is_perspective()) asleep_.wake(*projector_, points_);
     places_.resize(points_.size());
     used_.assign(points_.size(), 0);
     for_each_part(task_runner, grids_.ahead.size(),
@@ -76,24 +77,32 @@ void RegionPoints::mark_used(const UsedPixels& used) {
 }
 
 AgeCounts RegionPoints::age(const CloudLife& life, const TaskRunner& task_runner) {
-    kept_.resize(points_.size());
+    fates_.resize(points_.size());
+    CloudLife own_life = life;
+    if (!projector_->is_perspective()) own_life.awake = 0;  // they could not be woken
     std::vector<AgeCounts> counts(part_count(points_.size()));
+    std::vector<std::vector<std::uint32_t>> tired(counts.size());
     const bool whole = area_ == PixelRectangle{0, 0, width_, height_};
-    for_each_part(
-        task_runner, points_.size(), [&](std::size_t part, std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last && !whole; ++i) {
-                // What lies outside is another region's.
-                if (!(places_[i].distance > 0) ||
-                    area_.contains(pixel_of(places_[i], width_, height_)))
-                    continue;
-                places_[i] = {};
-                used_[i] = 0;
-            }
-            const auto own = [&](auto& of_all) {
-                return std::span(of_all).subspan(first, last - first);
-            };
-            counts[part] = age_points(own(points_), own(used_), own(places_), life, own(kept_));
-        });
+    for_each_part(task_runner, points_.size(),
+                  [&](std::size_t part, std::size_t first, std::size_t last) {
+                      for (std::size_t i = first; i < last && !whole; ++i) {
+                          // What lies outside is another region's.
+                          if (!(places_[i].distance > 0) ||
+                              area_.contains(pixel_of(places_[i], width_, height_)))
+                              continue;
+                          places_[i].distance = -1;
+                          used_[i] = 0;
+                      }
+                      const auto own = [&](auto& of_all) {
+                          return std::span(of_all).subspan(first, last - first);
+                      };
+                      counts[part] =
+                          age_points(own(points_), own(used_), own(places_), own_life, own(fates_));
+                      for (std::size_t i = first; i < last; ++i)
+                          if (fates_[i] == PointFate::sleeps)
+                              tired[part].push_back(static_cast<std::uint32_t>(i));
+                  });
+    put_to_sleep(tired);
     AgeCounts sum{};
     sum[0] = fresh_.size();
     for (const AgeCounts& one : counts)
@@ -101,8 +110,19 @@ AgeCounts RegionPoints::age(const CloudLife& life, const TaskRunner& task_runner
     return sum;
 }
 
+/// @param parts  numbers of points
+void RegionPoints::put_to_sleep(std::span<const std::vector<std::uint32_t>> parts) {
+    std::vector<CloudPoint> tired;
+    for (const std::vector<std::uint32_t>& part : parts)
+        for (const std::uint32_t i : part) {
+            tired.push_back(points_[i]);
+            points_[i].kind = PointKind::gone;
+        }
+    asleep_.add(tired);
+}
+
 AgeCounts RegionPoints::rest() {
-    kept_.assign(points_.size(), 1);
+    fates_.assign(points_.size(), PointFate::stays);
     AgeCounts counts{};
     counts[0] = fresh_.size();
     for (const CloudPoint& point : points_) ++counts[point.age];
@@ -119,7 +139,7 @@ void RegionPoints::keep(const AgeLimit& room, std::uint64_t frame, const TaskRun
     for_each_part(task_runner, points_.size(),
                   [&](std::size_t part, std::size_t first, std::size_t last) {
                       for (std::size_t i = first; i < last; ++i)
-                          if (kept_[i] == 0 || !stays(points_[i]))
+                          if (fates_[i] != PointFate::stays || !stays(points_[i]))
                               going[part].push_back(static_cast<std::uint32_t>(i));
                   });
     std::vector<std::uint32_t> gaps;

@@ -13,6 +13,7 @@
 #include "core/cloud/primary_visibility.h"
 #include "core/cloud/projection.h"
 #include "core/cloud/reuse.h"
+#include "core/cloud/sleeping_points.h"
 #include "core/math/prefetch.h"
 #include "core/math/task_runner.h"
 #include "core/view/pixels.h"
@@ -33,13 +34,14 @@ class RegionPoints {
     /// @param area  of a picture of width x height pixels
     RegionPoints(const PixelRectangle& area, int width, int height);
 
-    /// Start with points of a picture of another size.
-    void adopt(std::vector<CloudPoint> points) { points_ = std::move(points); }
-    /// Give all points away.
-    [[nodiscard]] std::vector<CloudPoint> release() { return std::move(points_); }
+    /// Start with the points of a picture of another size.
+    void adopt(RegionPoints&& other) {
+        points_ = std::move(other.points_);
+        asleep_ = std::move(other.asleep_);
+    }
     /// A new frame. The camera must outlive it.
     void begin(const Camera& camera);
-    /// Find the places of all points.
+    /// Find the places of all points, after those have woken that the picture may show.
     void project(const TaskRunner& task_runner);
     /// Points that the picture shows outside the region, or at its edge: others need them. Calls
     /// take(point, pixel).
@@ -75,13 +77,15 @@ class RegionPoints {
         fresh_.insert(fresh_.end(), left.points.begin(),
                       left.points.begin() + static_cast<std::ptrdiff_t>(left.count));
     }
-    /// Points grow older. The ages of all that may be kept, new ones included.
+    /// Points grow older, and fall asleep. The ages of all that may be kept, new ones included.
     [[nodiscard]] AgeCounts age(const CloudLife& life, const TaskRunner& task_runner);
     /// The same where the view rests: points stay as they are.
     [[nodiscard]] AgeCounts rest();
     /// The points of the next frame: those that there is room for.
     /// @param frame  the number of this one
     void keep(const AgeLimit& room, std::uint64_t frame, const TaskRunner& task_runner);
+    /// Forget those that have slept longest, where more than `most` are asleep.
+    void limit_asleep(std::size_t most) { asleep_.limit(most); }
 
     [[nodiscard]] std::span<const CloudPoint> all() const { return points_; }
     [[nodiscard]] const Camera& camera() const { return projector_->camera(); }
@@ -90,15 +94,18 @@ class RegionPoints {
 
   private:
     [[nodiscard]] PixelRectangle inside_of_area() const;
+    void put_to_sleep(std::span<const std::vector<std::uint32_t>> parts);
 
     PixelRectangle area_;
     int width_, height_;
     std::optional<PointProjector> projector_;
     CloudGrids grids_;
     std::vector<CloudPoint> points_;
-    std::vector<ImagePlace> places_;         ///< of the points in this frame
-    std::vector<std::uint8_t> used_, kept_;  ///< by point
-    std::vector<CloudPoint> fresh_;          ///< that this frame leaves
+    std::vector<ImagePlace> places_;  ///< of the points in this frame
+    std::vector<std::uint8_t> used_;  ///< by point
+    std::vector<PointFate> fates_;    ///< by point
+    std::vector<CloudPoint> fresh_;   ///< that this frame leaves
+    SleepingPoints asleep_;
 };
 
 }  // namespace lightwalk

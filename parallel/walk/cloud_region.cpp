@@ -13,6 +13,7 @@ namespace lightwalk {
 namespace {
 
 constexpr int kBlockSide = 64;  ///< of the pixels that a task answers
+constexpr int kAwake = 8;       ///< frames for which points out of the picture do not sleep yet
 
 }  // namespace
 
@@ -101,7 +102,10 @@ AgeCounts CloudRegion::age(Executor& executor) {
     const StepTimer timer(frame_.report.keep_seconds);
     to_trace_.leave_points(points_);
     const int age = static_cast<int>(std::ceil(options_.age * rules_.tightness));
-    return points_.age({age, options_.supersaturated}, ExecutorTaskRunner(executor));
+    // Where the eye looks back, what it has seen before is there again. Without a budget frames are
+    // the same for any number of ranks, which sleep apart: then they forget.
+    const int awake = options_.budget > 0 ? kAwake : 0;
+    return points_.age({age, options_.supersaturated, awake}, ExecutorTaskRunner(executor));
 }
 
 AgeCounts CloudRegion::rest(bool leave) {

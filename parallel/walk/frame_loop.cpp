@@ -1,5 +1,6 @@
 #include "parallel/walk/frame_loop.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -9,6 +10,11 @@
 #include "parallel/walk/step_timer.h"
 
 namespace lightwalk {
+namespace {
+
+constexpr std::size_t kMostAsleep = 4'000'000;  ///< points, some 160 MB
+
+}  // namespace
 
 bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster& caster,
                      FrameExchange& exchange, Executor& executor, const StopFlag& stop) {
@@ -44,6 +50,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     const std::optional<AgeCounts> all = exchange.sum(ages);
     if (!all) return false;
     region.keep(age_limit(*all, order.most_points), executor);
+    region.points().limit_asleep(std::min(order.most_points, kMostAsleep) / owners_);
     keep_seconds_ = report.keep_seconds;
     infer_seconds_ = report.infer_seconds;
     return true;
@@ -59,11 +66,10 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera) {
     height_ = order.height;
     if (!same || order.rules.empty) {
         // Points are places in the scene: in a picture of another size they answer other pixels.
-        std::vector<CloudPoint> points;
-        if (region_ && !order.rules.empty) points = region_->points().release();
+        std::optional<CloudRegion> before = std::exchange(region_, std::nullopt);
         const SubImages parts({0, 0, width_, height_}, owners_);
         region_.emplace(parts[index_], width_, height_, options_);
-        region_->points().adopt(std::move(points));
+        if (before && !order.rules.empty) region_->points().adopt(std::move(before->points()));
     }
     region_->begin(camera, order.rules);
 }

@@ -12,7 +12,8 @@ using namespace lightwalk;
 
 namespace {
 
-constexpr ImagePlace kShown{1, 1, 1}, kOutside{};
+constexpr ImagePlace kShown{1, 1, 1}, kOutside{}, kOfAnother{-1, -1, -1};
+constexpr PointFate kStays = PointFate::stays, kGone = PointFate::gone;
 
 }  // namespace
 
@@ -24,9 +25,9 @@ TEST_CASE("cloud: points live on while they are used, and so many frames without
     points[3].age = 255;
     const std::vector<std::uint8_t> used{1, 0, 0, 1};
     const std::vector<ImagePlace> places{kShown, kShown, kShown, kShown};
-    std::vector<std::uint8_t> keep(4);
-    const AgeCounts counts = age_points(points, used, places, {25, true}, keep);
-    CHECK(keep == std::vector<std::uint8_t>{1, 1, 0, 1});
+    std::vector<PointFate> fates(4);
+    const AgeCounts counts = age_points(points, used, places, {25, true}, fates);
+    CHECK((fates == std::vector{kStays, kStays, kGone, kStays}));
     CHECK(points[0].age == 0);
     CHECK(points[1].age == 25);
     CHECK(points[1].old == 1);
@@ -43,13 +44,28 @@ TEST_CASE(
     std::vector<CloudPoint> points(3);
     const std::vector<std::uint8_t> used{1, 0, 0};
     const std::vector<ImagePlace> places{kShown, kShown, kOutside};
-    std::vector<std::uint8_t> keep(3);
-    (void)age_points(points, used, places, {25, true}, keep);
-    CHECK(keep == std::vector<std::uint8_t>{1, 1, 0});
-    const AgeCounts counts = age_points(points, used, places, {25, false}, keep);
-    CHECK(keep == std::vector<std::uint8_t>{1, 0, 0});
+    std::vector<PointFate> fates(3);
+    (void)age_points(points, used, places, {25, true}, fates);
+    CHECK((fates == std::vector{kStays, kStays, kGone}));
+    const AgeCounts counts = age_points(points, used, places, {25, false}, fates);
+    CHECK((fates == std::vector{kStays, kGone, kGone}));
     CHECK(counts[0] == 1);  // what was gone does not come back
     CHECK(counts[1] == 0);
+}
+
+TEST_CASE(
+    "cloud: what is out of the picture falls asleep where that is wished, but not others' points") {
+    std::vector<CloudPoint> points(4);
+    points[1].age = 8;
+    points[3].age = 25;
+    const std::vector<std::uint8_t> used(4);
+    const std::vector<ImagePlace> places{kOutside, kOutside, kOfAnother, kShown};
+    std::vector<PointFate> fates(4);
+    const AgeCounts counts = age_points(points, used, places, {25, true, 8}, fates);
+    CHECK((fates == std::vector{kStays, PointFate::sleeps, kGone, kGone}));
+    CHECK((points[1].kind == PointKind::plain));
+    CHECK(counts[1] == 1);
+    CHECK(counts[9] == 0);
 }
 
 TEST_CASE("cloud: for want of room the longest unused points go") {

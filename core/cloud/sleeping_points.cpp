@@ -1,0 +1,110 @@
+#include "core/cloud/sleeping_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace lightwalk {
+namespace {
+
+/// Small enough that hardly any points wake in vain, large enough that boxes are few.
+constexpr std::size_t kGroup = 128;
+constexpr int kCodeBits = 10;  ///< of a place in each direction
+
+/// Spreads the lowest bits so that two bits are free beside each.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | x << 16) & 0x030000ff;
+    x = (x | x << 8) & 0x0300f00f;
+    x = (x | x << 4) & 0x030c30c3;
+    return (x | x << 2) & 0x09249249;
+}
+
+Bounds bounds_of(std::span<const CloudPoint> points) {
+    Bounds box;
+    for (const CloudPoint& point : points) box.extend(point.place());
+    return box;
+}
+
+/// Codes of places in a box, so that places whose codes are near lie near each other: Morton, "A
+/// computer oriented geodetic data base", IBM 1966.
+class PlaceCode {
+  public:
+    explicit PlaceCode(const Bounds& box) : lower_(box.lower) {
+        const Vec3 size = box.upper - box.lower;
+        const double largest = std::max({size.x, size.y, size.z, kEpsilon});
+        scale_ = ((1 << kCodeBits) - 1) / largest;
+    }
+    std::uint32_t operator()(const Vec3& place) const {
+        const Vec3 at = (place - lower_) * scale_;
+        return spread(static_cast<std::uint32_t>(at.x)) |
+               spread(static_cast<std::uint32_t>(at.y)) << 1 |
+               spread(static_cast<std::uint32_t>(at.z)) << 2;
+    }
+
+  private:
+    Vec3 lower_;
+    double scale_;
+};
+
+/// Whether a point is of the background.
+bool is_far(const CloudPoint& point) {
+    constexpr float kFar = 1e8f;  // [m]
+    return std::max({std::abs(point.position[0]), std::abs(point.position[1]),
+                     std::abs(point.position[2])}) > kFar;
+}
+
+void sort_by_place(std::span<CloudPoint> points) {
+    const PlaceCode code(bounds_of(points));
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+    order.reserve(points.size());
+    for (const CloudPoint& point : points)
+        order.emplace_back(code(point.place()), static_cast<std::uint32_t>(order.size()));
+    std::ranges::sort(order);
+    std::vector<CloudPoint> sorted;
+    sorted.reserve(points.size());
+    for (const auto& [place, index] : order) sorted.push_back(points[index]);
+    std::ranges::copy(sorted, points.begin());
+}
+
+}  // namespace
+
+void SleepingPoints::add(std::vector<CloudPoint>& points) {
+    // The background is so far away that beside it all else would have one code.
+    const auto far = std::partition(points.begin(), points.end(),
+                                    [](const CloudPoint& point) { return !is_far(point); });
+    for (const std::span<CloudPoint> some :
+         {std::span(points.begin(), far), std::span(far, points.end())}) {
+        if (some.empty()) continue;
+        sort_by_place(some);
+        for (std::size_t first = 0; first < some.size(); first += kGroup) {
+            const auto part = some.subspan(first, std::min(kGroup, some.size() - first));
+            groups_.push_back({bounds_of(part), {part.begin(), part.end()}});
+        }
+    }
+    size_ += points.size();
+}
+
+void SleepingPoints::wake(const PointProjector& projector, std::vector<CloudPoint>& awake) {
+    constexpr std::uint8_t kNotJustShown = 1;
+    const auto wakes = [&](const Group& group) {
+        if (!projector.may_show(group.box.lower, group.box.upper)) return false;
+        for (CloudPoint point : group.points) {
+            point.age = kNotJustShown;
+            awake.push_back(point);
+        }
+        size_ -= group.points.size();
+        return true;
+    };
+    std::erase_if(groups_, wakes);
+}
+
+void SleepingPoints::limit(std::size_t most) {
+    while (size_ > most) {
+        size_ -= groups_.front().points.size();
+        groups_.pop_front();
+    }
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,37 @@
+#pragma once
+// Points that the picture does not show, kept until a view shows them again.
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/cloud/point.h"
+#include "core/cloud/projection.h"
+#include "core/geometry/geometry.h"
+
+namespace lightwalk {
+
+/// Groups of points that lie near each other. What is asleep costs a frame a look at the groups'
+/// boxes only.
+class SleepingPoints {
+  public:
+    /// Points that have left the picture. Their order changes.
+    void add(std::vector<CloudPoint>& points);
+    /// Take out all points that the picture may show, and others of their groups. Nothing is awake
+    /// as one that the last frame has shown.
+    /// @param awake  they are appended to these
+    void wake(const PointProjector& projector, std::vector<CloudPoint>& awake);
+    /// Forget those that have slept longest, so that hardly more than `most` are left.
+    void limit(std::size_t most);
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+  private:
+    struct Group {
+        Bounds box;
+        std::vector<CloudPoint> points;
+    };
+    std::deque<Group> groups_;  ///< those that fell asleep first come first
+    std::size_t size_ = 0;      ///< of all points
+};
+
+}  // namespace lightwalk
