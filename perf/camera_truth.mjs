@@ -21,7 +21,7 @@ import { FrameTimes } from "../apps/viewer/prediction.js";
 import { fit_view } from "../apps/viewer/view.js";
 import { parse_views } from "../apps/viewer/view_text.js";
 import { margin_for, turn_between, widened } from "../apps/viewer/warp.js";
-import { Client, moved, wait } from "./walk_client.mjs";
+import { Client, moved, stand, wait } from "./walk_client.mjs";
 import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
 
 const { values: args } = parseArgs({
@@ -56,20 +56,6 @@ function sent_view(eye_at, t, times) {
     const then = fit_view(eye_at(t + ahead), width, height);
     const turn = turn_between(then, now) * Math.min(1, (apart + 0.3 * ahead) / ahead || 0);
     return widened(then, margin_for(now, turn));
-}
-
-/** Stand still until the picture is good, with the exposure that it has got. */
-async function stand(client, first) {
-    client.look(first, false);
-    await wait(5000);
-    client.say({
-        type: "display",
-        mode: "tone",
-        exposure: { auto: false, ev: Math.log2(client.frames.at(-1).exposure) },
-        human: false,
-        scale: { low: 1, high: 1000, log: true },
-    });
-    await wait(500);
 }
 
 /** Drive a walk; returns {frames: as they came, with the views that they show, eye_at(t), began, ...}. */
@@ -108,30 +94,32 @@ async function drive(address, move) {
     return { frames, eye_at, seconds, bytes: client.bytes };
 }
 
-/** In a page that has the server's modules: what takes frames and draws the camera. */
-async function start_camera([width, height]) {
-    const { Reprojection } = await import("/page/reprojection.js");
-    const { decode_depth } = await import("/page/depth.js");
+/** In a page that has the server's modules: what takes frames, and draws the camera or shows them as they come. */
+async function start_camera([width, height, plain]) {
+    const { Reprojection } = plain ? {} : await import("/page/reprojection.js");
+    const { decode_depth } = plain ? {} : await import("/page/depth.js");
     const canvas = document.createElement("canvas");
     const picture = document.createElement("canvas");
     Object.assign(canvas, { width, height });
-    const reprojection = new Reprojection(canvas);
+    const reprojection = plain ? null : new Reprojection(canvas);
+    let known = null;
     window.take = async ({ pieces, depth, size, view }) => {
         if (pieces.length > 0) Object.assign(picture, { width: size[0], height: size[1] });
         const context = picture.getContext("2d", { alpha: false });
         for (const { url, x, y } of pieces)
             context.drawImage(await createImageBitmap(await (await fetch(url)).blob()), x, y);
+        if (plain) return;
         if (depth) {
             const bytes = Uint8Array.from(atob(depth), (c) => c.charCodeAt(0));
-            window.depth = await decode_depth({ bytes }, ...size);
+            known = await decode_depth({ bytes }, ...size);
         }
-        if (window.depth) reprojection.keep({ picture, depth: window.depth, view }, false);
+        if (known) reprojection.keep({ picture, depth: known, view }, false);
     };
     window.draw = (view) => {
+        if (plain) return picture.toDataURL();
         reprojection.draw(view, width, height);
         return canvas.toDataURL();
     };
-    window.draw_plain = () => picture.toDataURL();
 }
 
 const base64 = (bytes) => Buffer.from(bytes).toString("base64");
@@ -160,10 +148,7 @@ async function draw_moments(page, { frames, eye_at, seconds }) {
             await page.evaluate((frame) => window.take(frame), portable(frames[next]));
         const view = fit_view(eye_at(t), width, height);
         const newest = frames[next - 1];
-        const shown = await page.evaluate(
-            ([of, plain]) => (plain ? window.draw_plain() : window.draw(of)),
-            [view, args.plain !== undefined],
-        );
+        const shown = await page.evaluate((of) => window.draw(of), view);
         const size = args.plain ? [newest.width, newest.height] : [width, height];
         found.push({ shown, view, exposure: newest.exposure, size });
     }
@@ -175,22 +160,7 @@ async function measure(browser, address, move, folder) {
     const context = await browser.newContext({ bypassCSP: true }); // for pieces as data URLs
     const page = await context.newPage();
     await page.goto(`${address.origin}/page/${args.plain ? "view" : "warp"}.js`);
-    if (args.plain)
-        await page.evaluate(() => {
-            const picture = document.createElement("canvas");
-            window.take = async ({ pieces, size }) => {
-                if (pieces.length > 0) Object.assign(picture, { width: size[0], height: size[1] });
-                const context = picture.getContext("2d", { alpha: false });
-                for (const { url, x, y } of pieces)
-                    context.drawImage(
-                        await createImageBitmap(await (await fetch(url)).blob()),
-                        x,
-                        y,
-                    );
-            };
-            window.draw_plain = () => picture.toDataURL();
-        });
-    else await page.evaluate(start_camera, [width, height]);
+    await page.evaluate(start_camera, [width, height, args.plain !== undefined]);
     const moments = await draw_moments(page, walk);
     const judge = await browser.newPage();
     const rendered = renderer(program, scene, [width, height], folder);

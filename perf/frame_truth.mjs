@@ -20,7 +20,7 @@ import path from "node:path";
 import { parseArgs } from "node:util";
 import { fit_view } from "../apps/viewer/view.js";
 import { parse_views } from "../apps/viewer/view_text.js";
-import { Client, moved, wait } from "./walk_client.mjs";
+import { Client, moved, stand, wait } from "./walk_client.mjs";
 import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
 
 const { values: args } = parseArgs({
@@ -56,16 +56,7 @@ async function drive(program, move) {
             width,
             height,
         );
-        client.look(first, false);
-        await wait(5000);
-        client.say({
-            type: "display",
-            mode: "tone",
-            exposure: { auto: false, ev: Math.log2(client.frames.at(-1).exposure) },
-            human: false,
-            scale: { low: 1, high: 1000, log: true },
-        });
-        await wait(500);
+        await stand(client, first);
         Object.assign(client, { frames: [], states: [], bytes: 0 });
         const begin = performance.now();
         const seconds = Number(args.seconds);

@@ -84,3 +84,17 @@ export class Client {
         this.say({ type: "view", id: this.id, view, width, height, moving, walk: false });
     }
 }
+
+/** Stand still until the picture is good, with the exposure that it has got. */
+export async function stand(client, first) {
+    client.look(first, false);
+    await wait(5000);
+    client.say({
+        type: "display",
+        mode: "tone",
+        exposure: { auto: false, ev: Math.log2(client.frames.at(-1).exposure) },
+        human: false,
+        scale: { low: 1, high: 1000, log: true },
+    });
+    await wait(500);
+}

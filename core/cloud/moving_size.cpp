@@ -20,7 +20,8 @@ constexpr double kMany = 0.25, kMost = 0.03, kFew = 0.005;
 // An inferred pixel, whose edges and patterns are right, is as bad as so much of a guessed one.
 constexpr double kInferred = 0.1, kFewInferred = 0.22;
 // Of the budget, for all but tracing, which takes the time that is left: the next size would fit.
-constexpr double kShort = 0.85 / kGrowth;
+// Where it is much more than the budget frames are too large.
+constexpr double kShort = 0.85 / kGrowth, kLate = 1.15;
 constexpr int kBad = 2;  // frames in a row: one may be a matter of a busy machine
 constexpr int kPatience = 8, kMostPatience = 256, kSoon = 60;  // [frames]
 
@@ -67,7 +68,7 @@ void MovingSize::record(const CloudReport& report, double budget) {
     const double wrong = guessed + kInferred * inferred;
     const double seconds =
         report.project_seconds + report.check_seconds + report.infer_seconds + report.keep_seconds;
-    bad_ = wrong > kMost ? bad_ + 1 : 0;
+    bad_ = wrong > kMost || seconds > kLate * budget ? bad_ + 1 : 0;
     const bool fits = guessed < kFew && inferred < kFewInferred && seconds < kShort * budget;
     good_ = fits ? good_ + 1 : 0;
     if (bad_ >= kBad || wrong > kMany) {

@@ -7,6 +7,9 @@
 namespace lightwalk {
 namespace {
 
+/// With more points a pixel none wakes: what is awake takes time in each frame.
+constexpr std::size_t kMostAwakeAPixel = 2;
+
 constexpr int kHalo = 1;  ///< pixels around the region whose points may answer its own
 
 }  // namespace
@@ -20,7 +23,8 @@ void RegionPoints::begin(const Camera& camera) {
 }
 
 void RegionPoints::project(const TaskRunner& task_runner) {
-    if (projector_->is_perspective()) asleep_.wake(*projector_, points_);
+    if (projector_->is_perspective())
+        asleep_.wake(*projector_, kMostAwakeAPixel * area_.pixels(), points_);
     places_.resize(points_.size());
     used_.assign(points_.size(), 0);
     for_each_part(task_runner, grids_.ahead.size(),

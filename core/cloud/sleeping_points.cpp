@@ -86,18 +86,21 @@ void SleepingPoints::add(std::vector<CloudPoint>& points) {
     size_ += points.size();
 }
 
-void SleepingPoints::wake(const PointProjector& projector, std::vector<CloudPoint>& awake) {
+void SleepingPoints::wake(const PointProjector& projector, std::size_t most,
+                          std::vector<CloudPoint>& awake) {
     constexpr std::uint8_t kNotJustShown = 1;
-    const auto wakes = [&](const Group& group) {
-        if (!projector.may_show(group.box.lower, group.box.upper)) return false;
-        for (CloudPoint point : group.points) {
+    bool any = false;
+    for (auto group = groups_.rbegin(); group != groups_.rend() && awake.size() < most; ++group) {
+        if (!projector.may_show(group->box.lower, group->box.upper)) continue;
+        for (CloudPoint point : group->points) {
             point.age = kNotJustShown;
             awake.push_back(point);
         }
-        size_ -= group.points.size();
-        return true;
-    };
-    std::erase_if(groups_, wakes);
+        size_ -= group->points.size();
+        group->points.clear();
+        any = true;
+    }
+    if (any) std::erase_if(groups_, [](const Group& group) { return group.points.empty(); });
 }
 
 void SleepingPoints::limit(std::size_t most) {

@@ -17,10 +17,12 @@ class SleepingPoints {
   public:
     /// Points that have left the picture. Their order changes.
     void add(std::vector<CloudPoint>& points);
-    /// Take out all points that the picture may show, and others of their groups. Nothing is awake
-    /// as one that the last frame has shown.
+    /// Take out all points that the picture may show, and others of their groups, those that fell
+    /// asleep last first: of one place they tell most. Nothing is awake as one that the last frame
+    /// has shown.
     /// @param awake  they are appended to these
-    void wake(const PointProjector& projector, std::vector<CloudPoint>& awake);
+    /// @param most   once there are so many of these the others sleep on
+    void wake(const PointProjector& projector, std::size_t most, std::vector<CloudPoint>& awake);
     /// Forget those that have slept longest, so that hardly more than `most` are left.
     void limit(std::size_t most);
     [[nodiscard]] std::size_t size() const { return size_; }

@@ -20,7 +20,7 @@ struct BodyRule {
         box_along_width,  ///< whose width is the extent along x
         round_width,      ///< an upright cylinder whose diameter is the width
         round_length,
-        round,  ///< a sphere when all sizes are equal, else an ellipsoid
+        round,  ///< a sphere when all sizes are equal, else a box
     };
     std::array<int, 3> signs;
     Body body;

@@ -53,6 +53,14 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     CHECK(much.of(1) == 1);
 }
 
+TEST_CASE("moving size: frames that take longer than there is time for get smaller") {
+    MovingSize size = grown();
+    record(size, 1, 0, 1.5);
+    CHECK(size.share() == 1);
+    record(size, 1, 0, 1.5);
+    CHECK(size.of(1000) == 841);
+}
+
 TEST_CASE("moving size: who is patient gets fewer frames before they get smaller") {
     MovingSize size;
     size.set_patient(true);

@@ -50,7 +50,7 @@ TEST_CASE("sleeping points: all that a view shows wake, others by the way only, 
     CHECK(sleeping.size() == all.size());
     const Camera camera(looking({1, 0.4, 0.2}, {0.5, -1, 0}));
     const PointProjector projector(camera, kSleepWidth, kSleepHeight);
-    sleeping.wake(projector, awake);
+    sleeping.wake(projector, all.size(), awake);
     std::size_t shown = 0, shown_awake = 0;
     for (const CloudPoint& point : all) shown += projector(point.place()).distance > 0 ? 1 : 0;
     for (const CloudPoint& point : awake)
@@ -65,7 +65,7 @@ TEST_CASE("sleeping points: all that a view shows wake, others by the way only, 
     for (const Vec3& direction : {Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}})
         for (const double up : {-2.0, 0.0, 2.0}) {
             const Camera other(looking(direction + Vec3{0, 0, up}));
-            sleeping.wake(PointProjector(other, kSleepWidth, kSleepHeight), awake);
+            sleeping.wake(PointProjector(other, kSleepWidth, kSleepHeight), all.size(), awake);
         }
     std::vector<CloudPoint> found = awake, wanted = all;
     for (CloudPoint& point : found) point.age = 0;
@@ -83,11 +83,19 @@ TEST_CASE("sleeping points: for want of room those go that have slept longest") 
     for (CloudPoint& point : second) point.position = {3, 0.1f, 0};
     sleeping.add(first);
     sleeping.add(second);
+    const Camera camera(looking({1, 0, 0}));
+    const PointProjector projector(camera, kSleepWidth, kSleepHeight);
+    // Those that fell asleep last wake first.
+    sleeping.wake(projector, 100, awake);
+    CHECK(awake.size() >= 100);
+    CHECK(awake.size() < 300);
+    CHECK(std::ranges::all_of(awake, [](const CloudPoint& p) { return p.position[1] > 0; }));
+    sleeping.add(awake);
+    awake.clear();
     sleeping.limit(1000);
     CHECK(sleeping.size() <= 1000);
     CHECK(sleeping.size() > 800);  // whole groups go
-    const Camera camera(looking({1, 0, 0}));
-    sleeping.wake(PointProjector(camera, kSleepWidth, kSleepHeight), awake);
+    sleeping.wake(projector, 1000, awake);
     CHECK(std::ranges::all_of(awake, [](const CloudPoint& p) { return p.position[1] > 0; }));
     sleeping.limit(0);
     CHECK(sleeping.size() == 0);
