@@ -35,4 +35,7 @@ class WordReader {
     SourceLocation where_;
 };
 
+/// A text without the blanks at its ends.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
 }  // namespace lightwalk

@@ -16,13 +16,6 @@ namespace {
 constexpr double kMostExponent = 1e6;
 constexpr double kMostRadiance = 1e9;
 
-std::string_view trimmed_words(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r\v\f";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
 class MtlReader {
   public:
     MtlReader(std::string_view text, const std::string& name) : rest_(text), where_{name, 0} {}
@@ -33,7 +26,7 @@ class MtlReader {
             std::string_view line = take_line(rest_);
             const std::string_view statement = take_word(line);
             if (statement == "newmtl") {
-                const std::string_view name = trimmed_words(line);
+                const std::string_view name = without_blanks(line);
                 if (name.empty()) throw InputError(where_, "newmtl without a name");
                 materials_.emplace_back().name = name;
             } else if (!materials_.empty()) {
@@ -57,7 +50,7 @@ class MtlReader {
             if (std::string_view rest = line; take_word(rest) == "-halo") line = rest;
             m.d = number(line, 1);
         }
-        if (statement == "map_Kd") m.map_kd = file_of(trimmed_words(line));
+        if (statement == "map_Kd") m.map_kd = file_of(without_blanks(line));
     }
 
     /// The file after the options of a map, the words of which begin with '-'.
@@ -82,7 +75,7 @@ class MtlReader {
             throw InputError(where_, "colours by \"" + std::string(first) +
                                          "\" are not supported, expected red, green and blue");
         color[0] = color[1] = color[2] = number(line, most);
-        if (trimmed_words(line).empty()) return;
+        if (without_blanks(line).empty()) return;
         color[1] = number(line, most);
         color[2] = number(line, most);
     }

@@ -16,13 +16,6 @@ namespace {
 
 constexpr double kLargestCoordinate = 1e20;
 
-std::string_view without_blanks(std::string_view text) {
-    constexpr std::string_view kBlanks = " \t\r\v\f";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
 class ObjReader {
   public:
     ObjReader(std::string_view text, const std::string& name) : rest_(text), where_{name, 0} {}
