@@ -42,7 +42,7 @@ class RunningProgram {
 };
 
 /// Whether mpirun failed rather than the program: Open MPI 4's mpirun may crash while it forwards
-/// input (open-mpi/ompi issue 7483).
+/// input (open-mpi/ompi issue 7483), or find no way to start.
 [[nodiscard]] bool launcher_died(const ProgramResult& result);
 
 /// The command that starts ranks of the program on this machine, for any number of cores; nothing

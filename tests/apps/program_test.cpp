@@ -122,7 +122,12 @@ ProgramResult RunningProgram::finish(const std::string& input) {
 }
 
 bool launcher_died(const ProgramResult& result) {
-    return result.status == 128 + SIGSEGV && result.err.find("orte_iof_hnp") != std::string::npos;
+    const auto says = [&](const char* words) {
+        return result.err.find(words) != std::string::npos;
+    };
+    if (result.status == 128 + SIGSEGV) return says("orte_iof_hnp");
+    return result.status != 0 &&
+           (says("ORTE_ERROR_LOG") || says("orte_init failed") || says("PMIX ERROR"));
 }
 
 ProgramResult run_program(const std::vector<std::string>& words, const std::string& input,
@@ -131,7 +136,7 @@ ProgramResult run_program(const std::vector<std::string>& words, const std::stri
     for (int tries = 1;; ++tries) {
         ProgramResult result = RunningProgram(words, launcher).finish(input);
         if (launcher.empty() || !launcher_died(result) || tries == kTries) return result;
-        MESSAGE("mpirun itself died; once more");
+        MESSAGE("mpirun itself died; once more: ", result.err);
     }
 }
 
@@ -140,6 +145,9 @@ std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std:
     return std::nullopt;  // it takes what MPI does for races
 #endif
     if (std::system("command -v mpirun > /dev/null") != 0) return std::nullopt;
+    // Several at once in one folder for their sockets may take each other's away as they end
+    // (open-mpi/ompi issue 8510).
+    static const TemporaryFolder sockets;
     // Root must say that it means it; what MPI leaves behind at its end is not ours.
     std::vector<std::string> line{"env",
                                   "OMPI_ALLOW_RUN_AS_ROOT=1",
@@ -149,6 +157,9 @@ std::optional<std::vector<std::string>> mpirun(int ranks, const std::vector<std:
                                   "--oversubscribe",
                                   "--bind-to",
                                   "none",
+                                  "--mca",
+                                  "orte_tmpdir_base",
+                                  sockets.path(),
                                   "-n",
                                   std::to_string(ranks)};
     line.insert(line.end(), more.begin(), more.end());

@@ -194,6 +194,7 @@ TEST_CASE("trace on ranks: what cannot be read ends all of them with its message
     const std::string scene = folder.write("bad.rad", "paint sphere ball 0 0 4 0 0 0 1\n");
     const ProgramResult result =
         run_program({"trace", "--variant", "ranks", scene}, "0 0 0 0 0 1\n", *mpirun(3));
+    CAPTURE(result.err);
     CHECK(result.status == 1);
     CHECK(result.out.empty());
     CHECK(result.err.find("bad.rad:1") != std::string::npos);
