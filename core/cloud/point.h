@@ -21,6 +21,15 @@ enum class PointKind : std::uint8_t {
 };
 inline constexpr std::uint8_t kPointKinds = 5;
 
+/// Of PrimaryVisibility::surface: bits that are equal for surfaces of one material behind the same
+/// kinds of panes and mirrors.
+inline constexpr std::uint32_t kMaterialBits = 0xff;
+
+/// Whether two surfaces are of one material, as the leaves of a tree are.
+[[nodiscard]] inline bool same_material(std::uint32_t one, std::uint32_t other) {
+    return ((one ^ other) & kMaterialBits) == 0;
+}
+
 /// The view angle is not limited: the colour holds from all directions.
 inline constexpr float kAnyViewAngle = HUGE_VALF;
 

@@ -70,6 +70,8 @@ struct PointFinder::Search {
     bool turned = false;  ///< some points were seen from a too different direction:
     std::uint32_t nearest_turned = kNoPoint;
     float turned_squared = HUGE_VALF;  ///< distance of the nearest of them [pixels²]
+    std::uint32_t kin = kNoPoint;      ///< nearest point of the same material at the same depth
+    float kin_squared = HUGE_VALF;     ///< its distance [pixels²]
 };
 
 inline float PointFinder::squared_distance(std::uint32_t index,
@@ -86,9 +88,16 @@ inline void PointFinder::consider(std::uint32_t index, float squared,
     const CloudPoint& point = points_[index];
     const float light = brightness(point.radiance);
     if (light > found.faint) {
-        if (point.surface != primary.surface) return;
+        if (!same_material(point.surface, primary.surface)) return;
         const float distance = places_[index].distance;
         if (std::abs(distance - primary.distance) > kSameDepth * primary.distance) return;
+        if (point.surface != primary.surface) {
+            if (squared < found.kin_squared) {
+                found.kin_squared = squared;
+                found.kin = index;
+            }
+            return;
+        }
         if (point.max_view_angle != kAnyViewAngle &&
             !holds_from(point, toward(point, visibility, primary), rules_.tightness)) {
             found.turned = true;
@@ -167,6 +176,10 @@ TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
         best = found.nearest_turned;
         answer.radiance += points_[best].radiance;
         return TraceCause::turned;
+    }
+    if (found.points == 0 && found.kin != kNoPoint) {
+        best = found.kin;
+        answer.radiance += points_[best].radiance;
     }
     if (found.points == 0) return found.any ? TraceCause::hidden : TraceCause::uncovered;
     const bool sharp = inside_pixel || found.squared <= kOwnPixel2;
@@ -411,7 +424,10 @@ bool PointFinder::is_edge(const PixelPlace& pixel) const {
 }
 
 bool PointFinder::is_guess(const PixelAnswer& answer) const {
-    if (answer.cause != TraceCause::uneven && answer.cause != TraceCause::turned) return false;
+    const bool kin = answer.cause == TraceCause::hidden &&
+                     (answer.ahead != kNoPoint || answer.mirrored != kNoPoint);
+    if (!kin && answer.cause != TraceCause::uneven && answer.cause != TraceCause::turned)
+        return false;
     return answer.ahead == kNoPoint || !points_[answer.ahead].paired || answer.mirrored != kNoPoint;
 }
 

@@ -115,8 +115,9 @@ class PointFinder {
     /// pixel without a point, or where depths jump.
     [[nodiscard]] bool is_edge(const PixelPlace& pixel) const;
 
-    /// Whether an answer that was not found has all points of its pixel, though not near enough, or
-    /// seen from elsewhere: the best guess until the pixel is traced.
+    /// Whether an answer that was not found has all points of its pixel, though not near enough,
+    /// seen from elsewhere, or of another leaf of the tree: the best guess until the pixel is
+    /// traced.
     [[nodiscard]] bool is_guess(const PixelAnswer& answer) const;
     /// The distance along the ray of an answer: of what lies ahead, or of the reflection where that
     /// is brighter [m].

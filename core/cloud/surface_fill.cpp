@@ -39,7 +39,8 @@ struct Mean {
 
 /// The known pixels around one, by what they show.
 struct Surroundings {
-    Mean same, level;  ///< of the same surface; of another one that is about as far away
+    Mean same, kin, level;  ///< of the same surface; of others that are about as far away: of the
+                            ///< same material, of any
 };
 
 /// Considers the pixels of a grid around a place, 4 x 4 of them.
@@ -56,7 +57,11 @@ void look_around(const CloudFrame& frame, const PixelPlace& place, int step,
             const float weight = 1 / (dx * dx + dy * dy);
             if (frame.surfaces[at] == seen.surface)
                 around.same.add(frame.radiance[at], frame.patterns[at], weight);
-            else if (std::abs(frame.distance[at] - seen.distance) <= kAsFarAway * seen.distance)
+            else if (std::abs(frame.distance[at] - seen.distance) > kAsFarAway * seen.distance)
+                continue;
+            else if (same_material(frame.surfaces[at], seen.surface))
+                around.kin.add(frame.radiance[at], frame.patterns[at], weight);
+            else
                 around.level.add(frame.radiance[at], kNoPattern, weight);
         }
     }
@@ -71,9 +76,10 @@ std::optional<InferredPixel> infer_pixel(const CloudFrame& frame, const PixelPla
     Surroundings around;
     for (int step = 1; step <= kFarthest && around.same.count < kEnoughOfSurface; step *= 2)
         look_around(frame, place, step, seen, around);
-    const bool same = around.same.count > 0;
+    const Mean& own = around.same.count > 0 ? around.same : around.kin;
+    const bool same = own.count > 0;
     if (!same && around.level.count == 0) return std::nullopt;
-    const Rgb radiance = same ? around.same.value(seen.pattern) : around.level.value(1);
+    const Rgb radiance = same ? own.value(seen.pattern) : around.level.value(1);
     return InferredPixel{frame.area.index(place), radiance, seen.distance, same};
 }
 

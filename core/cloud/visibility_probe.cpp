@@ -11,12 +11,23 @@ namespace {
 
 constexpr int kMostSurfaces = 16;  ///< surfaces that a ray is followed through
 
-/// Extends the hash of a path by one surface; never 0.
-std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t frame) {
+/// Perturbations of a normal up to which a surface is even but for ripples: they bend light by some
+/// pixels, where the image of another one would be far from it as soon as the eye moves [rad].
+constexpr double kRipple = 0.01;
+
+/// Extends the hash of a path by one surface; never 0. Its kMaterialBits are those of the surfaces'
+/// modifiers alone.
+std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t frame,
+                          ModifierId modifier) {
     const std::uint64_t both = std::uint64_t{static_cast<std::uint32_t>(surface)} << 32 |
                                static_cast<std::uint32_t>(frame);
-    const std::uint64_t bits = mix_bits(mix_bits(both + 1) ^ met);
-    return static_cast<std::uint32_t>(bits >> 32) | 1;
+    const auto bits = static_cast<std::uint32_t>(mix_bits(mix_bits(both + 1) ^ met) >> 32);
+    const std::uint64_t material =
+        mix_bits((met & kMaterialBits) + (std::uint64_t{1} << 32) +
+                 (std::uint64_t{static_cast<std::uint32_t>(index(modifier))} << 8));
+    constexpr std::uint32_t kNeverNone = kMaterialBits + 1;
+    return (bits & ~kMaterialBits) | kNeverNone |
+           (static_cast<std::uint32_t>(material) & kMaterialBits);
 }
 
 /// Relative changes of a mirror-like reflection and of the transmitted rest as the ray turns, by
@@ -89,9 +100,10 @@ void VisibilityProbe::Walk::pass(const Hit& hit, bool reflect) {
     segment.t_max = kHuge;
 }
 
-bool VisibilityProbe::reflects_flat(const Hit& hit, const SurfaceAppearance& appearance) const {
-    return !appearance.textured && tracer_.scene().surface(hit.surface).is_flat() &&
-           hit.perturbation == Vec3{};
+bool VisibilityProbe::reflects_flat(const Walk& walk, const Hit& hit,
+                                    const SurfaceAppearance& appearance) const {
+    return (!appearance.textured || walk.needs.passing) &&
+           tracer_.scene().surface(hit.surface).is_flat() && hit.perturbation == Vec3{};
 }
 
 /// The hash of a path that ends at a source at infinity, or at nothing.
@@ -99,7 +111,7 @@ std::uint32_t VisibilityProbe::background(const Walk& walk) const {
     const Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
     const std::optional<SurfaceId> seen =
         walk.segment.t_max < kHuge ? std::nullopt : tracer_.lights().background(ray);
-    return met_surface(walk.met, index(seen.value_or(kNoSurface)), 0);
+    return met_surface(walk.met, index(seen.value_or(kNoSurface)), 0, kVoid);
 }
 
 float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
@@ -123,6 +135,21 @@ float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
     }
     const float value = brightness(ray.pattern);
     return std::isfinite(value) ? value : 1;
+}
+
+/// What the texture of an image that is taken for an even one's adds to its slope.
+float VisibilityProbe::ripple_slope(const Walk& walk, const Hit& hit,
+                                    const SurfaceAppearance& appearance) const {
+    if (!appearance.textured || walk.needs.patterns == nullptr) return 0;
+    const Scene& scene = tracer_.scene();
+    Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
+    ray.hit = hit;
+    for (ModifierId m = hit.modifier; m != kVoid; m = scene.modifier(m).next) {
+        const ModifierRecord& record = scene.modifier(m);
+        if (record.node && kind_of(record.type) == PrimitiveKind::texture)
+            (void)record.node->shade(ray, *walk.needs.patterns);
+    }
+    return length_squared(ray.hit.perturbation) <= kRipple * kRipple ? 0 : kMirrorLike;
 }
 
 /// Ends a walk at `hit`, or at infinity: sets its result.
@@ -158,14 +185,16 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
         return false;
     }
     const SurfaceAppearance appearance = appearance_at(hit);
-    walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
+    walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance), hit.modifier);
     const bool mirror =
-        appearance.appearance == Appearance::mirror && reflects_flat(hit, appearance);
-    const bool pane = appearance.appearance == Appearance::pane && !appearance.textured;
+        appearance.appearance == Appearance::mirror && reflects_flat(walk, hit, appearance);
+    const bool pane =
+        appearance.appearance == Appearance::pane && (!appearance.textured || walk.needs.passing);
     if (!mirror && !pane && appearance.appearance != Appearance::absent) {
         end(walk, hit, appearance);
         return false;
     }
+    if (mirror || pane) walk.primary->slope += ripple_slope(walk, hit, appearance);
     if (pane) {
         walk.primary->slope += static_cast<float>(slopes_of(hit, appearance).left);
         if (walk.primary->kind == PointKind::plain) walk.primary->kind = PointKind::through;
@@ -181,7 +210,7 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
     const SurfaceAppearance appearance = appearance_at(hit);
     if (appearance.appearance == Appearance::absent && walk.surfaces < kMostSurfaces) {
         ++walk.surfaces;
-        walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
+        walk.met = met_surface(walk.met, index(hit.surface), index(hit.instance), hit.modifier);
         walk.pass(hit, false);
         return true;
     }
@@ -195,8 +224,9 @@ bool VisibilityProbe::begins(Walk& walk, const Hit& hit, std::vector<Walk>& imag
         image->slope = static_cast<float>(slopes_of(hit, appearance).reflected);
         Walk mirrored = walk;
         mirrored.primary = image;
-        mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.instance));
-        if (reflects_flat(hit, appearance)) {
+        mirrored.met = met_surface(walk.met, index(hit.surface), index(hit.instance), hit.modifier);
+        if (reflects_flat(walk, hit, appearance)) {
+            image->slope += ripple_slope(walk, hit, appearance);
             mirrored.pass(hit, true);
             images.push_back(mirrored);
         } else {

@@ -35,6 +35,8 @@ class VisibilityProbe {
     struct Needs {
         bool slopes = false;  ///< else slopes are right only where they are kNeverReuse
         TraceContext* patterns = nullptr;  ///< what patterns are evaluated with; null: not needed
+        bool passing = false;  ///< what is seen is shown for a moment: panes and mirrors with
+                               ///< ripples show what even ones would, within their small bends
     };
 
     /// @param rays    of the pixels
@@ -48,7 +50,10 @@ class VisibilityProbe {
     struct Walk;
     [[nodiscard]] SurfaceAppearance appearance_of(ModifierId modifier) const;
     [[nodiscard]] SurfaceAppearance appearance_at(const Hit& hit) const;
-    [[nodiscard]] bool reflects_flat(const Hit& hit, const SurfaceAppearance& appearance) const;
+    [[nodiscard]] bool reflects_flat(const Walk& walk, const Hit& hit,
+                                     const SurfaceAppearance& appearance) const;
+    [[nodiscard]] float ripple_slope(const Walk& walk, const Hit& hit,
+                                     const SurfaceAppearance& appearance) const;
     void end(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const;
     [[nodiscard]] float glossy_slope(const Walk& walk, const Hit& hit,
                                      const SurfaceAppearance& appearance) const;

@@ -31,7 +31,7 @@ SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility
       probe_(visibility),
       camera_(camera),
       options_(with_rays(options, passing)),
-      rays_(rays_of_sample(camera_, options, 0)),
+      rays_(rays_of_sample(camera_, options_, 0)),
       contexts_(contexts),
       stop_(stop),
       passing_(passing),
@@ -39,8 +39,9 @@ SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility
 
 void SceneCaster::probe(std::span<const PixelPlace> places, const ProbeOptions& options,
                         std::span<PixelVisibility> visibility, int worker) {
-    probe_along(rays_, options.spacing, {false, options.patterns ? &contexts_[worker] : nullptr},
-                places, visibility, scratch_[static_cast<std::size_t>(worker)]);
+    probe_along(rays_, options.spacing,
+                {false, options.patterns ? &contexts_[worker] : nullptr, passing_}, places,
+                visibility, scratch_[static_cast<std::size_t>(worker)]);
 }
 
 namespace {
@@ -115,6 +116,20 @@ void SceneCaster::probe_along(const PixelRays& rays, int spacing,
     probe_.find(s.segments, s.hits, needs, visibility, s.ways);
 }
 
+namespace {
+
+/// How far away a pixel shows something, by Ray::effective_distance()'s rule: a ray ends at a pane
+/// or mirror with ripples, but its image moves as what it shows does [m].
+float distance_of(const TracedPixel& pixel) {
+    const PrimaryVisibility &ahead = pixel.visibility.ahead, &image = pixel.visibility.mirrored;
+    const bool mirror =
+        image.seen && brightness(pixel.mirrored) > 0.5f * brightness(pixel.radiance);
+    if (mirror) return image.distance;
+    return ahead.kind == PointKind::through ? ahead.distance : pixel.distance;
+}
+
+}  // namespace
+
 void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                         int sample, int worker) {
     Scratch& s = scratch_[static_cast<std::size_t>(worker)];
@@ -122,12 +137,15 @@ void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixe
     s.values.resize(places.size());
     s.pixel_hits.resize(places.size());
     const PixelRays rays = rays_of_sample(camera_, options_, sample);
-    probe_along(rays, 1, {true, passing_ ? &contexts_[worker] : nullptr}, places, s.visibility, s);
+    probe_along(rays, 1, {true, passing_ ? &contexts_[worker] : nullptr, passing_}, places,
+                s.visibility, s);
     PixelTracer trace_pixels(tracer_, rays, contexts_[worker], stop_);
     trace_pixels(places, s.values, s.pixel_hits);
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < places.size(); ++i) {
         pixels[i] = {s.visibility[i], s.values[i].radiance, s.pixel_hits[i].mirrored,
                      s.values[i].distance};
+        if (passing_) pixels[i].distance = distance_of(pixels[i]);
+    }
 }
 
 }  // namespace lightwalk

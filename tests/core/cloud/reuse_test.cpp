@@ -105,6 +105,23 @@ TEST_CASE("cloud: no point of another surface, or of another depth, shows throug
     CHECK(finder.checked({9, 9}, wall.visibility(9.5, 9.5, 1)).cause == TraceCause::uncovered);
 }
 
+TEST_CASE("cloud: a leaf of the same tree is a guess, one of another tree is none") {
+    constexpr std::uint32_t kLeaf = 0x11101, kOther = 0x22201, kStone = 0x11102;
+    Wall wall;
+    wall.add(5.5, 5.5, kLeaf, 3);
+    const PointFinder finder = wall.project();
+    const auto guessed = [&](std::uint32_t surface, double distance) {
+        const PixelAnswer answer =
+            finder.checked({5, 5}, wall.visibility(5.5, 5.5, surface, distance));
+        CHECK(answer.cause == TraceCause::hidden);
+        return finder.is_guess(answer) && answer.radiance.g == 3;
+    };
+    CHECK(guessed(kOther, 4));
+    CHECK(guessed(kOther, 4.1));
+    CHECK_FALSE(guessed(kOther, 5));
+    CHECK_FALSE(guessed(kStone, 4));
+}
+
 TEST_CASE("cloud: a pixel between points is answered where these agree, and traced where not") {
     for (const bool edge : {false, true}) {
         CAPTURE(edge);

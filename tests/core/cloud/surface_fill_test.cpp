@@ -116,6 +116,20 @@ TEST_CASE(
     CHECK(apart.radiance[table] == Rgb{});
 }
 
+TEST_CASE("surface fill: what is of the same material comes before all else that is as far away") {
+    CloudFrame frame = frame_of_grid(4);
+    for (std::size_t i = 0; i < frame.known.size(); ++i) {
+        if (frame.surfaces[i] != kTable) continue;
+        const bool stone = i % 8 == 0;  // every other column that is known
+        frame.surfaces[i] = stone ? kTable + 1 : kTable + kMaterialBits + 1;
+        if (stone) frame.radiance[i] = Rgb::grey(7);
+    }
+    TwoSurfaces caster;
+    (void)fill(frame, caster);
+    CHECK(frame.radiance[frame.area.index({41, 9})].g == doctest::Approx(100));
+    CHECK(frame.report.inferred == kFillWidth * kFillHeight * 15 / 16);
+}
+
 TEST_CASE("surface fill: patterns are those of the pixels themselves, light that of others") {
     // Boards of a wall in even light: neighbours lie on boards of other brightness.
     const auto pattern_of = [](int x) { return x % 3 == 0 ? 0.5f : x % 3 == 1 ? 1.0f : 2.0f; };

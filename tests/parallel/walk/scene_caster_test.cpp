@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/test_scene.h"
@@ -113,4 +115,52 @@ wood polygon wall 0 0 12  -90 40 -90  90 40 -90  90 40 90  -90 40 90
     }
     CHECK(dark > 0);
     CHECK(dark < 3 * places.size());
+}
+
+TEST_CASE("a pane or mirror with ripples shows in passing what an even one does, at its place") {
+    lightwalk::test::MemoryResources files;
+    files.functions["waves.cal"] = "small = .002*cos(9*Pz); large = .3*cos(9*Pz);\n";
+    const auto seen_through = [&](const std::string& texture, const std::string& kind,
+                                  bool passing) {
+        TestScene room("void texfunc waves 4 " + texture + " " + texture + " 0 waves.cal 0\n" +
+                           "0\nwaves " + kind + R"( pane 0 0 3 .9 .9 .9
+void glow sky 0 0 4 1 1 1 0
+sky bubble far 0 0 4 1 2 3 30
+pane polygon window 0 0 12  -40 5 -40  40 5 -40  40 5 40  -40 5 40
+)",
+                       TestScene::exact(), files);
+        const VisibilityProbe visibility(room.tracer);
+        const StopFlag stop;
+        WorkerContexts contexts(room.tracer, room.warnings, 1);
+        View ahead = view('v');
+        ahead.direction = {0, 1, 0};
+        ahead.horizontal = ahead.vertical = 40;
+        FrameOptions options;
+        options.width = options.height = 8;
+        SceneCaster caster(room.tracer, visibility, Camera(ahead), options, contexts, stop,
+                           passing);
+        const PixelPlace place{3, 3};
+        PixelVisibility probed;
+        TracedPixel traced;
+        caster.probe({&place, 1}, {}, {&probed, 1}, 0);
+        caster.trace({&place, 1}, {&traced, 1}, 0, 0);
+        const PrimaryVisibility& image =
+            kind == "mirror" ? traced.visibility.mirrored : traced.visibility.ahead;
+        const PrimaryVisibility& check = kind == "mirror" ? probed.mirrored : probed.ahead;
+        if (passing) CHECK(check.surface == image.surface);
+        if (passing) CHECK(check.distance == image.distance);
+        CHECK(probed.x == traced.visibility.x);
+        CHECK((probed.x == 3.5f) == passing);
+        return std::pair(traced.distance, image.slope);
+    };
+    for (const char* kind : {"glass", "mirror"}) {
+        CAPTURE(kind);
+        const auto [exact, never] = seen_through("small", kind, false);
+        CHECK(exact < 4);
+        CHECK(never >= kMirrorLike);
+        const auto [passing, slope] = seen_through("small", kind, true);
+        CHECK(passing == doctest::Approx(30).epsilon(kind[0] == 'g' ? 0.001 : 0.3));
+        CHECK(slope < 1);
+        CHECK(seen_through("large", kind, true).second >= kMirrorLike);
+    }
 }
