@@ -13,15 +13,15 @@ constexpr std::array kShares{1.0, 1.0, 0.8409, 0.7071, 0.5946, 0.5, 0.4204, 0.35
 constexpr double kGrowth = 1.4142;
 // Pictures of up to so many pixels take a little more time, of so many twice as much, and so on.
 constexpr double kSmallPixels = 640 * 480, kLargePixels = 1280 * 720;
-constexpr double kLeastPeriods = 1.1, kPeriodsOfLarge = 2, kMostPeriods = 2.5;
+constexpr double kLeastPeriods = 1, kPeriodsOfLarge = 2, kMostPeriods = 2.5;
 // Guessed pixels, as a share: with more of them a frame is too large, with fewer it may be too
 // small. With many it is much too large.
 constexpr double kMany = 0.25, kMost = 0.03, kFew = 0.005;
 // An inferred pixel, whose edges and patterns are right, is as bad as so much of a guessed one.
 constexpr double kInferred = 0.1, kFewInferred = 0.22;
 // Of the budget, for all but tracing, which takes the time that is left: the next size would fit.
-// Where it is much more than the budget frames are too large.
-constexpr double kShort = 0.85 / kGrowth, kLate = 1.15;
+// Where all together takes longer than this frames are too large: they would come too seldom.
+constexpr double kShort = 0.85 / kGrowth, kLate = 1.2;
 constexpr int kBad = 2;  // frames in a row: one may be a matter of a busy machine
 constexpr int kPatience = 8, kMostPatience = 256, kSoon = 60;  // [frames]
 
@@ -68,7 +68,8 @@ void MovingSize::record(const CloudReport& report, double budget) {
     const double wrong = guessed + kInferred * inferred;
     const double seconds =
         report.project_seconds + report.check_seconds + report.infer_seconds + report.keep_seconds;
-    bad_ = wrong > kMost || seconds > kLate * budget ? bad_ + 1 : 0;
+    const bool late = seconds + report.trace_seconds > kLate * budget;
+    bad_ = wrong > kMost || late ? bad_ + 1 : 0;
     const bool fits = guessed < kFew && inferred < kFewInferred && seconds < kShort * budget;
     good_ = fits ? good_ + 1 : 0;
     if (bad_ >= kBad || wrong > kMany) {

@@ -12,8 +12,9 @@ constexpr int kSpacing = 2;              ///< of rays that are cast for sure [pi
 constexpr int kSquareSide = 8;           ///< of the square that they lie in
 constexpr int kFarthest = 16;            ///< coarsest grid of traced pixels [pixels]
 constexpr int kEnoughOfSurface = 3;      ///< pixels of the same surface: no coarser grid is needed
-constexpr float kMostRatio = 4;          ///< of the brightness of patterns
-constexpr float kAsFarAway = 0.05f;      ///< relative difference of depth within one surface
+constexpr int kLeaf = 2;             ///< grid on which most leaves have no second pixel [pixels]
+constexpr float kMostRatio = 4;      ///< of the brightness of patterns
+constexpr float kAsFarAway = 0.05f;  ///< relative difference of depth within one surface
 
 /// A weighted mean of colours, and of the patterns that are in them.
 struct Mean {
@@ -41,6 +42,12 @@ struct Mean {
 struct Surroundings {
     Mean same, kin, level;  ///< of the same surface; of others that are about as far away: of the
                             ///< same material, of any
+
+    /// Whether no grid of this step or a coarser one is needed. A leaf ends within a few pixels.
+    [[nodiscard]] bool tell_enough(int step) const {
+        const bool leaf = same.count == 0 && step > kLeaf;
+        return (leaf ? kin : same).count >= kEnoughOfSurface;
+    }
 };
 
 /// Considers the pixels of a grid around a place, 4 x 4 of them.
@@ -74,7 +81,7 @@ std::optional<InferredPixel> infer_pixel(const CloudFrame& frame, const PixelPla
     const PrimaryVisibility& seen = visibility.ahead.seen ? visibility.ahead : visibility.mirrored;
     if (!visibility.ray || !seen.seen) return std::nullopt;
     Surroundings around;
-    for (int step = 1; step <= kFarthest && around.same.count < kEnoughOfSurface; step *= 2)
+    for (int step = 1; step <= kFarthest && !around.tell_enough(step); step *= 2)
         look_around(frame, place, step, seen, around);
     const Mean& own = around.same.count > 0 ? around.same : around.kin;
     const bool same = own.count > 0;

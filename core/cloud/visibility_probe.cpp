@@ -140,7 +140,7 @@ float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
 /// What the texture of an image that is taken for an even one's adds to its slope.
 float VisibilityProbe::ripple_slope(const Walk& walk, const Hit& hit,
                                     const SurfaceAppearance& appearance) const {
-    if (!appearance.textured || walk.needs.patterns == nullptr) return 0;
+    if (!appearance.textured || !walk.needs.slopes || walk.needs.patterns == nullptr) return 0;
     const Scene& scene = tracer_.scene();
     Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
     ray.hit = hit;
