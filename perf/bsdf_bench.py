@@ -10,14 +10,14 @@ over Klems' full basis (slats that let light down and up), `pane` a tensor tree 
 `proxy` has slats as geometry, and the matrix for scattered light. Rooms are the cabin's living room, whose panes get the data, and
 a room of one window. --keep leaves scenes and pictures there.
 """
-import argparse, math, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
+import argparse, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
 
+import bsdf_data
 from render_bench import SCENE, commit, machine, run
 
 DIRECT = "-ab 0 -av .02 .02 .02 -x 1280 -y 960".split()
 BOUNCES = "-ab 2 -av 0 0 0 -aa .2 -ad 256 -as 64 -ar 64 -x 240 -y 180".split()
 OPTIONS = "-ps 1 -pj 0 -pt 0 -dj 0 -ds .2 -dt .05 -dc .5 -dr 1 -st .05 -ss 1 -lr 6 -lw .002".split()
-KLEMS_FULL = [(5, 1), (15, 8), (25, 16), (35, 20), (45, 24), (55, 24), (65, 24), (75, 16), (90, 12)]
 
 ROOM = """
 void plastic wall 0 0 5 .6 .6 .55 0 0
@@ -56,69 +56,9 @@ PANES = {"cabin": "", "cabin blind": "void BSDF window_glass\n6 0 {}/blind.xml 0
 VIEW = "-vtv -vp 3.2 5.2 1.6 -vd -.3 -1 -.12 -vu 0 0 1 -vh 70 -vv 55".split()
 
 
-def patches():
-    """Middle (x, y) and projected solid angle of each patch of Klems' full basis."""
-    lower = 0
-    for upper, count in KLEMS_FULL:
-        omega = math.pi * (math.sin(math.radians(upper)) ** 2 - math.sin(math.radians(lower)) ** 2) / count
-        r = 0 if count == 1 else math.sin(math.radians((lower + upper) / 2))
-        for k in range(count):
-            yield r * math.cos(2 * math.pi * k / count), r * math.sin(2 * math.pi * k / count), omega
-        lower = upper
-
-
-def document(structure, blocks):
-    text = "".join(f"<WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>{direction}"
-                   f"</WavelengthDataDirection>{bases}<ScatteringData>\n{values}\n</ScatteringData></WavelengthDataBlock>"
-                   "</WavelengthData>\n" for direction, bases, values in blocks)
-    return ('<?xml version="1.0"?>\n<WindowElement><FileType>BSDF</FileType><Optical><Layer><Material><Name>made</Name></Material>'
-            f"<DataDefinition><IncidentDataStructure>{structure}</IncidentDataStructure></DataDefinition>\n{text}"
-            "</Layer></Optical></WindowElement>\n")
-
-
-def blind_file():
-    """Light goes straight through between slats, and is scattered up and down by them."""
-    table, name = list(patches()), "LBNL/Klems Full"
-    bases = f"<ColumnAngleBasis>{name}</ColumnAngleBasis><RowAngleBasis>{name}</RowAngleBasis>"
-
-    def through(i, o):  # a patch is named by where light travels to
-        x, y = table[o][0] - table[i][0], abs(table[o][1]) - abs(table[i][1])
-        value = .25 * math.exp(-(x * x + y * y) / .1) + .02
-        return value + (.3 / table[o][2] if i == o and table[i][1] > -.3 else 0)
-
-    def matrix(f):
-        return ",\n".join(", ".join(f"{f(i, o):.5g}" for i in range(len(table))) for o in range(len(table)))
-    reflected = lambda i, o: .06 + .1 * math.exp(-((table[o][0] - table[i][0]) ** 2 + (table[o][1] + table[i][1]) ** 2) / .2)
-    return document("Columns", [("Transmission Front", bases, matrix(through)), ("Transmission Back", bases, matrix(through)),
-                                ("Reflection Front", bases, matrix(reflected)), ("Reflection Back", bases, matrix(reflected))])
-
-
-def pane_file(levels=5, width=.12):
-    """Leaves get smaller towards the directions that light passes straight in; a haze lies about these."""
-    def disk(a, b):
-        a, b = 2 * a - 1, 2 * b - 1
-        if abs(a) >= abs(b):
-            return (a * math.cos(math.pi / 4 * b / a), a * math.sin(math.pi / 4 * b / a)) if a else (0, 0)
-        return b * math.sin(math.pi / 4 * a / b), b * math.cos(math.pi / 4 * a / b)
-
-    def part(low, size, level):
-        middle = [c + size / 2 for c in low]
-        away = max(abs(middle[0] - middle[2]), abs(middle[1] - middle[3]))
-        if level == levels or (level >= 2 and away > 1.5 * size):
-            if level == levels and away < size / 2:
-                return "{%.5g}" % (.55 / (math.pi * size * size))
-            (x, y), (u, v) = disk(*middle[:2]), disk(*middle[2:])
-            return "{%.4g}" % (.4 * math.exp(-((x - u) ** 2 + (y - v) ** 2) / width) + .012)
-        half = size / 2
-        return "{" + " ".join(part([c + half * (n >> i & 1) for i, c in enumerate(low)], half, level + 1) for n in range(16)) + "}\n"
-    basis, text = "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>", part([0, 0, 0, 0], 1, 0)
-    return document("TensorTree4", [("Transmission Front", basis, text), ("Transmission Back", basis, text),
-                                    ("Reflection Front", basis, "{.02}"), ("Reflection Back", basis, "{.02}")])
-
-
 def make_rooms(folder):
-    (folder / "blind.xml").write_text(blind_file())
-    (folder / "pane.xml").write_text(pane_file())
+    (folder / "blind.xml").write_text(bsdf_data.blind_file())
+    (folder / "pane.xml").write_text(bsdf_data.pane_file())
     for name, window in ROOMS.items():
         (folder / f"{name}.rad").write_text(ROOM + window)
 
