@@ -1,22 +1,24 @@
 #!/usr/bin/python3
 """Rooms whose windows are BSDF data, beside an installed Radiance and beside the same rooms with panes of glass.
 
-  bsdf_bench.py --scenes DIR --rpict PATH [--lightwalk PROGRAM] [--runs 3] [--threads 2] [--pick REGEX] [--keep FOLDER]
+  bsdf_bench.py [--scenes DIR] [--rpict PATH] [--lightwalk PROGRAM] [--runs 3] [--threads 2] [--pick REGEX] [--size 1] [--keep FOLDER]
 
-DIR is a folder that holds Radiance's sample models: DIR/cabin and DIR/lib. Each row is a picture, by direct light or with two
-bounces: seconds of whole processes (the median of runs that take turns), Lightwalk on --threads threads and rpict with an
-octree that oconv made before, and how many times rpict's time is ours. The rooms' data is made here: `blind` is a matrix
-over Klems' full basis (slats that let light down and up), `pane` a tensor tree of rank 4 with a peak straight on, as aBSDF;
-`proxy` has slats as geometry, and the matrix for scattered light. Rooms are the cabin's living room, whose panes get the data, and
-a room of one window. --keep leaves scenes and pictures there.
+DIR is a folder that holds Radiance's sample models: DIR/cabin and DIR/lib; without it there are no rows of the cabin, without rpict
+no columns of it. Each row is a picture, by direct light or with two bounces: seconds of whole processes (the median of runs that take
+turns), Lightwalk on --threads threads and rpict with an octree that oconv made before, and how many times rpict's time is ours. The
+rooms' data is made by bsdf_data.py: `blind` is a matrix over Klems' full basis (slats that let light down and up), `pane` a tensor tree
+of rank 4 with a peak straight on, as aBSDF; `proxy` has slats as geometry, and the matrix for scattered light. Rooms are the cabin's
+living room, whose panes get the data, and a room of one window. --keep leaves scenes and pictures there.
 """
 import argparse, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
 
 import bsdf_data
 from render_bench import SCENE, commit, machine, run
 
-DIRECT = "-ab 0 -av .02 .02 .02 -x 1280 -y 960".split()
-BOUNCES = "-ab 2 -av 0 0 0 -aa .2 -ad 256 -as 64 -ar 64 -x 240 -y 180".split()
+LIGHTS = {  # options, and the size of the picture
+    "direct": ("-ab 0 -av .02 .02 .02".split(), (1280, 960)),
+    "bounces": ("-ab 2 -av 0 0 0 -aa .2 -ad 256 -as 64 -ar 64".split(), (240, 180)),
+}
 OPTIONS = "-ps 1 -pj 0 -pt 0 -dj 0 -ds .2 -dt .05 -dc .5 -dr 1 -st .05 -ss 1 -lr 6 -lw .002".split()
 
 ROOM = """
@@ -82,54 +84,78 @@ def timed(command, folder, environment):
     return time.perf_counter() - start
 
 
-def measure(arguments, folder, environment, view, options, scene, scratch, name):
-    octree = scratch / f"{name}.oct"
-    with open(octree, "wb") as out:
-        done = subprocess.run(["oconv", "-w", *scene], cwd=folder, env=environment, stdout=out, stderr=subprocess.PIPE)
+def make_octree(arguments, folder, environment, scene, path):
+    with open(path, "wb") as out:
+        done = subprocess.run([os.path.join(os.path.dirname(arguments.rpict), "oconv"), "-w", *scene], cwd=folder, env=environment,
+                              stdout=out, stderr=subprocess.PIPE)
     if done.returncode != 0:
         sys.exit(f"oconv failed: {done.stderr.decode(errors='replace')[-500:]}")
+
+
+def measure(arguments, folder, environment, options, scene, scratch, name):
+    """Seconds of ours and of rpict's runs, which take turns; none of rpict's where it is not there."""
+    octree = scratch / f"{name}.oct"
+    if arguments.rpict:
+        make_octree(arguments, folder, environment, scene, octree)
     ours, theirs = [], []
     for _ in range(arguments.runs):
-        ours.append(timed([arguments.lightwalk, "render", *view, *OPTIONS, *options, "-n", str(arguments.threads), "--quiet",
+        ours.append(timed([arguments.lightwalk, "render", *options, "-n", str(arguments.threads), "--quiet",
                            "-o", str(scratch / f"{name}.hdr"), *scene], folder, environment))
-        theirs.append(timed([arguments.rpict, *view, *OPTIONS, *options, "-o", str(scratch / f"{name}.rpict.hdr"), str(octree)],
-                            folder, environment))
-    return statistics.median(ours), max(ours) - min(ours), statistics.median(theirs), max(theirs) - min(theirs)
+        if arguments.rpict:
+            theirs.append(timed([arguments.rpict, *options, "-o", str(scratch / f"{name}.rpict.hdr"), str(octree)],
+                                folder, environment))
+    return ours, theirs
+
+
+def cells(ours, theirs):
+    numbers = [f"{number:.2f}" for runs in (ours, theirs) if runs for number in (statistics.median(runs), max(runs) - min(runs))]
+    return numbers + ([f"{statistics.median(theirs) / statistics.median(ours):.1f}"] if theirs else ["-"] * 3)
+
+
+def find_rpict(named):
+    """Its path; None where there is none, unless it was asked for."""
+    found = shutil.which(named or "rpict")
+    if named and not found:
+        sys.exit(f"{named} was not found")
+    return found and os.path.abspath(found)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scenes", required=True, metavar="DIR")
+    parser.add_argument("--scenes", metavar="DIR")
     parser.add_argument("--lightwalk", default="lightwalk", metavar="PROGRAM")
-    parser.add_argument("--rpict", default="rpict", metavar="PATH")
+    parser.add_argument("--rpict", metavar="PATH", help="default: the one on the PATH, if any")
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--pick", default="", metavar="REGEX", help="of the pictures 'ROOM direct' and 'ROOM bounces'")
+    parser.add_argument("--size", type=float, default=1, help="times the pictures' width and height")
     parser.add_argument("--keep", metavar="FOLDER")
     arguments = parser.parse_args()
     if os.sep in arguments.lightwalk:
         arguments.lightwalk = os.path.abspath(arguments.lightwalk)
-    rpict = os.path.abspath(arguments.rpict) if os.sep in arguments.rpict else shutil.which(arguments.rpict)
-    if not rpict or not os.path.exists(rpict):
-        sys.exit("rpict was not found")
-    arguments.rpict = rpict
-    lib, cabin = os.path.abspath(f"{arguments.scenes}/lib"), os.path.abspath(f"{arguments.scenes}/cabin")
-    environment = dict(os.environ, RAYPATH=f".:{lib}:{os.environ.get('RAYPATH', '')}",
-                       PATH=os.path.dirname(rpict) + os.pathsep + os.environ.get("PATH", ""))
+    arguments.rpict = find_rpict(arguments.rpict)
+    environment = dict(os.environ, RAYPATH=f".:{os.environ.get('RAYPATH', '')}")
+    if arguments.scenes:
+        environment["RAYPATH"] = f".:{os.path.abspath(arguments.scenes)}/lib:{os.environ.get('RAYPATH', '')}"
+    if arguments.rpict:
+        environment["PATH"] = os.path.dirname(arguments.rpict) + os.pathsep + os.environ.get("PATH", "")
     print(f"{commit()}\t{machine()}\t{arguments.threads} threads")
     print("picture\tours s\tspread s\trpict s\tspread s\ttimes", flush=True)
     with tempfile.TemporaryDirectory() as made:
         scratch = pathlib.Path(arguments.keep or made).resolve()
         scratch.mkdir(parents=True, exist_ok=True)
         make_rooms(scratch)
-        for light, options in (("direct", DIRECT), ("bounces", BOUNCES)):
-            for room in (*PANES, *ROOMS):
+        for light, (options, size) in LIGHTS.items():
+            pixels = [word for name, n in zip("xy", size) for word in (f"-{name}", str(max(1, round(n * arguments.size))))]
+            for room in (*(PANES if arguments.scenes else ()), *ROOMS):
                 if not re.search(arguments.pick, f"{room} {light}"):
                     continue
+                cabin = os.path.abspath(f"{arguments.scenes}/cabin")
                 folder, view, scene = ((cabin, ["-vf", "vf/living"], cabin_scene(cabin, scratch, room)) if room in PANES else
                                        (scratch, VIEW, [f"{room}.rad"]))
-                result = measure(arguments, folder, environment, view, options, scene, scratch, f"{room}-{light}".replace(" ", "-"))
-                print(f"{room} {light}\t" + "\t".join(f"{r:.2f}" for r in result) + f"\t{result[2] / result[0]:.1f}", flush=True)
+                result = measure(arguments, folder, environment, [*view, *OPTIONS, *options, *pixels], scene, scratch,
+                                 f"{room}-{light}".replace(" ", "-"))
+                print("\t".join([f"{room} {light}", *cells(*result)]), flush=True)
 
 
 if __name__ == "__main__":
