@@ -102,8 +102,9 @@ def measure(arguments, folder, environment, options, scene, scratch, name):
         ours.append(timed([arguments.lightwalk, "render", *options, "-n", str(arguments.threads), "--quiet",
                            "-o", str(scratch / f"{name}.hdr"), *scene], folder, environment))
         if arguments.rpict:
-            theirs.append(timed([arguments.rpict, *options, "-o", str(scratch / f"{name}.rpict.hdr"), str(octree)],
-                                folder, environment))
+            picture = scratch / f"{name}.rpict.hdr"
+            picture.unlink(missing_ok=True)  # which rpict does not overwrite
+            theirs.append(timed([arguments.rpict, *options, "-o", str(picture), str(octree)], folder, environment))
     return ours, theirs
 
 
