@@ -1,5 +1,6 @@
 #include "parallel/frame.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cstddef>
@@ -41,14 +42,31 @@ class ProgressSum {
     std::mutex mutex_;
 };
 
-Frame black_frame(const FrameOptions& options) {
+/// Make `values` of `count` zeros. The system clears a page when it is first touched, which takes
+/// longer than all else that happens to it here, so all threads share that.
+template <typename T>
+void resize_by_all(std::vector<T>& values, std::size_t count, Executor& executor) {
+    constexpr std::size_t kPage = 4096, kPart = std::size_t{1} << 21;  // 2 MB: a large page
+    values.reserve(count);
+    const std::size_t size = count * sizeof(T);
+    if (executor.concurrency() > 1 && size > kPart) {
+        auto* const bytes = reinterpret_cast<unsigned char*>(values.data());
+        executor.for_each((size + kPart - 1) / kPart, [&](std::size_t part, int /*worker*/) {
+            const std::size_t end = std::min(size, (part + 1) * kPart);
+            for (std::size_t at = part * kPart; at < end; at += kPage) bytes[at] = 0;
+        });
+    }
+    values.resize(count);
+}
+
+Frame black_frame(const FrameOptions& options, Executor& executor) {
     const PixelRectangle area = options.area();
     Frame frame;
     frame.width = area.width();
     frame.height = area.height();
-    frame.radiance.resize(area.pixels());
-    frame.distance.resize(area.pixels());
-    if (options.hits) frame.hits.resize(area.pixels());
+    resize_by_all(frame.radiance, area.pixels(), executor);
+    resize_by_all(frame.distance, area.pixels(), executor);
+    if (options.hits) resize_by_all(frame.hits, area.pixels(), executor);
     return frame;
 }
 
@@ -100,7 +118,7 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     const PixelRectangle area = options.area();
     assert(area.x0 >= 0 && area.x1 <= options.whole().x1);
     assert(area.y0 >= 0 && area.y1 <= options.whole().y1);
-    Frame frame = black_frame(options);
+    Frame frame = black_frame(options, executor);
     contexts.reset_counters();
     const BlockRenderer renderer(tracer, camera, options, contexts, stop);
     const int side =

@@ -1,23 +1,25 @@
 #!/usr/bin/python3
 """Rooms whose windows are BSDF data, beside an installed Radiance and beside the same rooms with panes of glass.
 
-  bsdf_bench.py --scenes DIR --rpict PATH [--lightwalk PROGRAM] [--runs 3] [--threads 2] [--pick REGEX] [--keep FOLDER]
+  bsdf_bench.py [--scenes DIR] [--rpict PATH] [--lightwalk PROGRAM] [--runs 3] [--threads 2] [--pick REGEX] [--size 1] [--keep FOLDER]
 
-DIR is a folder that holds Radiance's sample models: DIR/cabin and DIR/lib. Each row is a picture, by direct light or with two
-bounces: seconds of whole processes (the median of runs that take turns), Lightwalk on --threads threads and rpict with an
-octree that oconv made before, and how many times rpict's time is ours. The rooms' data is made here: `blind` is a matrix
-over Klems' full basis (slats that let light down and up), `pane` a tensor tree of rank 4 with a peak straight on, as aBSDF;
-`proxy` has slats as geometry, and the matrix for scattered light. Rooms are the cabin's living room, whose panes get the data, and
-a room of one window. --keep leaves scenes and pictures there.
+DIR is a folder that holds Radiance's sample models: DIR/cabin and DIR/lib; without it there are no rows of the cabin, without rpict
+no columns of it. Each row is a picture, by direct light or with two bounces: seconds of whole processes (the median of runs that take
+turns), Lightwalk on --threads threads and rpict with an octree that oconv made before, and how many times rpict's time is ours. The
+rooms' data is made by bsdf_data.py: `blind` is a matrix over Klems' full basis (slats that let light down and up), `pane` a tensor tree
+of rank 4 with a peak straight on, as aBSDF; `proxy` has slats as geometry, and the matrix for scattered light. Rooms are the cabin's
+living room, whose panes get the data, and a room of one window. --keep leaves scenes and pictures there.
 """
-import argparse, math, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
+import argparse, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
 
+import bsdf_data
 from render_bench import SCENE, commit, machine, run
 
-DIRECT = "-ab 0 -av .02 .02 .02 -x 1280 -y 960".split()
-BOUNCES = "-ab 2 -av 0 0 0 -aa .2 -ad 256 -as 64 -ar 64 -x 240 -y 180".split()
+LIGHTS = {  # options, and the size of the picture
+    "direct": ("-ab 0 -av .02 .02 .02".split(), (1280, 960)),
+    "bounces": ("-ab 2 -av 0 0 0 -aa .2 -ad 256 -as 64 -ar 64".split(), (240, 180)),
+}
 OPTIONS = "-ps 1 -pj 0 -pt 0 -dj 0 -ds .2 -dt .05 -dc .5 -dr 1 -st .05 -ss 1 -lr 6 -lw .002".split()
-KLEMS_FULL = [(5, 1), (15, 8), (25, 16), (35, 20), (45, 24), (55, 24), (65, 24), (75, 16), (90, 12)]
 
 ROOM = """
 void plastic wall 0 0 5 .6 .6 .55 0 0
@@ -56,69 +58,9 @@ PANES = {"cabin": "", "cabin blind": "void BSDF window_glass\n6 0 {}/blind.xml 0
 VIEW = "-vtv -vp 3.2 5.2 1.6 -vd -.3 -1 -.12 -vu 0 0 1 -vh 70 -vv 55".split()
 
 
-def patches():
-    """Middle (x, y) and projected solid angle of each patch of Klems' full basis."""
-    lower = 0
-    for upper, count in KLEMS_FULL:
-        omega = math.pi * (math.sin(math.radians(upper)) ** 2 - math.sin(math.radians(lower)) ** 2) / count
-        r = 0 if count == 1 else math.sin(math.radians((lower + upper) / 2))
-        for k in range(count):
-            yield r * math.cos(2 * math.pi * k / count), r * math.sin(2 * math.pi * k / count), omega
-        lower = upper
-
-
-def document(structure, blocks):
-    text = "".join(f"<WavelengthData><Wavelength>Visible</Wavelength><WavelengthDataBlock><WavelengthDataDirection>{direction}"
-                   f"</WavelengthDataDirection>{bases}<ScatteringData>\n{values}\n</ScatteringData></WavelengthDataBlock>"
-                   "</WavelengthData>\n" for direction, bases, values in blocks)
-    return ('<?xml version="1.0"?>\n<WindowElement><FileType>BSDF</FileType><Optical><Layer><Material><Name>made</Name></Material>'
-            f"<DataDefinition><IncidentDataStructure>{structure}</IncidentDataStructure></DataDefinition>\n{text}"
-            "</Layer></Optical></WindowElement>\n")
-
-
-def blind_file():
-    """Light goes straight through between slats, and is scattered up and down by them."""
-    table, name = list(patches()), "LBNL/Klems Full"
-    bases = f"<ColumnAngleBasis>{name}</ColumnAngleBasis><RowAngleBasis>{name}</RowAngleBasis>"
-
-    def through(i, o):  # a patch is named by where light travels to
-        x, y = table[o][0] - table[i][0], abs(table[o][1]) - abs(table[i][1])
-        value = .25 * math.exp(-(x * x + y * y) / .1) + .02
-        return value + (.3 / table[o][2] if i == o and table[i][1] > -.3 else 0)
-
-    def matrix(f):
-        return ",\n".join(", ".join(f"{f(i, o):.5g}" for i in range(len(table))) for o in range(len(table)))
-    reflected = lambda i, o: .06 + .1 * math.exp(-((table[o][0] - table[i][0]) ** 2 + (table[o][1] + table[i][1]) ** 2) / .2)
-    return document("Columns", [("Transmission Front", bases, matrix(through)), ("Transmission Back", bases, matrix(through)),
-                                ("Reflection Front", bases, matrix(reflected)), ("Reflection Back", bases, matrix(reflected))])
-
-
-def pane_file(levels=5, width=.12):
-    """Leaves get smaller towards the directions that light passes straight in; a haze lies about these."""
-    def disk(a, b):
-        a, b = 2 * a - 1, 2 * b - 1
-        if abs(a) >= abs(b):
-            return (a * math.cos(math.pi / 4 * b / a), a * math.sin(math.pi / 4 * b / a)) if a else (0, 0)
-        return b * math.sin(math.pi / 4 * a / b), b * math.cos(math.pi / 4 * a / b)
-
-    def part(low, size, level):
-        middle = [c + size / 2 for c in low]
-        away = max(abs(middle[0] - middle[2]), abs(middle[1] - middle[3]))
-        if level == levels or (level >= 2 and away > 1.5 * size):
-            if level == levels and away < size / 2:
-                return "{%.5g}" % (.55 / (math.pi * size * size))
-            (x, y), (u, v) = disk(*middle[:2]), disk(*middle[2:])
-            return "{%.4g}" % (.4 * math.exp(-((x - u) ** 2 + (y - v) ** 2) / width) + .012)
-        half = size / 2
-        return "{" + " ".join(part([c + half * (n >> i & 1) for i, c in enumerate(low)], half, level + 1) for n in range(16)) + "}\n"
-    basis, text = "<AngleBasis>LBNL/Shirley-Chiu</AngleBasis>", part([0, 0, 0, 0], 1, 0)
-    return document("TensorTree4", [("Transmission Front", basis, text), ("Transmission Back", basis, text),
-                                    ("Reflection Front", basis, "{.02}"), ("Reflection Back", basis, "{.02}")])
-
-
 def make_rooms(folder):
-    (folder / "blind.xml").write_text(blind_file())
-    (folder / "pane.xml").write_text(pane_file())
+    (folder / "blind.xml").write_text(bsdf_data.blind_file())
+    (folder / "pane.xml").write_text(bsdf_data.pane_file())
     for name, window in ROOMS.items():
         (folder / f"{name}.rad").write_text(ROOM + window)
 
@@ -142,54 +84,79 @@ def timed(command, folder, environment):
     return time.perf_counter() - start
 
 
-def measure(arguments, folder, environment, view, options, scene, scratch, name):
-    octree = scratch / f"{name}.oct"
-    with open(octree, "wb") as out:
-        done = subprocess.run(["oconv", "-w", *scene], cwd=folder, env=environment, stdout=out, stderr=subprocess.PIPE)
+def make_octree(arguments, folder, environment, scene, path):
+    with open(path, "wb") as out:
+        done = subprocess.run([os.path.join(os.path.dirname(arguments.rpict), "oconv"), "-w", *scene], cwd=folder, env=environment,
+                              stdout=out, stderr=subprocess.PIPE)
     if done.returncode != 0:
         sys.exit(f"oconv failed: {done.stderr.decode(errors='replace')[-500:]}")
+
+
+def measure(arguments, folder, environment, options, scene, scratch, name):
+    """Seconds of ours and of rpict's runs, which take turns; none of rpict's where it is not there."""
+    octree = scratch / f"{name}.oct"
+    if arguments.rpict:
+        make_octree(arguments, folder, environment, scene, octree)
     ours, theirs = [], []
     for _ in range(arguments.runs):
-        ours.append(timed([arguments.lightwalk, "render", *view, *OPTIONS, *options, "-n", str(arguments.threads), "--quiet",
+        ours.append(timed([arguments.lightwalk, "render", *options, "-n", str(arguments.threads), "--quiet",
                            "-o", str(scratch / f"{name}.hdr"), *scene], folder, environment))
-        theirs.append(timed([arguments.rpict, *view, *OPTIONS, *options, "-o", str(scratch / f"{name}.rpict.hdr"), str(octree)],
-                            folder, environment))
-    return statistics.median(ours), max(ours) - min(ours), statistics.median(theirs), max(theirs) - min(theirs)
+        if arguments.rpict:
+            picture = scratch / f"{name}.rpict.hdr"
+            picture.unlink(missing_ok=True)  # which rpict does not overwrite
+            theirs.append(timed([arguments.rpict, *options, "-o", str(picture), str(octree)], folder, environment))
+    return ours, theirs
+
+
+def cells(ours, theirs):
+    numbers = [f"{number:.2f}" for runs in (ours, theirs) if runs for number in (statistics.median(runs), max(runs) - min(runs))]
+    return numbers + ([f"{statistics.median(theirs) / statistics.median(ours):.1f}"] if theirs else ["-"] * 3)
+
+
+def find_rpict(named):
+    """Its path; None where there is none, unless it was asked for."""
+    found = shutil.which(named or "rpict")
+    if named and not found:
+        sys.exit(f"{named} was not found")
+    return found and os.path.abspath(found)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scenes", required=True, metavar="DIR")
+    parser.add_argument("--scenes", metavar="DIR")
     parser.add_argument("--lightwalk", default="lightwalk", metavar="PROGRAM")
-    parser.add_argument("--rpict", default="rpict", metavar="PATH")
+    parser.add_argument("--rpict", metavar="PATH", help="default: the one on the PATH, if any")
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--pick", default="", metavar="REGEX", help="of the pictures 'ROOM direct' and 'ROOM bounces'")
+    parser.add_argument("--size", type=float, default=1, help="times the pictures' width and height")
     parser.add_argument("--keep", metavar="FOLDER")
     arguments = parser.parse_args()
     if os.sep in arguments.lightwalk:
         arguments.lightwalk = os.path.abspath(arguments.lightwalk)
-    rpict = os.path.abspath(arguments.rpict) if os.sep in arguments.rpict else shutil.which(arguments.rpict)
-    if not rpict or not os.path.exists(rpict):
-        sys.exit("rpict was not found")
-    arguments.rpict = rpict
-    lib, cabin = os.path.abspath(f"{arguments.scenes}/lib"), os.path.abspath(f"{arguments.scenes}/cabin")
-    environment = dict(os.environ, RAYPATH=f".:{lib}:{os.environ.get('RAYPATH', '')}",
-                       PATH=os.path.dirname(rpict) + os.pathsep + os.environ.get("PATH", ""))
+    arguments.rpict = find_rpict(arguments.rpict)
+    environment = dict(os.environ, RAYPATH=f".:{os.environ.get('RAYPATH', '')}")
+    if arguments.scenes:
+        environment["RAYPATH"] = f".:{os.path.abspath(arguments.scenes)}/lib:{os.environ.get('RAYPATH', '')}"
+    if arguments.rpict:
+        environment["PATH"] = os.path.dirname(arguments.rpict) + os.pathsep + os.environ.get("PATH", "")
     print(f"{commit()}\t{machine()}\t{arguments.threads} threads")
     print("picture\tours s\tspread s\trpict s\tspread s\ttimes", flush=True)
     with tempfile.TemporaryDirectory() as made:
         scratch = pathlib.Path(arguments.keep or made).resolve()
         scratch.mkdir(parents=True, exist_ok=True)
         make_rooms(scratch)
-        for light, options in (("direct", DIRECT), ("bounces", BOUNCES)):
-            for room in (*PANES, *ROOMS):
+        for light, (options, size) in LIGHTS.items():
+            pixels = [word for name, n in zip("xy", size) for word in (f"-{name}", str(max(1, round(n * arguments.size))))]
+            for room in (*(PANES if arguments.scenes else ()), *ROOMS):
                 if not re.search(arguments.pick, f"{room} {light}"):
                     continue
+                cabin = os.path.abspath(f"{arguments.scenes}/cabin")
                 folder, view, scene = ((cabin, ["-vf", "vf/living"], cabin_scene(cabin, scratch, room)) if room in PANES else
                                        (scratch, VIEW, [f"{room}.rad"]))
-                result = measure(arguments, folder, environment, view, options, scene, scratch, f"{room}-{light}".replace(" ", "-"))
-                print(f"{room} {light}\t" + "\t".join(f"{r:.2f}" for r in result) + f"\t{result[2] / result[0]:.1f}", flush=True)
+                result = measure(arguments, folder, environment, [*view, *OPTIONS, *options, *pixels], scene, scratch,
+                                 f"{room}-{light}".replace(" ", "-"))
+                print("\t".join([f"{room} {light}", *cells(*result)]), flush=True)
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ def walks(args, place, names, root):
 
 def run(args, root, table):
     wanted = list(dict.fromkeys(region.place for region in args.regions)) if args.regions else args.views
-    for place in stage.places(wanted, args.lightwalk, args.scenes):
+    for place in stage.places(wanted, args.lightwalk, args.scenes, root / "offices"):
         for move, traced, folder in walks(args, place, args.walks, root):
             about = {"view": place.name, "walk": move}
             if args.regions:
@@ -88,8 +88,8 @@ def parse_args():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", type=lambda text: pathlib.Path(text).resolve(), metavar="DIR")
     parser.add_argument("--lightwalk", default="build/release/lightwalk", metavar="PROGRAM")
-    parser.add_argument("--views", help="separated by commas, default " + ",".join(stage.VIEWS) +
-                        "; with --regions those listed there")
+    parser.add_argument("--views", help="separated by commas, default " + ",".join(stage.VIEWS) + "; also " +
+                        ",".join(stage.OFFICES) + "; with --regions those listed there")
     parser.add_argument("--walks", default=",".join(moves.MOVES), help="default %(default)s; right goes sideways")
     parser.add_argument("--frames", type=int, default=50, help="of a walk, default %(default)s")
     parser.add_argument("--moves", type=int, default=50,

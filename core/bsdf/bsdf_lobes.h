@@ -53,6 +53,8 @@ class BsdfLobes {
     /// @param xi1, xi2  uniform in [0, 1): where in the cell
     [[nodiscard]] virtual Sample sample(const BsdfLookup& e, double choice, double xi1,
                                         double xi2) const = 0;
+    /// Which cell of directions to the viewer e is in: the same values stand for all of a cell.
+    [[nodiscard]] virtual std::uint32_t viewer_cell(const BsdfLookup& e) const = 0;
     /// The range about e.
     [[nodiscard]] virtual SolidAngleRange resolution(const BsdfLookup& e) const = 0;
     /// The smallest projected solid angle of all cells [sr].

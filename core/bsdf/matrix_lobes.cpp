@@ -22,6 +22,9 @@ class MatrixLobes final : public BsdfLobes {
     [[nodiscard]] double total(const BsdfLookup& e) const override { return totals_[e.row]; }
     [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
+    [[nodiscard]] std::uint32_t viewer_cell(const BsdfLookup& e) const override {
+        return static_cast<std::uint32_t>(e.row);
+    }
     [[nodiscard]] SolidAngleRange resolution(const BsdfLookup& e) const override {
         const double area = rows_.solid_angle(e.row);
         return {area, area};

@@ -41,6 +41,9 @@ class TreeLobes final : public BsdfLobes {
     }
     [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
+    [[nodiscard]] std::uint32_t viewer_cell(const BsdfLookup& e) const override {
+        return static_cast<std::uint32_t>(incident_.find(e.path));
+    }
     [[nodiscard]] SolidAngleRange resolution(const BsdfLookup& e) const override;
     [[nodiscard]] double least_solid_angle() const override {
         return SliceCell{0, 0, incident_.finest(), 0}.solid_angle();

@@ -1,6 +1,7 @@
 #pragma once
 // The slices of a tensor tree: what stands over all exitant directions for one incident one.
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct SliceCell {
     int level = 0;
     float value = 0;
 
-    [[nodiscard]] double width() const { return std::ldexp(1.0, -level); }
+    [[nodiscard]] double width() const {  // 2^-level
+        return std::bit_cast<double>(static_cast<std::uint64_t>(1023 - level) << 52);
+    }
     [[nodiscard]] double solid_angle() const { return kPi * width() * width(); }
     /// One of the four cells of the next level in it: bit i says which half of dimension i.
     [[nodiscard]] SliceCell quarter(std::uint32_t number) const {

@@ -19,8 +19,9 @@ struct PrimaryVisibility {
     bool seen = false;
     Vec3 position;  ///< on the straight extension of the ray, at the length of the light's path;
                     ///< kHuge away for the background [m]
-    float distance = 0;         ///< of the position from the ray's origin [m]
-    std::uint32_t surface = 0;  ///< hash of the sequence of surfaces that the light met
+    float distance = 0;  ///< of the position from the ray's origin [m]
+    std::uint32_t surface =
+        0;  ///< hash of the sequence of surfaces that the light met, and of DataCells in panes
     PointKind kind = PointKind::plain;
     float slope =
         0;  ///< largest relative change of its colour per angle by which the ray turns [1/rad]; 0:

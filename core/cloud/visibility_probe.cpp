@@ -50,7 +50,9 @@ FresnelSlopes slopes_of(const Hit& hit, const SurfaceAppearance& appearance) {
 }  // namespace
 
 VisibilityProbe::VisibilityProbe(const Tracer& tracer)
-    : tracer_(tracer), highlights_(tracer.lights(), tracer.scene().geometry(), tracer.options()) {
+    : tracer_(tracer),
+      highlights_(tracer.lights(), tracer.scene().geometry(), tracer.options()),
+      data_cells_(tracer.scene()) {
     const Scene& scene = tracer.scene();
     appearances_.resize(scene.modifier_count());
     for (std::size_t i = 0; i < appearances_.size(); ++i)
@@ -198,6 +200,8 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
     if (pane) {
         walk.primary->slope += static_cast<float>(slopes_of(hit, appearance).left);
         if (walk.primary->kind == PointKind::plain) walk.primary->kind = PointKind::through;
+        if (const std::uint32_t cell = data_cells_.find(hit, walk.segment.direction); cell != 0)
+            walk.met = met_surface(walk.met, static_cast<std::int32_t>(cell), 0);
     }
     walk.pass(hit, mirror);
     return true;

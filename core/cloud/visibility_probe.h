@@ -2,6 +2,7 @@
 // Finds what a ray sees of a scene without shading: the surfaces, panes and mirrors on its way.
 #include <vector>
 
+#include "core/cloud/data_cells.h"
 #include "core/cloud/highlights.h"
 #include "core/cloud/primary_visibility.h"
 #include "core/trace/tracer.h"
@@ -65,6 +66,7 @@ class VisibilityProbe {
 
     const Tracer& tracer_;
     Highlights highlights_;
+    DataCells data_cells_;
     std::vector<SurfaceAppearance> appearances_;  ///< by modifier
     bool never_reuse_ = false;                    ///< for all surfaces of the scene
 };

@@ -41,6 +41,7 @@ class BsdfMaterial final : public Modifier {
     void add_direct(Ray& ray, const BsdfHit& hit, TraceContext& context) const;
 
     bool always_thick_ = false;  ///< the thickness is a number other than 0
+    bool fixed_up_ = false;      ///< an aBSDF's up vector is three numbers, without a transform
     bool thick_;                 ///< BSDF, whose first string is a thickness; else aBSDF
     ModifierId next_;
     std::string name_;
@@ -50,12 +51,14 @@ class BsdfMaterial final : public Modifier {
 };
 
 /// The eye does not see a surface of a constant thickness; through an aBSDF it sees what lies
-/// behind, if anything passes straight along the normal.
+/// behind, if anything passes straight along the normal. Where its up vector is computed nothing
+/// tells which cell of the data that is seen through.
 MaterialTraits BsdfMaterial::traits() const {
     MaterialTraits traits{.transparent = bsdf_->transmits() || max_component(through_) > 0};
     if (always_thick_)
         traits.appearance = Appearance::absent;
-    else if (!thick_ && find_through_part(bsdf_->transmission(true), ProjectedDirection{}).exists())
+    else if (!thick_ && fixed_up_ &&
+             find_through_part(bsdf_->transmission(true), ProjectedDirection{}).exists())
         traits.appearance = Appearance::pane;
     return traits;
 }
@@ -86,6 +89,11 @@ BsdfMaterial::BsdfMaterial(const ModifierBuild& build)
     double thickness = 0;
     always_thick_ =
         thick_ && parse_real(primitive.strings[0], thickness) && std::abs(thickness) > kEpsilon;
+    const std::vector<std::string>& strings = primitive.strings;
+    double number = 0;
+    fixed_up_ = !thick_ && strings.size() == 5 &&
+                std::all_of(strings.begin() + 1, strings.begin() + 4,
+                            [&](const std::string& word) { return parse_real(word, number); });
     for (const std::string& warning : bsdf_->warnings()) build.warnings.warn(warning);
 }
 

@@ -10,32 +10,38 @@ namespace {
 constexpr double kBrightest = 0x1p127;  // what the largest exponent byte can't reach any more
 
 double usable(float component) {
-    if (std::isnan(component)) return 0;
-    return std::fmin(static_cast<double>(component), kBrightest);
+    const auto c = static_cast<double>(component);
+    return c < kBrightest ? c : std::isnan(c) ? 0 : kBrightest;
 }
 
 unsigned char mantissa(double component, double scale) {
     const double m = component * scale;
-    return static_cast<unsigned char>(m > 0 ? std::fmin(m, 255) : 0);
+    return static_cast<unsigned char>(m > 0 ? (m < 255 ? m : 255) : 0);
+}
+
+/// 2^exponent of a normal number.
+double power_of_two(int exponent) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
 }  // namespace
 
 Rgbe encode_rgbe(const Rgb& color) {
     const double r = usable(color.r), g = usable(color.g), b = usable(color.b);
-    const double largest = std::fmax(r, std::fmax(g, b));
+    const double gb = g > b ? g : b, largest = r > gb ? r : gb;
     if (!(largest > 1e-32)) return {};
-    int exponent = 127;
-    if (largest < kBrightest) (void)std::frexp(largest, &exponent);
-    const double scale = std::ldexp(1.0, 8 - exponent);
+    // The exponent of a mantissa in [.5, 1): pictures are encoded by one thread, so without calls.
+    const int exponent = largest < kBrightest
+                             ? static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1022
+                             : 127;
+    const double scale = power_of_two(8 - exponent);
     return {mantissa(r, scale), mantissa(g, scale), mantissa(b, scale),
             static_cast<unsigned char>(exponent + 128)};
 }
 
 Rgb decode_rgbe(const Rgbe& pixel) {
     if (pixel.e == 0) return {};
-    const auto scale =
-        std::bit_cast<double>(std::uint64_t{pixel.e + 1023u - 136u} << 52);  // 2^(e - 136)
+    const double scale = power_of_two(pixel.e - 136);
     return {static_cast<float>((pixel.r + 0.5) * scale),
             static_cast<float>((pixel.g + 0.5) * scale),
             static_cast<float>((pixel.b + 0.5) * scale)};

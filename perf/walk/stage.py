@@ -1,7 +1,8 @@
 """Scenes that walks lead through, and runs of `lightwalk animate` on them."""
 import dataclasses, json, pathlib, sys
 
-from runs import Program, cabin, lodge
+import office
+from runs import Program, Scene, cabin, lodge
 
 from . import pictures, views
 
@@ -9,6 +10,8 @@ from . import pictures, views
 AMBIENT = ("-av", ".02", ".02", ".02")
 #: Views of the walks, as SCENE/FILE; the second word is the file's name in the scene's folder of views.
 VIEWS = ("cabin/living", "cabin/interior", "cabin/ext.ne", "lodge/living")
+#: The office with windows of a kind: of glass, and of BSDF data.
+OFFICES = tuple(f"office/{kind}" for kind in office.WINDOWS)
 
 
 def view_file(scene, name):
@@ -27,17 +30,26 @@ class Place:
         return view_file(self.program.scene, self.name.split("/", 1)[1])
 
 
-def places(names, lightwalk, scenes):
-    """The places with these names. Without the sample models those in the cabin are left out, and a message says so."""
+def made_office(name, folder):
+    """The office of that name, written into a folder of its own in `folder`."""
+    kind = name.split("/", 1)[1]
+    office.make(folder / kind, kind)
+    return Scene("office", folder / kind, ("office.rad",), (f"views/{kind}.vf",), ())
+
+
+def places(names, lightwalk, scenes, made=None):
+    """The places with these names. Without the sample models those in the cabin are left out, and a message says so. Offices are
+    written into the folder `made`, without which there are none."""
     found = []
     for name in names:
         scene, _, view = name.partition("/")
-        if scene not in ("cabin", "lodge") or not view:
-            sys.exit(f"{name}: a view is cabin/NAME or lodge/NAME")
+        if (scene not in ("cabin", "lodge") or not view) and (made is None or name not in OFFICES):
+            sys.exit(f"{name}: a view is cabin/NAME, lodge/NAME or one of {', '.join(OFFICES)}")
         if scene == "cabin" and not (scenes and (scenes / "cabin").is_dir()):
             print(f"{name} is left out: --scenes DIR names no folder that holds the cabin", file=sys.stderr)
             continue
-        place = Place(name, Program(lightwalk, cabin(scenes) if scene == "cabin" else lodge()))
+        model = cabin(scenes) if scene == "cabin" else lodge() if scene == "lodge" else made_office(name, made)
+        place = Place(name, Program(lightwalk, model))
         if not (place.program.scene.folder / place.file).is_file():
             sys.exit(f"{name}: there is no view {place.program.scene.folder / place.file}")
         found.append(place)

@@ -65,19 +65,21 @@ def ambient_cases(program, data):
 
 def bsdf_cases(program, data):
     """BSDF files and spectra. Rows of several rays are means, whose limits are six standard errors. Spectral rendering (-cs) is
-    not supported. One row is left out, of a hemisphere of 256 rays that falls on Klems' patches: by numbers of rays the reference's mean
-    is 0.7 % less to 1.9 % more than the sum of the file's totals, .3591, and 0.8 % more for this number; ours is .3586 to .3594 for all."""
+    not supported. Where a hemisphere's rays fall on Klems' patches, rtrace's mean depends on their number more than on chance: for 19
+    numbers from 64 to 4096 it is .3567 to .3651, with a standard deviation of .0022 (.6 %), about .3594, and .3585 for 4096; ours is
+    .3584 to .3590 for all. The row of 256 gets three of these deviations more."""
     folder, good, count = data / "spec" / "6-cases", 0, 0
-    open_rows = {("52-ambient-proxy-behind.rad", "100")}
+    by_number = {("52-ambient-proxy-behind.rad", "100"): 3 * .0022 / .3594}
     for row in table(folder / "index.tsv"):
         options, n = row["options"].split(), int(row["n"] or 1)
-        if "-cs" in options or (row["scene"], row["n"]) in open_rows:
+        if "-cs" in options:
             continue
         count += 1
         want = np.array([float(row[c]) for c in "RGB"])
         out = run(program, "trace", ["-h", *options], [row["scene"]], folder, (row["ray"] + "\n") * n, f".:{data / 'scenes' / 'lib'}")
         got = np.array(out.split(), float).reshape(n, 3).mean(0)
-        if np.all(np.abs(got - want) <= float(row["rel_tol"]) * want.max() + 1e-6):
+        limit = float(row["rel_tol"]) + by_number.get((row["scene"], row["n"]), 0)
+        if np.all(np.abs(got - want) <= limit * want.max() + 1e-6):
             good += 1
         else:
             print(f"FAILS {row['scene']} [{row['note']}]: got {got} want {want}")
