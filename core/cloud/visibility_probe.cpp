@@ -201,7 +201,7 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
         walk.primary->slope += static_cast<float>(slopes_of(hit, appearance).left);
         if (walk.primary->kind == PointKind::plain) walk.primary->kind = PointKind::through;
         if (const std::uint32_t cell = data_cells_.find(hit, walk.segment.direction); cell != 0)
-            walk.met = met_surface(walk.met, static_cast<std::int32_t>(cell), 0);
+            walk.met = met_surface(walk.met, static_cast<std::int32_t>(cell), 0, kVoid);
     }
     walk.pass(hit, mirror);
     return true;

@@ -63,7 +63,7 @@ TEST_CASE("moving size: frames that take longer than there is time for get small
     traced.trace_seconds = 0.3;  // what was left
     for (int i = 0; i < 5; ++i) size.record(traced, 1);
     CHECK(size.of(1000) == 841);
-    traced.trace_seconds = 0.5;
+    traced.trace_seconds = 0.6;
     for (int i = 0; i < 2; ++i) size.record(traced, 1);
     CHECK(size.of(1000) == 707);
 }
