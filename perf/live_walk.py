@@ -22,7 +22,7 @@ the way, in a queue of the server's or of the link's, comes on top of the delay 
 With --abuse each walk is measured again while another process holds 200 half-open connections and sends a thousand
 random and malformed messages a second: its share of the frames a second, and how many messages there were.
 """
-import argparse, json, math, multiprocessing, os, pathlib, shlex, subprocess, sys, time
+import argparse, json, math, multiprocessing, os, pathlib, queue, shlex, subprocess, sys, threading, time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE / "scaling"))
@@ -30,7 +30,7 @@ sys.path.append(str(HERE / "scaling"))
 from walk import stage, views  # noqa: E402
 from walk.misbehaviour import keep_misbehaving  # noqa: E402
 from walk.slow_link import SlowLink  # noqa: E402
-from walk.websocket import Frame, WebSocket  # noqa: E402
+from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
 
 SETTLE = 6  # before moving: the first picture [s]
 
@@ -86,6 +86,10 @@ class Client:
         self.ident = 0
         self.forget()
         self.loaded = None
+        # Beside what is sent: a message takes its time on a slow link, and whoever waits for its end says no view meanwhile.
+        self.messages = queue.SimpleQueue()
+        self.socket.socket.settimeout(None)
+        threading.Thread(target=self.receive, daemon=True).start()
         self.socket.send({"type": "hello", "session": "0123456789abcdef", "depth": not plain,
                           "luminance": True})
 
@@ -95,11 +99,22 @@ class Client:
         view = {name: value for name, value in view.items() if name != "pace"}
         self.socket.send(as_message(view, self.ident, self.size, moving))
 
+    def receive(self):
+        try:
+            while True:
+                self.messages.put(self.socket.receive())
+        except (Closed, OSError) as end:
+            self.messages.put(end)
+
     def listen(self, until):
-        while self.socket.waits(until - time.monotonic()):
-            self.take(self.socket.receive())
-            if time.monotonic() >= until:
+        while (left := until - time.monotonic()) > 0:
+            try:
+                message = self.messages.get(timeout=left)
+            except queue.Empty:
                 return
+            if isinstance(message, Exception):
+                raise message
+            self.take(message)
 
     def take(self, message):
         if not isinstance(message, bytes):
