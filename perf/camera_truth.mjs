@@ -12,41 +12,34 @@
 //   off      pixels of which a channel is off by more than a tenth of white: mean and most [%]; floor: as frame_truth.mjs has it
 //   detail   correlation of the gradients of both pictures
 //   frames   a second; width: of the frames, share of the size asked for [%]; Mbit/s: of messages from the server
-import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
-import { createRequire } from "node:module";
-import os from "node:os";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
-import { parseArgs } from "node:util";
 import { FrameTimes } from "../apps/viewer/prediction.js";
 import { fit_view } from "../apps/viewer/view.js";
 import { parse_views } from "../apps/viewer/view_text.js";
 import { margin_for, turn_between, widened } from "../apps/viewer/warp.js";
 import { Client, moved, stand, wait } from "./walk_client.mjs";
-import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
+import {
+    command_line,
+    mean_of as mean,
+    own_folder,
+    row_printer,
+    start_browser,
+    start_server,
+} from "./walk_setup.mjs";
+import { compare, kOff, renderer } from "./walk_truth.mjs";
 
-const { values: args } = parseArgs({
-    options: {
-        npm: { type: "string" },
-        program: { type: "string", default: "build/release/lightwalk" },
-        folder: { type: "string" },
-        words: { type: "string" },
-        view: { type: "string" },
-        options: { type: "string", default: "-av .02 .02 .02" },
-        moves: { type: "string", default: "turn,walk" },
-        size: { type: "string", default: "1280x720" },
-        seconds: { type: "string", default: "6" },
-        samples: { type: "string", default: "12" },
-        delay: { type: "string", default: "0" },
-        pictures: { type: "string" },
-        plain: { type: "string" },
-        chromium: { type: "string", default: "/usr/bin/chromium" },
-    },
+const words = command_line({
+    moves: "turn,walk",
+    seconds: "6",
+    samples: "12",
+    delay: "0",
+    pictures: undefined,
+    plain: undefined,
 });
+const { args, load, program, scene, size } = words;
+const [width, height] = size;
 const kBegin = 1; // after which refreshes are judged [s]
-const [width, height] = args.size.split("x").map(Number);
-const program = path.resolve(args.program);
-const scene = scene_of(args);
-const load = createRequire(path.resolve(args.npm, "none.js"));
 
 /** What the page sends while the eye moves: where it will be when the frame is there, and wider than the window. */
 function sent_view(eye_at, t, times) {
@@ -62,7 +55,6 @@ function sent_view(eye_at, t, times) {
 async function drive(address, move) {
     const source = args.plain ? path.resolve(args.plain, "apps/viewer/frame.js") : undefined;
     const parse = source && (await import(source)).parse_frame;
-    const size = [width, height];
     const client = new Client(load("ws"), address, size, Number(args.delay) / 2, parse);
     const { eye_height } = await client.loaded;
     const text = await readFile(path.join(args.folder, args.view), "utf8");
@@ -160,12 +152,12 @@ async function measure(browser, address, move, folder) {
     const context = await browser.newContext({ bypassCSP: true }); // for pieces as data URLs
     const page = await context.newPage();
     await page.goto(`${address.origin}/page/${args.plain ? "view" : "warp"}.js`);
-    await page.evaluate(start_camera, [width, height, args.plain !== undefined]);
+    await page.evaluate(start_camera, [...size, args.plain !== undefined]);
     const moments = await draw_moments(page, walk);
     const judge = await browser.newPage();
-    const rendered = renderer(program, scene, [width, height], folder);
+    const rendered = renderer(program, scene, size, folder);
     const found = [];
-    for (const [k, { shown, view, exposure, size }] of moments.entries()) {
+    for (const [k, { shown, view, exposure, size: own }] of moments.entries()) {
         const truth = await rendered(view, exposure);
         const against = (url, of) =>
             judge.evaluate(compare, {
@@ -174,15 +166,14 @@ async function measure(browser, address, move, folder) {
                 truth,
                 most: kOff,
             });
-        const one = await against(shown, size);
-        const other = await against(await rendered(view, exposure, 1), [width, height]);
+        const one = await against(shown, own);
+        const other = await against(await rendered(view, exposure, 1), size);
         found.push({ ...one, floor_off: other.off });
         if (!args.pictures) continue;
         const name = path.join(args.pictures, `${move}-${k}`);
         await writeFile(`${name}.png`, Buffer.from(one.picture, "base64"));
         await writeFile(`${name}-true.png`, Buffer.from(truth.split(",")[1], "base64"));
     }
-    const mean = (list) => list.reduce((sum, x) => sum + x, 0) / list.length;
     const of = (name) => found.map((one) => one[name]);
     const moving = walk.frames.slice(1);
     return {
@@ -199,23 +190,14 @@ async function measure(browser, address, move, folder) {
     };
 }
 
-const folder = await mkdtemp(path.join(os.tmpdir(), "camera-truth-"));
+const folder = await own_folder("camera-truth");
 if (args.pictures) await mkdir(args.pictures, { recursive: true });
-let first = true;
+const print_row = row_printer();
 for (const move of args.moves.split(",")) {
     const [server, address] = await start_server(program, scene);
-    const browser = await load("playwright-core").chromium.launch({
-        executablePath: args.chromium,
-        args: [
-            "--no-sandbox",
-            "--use-gl=angle",
-            "--use-angle=swiftshader",
-            "--enable-unsafe-swiftshader",
-        ],
-    });
+    const browser = await start_browser(words);
     try {
-        print_row(await measure(browser, address, move, folder), first);
-        first = false;
+        print_row(await measure(browser, address, move, folder));
     } finally {
         await browser.close();
         server.kill();

@@ -13,43 +13,38 @@
 //   detail     correlation of the gradients of both pictures, mean: 1 where all edges and textures are there
 //   frames     a second; width: of the frames, share of what was asked for [%]; reused, inferred, guessed: as the server tells [%]
 //   Mbit/s     of messages from the server
-import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
-import { createRequire } from "node:module";
-import os from "node:os";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
-import { parseArgs } from "node:util";
 import { fit_view } from "../apps/viewer/view.js";
 import { parse_views } from "../apps/viewer/view_text.js";
 import { Client, moved, stand, wait } from "./walk_client.mjs";
-import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
+import {
+    command_line,
+    mean_of as mean,
+    own_folder,
+    row_printer,
+    start_browser,
+    start_server,
+} from "./walk_setup.mjs";
+import { compare, kOff, renderer } from "./walk_truth.mjs";
 
-const { values: args } = parseArgs({
-    options: {
-        npm: { type: "string" },
-        programs: { type: "string", default: "build/release/lightwalk" },
-        folder: { type: "string" },
-        words: { type: "string" },
-        view: { type: "string" },
-        options: { type: "string", default: "-av .02 .02 .02" },
-        moves: { type: "string", default: "turn,walk" },
-        size: { type: "string", default: "1280x720" },
-        seconds: { type: "string", default: "6" },
-        samples: { type: "string", default: "12" },
-        pictures: { type: "string" },
-        chromium: { type: "string", default: "/usr/bin/chromium" },
-    },
+const words = command_line({
+    programs: "build/release/lightwalk",
+    moves: "turn,walk",
+    seconds: "6",
+    samples: "12",
+    pictures: undefined,
 });
+const { args, load, scene, size } = words;
+const [width, height] = size;
 const kBegin = 1; // after which frames are judged [s]
-const [width, height] = args.size.split("x").map(Number);
-const scene = scene_of(args);
-const load = createRequire(path.resolve(args.npm, "none.js"));
 const WebSocket = load("ws");
 
 /** Drive a walk; returns the frames to be judged and what was counted. */
 async function drive(program, move) {
     const [server, address] = await start_server(program, scene);
     try {
-        const client = new Client(WebSocket, address, [width, height]);
+        const client = new Client(WebSocket, address, size);
         const { eye_height } = await client.loaded;
         const first = fit_view(
             parse_views(await readFile(path.join(args.folder, args.view), "utf8"))[0],
@@ -82,12 +77,9 @@ function chosen({ frames }, begin) {
 
 async function measure(program, kind, move, folder) {
     const { client, begin, seconds } = await drive(program, move);
-    const browser = await load("playwright-core").chromium.launch({
-        executablePath: args.chromium,
-        args: ["--no-sandbox"],
-    });
+    const browser = await start_browser(words);
     const page = await browser.newPage();
-    const rendered = renderer(program, scene, [width, height], folder);
+    const rendered = renderer(program, scene, size, folder);
     const found = [];
     for (const [k, frame] of chosen(client, begin).entries()) {
         const view = client.views.get(frame.view_id);
@@ -107,7 +99,7 @@ async function measure(program, kind, move, folder) {
         const whole = [{ x: 0, y: 0, url: other }];
         const floor = await page.evaluate(compare, {
             pieces: whole,
-            size: [width, height],
+            size,
             truth,
             most: kOff,
         });
@@ -118,7 +110,6 @@ async function measure(program, kind, move, folder) {
         await writeFile(`${name}-true.png`, Buffer.from(truth.split(",")[1], "base64"));
     }
     await browser.close();
-    const mean = (list) => list.reduce((sum, x) => sum + x, 0) / list.length;
     const of = (name) => found.map((one) => one[name]);
     const told = (name) => 100 * mean(client.states.map((state) => state[name]));
     return {
@@ -140,11 +131,9 @@ async function measure(program, kind, move, folder) {
     };
 }
 
-const folder = await mkdtemp(path.join(os.tmpdir(), "frame-truth-"));
+const folder = await own_folder("frame-truth");
 if (args.pictures) await mkdir(args.pictures, { recursive: true });
-let first = true;
+const print_row = row_printer();
 for (const move of args.moves.split(","))
-    for (const [k, program] of args.programs.split(",").entries()) {
-        print_row(await measure(path.resolve(program), String(k), move, folder), first);
-        first = false;
-    }
+    for (const [k, program] of args.programs.split(",").entries())
+        print_row(await measure(path.resolve(program), String(k), move, folder));

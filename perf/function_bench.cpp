@@ -163,7 +163,7 @@ void compile_sky(benchmark::State& state) {
 void load_initial_definitions(benchmark::State& state) {
     for ([[maybe_unused]] auto _ : state) {
         const FunctionEnvironment environment;
-        benchmark::DoNotOptimize(environment.loaded("."));
+        benchmark::DoNotOptimize(environment.is_function("", "Acos"));
     }
 }
 

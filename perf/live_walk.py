@@ -14,19 +14,23 @@ frames as they come; else one that draws the camera from them, and is sent depth
   inferred    share of the pixels with colours from around them on their own surface, as the server tells [%]
   guessed     share of the pixels that were filled from around, as the server tells [%]
   width       of the frames, mean share of what was asked for: moving frames are smaller where time is short [%]
-  MB/s        of frames
+  Mbit/s      of frames
+
+With --rate the client is behind a link that carries so many Mbit/s, and with --delay behind a round trip of so many ms. What waits on
+the way, in a queue of the server's or of the link's, comes on top of the delay in `latency`.
 
 With --abuse each walk is measured again while another process holds 200 half-open connections and sends a thousand
 random and malformed messages a second: its share of the frames a second, and how many messages there were.
 """
-import argparse, json, math, multiprocessing, os, pathlib, shlex, subprocess, sys, time
+import argparse, json, math, multiprocessing, os, pathlib, queue, shlex, subprocess, sys, threading, time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE / "scaling"))
 
 from walk import stage, views  # noqa: E402
 from walk.misbehaviour import keep_misbehaving  # noqa: E402
-from walk.websocket import Frame, WebSocket  # noqa: E402
+from walk.slow_link import SlowLink  # noqa: E402
+from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
 
 SETTLE = 6  # before moving: the first picture [s]
 
@@ -82,6 +86,10 @@ class Client:
         self.ident = 0
         self.forget()
         self.loaded = None
+        # Beside what is sent: a message takes its time on a slow link, and whoever waits for its end says no view meanwhile.
+        self.messages = queue.SimpleQueue()
+        self.socket.socket.settimeout(None)
+        threading.Thread(target=self.receive, daemon=True).start()
         self.socket.send({"type": "hello", "session": "0123456789abcdef", "depth": not plain,
                           "luminance": True})
 
@@ -91,11 +99,22 @@ class Client:
         view = {name: value for name, value in view.items() if name != "pace"}
         self.socket.send(as_message(view, self.ident, self.size, moving))
 
+    def receive(self):
+        try:
+            while True:
+                self.messages.put(self.socket.receive())
+        except (Closed, OSError) as end:
+            self.messages.put(end)
+
     def listen(self, until):
-        while self.socket.waits(until - time.monotonic()):
-            self.take(self.socket.receive())
-            if time.monotonic() >= until:
+        while (left := until - time.monotonic()) > 0:
+            try:
+                message = self.messages.get(timeout=left)
+            except queue.Empty:
                 return
+            if isinstance(message, Exception):
+                raise message
+            self.take(message)
 
     def take(self, message):
         if not isinstance(message, bytes):
@@ -122,6 +141,15 @@ class Client:
         self.inferred, self.guessed = [], []
 
 
+def port_behind(port, args):
+    """The port of the server, or that of a link to it."""
+    if args.rate == math.inf and args.delay == 0:
+        return port
+    link = SlowLink(port, args.rate * 125e3, args.delay / 1000)
+    link.start()
+    return link.port
+
+
 def mean_percent(shares):
     return 100 * sum(shares) / max(len(shares), 1)
 
@@ -140,7 +168,7 @@ def measure(client, view, walk, seconds):
             "95 % ms": 1000 * waits[int(0.95 * (len(waits) - 1))],
             "reused %": mean_percent(client.reuse), "inferred %": mean_percent(client.inferred),
             "guessed %": mean_percent(client.guessed),
-            "width %": 100 * client.width / max(client.frames, 1) / client.size[0], "MB/s": client.bytes / took / 1e6}
+            "width %": 100 * client.width / max(client.frames, 1) / client.size[0], "Mbit/s": 8e-6 * client.bytes / took}
 
 
 def measure_abused(client, view, walk, seconds, quiet):
@@ -162,6 +190,8 @@ def parse_args():
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--sizes", default="640x480,1280x720")
     parser.add_argument("--options", default="", help="more options of walk, in one word")
+    parser.add_argument("--rate", type=float, default=math.inf, help="of the link [Mbit/s]")
+    parser.add_argument("--delay", type=float, default=0, help="of a round trip [ms]")
     parser.add_argument("--launcher", default="", help='for example "mpirun -n 2"')
     parser.add_argument("--plain", action="store_true")
     parser.add_argument("--abuse", action="store_true")
@@ -175,7 +205,7 @@ def main():
     for place in stage.places(args.views.split(","), args.lightwalk, args.scenes):
         for size in [tuple(int(word) for word in text.split("x")) for text in args.sizes.split(",")]:
             with Server(place, args.options.split(), shlex.split(args.launcher)) as server:
-                client = Client(server.port, size, args.plain)
+                client = Client(port_behind(server.port, args), size, args.plain)
                 while client.loaded is None:
                     client.listen(time.monotonic() + 0.1)
                 words = (place.program.scene.folder / place.file).read_text()

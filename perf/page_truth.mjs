@@ -13,54 +13,33 @@
 //   detail     correlation of the gradients of both pictures, mean
 //   refreshes  a second; input: from a key to the refresh that answers it, median and 95 % [ms]; script: the page's own time a refresh [ms]
 //   frames     a second; Mbit/s: of messages from the server
-import { mkdir, mkdtemp, writeFile } from "node:fs/promises";
-import { createRequire } from "node:module";
-import net from "node:net";
-import os from "node:os";
+import { mkdir, writeFile } from "node:fs/promises";
 import path from "node:path";
-import { parseArgs } from "node:util";
-import { compare, kOff, print_row, renderer, scene_of, start_server } from "./walk_truth.mjs";
+import {
+    command_line,
+    delayed,
+    mean_of,
+    own_folder,
+    quantile,
+    row_printer,
+    settled,
+    start_browser,
+    start_server,
+} from "./walk_setup.mjs";
+import { compare, kOff, renderer } from "./walk_truth.mjs";
 
-const { values: args } = parseArgs({
-    options: {
-        npm: { type: "string" },
-        program: { type: "string", default: "build/release/lightwalk" },
-        folder: { type: "string" },
-        words: { type: "string" },
-        view: { type: "string" },
-        options: { type: "string", default: "-av .02 .02 .02" },
-        delay: { type: "string", default: "0,100" },
-        moves: { type: "string", default: "turn,walk" },
-        pages: { type: "string", default: "camera,plain" },
-        size: { type: "string", default: "1280x720" },
-        samples: { type: "string", default: "8" },
-        seconds: { type: "string", default: "3" },
-        pictures: { type: "string" },
-        chromium: { type: "string", default: "/usr/bin/chromium" },
-    },
+const words = command_line({
+    delay: "0,100",
+    moves: "turn,walk",
+    pages: "camera,plain",
+    samples: "8",
+    seconds: "3",
+    pictures: undefined,
 });
+const { args, program, scene, size } = words;
+const [width, height] = size;
 const kMoves = { turn: ["ArrowRight"], walk: ["w"], both: ["w", "ArrowRight"], aside: ["d"] };
 const kBegin = 500; // after which copies are made: the motion is at full speed [ms]
-const [width, height] = args.size.split("x").map(Number);
-const program = path.resolve(args.program);
-const scene = scene_of(args);
-
-/** A port of this machine at which the server is half a round trip away. */
-function delayed(port, ms) {
-    const pass = (from, to) => {
-        from.on("data", (data) => setTimeout(() => to.writable && to.write(data), ms / 2));
-        from.on("close", () => setTimeout(() => to.destroy(), ms / 2));
-        from.on("error", () => to.destroy());
-    };
-    const proxy = net.createServer((client) => {
-        const server = net.connect(port, "127.0.0.1");
-        client.setNoDelay();
-        server.setNoDelay();
-        pass(client, server);
-        pass(server, client);
-    });
-    return new Promise((resolve) => proxy.listen(0, "127.0.0.1", () => resolve(proxy)));
-}
 
 /** In the page: copy what is shown at some refreshes from `begin` to `end` [ms], and the view that the eye has then. */
 function watch({ begin, end, samples }) {
@@ -82,16 +61,6 @@ function watch({ begin, end, samples }) {
         found.copies.push({ canvas, view: window.lightwalk.eye });
     };
     requestAnimationFrame(look);
-}
-
-/** Until the picture is of the present view, and a moment more. */
-async function settled(page) {
-    const there = () => {
-        const { ready, shown_view_id, view_id, at_rest } = window.lightwalk;
-        return ready && at_rest && shown_view_id === view_id;
-    };
-    await page.waitForFunction(there, null, { timeout: 60000 });
-    await page.waitForTimeout(2000);
 }
 
 async function task_seconds(line) {
@@ -143,13 +112,12 @@ async function drive(page, address, move) {
     for (const key of kMoves[move]) await page.keyboard.up(key);
     if (found.errors.length > 0) console.error(found.errors.join("\n"));
     const whole = seconds + kBegin / 1000;
-    const waits = found.latency.sort((a, b) => a - b);
     return {
         ...found,
         figures: {
             refreshes: found.refreshes / seconds,
-            input: waits[waits.length >> 1],
-            "input 95 %": waits[Math.floor(0.95 * (waits.length - 1))],
+            input: quantile(found.latency, 0.5),
+            "input 95 %": quantile(found.latency, 0.95),
             script: (1000 * spent) / (found.refreshes * (whole / seconds)),
             frames: (found.frames - before.frames) / whole,
             "Mbit/s": (8e-6 * (found.bytes - before.bytes)) / whole,
@@ -167,20 +135,19 @@ async function measure(browser, address, kind, move, delay, folder) {
     );
     await context.close();
     const judge = await browser.newPage();
-    const rendered = renderer(program, scene, [width, height], folder);
+    const rendered = renderer(program, scene, size, folder);
     const found = [];
     for (const [k, { url, view }] of copies.entries()) {
         const truth = await rendered(view, exposure);
         const pieces = [{ url, x: 0, y: 0 }];
-        const sizes = { size: [width, height], most: kOff };
-        found.push(await judge.evaluate(compare, { pieces, truth, ...sizes }));
+        found.push(await judge.evaluate(compare, { pieces, truth, size, most: kOff }));
         if (!args.pictures) continue;
         const name = path.join(args.pictures, `${move}-${delay}-${k}`);
         await writeFile(`${name}-${kind}.png`, Buffer.from(url.split(",")[1], "base64"));
         await writeFile(`${name}-true-${kind}.png`, Buffer.from(truth.split(",")[1], "base64"));
     }
     await judge.close();
-    const mean = (name) => found.reduce((sum, one) => sum + one[name], 0) / found.length;
+    const mean = (name) => mean_of(found.map((one) => one[name]));
     return {
         page: kind,
         move,
@@ -194,36 +161,18 @@ async function measure(browser, address, kind, move, delay, folder) {
     };
 }
 
-const { chromium } = createRequire(path.resolve(args.npm, "none.js"))("playwright-core");
-const folder = await mkdtemp(path.join(os.tmpdir(), "page-truth-"));
+const folder = await own_folder("page-truth");
 if (args.pictures) await mkdir(args.pictures, { recursive: true });
 const [server, url] = await start_server(program, scene);
-const browser = await chromium.launch({
-    executablePath: args.chromium,
-    args: [
-        "--no-sandbox",
-        "--use-gl=angle",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-    ],
-});
+const browser = await start_browser(words);
+const print_row = row_printer();
 try {
-    let first = true;
     for (const delay of args.delay.split(",").map(Number)) {
         const proxy = await delayed(Number(url.port), delay);
+        const address = `http://127.0.0.1:${proxy.address().port}/`;
         for (const move of args.moves.split(","))
-            for (const kind of args.pages.split(",")) {
-                const row = await measure(
-                    browser,
-                    `http://127.0.0.1:${proxy.address().port}/`,
-                    kind,
-                    move,
-                    delay,
-                    folder,
-                );
-                print_row(row, first);
-                first = false;
-            }
+            for (const kind of args.pages.split(","))
+                print_row(await measure(browser, address, kind, move, delay, folder));
         proxy.close();
     }
 } finally {

@@ -1,34 +1,12 @@
-// What the measurements of truth in motion share: the server, the true pictures, and how pictures are compared.
-import { spawn, spawnSync } from "node:child_process";
+// What the measurements of truth in motion share: the true pictures, and how pictures are compared.
+import { spawnSync } from "node:child_process";
 import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { fit_view } from "../apps/viewer/view.js";
 import { view_line } from "../apps/viewer/view_text.js";
+import { environment } from "./walk_setup.mjs";
 
 export const kOff = 0.1 * 255; // of a channel: what counts as off
-const environment = { ...process.env, RAYPATH: ".:../lib" };
-
-/** A scene, as the command line names it: {folder, view, options: [words], words: [scene's]}. */
-export const scene_of = ({ folder, view, options, words }) => ({
-    folder,
-    view,
-    options: options.split(" "),
-    words: words.split(" "),
-});
-
-/** Start a walk's server; returns its process and its address. */
-export function start_server(program, { folder, view, options, words }) {
-    const server = spawn(
-        program,
-        ["walk", "--port", "0", "--quiet", "-vf", view, ...options, ...words],
-        { cwd: folder, env: environment, stdio: ["ignore", "pipe", "inherit"] },
-    );
-    return new Promise((resolve, reject) => {
-        server.stdout.once("data", (text) => resolve([server, new URL(String(text).trim())]));
-        server.once("exit", () => reject(new Error("the server does not start")));
-    });
-}
-
 /** Draws true pictures of a scene, as data URLs, with files in a folder of its own. */
 export function renderer(program, { folder, options, words }, [width, height], own_folder) {
     return async (view, exposure, seed = 0) => {
@@ -47,13 +25,6 @@ export function renderer(program, { folder, options, words }, [width, height], o
         if (made.status !== 0) throw new Error(String(made.stderr));
         return `data:image/png;base64,${(await readFile(`${file}.png`)).toString("base64")}`;
     };
-}
-
-/** Print a row of figures, under their names where it is the first. */
-export function print_row(row, first) {
-    if (first) console.log(Object.keys(row).join("\t"));
-    const text = (x) => (typeof x === "number" ? x.toPrecision(3) : x);
-    console.log(Object.values(row).map(text).join("\t"));
 }
 
 /**

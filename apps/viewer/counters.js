@@ -1,7 +1,7 @@
 // window.lightwalk: counters and the newest answers, for tests and for the browser's console.
 
-/** The object window.lightwalk; what it takes from `session`, `navigator` and `camera` is read at each access. */
-export function make_counters(session, navigator, camera) {
+/** The object window.lightwalk; what it takes from `session`, `navigator`, `camera` and `decoder` is read at each access. */
+export function make_counters(session, navigator, camera, decoder) {
     return {
         frames: 0, ///< frames that were drawn
         skipped: 0, ///< frames that a newer one superseded before they were drawn
@@ -34,6 +34,9 @@ export function make_counters(session, navigator, camera) {
         get camera_draws() {
             return camera.draws;
         }, ///< whether the screen shows what the page has drawn from frames, not a frame
+        get decodes_beside() {
+            return decoder.beside;
+        }, ///< whether a worker decodes frames, not the page
         get refreshes() {
             return camera.refreshes;
         }, ///< of the screen for which it has

@@ -79,7 +79,7 @@ const session = new Session(session_id(), camera.available, screen, {
     },
     bye: ({ reason }) => cover(reason || "The server says goodbye."),
 });
-const counters = make_counters(session, navigator, camera);
+const counters = make_counters(session, navigator, camera, screen.decoder);
 const overlay = new Overlay(by_id("overlay"));
 const measuring = new Measuring(session, counters, redraw);
 const { measurements, reading } = measuring;

@@ -2,19 +2,6 @@
 import { element } from "./dom.js";
 import { can_make, Luminance, recolour } from "./tone.js";
 
-const kNumbers = 12; // bytes of the numbers before the JPEG of a luminance piece
-
-/** The numbers of a luminance piece, and its JPEG; throws Error for bytes that are none. */
-export function parse_luminance({ bytes }) {
-    if (bytes.byteLength === 0) return null;
-    if (bytes.byteLength < kNumbers) throw new Error("frame: its luminance is cut off");
-    const data = new DataView(bytes.buffer, bytes.byteOffset, kNumbers);
-    const [low, step, white] = [0, 4, 8].map((at) => data.getFloat32(at, true));
-    if (![low, step, white].every(Number.isFinite) || !(step > 0) || white < 0)
-        throw new Error("frame: its luminance has no sense");
-    return { low, step, white, jpeg: bytes.subarray(kNumbers) };
-}
-
 /** Whether two displays make the same picture of the same light, false colours aside. */
 const same_colours = (a, b) =>
     b !== undefined &&
@@ -47,7 +34,7 @@ export class Recolour {
         return this.luminance_;
     }
 
-    /** Take what goes with the next frame. plane: parse_luminance() and its bitmap; null: there is none any more. */
+    /** Take what goes with the next frame. plane: see decode_frame(); null: there is none any more. */
     take(plane) {
         this.plane_?.bitmap.close();
         this.plane_ = plane;

@@ -152,7 +152,7 @@ export class Reprojection {
 
     /**
      * Keep a frame, as the newest.
-     * @param frame  {picture, depth, view}: picture: a canvas; depth: as decode_depth() returns it; view: that it shows
+     * @param frame  {picture, depth, view}: picture: a canvas; depth: as decode_depth() or decode_frame() returns it; view: that it shows
      * @param again  whether it replaces the newest one, which shows the same view
      */
     keep(frame, again) {

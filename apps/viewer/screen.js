@@ -1,13 +1,13 @@
 // Draws frames: their pieces are decoded concurrently, and drawn in the order of frames.
-import { decode_depth } from "./depth.js";
+import { Decoder } from "./decoder.js";
 import { parse_frame } from "./frame.js";
-import { parse_luminance, Recolour } from "./recolour.js";
+import { Recolour } from "./recolour.js";
 
 export class Screen {
     /**
      * @param canvas
      * @param on  {drawn(frame, depth, told), skipped(frame), failed(error, frame)}: frame as parse_frame() returns it; depth as
-     *     decode_depth() does, undefined where it is as before; told as receive() took it; all three must acknowledge the frame
+     *     decode_frame() does, undefined where it is as before; told as receive() took it; all three must acknowledge the frame
      */
     constructor(canvas, on) {
         this.canvas = canvas;
@@ -15,6 +15,7 @@ export class Screen {
         this.context_ = canvas.getContext("2d", { alpha: false });
         this.context_.imageSmoothingQuality = "high";
         this.recolour_ = new Recolour(canvas, this.context_);
+        this.decoder = new Decoder();
         this.queue_ = Promise.resolve();
         this.newest_complete_ = null;
     }
@@ -30,7 +31,7 @@ export class Screen {
     }
 
     /**
-     * Take the bytes of a frame; it is drawn when it is decoded and the frames before it are drawn.
+     * Take the bytes of a frame, which are gone afterwards; it is drawn when it is decoded and the frames before it are drawn.
      * @param told  what is known of it from elsewhere
      */
     receive(buffer, told) {
@@ -41,7 +42,7 @@ export class Screen {
             return this.on_.failed(error, null);
         }
         if (frame.complete) this.newest_complete_ = frame;
-        const decoded = this.decode_(frame);
+        const decoded = this.decoder.decode(frame, buffer);
         decoded.catch(() => {}); // reported when its turn to be drawn comes
         this.queue_ = this.queue_.then(() => this.show_(frame, decoded, told));
     }
@@ -52,46 +53,29 @@ export class Screen {
         return newest !== null && newest !== frame && newest.frame > frame.frame;
     }
 
-    decode_(frame) {
-        const bitmap = ({ bytes, type }) => createImageBitmap(new Blob([bytes], { type }));
-        const depth = frame.depth && decode_depth(frame.depth, frame.width, frame.height);
-        const plane = frame.luminance && decode_luminance(frame.luminance, bitmap);
-        return Promise.all([
-            Promise.all(frame.pieces.map(bitmap)),
-            depth ?? undefined,
-            plane ?? undefined,
-        ]);
-    }
-
     async show_(frame, decoded, told) {
         try {
-            const [bitmaps, depth, plane] = await decoded;
+            const { pieces, depth, plane } = await decoded;
             if (this.superseded_(frame)) {
                 plane?.bitmap.close();
                 this.on_.skipped(frame);
             } else {
                 if (plane !== undefined) this.recolour_.take(plane);
-                this.draw_(frame, bitmaps, depth, told);
+                this.draw_(frame, pieces, depth, told);
             }
-            for (const bitmap of bitmaps) bitmap.close();
+            for (const { bitmap } of pieces) bitmap.close();
         } catch (error) {
             this.on_.failed(error, frame);
         }
     }
 
-    draw_(frame, bitmaps, depth, told) {
+    draw_(frame, pieces, depth, told) {
         const context = this.recolour_.begin(frame);
-        frame.pieces.forEach(({ x, y, width, height }, k) =>
-            context.drawImage(bitmaps[k], x, y, width, height),
-        );
+        for (const { x, y, width, height, bitmap } of pieces)
+            context.drawImage(bitmap, x, y, width, height);
         this.recolour_.end();
         this.on_.drawn(frame, depth, told);
     }
-}
-
-async function decode_luminance(piece, bitmap) {
-    const plane = parse_luminance(piece);
-    return plane && { ...plane, bitmap: await bitmap({ bytes: plane.jpeg, type: "image/jpeg" }) };
 }
 
 /** The largest size of the same proportions that is not larger than `most` in width and height [pixels]. */

@@ -76,7 +76,9 @@ bool is_name(std::string_view text) {
 }  // namespace
 
 struct FunctionEnvironment::Impl {
-    explicit Impl(Library library) : symbols(library) {}
+    explicit Impl(Library library) : symbols(library) {
+        parse(function::initial_definitions(library), {"initial definitions", 1}, "", true);
+    }
 
     SymbolTable symbols;
     std::unordered_set<std::string> contexts;
@@ -138,32 +140,35 @@ struct FunctionEnvironment::Impl {
     }
 };
 
-FunctionEnvironment::FunctionEnvironment(Library library) : impl_(std::make_unique<Impl>(library)) {
-    impl_->parse(function::initial_definitions(library), {"initial definitions", 1}, "", true);
-}
+FunctionEnvironment::FunctionEnvironment(Library library) : library_(library) {}
 FunctionEnvironment::~FunctionEnvironment() = default;
 FunctionEnvironment::FunctionEnvironment(FunctionEnvironment&&) noexcept = default;
 FunctionEnvironment& FunctionEnvironment::operator=(FunctionEnvironment&&) noexcept = default;
 
+FunctionEnvironment::Impl& FunctionEnvironment::started() const {
+    if (!impl_) impl_ = std::make_unique<Impl>(library_);
+    return *impl_;
+}
+
 bool FunctionEnvironment::loaded(std::string_view name) const {
-    return name == "." || impl_->contexts.count(function::context_of_file(name)) > 0;
+    return name == "." || (impl_ && impl_->contexts.contains(function::context_of_file(name)));
 }
 
 void FunctionEnvironment::load(const std::string& name, std::string_view text) {
     const std::string context = function::context_of_file(name);
-    impl_->parse(text, {name, 1}, context, true);
-    impl_->contexts.insert(context);
+    started().parse(text, {name, 1}, context, true);
+    started().contexts.insert(context);
 }
 
 void FunctionEnvironment::define(std::string_view text, const SourceLocation& where) {
-    impl_->parse(text, where, "", false);
+    started().parse(text, where, "", false);
 }
 
 Program FunctionEnvironment::compile(std::string_view file,
                                      std::span<const ExpressionRequest> requests,
                                      std::span<const double> reals, ChannelMask material_channels,
                                      const SourceLocation& where) const {
-    const function::Graph graph = impl_->graph(file, requests, reals, material_channels, where);
+    const function::Graph graph = started().graph(file, requests, reals, material_channels, where);
     Program::Code code = function::CodeGenerator(graph).generate();
     code.reals.assign(reals.begin(), reals.end());
     code.where = where;
@@ -187,10 +192,11 @@ Program FunctionEnvironment::shared_program(std::string_view file,
     }
     append(&material_channels, sizeof(material_channels));
     append(reals.data(), reals.size_bytes());
-    const auto found = impl_->shared.find(key);
-    if (found != impl_->shared.end()) return found->second;
+    auto& shared = started().shared;
+    const auto found = shared.find(key);
+    if (found != shared.end()) return found->second;
     Program program = compile(file, requests, reals, material_channels, where);
-    if (!program.can_throw()) impl_->shared.emplace(std::move(key), program);
+    if (!program.can_throw()) shared.emplace(std::move(key), program);
     return program;
 }
 
@@ -198,12 +204,12 @@ FunctionEnvironment::Listing FunctionEnvironment::listing(
     std::string_view file, std::span<const ExpressionRequest> requests,
     std::span<const double> reals, ChannelMask material_channels,
     const SourceLocation& where) const {
-    const function::Graph graph = impl_->graph(file, requests, reals, material_channels, where);
+    const function::Graph graph = started().graph(file, requests, reals, material_channels, where);
     return {function::listing(graph), function::listing(function::CodeGenerator(graph).generate())};
 }
 
 int FunctionEnvironment::parameters(std::string_view file, std::string_view name) const {
-    const function::Symbol* symbol = impl_->symbol(file, name);
+    const function::Symbol* symbol = started().symbol(file, name);
     if (!symbol || !symbol->is_function()) return 0;
     return symbol->is_user_function() ? static_cast<int>(symbol->definition->parameters.size())
                                       : symbol->library->arguments;

@@ -17,6 +17,8 @@ class FunctionEnvironment {
     /// With the built-in initialisation library (the definitions of Radiance's rayinit.cal).
     /// Without: only the core library plus PI, hermite, bezier, bspline, as the generators
     /// (gensurf, genrev, genworm) have it.
+    /// It is read when it is first asked for, as most scenes have no functions: an environment is
+    /// for one thread.
     enum class Library { renderer, generator };
     explicit FunctionEnvironment(Library library = Library::renderer);
     ~FunctionEnvironment();
@@ -69,7 +71,11 @@ class FunctionEnvironment {
 
   private:
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    /// With the initial definitions, which are read now unless they have been.
+    Impl& started() const;
+
+    Library library_;
+    mutable std::unique_ptr<Impl> impl_;  ///< null: nothing has been asked for
 };
 
 }  // namespace lightwalk

@@ -11,6 +11,7 @@
 #include "io/picture/picture_data.h"
 #include "io/picture/spectral_picture.h"
 #include "io/scene/binary_models.h"
+#include "io/scene/named_files.h"
 #include "io/scene/obj_scene.h"
 #include "io/scene/scene_reader.h"
 #include "io/wavefront/obj_mesh.h"
@@ -172,18 +173,6 @@ struct FileResources::Reading {
     }
 };
 
-bool FileResources::is_known(const NamedFile& file) const {
-    switch (file.kind) {
-        case NamedFile::Kind::octree:
-            return octrees_.contains(file.name);
-        case NamedFile::Kind::mesh:
-            return meshes_.contains(file.name);
-        case NamedFile::Kind::picture:
-            break;
-    }
-    return pictures_.contains(file.name);
-}
-
 std::optional<FileResources::Reading> FileResources::read(const NamedFile& file) {
     if (file.kind == NamedFile::Kind::mesh && obj_name(file.name)) return std::nullopt;
     try {
@@ -214,7 +203,7 @@ void FileResources::prepare(std::span<const NamedFile> files, const TaskRunner& 
     std::vector<Reading> readings;
     std::size_t bytes = 0;
     for (const NamedFile& file : files) {
-        if (is_known(file)) continue;
+        if (is_among(file, octrees_, meshes_, pictures_)) continue;
         if (std::optional<Reading> next = read(file)) {
             bytes += next->bytes.size();
             readings.push_back(*std::move(next));

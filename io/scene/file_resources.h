@@ -41,7 +41,6 @@ class FileResources final : public Resources {
   private:
     struct Reading;
     [[nodiscard]] std::shared_ptr<const MeshModel> obj_mesh(const ObjName& name);
-    [[nodiscard]] bool is_known(const NamedFile& file) const;
     /// The bytes of a file; nothing if it does not exist or cannot be read.
     [[nodiscard]] std::optional<Reading> read(const NamedFile& file);
     void decode(std::span<Reading> readings, const TaskRunner& task_runner);

@@ -11,6 +11,7 @@
 #include "io/scene/frozen_bsdf.h"
 #include "io/scene/frozen_model.h"
 #include "io/scene/frozen_resources.h"
+#include "io/scene/named_files.h"
 
 namespace lightwalk {
 namespace {
@@ -244,15 +245,7 @@ std::shared_ptr<const Model> FrozenScene::model() {
 }
 
 bool FrozenScene::knows(const NamedFile& file) const {
-    switch (file.kind) {
-        case NamedFile::Kind::octree:
-            return octrees_.contains(file.name);
-        case NamedFile::Kind::mesh:
-            return meshes_.contains(file.name);
-        case NamedFile::Kind::picture:
-            break;
-    }
-    return pictures_.contains(file.name);
+    return is_among(file, octrees_, meshes_, pictures_);
 }
 
 std::string FrozenScene::function_file(const std::string& name) {

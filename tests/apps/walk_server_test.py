@@ -3,12 +3,13 @@
 
     walk_server_test.py PROGRAM [rest|light|roles|mended|returning|slow|abuse|ranks ...]
 """
-import base64, os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, threading, time, urllib.error, urllib.request, zlib
+import base64, os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "perf"))
 
 from walk.misbehaviour import VIEW, misbehave  # noqa: E402
+from walk.slow_link import SlowLink  # noqa: E402
 from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
 
 ROOM = """void plastic grey 0 0 5 .5 .5 .5 0 0
@@ -201,57 +202,6 @@ def returning(program):
         assert welcome["view"]["position"] == [1, -3, 1.5], welcome
         other = Client(server.port, "2222222222222222")
         assert other.told("welcome")["view"]["position"] == [0, -4, 1.5]
-
-
-class SlowLink(threading.Thread):
-    """A proxy that carries so many bytes a second from the server, and lets both directions wait for half of the delay."""
-
-    def __init__(self, port, bytes_per_second, delay):
-        super().__init__(daemon=True)
-        self.listener = socket.create_server(("127.0.0.1", 0))
-        self.port = self.listener.getsockname()[1]
-        self.target, self.rate, self.delay = port, bytes_per_second, delay
-
-    def run(self):
-        near, _ = self.listener.accept()
-        far = socket.socket()
-        # What lies in the system's own buffers is on its way too, and would hide the link's width.
-        far.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 16384)
-        far.connect(("127.0.0.1", self.target))
-        for end in (near, far):
-            end.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        threading.Thread(target=self.carry, args=(near, far, 1e9), daemon=True).start()
-        self.carry(far, near, self.rate)
-
-    def carry(self, source, sink, rate):
-        queue, ready = [], threading.Condition()
-
-        def deliver():
-            while True:
-                with ready:
-                    while not queue:
-                        ready.wait()
-                    due, data = queue.pop(0)
-                time.sleep(max(0, due - time.monotonic()))
-                try:
-                    sink.sendall(data)
-                except OSError:
-                    return
-
-        threading.Thread(target=deliver, daemon=True).start()
-        free = time.monotonic()
-        while True:
-            try:
-                data = source.recv(4096)
-            except OSError:
-                return
-            if not data:
-                return
-            free = max(free, time.monotonic()) + len(data) / rate
-            time.sleep(max(0, free - time.monotonic()))
-            with ready:
-                queue.append((free + self.delay / 2, data))
-                ready.notify()
 
 
 def slow(program):

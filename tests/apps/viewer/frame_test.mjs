@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { parse_frame } from "../../../apps/viewer/frame.js";
-import { parse_luminance } from "../../../apps/viewer/recolour.js";
+import { parse_luminance } from "../../../apps/viewer/decoding.js";
 
 /** A frame written by offsets alone, as the protocol's table has them. */
 function frame({

@@ -332,6 +332,7 @@ const steps = {
         const { width, height } = kSize;
         const rest = await value(page, "shown_view");
         assert.deepEqual(rest, fit_view(await value(page, "eye"), width, height));
+        assert.ok(await value(page, "decodes_beside"));
     },
 
     async "a drag that is held still comes to rest, and goes on with the pointer"(page) {
