@@ -13,7 +13,7 @@ namespace lightwalk {
 namespace {
 
 constexpr int kDeepestNesting = 64;  ///< of the JSON: tinygltf calls itself for each level
-constexpr std::size_t kMostValues = std::size_t{1} << 23;    ///< of the JSON
+constexpr std::size_t kMostValues = std::size_t{1} << 22;    ///< of the JSON
 constexpr std::size_t kMostRepeated = std::size_t{1} << 23;  ///< triangles that nodes repeat
 constexpr std::size_t kLeastTriangleBytes = 3;
 constexpr std::size_t kGlbHead = 12, kChunkHead = 8;

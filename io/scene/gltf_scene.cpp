@@ -32,7 +32,7 @@ bool emits(const GltfMaterial& material) {
 class GltfLibrary {
   public:
     /// @param shown  how the scene names the file
-    GltfLibrary(const GltfFile& file, std::string path, std::string shown, FileSource& files,
+    GltfLibrary(const GltfFile& file, std::string path, const std::string& shown, FileSource& files,
                 WarningSink& warnings)
         : file_(file),
           path_(std::move(path)),

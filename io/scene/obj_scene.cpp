@@ -47,8 +47,11 @@ class ObjLibrary {
   private:
     std::optional<TexturePicture> picture_of(const MtlMaterial& material) {
         if (material.map_kd.empty()) return std::nullopt;
+        std::string file = material.map_kd;
+        // Many come from where paths are written with backslashes.
+        if (!files_.readable(path_from(directory_, file))) std::ranges::replace(file, '\\', '/');
         try {
-            return texture_beside(material.map_kd, directory_, shown_, files_);
+            return texture_beside(file, directory_, shown_, files_);
         } catch (const InputError& error) {
             warnings_.warn("material \"" + material.name +
                            "\": map_Kd is left out: " + error.what());

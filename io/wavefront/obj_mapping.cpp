@@ -59,7 +59,7 @@ class MappingReader {
     }
 
     std::string word(const char* ends) {
-        const std::string text(rest_.substr(0, rest_.find_first_of(ends)));
+        std::string text(rest_.substr(0, rest_.find_first_of(ends)));
         rest_.remove_prefix(text.size());
         return text;
     }

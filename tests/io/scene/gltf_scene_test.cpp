@@ -154,11 +154,11 @@ TEST_CASE("an .obj's texture may be a PNG file, and scenes may name one") {
     folder.write("m/x.obj",
                  "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"
                  "vt 0 1\nusemtl a\nf 1/1 2/2 3/3 4/4\n");
-    folder.write("m/x.mtl", "newmtl a\nKd 1 .5 1\nillum 1\nmap_Kd t.png\n");
-    folder.write("m/t.png", test::wide_png());
+    folder.write("m/x.mtl", "newmtl a\nKd 1 .5 1\nillum 1\nmap_Kd s\\t.png\n");
+    folder.write("m/s/t.png", test::wide_png());
     folder.write("sky.rad", kWhiteSky);
     folder.write("own.rad",
-                 "void colorpict p 7 red green blue m/t.png . frac(Px)*2 frac(Pz) 0 0\n"
+                 "void colorpict p 7 red green blue m/s/t.png . frac(Px)*2 frac(Pz) 0 0\n"
                  "p plastic a 0 0 5 1 .5 1 0 0\n");
     FolderScene scene(folder, {"m/x.obj", "sky.rad"}, all_around());
     CHECK(red(scene, .3, .6) == doctest::Approx(0.21586).epsilon(1e-4));  // 128 of 255 in sRGB

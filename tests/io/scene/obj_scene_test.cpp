@@ -65,7 +65,9 @@ TEST_CASE("meshes of object files mirror as the reference's do: smoothed metal, 
                  "void brightfunc dirs 2 2+Dx+.5*Dy . 0 0\ndirs glow sky 0 0 4 1 1 1 0\n"
                  "sky source s 0 0 4 0 0 1 360\nvoid light sun 0 0 3 10000 10000 10000\n"
                  "sun source s 0 0 4 .3 .2 1 .5\n");
-    FolderScene scene(folder, {"materials.rad", "x.obj"});
+    RenderOptions options = test::TestScene::exact();
+    options.specular_threshold = 0;
+    FolderScene scene(folder, {"materials.rad", "x.obj"}, options);
     check_red(scene, kMirroredRed, 1e-4);
 }
 
