@@ -65,6 +65,7 @@ int run_command(Command command, const std::vector<std::string>& words, Communic
     std::optional<Run> run;
     const auto parse = [&](const std::shared_ptr<FileSource>& files) {
         const OptionTable table = take_command_line(command, words, files);
+        command.common.words = words;
         if (!command.common.show_defaults)
             run.emplace(command, ranks, *files);
         else if (ranks == nullptr || ranks->rank() == 0)

@@ -24,6 +24,7 @@ struct CommonOptions {
     std::string error_file;                    ///< -e: where messages go, "" for standard error
     std::vector<std::size_t> scene_positions;  ///< of the scene's files among the expanded words
     std::vector<std::string> notices;          ///< warnings of the command line, for the run
+    std::vector<std::string> words;            ///< the command line, to be read again
 
     /// How messages name the program.
     [[nodiscard]] std::string program() const { return "lightwalk " + command; }

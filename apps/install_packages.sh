@@ -2,7 +2,7 @@
 # Install what Lightwalk is built from, on Debian 12 as root or with sudo, and the packages given as arguments. Does
 # nothing when all is there.
 set -eu
-packages="g++ cmake ninja-build libtbb-dev libembree-dev libopenimageio-dev nlohmann-json3-dev doctest-dev
+packages="g++ cmake ninja-build libtbb-dev libembree-dev libopenimageio-dev nlohmann-json3-dev libtinygltf-dev doctest-dev
 libboost-dev libboost-context-dev libturbojpeg0-dev libbenchmark-dev libopenmpi-dev openmpi-bin libzstd-dev zlib1g-dev libxxhash-dev libpugixml-dev python3 python3-numpy $*"
 missing=""
 for package in $packages; do

@@ -1,4 +1,5 @@
 // lightwalk walk: light in the browser. A web server on a thread of its own, and the frames.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <thread>
@@ -12,6 +13,7 @@
 #include "io/files/watched_files.h"
 #include "io/formats/words.h"
 #include "io/net/web_rules.h"
+#include "io/rad/rad_file.h"
 
 namespace lightwalk {
 namespace {
@@ -109,16 +111,16 @@ class Page {
     std::thread thread_;
 };
 
-// What rank 0 tells the others to do next.
+// What rank 0 tells the others to do next. Behind kLoad stands what it has read of a command line
+// with a rad file (FileRecorder::take).
 constexpr const char *kLoad = "load", *kEnd = "end";
+constexpr std::size_t kLoadSize = 4;
 
 class WalkRun final : CommandRun {
   public:
     WalkRun(RenderCommand& command, Communicator* communicator, FileSource& files)
         : CommandRun(command.common, communicator), command_(command) {
-        check_render_command(command_, files);
-        (void)Camera(command_.view);  // a bad view is told before the scene is read
-        resolve_scene_files(command_.common, "", files);
+        check(files);
     }
 
     int run() {
@@ -133,8 +135,12 @@ class WalkRun final : CommandRun {
 
     /// The ranks but rank 0: scene after scene.
     int follow() {
-        while (ranks()->tell() == kLoad) {
+        for (std::string told = ranks()->tell(); told.starts_with(kLoad); told = ranks()->tell()) {
             try {
+                if (from_rad_file()) {
+                    const auto recorded = std::string_view(told).substr(kLoadSize);
+                    read_command(std::make_shared<FileReplay>(recorded));
+                }
                 ranks()->open(task()).run([] {});
             } catch (const InputError&) {
                 continue;  // until its files change
@@ -168,6 +174,33 @@ class WalkRun final : CommandRun {
         return kSuccessStatus;
     }
 
+    void check(FileSource& files) {
+        check_render_command(command_, files);
+        (void)Camera(command_.view);  // a bad view is told before the scene is read
+        resolve_scene_files(command_.common, "", files);
+    }
+
+    /// Whether what the command line says stands in a file that may change.
+    [[nodiscard]] bool from_rad_file() const {
+        return std::ranges::any_of(command_.common.words, is_rad_file_name);
+    }
+    /// Read the command line again. What the server and the ranks have begun with stays. Throws
+    /// InputError, and leaves the command as it was.
+    void read_command(const std::shared_ptr<FileSource>& files) {
+        const RenderCommand before = command_;
+        try {
+            command_ = RenderCommand("walk");
+            (void)take_command_line(command_, before.common.words, files);
+            check(*files);
+            check_render_settings(command_.common.settings);
+        } catch (const std::exception& error) {
+            command_ = before;
+            throw InputError(error.what());
+        }
+        command_.common.words = before.common.words;
+        if (ranks() != nullptr) command_.common.set_threads(ranks()->threads());
+    }
+
     [[nodiscard]] RendererRequest task() {
         RendererRequest task = request();
         CloudOptions cloud = command_.walk->cloud;
@@ -185,7 +218,13 @@ class WalkRun final : CommandRun {
             page.inbox.announce(walk_text(LoadingReply{step, share}));
         };
         announce("reading " + welcome(command_).scene, 0.1);
-        if (ranks() != nullptr) (void)ranks()->tell(kLoad);
+        std::string load = kLoad;
+        if (from_rad_file()) {
+            const auto recorder = std::make_shared<FileRecorder>(files, true);
+            read_command(recorder);
+            load += recorder->take();
+        }
+        if (ranks() != nullptr) (void)ranks()->tell(load);
         RendererRequest request = task();
         request.files = files;
         request.when_read = [&] { announce("building the scene", 0.5); };

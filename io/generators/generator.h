@@ -1,6 +1,7 @@
 #pragma once
 // Built-in replacements of the programs that scene files call: functions from words to scene text.
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct GeneratorContext {
     /// output.
     std::function<std::string(const std::string& command, const std::string& directory)>
         run_command;
+    /// The scene that an object or glTF file is; nothing for other names, and for all where it is
+    /// null.
+    std::function<std::optional<std::string>(const std::string& path)> model_scene = {};
     /// Receives the output of a generator that writes much, in parts; null: all is returned.
     TextSink* output = nullptr;
 };

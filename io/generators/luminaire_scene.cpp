@@ -171,13 +171,7 @@ class LuminaireWriter {
 
     void primitive(std::string_view modifier, std::string_view type, const std::string& name,
                    const std::vector<std::string>& strings, const std::vector<double>& reals) {
-        PrimitiveText text;
-        text.modifier = modifier;
-        text.type_word = type;
-        text.name = name;
-        text.strings = strings;
-        text.reals = reals;
-        write_primitive(text, kLuminaireDigits, out_);
+        append_primitive(modifier, type, name, strings, reals, kLuminaireDigits, out_);
     }
 
     const Photometry& photometry_;
@@ -207,14 +201,10 @@ std::string tilt_scene(const LampTilt& tilt, const std::string& name,
     // Factors up to 90 degrees are of both halves.
     std::string angle = tilt.geometry == 1 ? "tilt_ang" : "tilt_xang";
     if (tilt.angles.back() <= 90) angle += "2";
-    PrimitiveText text;
-    text.modifier = "void";
-    text.type_word = "brightdata";
-    text.name = name;
-    text.strings = {"noop", data_name, "tilt.cal", angle};
-    if (tilt.geometry == 2) text.strings.insert(text.strings.end(), {"-rz", "90"});
+    std::vector<std::string> words = {"noop", data_name, "tilt.cal", angle};
+    if (tilt.geometry == 2) words.insert(words.end(), {"-rz", "90"});
     std::string out;
-    write_primitive(text, kLuminaireDigits, out);
+    append_primitive("void", "brightdata", name, words, {}, kLuminaireDigits, out);
     return out;
 }
 

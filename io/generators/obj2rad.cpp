@@ -6,15 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "io/formats/words.h"
 #include "io/generators/generator.h"
 #include "io/generators/generator_words.h"
 #include "io/generators/scene_writer.h"
-#include "io/wavefront/obj_file.h"
+#include "io/wavefront/obj_mapping.h"
 
 namespace lightwalk {
 namespace {
 
-constexpr std::string_view kObj2radUsage = "[-f] [-o name] [input]";
+constexpr std::string_view kObj2radUsage = "[-n] [-f] [-m mapfile] [-o name] [input]";
 constexpr double kSmoothTolerance = 1e-6;  ///< of a normal that is the plane's
 constexpr double kPlaneTolerance = 1e-5;   ///< of a plane's points, by the size of the face
 
@@ -25,6 +26,10 @@ class Obj2rad {
         while (!words_.at_end() && words_.peek().starts_with('-') && words_.peek().size() > 1) {
             if (words_.accept("-f"))
                 flat_ = true;
+            else if (words_.accept("-n"))
+                lists_ = true;
+            else if (words_.accept("-m"))
+                read_mapping(words_.text("mapfile"), context);
             else if (words_.accept("-o"))
                 name_ = words_.text("name");
             else
@@ -34,24 +39,59 @@ class Obj2rad {
             file_ = decode_obj(context.input, "standard input");
             return;
         }
-        const std::string path = path_from(context.directory, words_.text("input"));
+        input_ = words_.text("input");
+        const std::string path = path_from(context.directory, input_);
         if (!words_.at_end()) words_.fail("there is more than one input");
         file_ = decode_obj(context.library.files().read(path), path);
     }
 
     std::string run() {
+        if (lists_) return obj_qualifiers(file_, input_);
         std::size_t number = 0;
         for (const ObjFile::Face& face : file_.faces) write(face, ++number);
         return out_.release();
     }
 
   private:
+    void read_mapping(const std::string& file, GeneratorContext& context) {
+        const std::string path = path_from(context.directory, file);
+        rules_ = decode_obj_mapping(context.library.files().read(path), path);
+        for (const ObjRule& rule : rules_) {
+            if (std::ranges::find(rule.conditions, ObjRule::Qualifier::map,
+                                  &ObjRule::Condition::qualifier) == rule.conditions.end())
+                continue;
+            context.warnings.warn(path + ": conditions on a Map are never met, as in Radiance");
+            return;
+        }
+    }
+
+    /// The object's, or else its groups'.
+    [[nodiscard]] std::string name_of(const ObjFile::Face& face) const {
+        const bool is_object = face.object != ObjFile::kNone;
+        const std::uint32_t named = is_object ? face.object : face.groups;
+        if (named == ObjFile::kNone) return name_;
+        std::string name;
+        std::string_view words = file_.names[named];
+        if (is_object) return std::string(take_word(words));
+        for (std::string_view word = take_word(words); !word.empty(); word = take_word(words))
+            name.append(name.empty() ? "" : ".").append(word);
+        return name;
+    }
+
+    /// Nothing for faces that are left out. An empty mapping maps nothing.
+    [[nodiscard]] std::optional<std::string> material_for(const ObjFile::Face& face,
+                                                          std::size_t number) const {
+        if (!rules_.empty()) return mapped_material(rules_, file_, face, number);
+        std::string_view given = file_.material_of(face);
+        const std::string_view material = take_word(given);
+        return std::string(material.empty() ? "white" : material);
+    }
+
     void write(const ObjFile::Face& face, std::size_t number) {
-        const std::uint32_t named = face.object != ObjFile::kNone ? face.object : face.group;
-        const std::string name =
-            (named == ObjFile::kNone ? name_ : file_.names[named]) + "." + std::to_string(number);
-        const std::string& given = file_.material_of(face);
-        const std::string material = given.empty() ? "white" : given;
+        const std::optional<std::string> mapped = material_for(face, number);
+        if (!mapped) return;
+        const std::string& material = *mapped;
+        const std::string name = name_of(face) + "." + std::to_string(number);
         const std::span<const ObjFile::Corner> corners = file_.corners_of(face);
         bool smooth = !flat_;
         for (const ObjFile::Corner& corner : corners)
@@ -126,7 +166,9 @@ class Obj2rad {
 
     GeneratorWords words_;
     SceneWriter out_;
-    bool flat_ = false;
+    bool flat_ = false, lists_ = false;
+    std::vector<ObjRule> rules_;
+    std::string input_ = "<stdin>";
     std::string name_ = "unnamed";
     ObjFile file_;
 };

@@ -48,7 +48,10 @@ class Xform {
         if (line_.files.empty()) read_text(context_.input, "standard input", context_.directory, 0);
         for (const std::string& file : line_.files) {
             const std::string path = context_.library.locate(file, "scene file");
-            read_text(context_.library.files().read(path), path, directory_of(path), 0);
+            std::optional<std::string> model;
+            if (context_.model_scene) model = context_.model_scene(path);
+            read_text(model ? *model : context_.library.files().read(path), path,
+                      directory_of(path), 0);
         }
     }
 

@@ -160,4 +160,16 @@ void write_primitive(const PrimitiveText& primitive, int digits, std::string& ou
     out.push_back('\n');
 }
 
+void append_primitive(std::string_view modifier, std::string_view type, const std::string& name,
+                      const std::vector<std::string>& strings, const std::vector<double>& reals,
+                      int digits, std::string& out) {
+    PrimitiveText text;
+    text.modifier = modifier;
+    text.type_word = type;
+    text.name = name;
+    text.strings = strings;
+    text.reals = reals;
+    write_primitive(text, digits, out);
+}
+
 }  // namespace lightwalk

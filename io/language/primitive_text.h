@@ -46,5 +46,8 @@ void append_word(std::string_view word, std::string& out);
 /// Append a primitive as scene text; numbers have `digits` significant digits. Throws InputError
 /// for a number that is not finite.
 void write_primitive(const PrimitiveText& primitive, int digits, std::string& out);
+void append_primitive(std::string_view modifier, std::string_view type, const std::string& name,
+                      const std::vector<std::string>& strings, const std::vector<double>& reals,
+                      int digits, std::string& out);
 
 }  // namespace lightwalk

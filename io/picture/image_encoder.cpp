@@ -4,17 +4,12 @@
 #include "io/files/module.h"
 
 namespace lightwalk {
-namespace {
-
-constexpr const char* kModule = "liblightwalk_openimageio.so";
-
-}  // namespace
 
 std::string encode_image(const ImageRequest& request) {
     const std::string failed = std::string("cannot encode ") + request.format + ": ";
     std::string error;
     const auto encode =
-        reinterpret_cast<EncodeImage>(load_from_module(kModule, kEncodeImageSymbol, error));
+        reinterpret_cast<EncodeImage>(load_from_module(kImageModule, kEncodeImageSymbol, error));
     if (!encode) throw InputError(failed + "OpenImageIO's module does not load: " + error);
     std::vector<unsigned char> bytes;
     encode(request, bytes, error = {});

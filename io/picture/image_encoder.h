@@ -25,6 +25,8 @@ struct ImageRequest {
 /// The type of the module's one function; it leaves `error` empty on success.
 using EncodeImage = void (*)(const ImageRequest& request, std::vector<unsigned char>& bytes,
                              std::string& error);
+/// The file of the module.
+inline constexpr const char* kImageModule = "liblightwalk_openimageio.so";
 inline constexpr const char* kEncodeImageSymbol = "lightwalk_encode_image";
 
 }  // namespace lightwalk

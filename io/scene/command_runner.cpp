@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/scene/model_scene.h"
+
 namespace lightwalk {
 namespace {
 
@@ -160,6 +162,7 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
         context.run_command = [this, &where](const std::string& nested, const std::string& from) {
             return run(nested, from, where);
         };
+        context.model_scene = [this](const std::string& path) { return model_scene(path); };
         for (const SimpleCommand& words : pipeline) {
             if (pieces && &words == &pipeline.back()) context.output = &*pieces;
             std::string written;
@@ -175,6 +178,14 @@ std::string CommandRunner::run_pipelines(const std::vector<Pipeline>& pipelines,
         output += context.input;
     }
     return output;
+}
+
+/// What a command reads does not know what the scene has defined by then: it brings its materials.
+std::optional<std::string> CommandRunner::model_scene(const std::string& path) {
+    if (!is_model_name(path)) return std::nullopt;
+    const std::string here = library_.base().empty() ? std::string() : library_.base() + "/";
+    const std::string shown = path.starts_with(here) ? path.substr(here.size()) : path;
+    return read_model(shown, path, library_.files(), nullptr, warnings_);
 }
 
 /// One program of a pipeline.

@@ -46,6 +46,7 @@ class CommandRunner {
                                             const std::string& command,
                                             const std::string& directory,
                                             const SourceLocation& where, TextSink* sink);
+    [[nodiscard]] std::optional<std::string> model_scene(const std::string& path);
     [[nodiscard]] std::string run_stage(const SimpleCommand& words, const std::string& command,
                                         const SourceLocation& where, GeneratorContext& context);
     [[nodiscard]] std::string run_program(const SimpleCommand& words, GeneratorContext& context);

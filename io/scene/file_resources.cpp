@@ -8,11 +8,12 @@
 #include "core/bsdf/bsdf.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
-#include "io/picture/picture_data.h"
 #include "io/picture/spectral_picture.h"
 #include "io/scene/binary_models.h"
+#include "io/scene/gltf_scene.h"
 #include "io/scene/named_files.h"
 #include "io/scene/obj_scene.h"
+#include "io/scene/picture_file.h"
 #include "io/scene/scene_reader.h"
 #include "io/wavefront/obj_mesh.h"
 
@@ -21,23 +22,6 @@ namespace {
 
 constexpr std::size_t kLongestTextLine = 511;
 constexpr std::size_t kBytesTogether = std::size_t{64} << 20;  ///< bytes read ahead of decoding
-
-/// Radiance's pictures are called .hdr or .pic, and scenes are older than their pictures' names:
-/// the same name with the other ending; nothing for other names.
-std::optional<std::string> other_picture_name(const std::string& name) {
-    for (const auto& [ending, other] : {std::pair(".pic", ".hdr"), std::pair(".hdr", ".pic")}) {
-        if (name.ends_with(ending)) return name.substr(0, name.size() - 4) + other;
-    }
-    return std::nullopt;
-}
-
-std::string locate_picture(const LibraryPath& path, const std::string& name) {
-    if (std::optional<std::string> found = path.find(name)) return *std::move(found);
-    if (const std::optional<std::string> other = other_picture_name(name)) {
-        if (std::optional<std::string> found = path.find(*other)) return *std::move(found);
-    }
-    return path.locate(name, "picture file");  // which says that it is not there
-}
 
 /// The cached value of `name`, or what `load` makes of it.
 template <class T, class Load>
@@ -68,8 +52,7 @@ std::shared_ptr<const DataArray> FileResources::data(const std::string& name) {
 
 std::shared_ptr<const PictureData> FileResources::picture(const std::string& name) {
     return cached(pictures_, name, [&] {
-        const std::string path = locate_picture(path_, name);
-        return std::make_shared<const PictureData>(decode_picture(path_.files().read(path), path));
+        return std::make_shared<const PictureData>(decode_any_picture(picture_file(name)));
     });
 }
 
@@ -121,6 +104,7 @@ std::shared_ptr<const Model> FileResources::octree(const std::string& name) {
 std::shared_ptr<const MeshModel> FileResources::mesh(const std::string& name) {
     return cached(meshes_, name, [&] {
         if (const std::optional<ObjName> object = obj_name(name)) return obj_mesh(*object);
+        if (const std::optional<GltfName> model = gltf_name(name)) return gltf_mesh(*model);
         const std::string path = path_.locate(name, "mesh file");
         return std::make_shared<const MeshModel>(decode_mesh(path_.files().read(path), path));
     });
@@ -146,10 +130,37 @@ std::shared_ptr<const MeshModel> FileResources::obj_mesh(const ObjName& name) {
     return std::make_shared<const MeshModel>(mesh_of_obj(file, name.material, {}));
 }
 
+/// The file that was asked for last is kept: its parts and images are asked for one after the
+/// other.
+std::shared_ptr<const GltfFile> FileResources::gltf_file(const std::string& path) {
+    if (!gltf_ || gltf_path_ != path) {
+        gltf_ = std::make_shared<const GltfFile>(read_gltf(path, path_.files()));
+        gltf_path_ = path;
+    }
+    return gltf_;
+}
+
+std::shared_ptr<const MeshModel> FileResources::gltf_mesh(const GltfName& name) {
+    const std::string path = path_.locate(name.file, "glTF file");
+    const std::shared_ptr<const GltfFile> file = gltf_file(path);
+    if (name.part) return gltf_part(*file, path, *name.part);
+    // As an object file's, the pictures of its materials are named as this file is.
+    const bool here = path == path_from(path_.base(), name.file);
+    return std::make_shared<const MeshModel>(
+        gltf_whole(*file, path, here ? name.file : path, path_, warnings_));
+}
+
+PictureFile FileResources::picture_file(const std::string& name) {
+    const std::optional<GltfName> model = gltf_name(name);
+    if (!model || !model->part || path_.find(name)) return read_picture_file(path_, name);
+    const std::string path = path_.locate(model->file, "glTF file");
+    return gltf_picture(*gltf_file(path), path, *model->part);
+}
+
 /// A file's bytes, and what they turn out to be.
 struct FileResources::Reading {
     NamedFile file;
-    std::string path, bytes;
+    PictureFile bytes;  ///< whatever it is
     std::shared_ptr<const Model> octree;
     std::shared_ptr<const MeshModel> mesh;
     std::shared_ptr<const PictureData> picture;
@@ -159,30 +170,28 @@ struct FileResources::Reading {
         try {
             switch (file.kind) {
                 case NamedFile::Kind::octree:
-                    octree = decode_octree(bytes, path).model;
+                    octree = decode_octree(bytes.bytes, bytes.path).model;
                     break;
                 case NamedFile::Kind::mesh:
-                    mesh = std::make_shared<const MeshModel>(decode_mesh(bytes, path));
+                    mesh = std::make_shared<const MeshModel>(decode_mesh(bytes.bytes, bytes.path));
                     break;
                 case NamedFile::Kind::picture:
-                    picture = std::make_shared<const PictureData>(decode_picture(bytes, path));
+                    picture = std::make_shared<const PictureData>(decode_any_picture(bytes));
             }
         } catch (const InputError&) {
         }
-        bytes = std::string();
+        bytes = {};
     }
 };
 
 std::optional<FileResources::Reading> FileResources::read(const NamedFile& file) {
-    if (file.kind == NamedFile::Kind::mesh && obj_name(file.name)) return std::nullopt;
+    if (file.kind == NamedFile::Kind::mesh && (obj_name(file.name) || gltf_name(file.name)))
+        return std::nullopt;
     try {
-        std::string path;
         if (file.kind == NamedFile::Kind::picture)
-            path = locate_picture(path_, file.name);
-        else
-            path = path_.locate(file.name, "file");
-        std::string bytes = path_.files().read(path);
-        return Reading{file, std::move(path), std::move(bytes), {}, {}, {}};
+            return Reading{file, picture_file(file.name), {}, {}, {}};
+        const std::string path = path_.locate(file.name, "file");
+        return Reading{file, {path, path_.files().read(path)}, {}, {}, {}};
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -205,7 +214,7 @@ void FileResources::prepare(std::span<const NamedFile> files, const TaskRunner& 
     for (const NamedFile& file : files) {
         if (is_among(file, octrees_, meshes_, pictures_)) continue;
         if (std::optional<Reading> next = read(file)) {
-            bytes += next->bytes.size();
+            bytes += next->bytes.bytes.size();
             readings.push_back(*std::move(next));
         }
         if (bytes < kBytesTogether) continue;

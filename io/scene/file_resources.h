@@ -12,7 +12,10 @@
 
 namespace lightwalk {
 
+struct GltfFile;
+struct GltfName;
 struct ObjName;
+struct PictureFile;
 
 /// For one thread, which builds a scene. Relative names, also those inside an octree that is not
 /// frozen, are resolved against `path`'s base directory.
@@ -21,7 +24,9 @@ class FileResources final : public Resources {
     FileResources(LibraryPath path, bool allow_commands, WarningSink& warnings);
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
-    /// If NAME.pic does not exist NAME.hdr is read, and the other way round.
+    /// If NAME.pic does not exist NAME.hdr is read, and the other way round. PNG, JPEG and TIFF
+    /// files are pictures, too (decode_image), and the images that a glTF file holds
+    /// (gltf_scene.h).
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const SpectralPicture> spectral_picture(
         const std::string& name) override;
@@ -31,7 +36,7 @@ class FileResources final : public Resources {
     [[nodiscard]] std::vector<std::string> text_lines(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const Model> octree(const std::string& name) override;
     /// A compiled mesh, or an object file (.obj): all of it, with the materials of its mtllib, or
-    /// as FILE#NAME the faces of one material, without any.
+    /// as FILE#NAME the faces of one material, without any; a glTF file likewise, as FILE#NUMBER.
     [[nodiscard]] std::shared_ptr<const MeshModel> mesh(const std::string& name) override;
     /// Reads files one after the other, a bounded number of bytes at a time, and decodes them in
     /// parallel. Octrees that are not frozen are read when they are asked for.
@@ -41,6 +46,9 @@ class FileResources final : public Resources {
   private:
     struct Reading;
     [[nodiscard]] std::shared_ptr<const MeshModel> obj_mesh(const ObjName& name);
+    [[nodiscard]] std::shared_ptr<const GltfFile> gltf_file(const std::string& path);
+    [[nodiscard]] std::shared_ptr<const MeshModel> gltf_mesh(const GltfName& name);
+    [[nodiscard]] PictureFile picture_file(const std::string& name);
     /// The bytes of a file; nothing if it does not exist or cannot be read.
     [[nodiscard]] std::optional<Reading> read(const NamedFile& file);
     void decode(std::span<Reading> readings, const TaskRunner& task_runner);
@@ -55,6 +63,8 @@ class FileResources final : public Resources {
     std::map<std::string, std::shared_ptr<const Font>> fonts_;
     std::map<std::string, std::shared_ptr<const Model>> octrees_;
     std::map<std::string, std::shared_ptr<const MeshModel>> meshes_;
+    std::string gltf_path_;
+    std::shared_ptr<const GltfFile> gltf_;  ///< that of gltf_path_, or null
 };
 
 }  // namespace lightwalk

@@ -5,22 +5,13 @@
 #include <set>
 #include <utility>
 
-#include "io/formats/header.h"
 #include "io/language/primitive_text.h"
-#include "io/picture/resolution_line.h"
+#include "io/scene/picture_file.h"
 #include "io/scene/scene_reader.h"
 #include "io/wavefront/mtl_file.h"
 
 namespace lightwalk {
 namespace {
-
-constexpr std::string_view kNoMaterial = "white";
-constexpr const char* kNoMaterialScene = "\nvoid plastic white 0 0 5 .5 .5 .5 0 0\n";
-
-/// A name that is looked for here rather than along the library path.
-std::string not_searched(const std::string& name) {
-    return name.starts_with('/') || name.starts_with('.') ? name : "./" + name;
-}
 
 /// The materials of an object file's libraries, as scene text.
 class ObjLibrary {
@@ -45,24 +36,25 @@ class ObjLibrary {
 
     [[nodiscard]] bool has(const std::string& name) const { return materials_.contains(name); }
 
-    [[nodiscard]] std::string scene(const std::string& name) {
-        const MtlMaterial& material = materials_.at(name);
-        return mtl_scene(material, picture_of(material));
+    /// The material, which the scene calls `shown`.
+    [[nodiscard]] std::string scene(const std::string& name, const std::string& shown) {
+        MtlMaterial material = materials_.at(name);
+        const std::optional<TexturePicture> picture = picture_of(material);
+        material.name = shown;
+        return mtl_scene(material, picture);
     }
 
   private:
-    std::optional<MtlPicture> picture_of(const MtlMaterial& material) {
+    std::optional<TexturePicture> picture_of(const MtlMaterial& material) {
         if (material.map_kd.empty()) return std::nullopt;
-        const std::string path = path_from(directory_, material.map_kd);
+        std::string file = material.map_kd;
+        // Many come from where paths are written with backslashes.
+        if (!files_.readable(path_from(directory_, file))) std::ranges::replace(file, '\\', '/');
         try {
-            const std::string bytes = files_.read(path);
-            std::string_view rest = std::string_view(bytes).substr(decode_header(bytes, path).size);
-            const PictureResolution size = take_resolution(rest, path);
-            return MtlPicture{not_searched(path_from(shown_, material.map_kd)),
-                              static_cast<double>(size.width) / size.height};
+            return texture_beside(file, directory_, shown_, files_);
         } catch (const InputError& error) {
             warnings_.warn("material \"" + material.name +
-                           "\": map_Kd is left out, it is no Radiance picture: " + error.what());
+                           "\": map_Kd is left out: " + error.what());
             return std::nullopt;
         }
     }
@@ -88,6 +80,12 @@ std::vector<const ObjFile::Face*> first_faces(const ObjFile& file) {
 
 }  // namespace
 
+std::string no_material_scene(const std::string& name) {
+    std::string text;
+    append_primitive("void", "plastic", name, {}, {.5, .5, .5, 0, 0}, kFullDigits, text);
+    return text;
+}
+
 bool has_ending(std::string_view name, std::string_view ending) {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
     return name.size() >= ending.size() &&
@@ -111,26 +109,35 @@ std::vector<std::string> materials_of(const ObjFile& file) {
 }
 
 std::string obj_scene(const std::string& name, const std::string& path, FileSource& files,
-                      FunctionRef<bool(const std::string&)> is_defined, WarningSink& warnings) {
+                      const FunctionRef<bool(const std::string&)>* is_defined,
+                      WarningSink& warnings) {
     const ObjFile file = decode_obj(files.read(path), path);
     ObjLibrary library(file, path, directory_of(name), files, warnings);
     std::string text;
-    bool white = is_defined(std::string(kNoMaterial));
+    const auto has = [&](const std::string& material) {
+        return is_defined != nullptr && (*is_defined)(material);
+    };
+    bool white = false;
     for (const ObjFile::Face* face : first_faces(file)) {
         const std::string& material = file.material_of(*face);
         PrimitiveText mesh;
         mesh.modifier = material;
-        if (!material.empty() && is_defined(material)) {
+        if (!material.empty() && has(material)) {
             // the scene's own
         } else if (library.has(material)) {
-            text += library.scene(material);
+            mesh.modifier = name + kObjPart + material;  // other files have others of this name
+            text += library.scene(material, mesh.modifier);
         } else if (face->material != ObjFile::kNone) {
-            throw InputError({path, face->line},
-                             "undefined material \"" + material +
-                                 "\": neither a scene file before it nor its mtllib defines it");
-        } else {
+            if (is_defined != nullptr)
+                throw InputError(
+                    {path, face->line},
+                    "undefined material \"" + material +
+                        "\": neither a scene file before it nor its mtllib defines it");
+        } else if (has(std::string(kNoMaterial))) {
             mesh.modifier = kNoMaterial;
-            if (!std::exchange(white, true)) text += kNoMaterialScene;
+        } else {
+            mesh.modifier = name + kObjPart + std::string(kNoMaterial);
+            if (!std::exchange(white, true)) text += no_material_scene(mesh.modifier);
         }
         mesh.type_word = "mesh";
         mesh.name = name + kObjPart + material;
@@ -145,7 +152,7 @@ Model obj_materials(const ObjFile& file, const std::string& path, const std::str
     ObjLibrary materials(file, path, shown, library.files(), warnings);
     std::string text = "# materials\n";
     for (const std::string& name : materials_of(file)) {
-        if (!name.empty() && materials.has(name)) text += materials.scene(name);
+        if (!name.empty() && materials.has(name)) text += materials.scene(name, name);
     }
     Model model;
     if (text.find("void") == std::string::npos) return model;

@@ -19,6 +19,11 @@ namespace lightwalk {
 /// What stands between an object file and the material whose faces are meant.
 inline constexpr char kObjPart = '#';
 
+/// What faces without a material have when the scene does not define it.
+inline constexpr std::string_view kNoMaterial = "white";
+/// A diffuse material of reflectance 0.5.
+[[nodiscard]] std::string no_material_scene(const std::string& name);
+
 /// What a mesh primitive calls FILE.obj, or FILE.obj#MATERIAL.
 struct ObjName {
     std::string file;
@@ -32,13 +37,14 @@ struct ObjName {
 
 /// The scene that an object file is when it is named as one: for each of its materials a mesh
 /// (kObjPart) whose modifier is what the scene has so far defined by that name, or else the
-/// material of the file's mtllib (mtl_scene), which becomes part of the scene. Faces that name no
-/// material, nor a group of a material's name, are "white", of reflectance 0.5 when nothing defines
-/// that. Throws InputError for a material that nothing defines.
+/// material of the file's mtllib (mtl_scene), which becomes part of the scene as FILE#NAME. Faces
+/// that name no material, nor a group of a material's name, are "white", of reflectance 0.5 when
+/// nothing defines that. Throws InputError for a material that nothing defines.
 /// @param name  as the scene names it; `path`: where it is read
+/// @param is_defined  null: what the file lacks is left to the scene
 [[nodiscard]] std::string obj_scene(const std::string& name, const std::string& path,
                                     FileSource& files,
-                                    FunctionRef<bool(const std::string&)> is_defined,
+                                    const FunctionRef<bool(const std::string&)>* is_defined,
                                     WarningSink& warnings);
 
 /// The materials of its mtllib that the faces use.

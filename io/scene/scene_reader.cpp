@@ -17,6 +17,7 @@
 #include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"
 #include "io/scene/command_runner.h"
+#include "io/scene/model_scene.h"
 #include "io/scene/obj_scene.h"
 
 namespace lightwalk {
@@ -82,7 +83,7 @@ class SceneReader {
             return {runner_.convert({converter, "-s", "-o", argument, argument}, directory_),
                     argument};
         const std::string path = path_from(directory_, argument);
-        if (has_ending(argument, ".obj")) return {read_object(argument, path), path};
+        if (is_model_name(argument)) return {read_object(argument, path), path};
         return {files_.read(path), path};
     }
 
@@ -130,7 +131,8 @@ class SceneReader {
         const auto defined = [this](const std::string& modifier) {
             return builder_.is_defined(modifier);
         };
-        return obj_scene(name, path, files_, defined, warnings_);
+        const FunctionRef<bool(const std::string&)> is_defined = defined;
+        return read_model(name, path, files_, &is_defined, warnings_);
     }
 
     /// Reads the output of the command that stands at `outer`.

@@ -8,7 +8,6 @@
 #include "core/math/rgb.h"
 #include "core/model/transform_args.h"
 #include "io/formats/words.h"
-#include "io/language/primitive_text.h"
 
 namespace lightwalk {
 namespace {
@@ -97,28 +96,21 @@ bool is_grey(const Color& c) {
     return std::ranges::max(c) - std::ranges::min(c) <= kLeastDifference * std::ranges::max(c);
 }
 
-/// The transmissivity of a pane whose transmittance at right angles is t. Source: "The Radiance 6.x
-/// Scene Description Language" (ray.pdf), glass.
-double transmissivity(double t) {
-    if (t < 1e-4) return 0;
-    return (std::sqrt(0.8402528435 + 0.0072522239 * t * t) - 0.9166530661) / 0.0036261119 / t;
-}
-
 class MtlScene {
   public:
-    MtlScene(const MtlMaterial& material, const std::optional<MtlPicture>& picture)
+    MtlScene(const MtlMaterial& material, const std::optional<TexturePicture>& picture)
         : m_(material), picture_(picture) {}
 
     std::string write() {
         const int illum = m_.illum.value_or(2);
         const bool is_glass = illum == 4 || illum == 6 || illum == 7 || illum == 9;
         if (std::ranges::max(m_.ke) > 0)
-            add("void", "glow", m_.name, {}, {m_.ke[0], m_.ke[1], m_.ke[2], 0});
+            out_.add("void", "glow", m_.name, {}, {m_.ke[0], m_.ke[1], m_.ke[2], 0});
         else if (m_.d < 1 && is_glass)
             write_glass();
         else
             write_reflection(illum);
-        return std::move(out_);
+        return out_.release();
     }
 
   private:
@@ -126,20 +118,14 @@ class MtlScene {
         std::vector<double> reals;
         for (const double tint : m_.tf) reals.push_back(transmissivity((1 - m_.d) * tint));
         if (m_.ni > 1) reals.push_back(m_.ni);
-        add("void", "glass", m_.name, {}, reals);
+        out_.add("void", "glass", m_.name, {}, reals);
     }
 
     void write_reflection(int illum) {
         const bool dissolves = m_.d < 1;
         const std::string name = dissolves ? m_.name + "_opaque" : m_.name;
-        std::string modifier = "void";
-        if (picture_) {
-            modifier = m_.name + "_map";
-            const std::string u = wide("Lu", picture_->aspect),
-                              v = wide("Lv", 1 / picture_->aspect);
-            add("void", "colorpict", modifier, {"red", "green", "blue", picture_->file, ".", u, v},
-                {});
-        }
+        const std::string modifier = picture_ ? m_.name + "_map" : "void";
+        if (picture_) out_.add_map(modifier, *picture_);
         const Color ks = illum == 0 || illum == 1 ? Color{} : m_.ks;
         Color sum = m_.kd;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += ks[c];
@@ -151,37 +137,19 @@ class MtlScene {
             for (std::size_t c = 0; c < 3; ++c)
                 reals[c] = specular < 1 ? std::min(1.0, scale * m_.kd[c] / (1 - specular)) : 0;
             reals.insert(reals.end(), {specular, roughness});
-            add(modifier, "plastic", name, {}, reals);
+            out_.add(modifier, "plastic", name, {}, reals);
         } else {
             for (std::size_t c = 0; c < 3; ++c) reals[c] = scale * sum[c];
             reals.insert(reals.end(),
                          {std::min(1.0, brightness_of(ks) / brightness_of(sum)), roughness});
-            add(modifier, "metal", name, {}, reals);
+            out_.add(modifier, "metal", name, {}, reals);
         }
-        if (dissolves)
-            add("void", "mixfunc", m_.name, {name, "void", std::to_string(m_.d), "."}, {});
-    }
-
-    /// A repeating coordinate of a picture, whose shorter side is 1.
-    static std::string wide(const char* coordinate, double ratio) {
-        const std::string repeating = std::string("frac(") + coordinate + ")";
-        return ratio > 1 ? repeating + "*" + std::to_string(ratio) : repeating;
-    }
-
-    void add(std::string_view modifier, std::string_view type, const std::string& name,
-             const std::vector<std::string>& strings, const std::vector<double>& reals) {
-        PrimitiveText text;
-        text.modifier = modifier;
-        text.type_word = type;
-        text.name = name;
-        text.strings = strings;
-        text.reals = reals;
-        write_primitive(text, kFullDigits, out_);
+        if (dissolves) out_.add_veil(m_.name, name, m_.d);
     }
 
     const MtlMaterial& m_;
-    const std::optional<MtlPicture>& picture_;
-    std::string out_;
+    const std::optional<TexturePicture>& picture_;
+    MaterialText out_;
 };
 
 }  // namespace
@@ -190,7 +158,7 @@ std::vector<MtlMaterial> decode_mtl(std::string_view text, const std::string& na
     return MtlReader(text, name).read();
 }
 
-std::string mtl_scene(const MtlMaterial& material, const std::optional<MtlPicture>& picture) {
+std::string mtl_scene(const MtlMaterial& material, const std::optional<TexturePicture>& picture) {
     return MtlScene(material, picture).write();
 }
 

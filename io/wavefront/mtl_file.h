@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/language/material_text.h"
+
 namespace lightwalk {
 
 struct MtlMaterial {
@@ -24,12 +26,6 @@ struct MtlMaterial {
 /// ...". Source: D. Ramey, L. Rose, L. Tyerman, "MTL material format", Alias/Wavefront (1995).
 [[nodiscard]] std::vector<MtlMaterial> decode_mtl(std::string_view text, const std::string& name);
 
-/// A picture as a pattern: how the scene calls its file, and its width by height.
-struct MtlPicture {
-    std::string file;
-    double aspect = 1;
-};
-
 /// A material, as scene text:
 /// * Ke: `glow` of that radiance, which lights by indirect light only, as a mesh is no light
 /// source.
@@ -42,6 +38,6 @@ struct MtlPicture {
 /// * d below 1 without glass: `mixfunc` of the material and what lies behind.
 /// * map_Kd: `colorpict` that multiplies Kd by the picture at the mesh's coordinates, repeating.
 [[nodiscard]] std::string mtl_scene(const MtlMaterial& material,
-                                    const std::optional<MtlPicture>& picture);
+                                    const std::optional<TexturePicture>& picture);
 
 }  // namespace lightwalk

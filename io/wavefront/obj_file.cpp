@@ -138,12 +138,19 @@ class ObjReader {
 
     void read_name(std::string_view statement, std::string_view text) {
         if (statement == "usemtl") {
-            if (!text.empty()) current_.material = number_of(text);
+            if (text.empty()) return;
+            current_.material = number_of(text);
+            file_.material_names.emplace(text);
+        } else if (statement == "usemap") {
+            if (!text.empty() && text != "off") file_.map_names.emplace(text);
         } else if (statement == "g") {
+            current_.groups = text.empty() ? ObjFile::kNone : number_of(text);
+            if (!text.empty()) file_.group_names.emplace(text);
             const std::string_view group = take_word(text);
             current_.group = group.empty() ? ObjFile::kNone : number_of(group);
         } else if (statement == "o") {
             current_.object = text.empty() ? ObjFile::kNone : number_of(text);
+            if (!text.empty()) file_.object_names.emplace(text);
         } else if (statement == "mtllib" && !text.empty()) {
             file_.libraries.emplace_back(text);
         }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,13 +22,16 @@ struct ObjFile {
     struct Face {
         std::uint32_t first = 0, count = 0;                             ///< its corners, at least 3
         std::uint32_t material = kNone, group = kNone, object = kNone;  ///< indices of names
+        std::uint32_t groups = kNone;  ///< index of the name that is all of its groups
         std::int32_t line = 0;
     };
     std::vector<Vec3> positions, normals;  ///< normals are unit vectors
     std::vector<std::array<double, 2>> uvs;
     std::vector<Corner> corners;
     std::vector<Face> faces;
-    std::vector<std::string> names;      ///< of usemtl, g and o
+    std::vector<std::string> names;  ///< of usemtl, g and o
+    /// What stands behind usemtl, usemap, g and o, each once, whether faces use it or not.
+    std::set<std::string> material_names, map_names, group_names, object_names;
     std::vector<std::string> libraries;  ///< of mtllib
 
     [[nodiscard]] std::span<const Corner> corners_of(const Face& face) const {

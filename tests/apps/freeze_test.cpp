@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/io/gltf/small_gltf.h"
+#include "tests/io/picture/small_images.h"
 
 using namespace lightwalk::test;
 
@@ -148,4 +150,31 @@ TEST_CASE("freeze: damaged files, and those that cannot be meant, are refused") 
     room.folder.write("bad.rad", "void warpfield a 0 0 0\na sphere b 0 0 4 0 0 0 1\n");
     CHECK(refusal({"freeze", "bad.rad", "-o", "b.lwz"}).find("bad.rad:1") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(room.folder.path("b.lwz")));
+}
+
+TEST_CASE("freeze: a frozen glTF file holds its meshes and images, and an .obj its texture") {
+    const TemporaryFolder folder;
+    SmallGltf gltf;
+    gltf.image = small_png();
+    gltf.materials =
+        R"({"name":"m","pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0},"alphaMode":"MASK"})";
+    folder.write("x.glb", gltf.binary());
+    folder.write(
+        "y.obj",
+        "mtllib y.mtl\nv 2 0 0\nv 3 0 0\nv 3 0 1\nvt 0 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/2\n");
+    folder.write("y.mtl", "newmtl a\nmap_Kd t.png\n");
+    folder.write("t.png", wide_png());
+    const auto run = [&](const std::vector<std::string>& words) {
+        return run_program(words, ".2 -1 .9 0 1 0\n.8 -1 .8 0 1 0\n2.8 -1 .2 0 1 0\n",
+                           {"env", "--chdir=" + folder.path()});
+    };
+    const ProgramResult direct = run({"trace", "-h", "-av", "1", "1", "1", "x.glb", "y.obj"});
+    REQUIRE(direct.status == 0);
+    REQUIRE(run({"freeze", "x.glb", "y.obj", "-o", "x.lwz"}).status == 0);
+    for (const char* file : {"x.glb", "y.obj", "y.mtl", "t.png"})
+        std::filesystem::remove(folder.path(file));
+    const ProgramResult frozen = run({"trace", "-h", "-av", "1", "1", "1", "--stale", "x.lwz"});
+    CHECK(frozen.status == 0);
+    CHECK(frozen.out == direct.out);
+    CHECK(direct.out.find("0.000000e+00\t0.000000e+00\t0.000000e+00") == std::string::npos);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|roles|mended|returning|slow|abuse|ranks ...]
+    walk_server_test.py PROGRAM [rest|light|roles|mended|rad_file|returning|slow|abuse|ranks ...]
 """
 import base64, os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -29,17 +29,21 @@ PATIENCE = float(os.environ.get("LIGHTWALK_TEST_PATIENCE", "60"))  # [s]
 class Server:
     """The program with a scene of its own, until the end of the block."""
 
-    def __init__(self, program, words=(), scene=ROOM, launcher=()):
+    def __init__(self, program, words=(), scene=ROOM, launcher=(), rad=None):
         self.launcher = launcher
         self.folder = tempfile.TemporaryDirectory()
         self.scene = pathlib.Path(self.folder.name) / "room.rad"
         self.scene.write_text(scene)
+        self.rad = None
+        if rad is not None:
+            self.rad = self.scene.parent / "room.rif"
+            self.rad.write_text(rad)
         self.program, self.words = program, words
 
     def __enter__(self):
         threads = [] if "-n" in self.words else ["-n", "2"]
-        self.process = subprocess.Popen([*self.launcher, self.program, "walk", "--port", "0", *threads, *WORDS.split(), *self.words, self.scene],
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen([*self.launcher, self.program, "walk", "--port", "0", *threads, *WORDS.split(), *self.words, self.rad or self.scene],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder.name)
         self.address = self.process.stdout.readline().strip()
         assert self.address.startswith("http://"), self.process.stderr.read()
         self.port = int(self.address.split(":")[2].split("/")[0])
@@ -189,6 +193,22 @@ def mended(program, words=(), launcher=()):
         assert abs(picked["luminance"] - 716) < 0.02 * 716, picked
 
 
+def rad_file(program, words=(), launcher=()):
+    """Where the scene is named by a rad file, its changes are followed."""
+    with Server(program, words, launcher=launcher, rad="scene= room.rad\nQUALITY= Low\n") as server:
+        client = Client(server.port)
+        client.enter()
+        server.rad.write_text("scene= gone.rad\n")
+        failed = client.told("failed")
+        assert any("gone.rad" in line for line in failed["messages"]), failed
+        (server.rad.parent / "brighter.rad").write_text(ROOM.replace("2 2 2 0", "4 4 4 0"))
+        server.rad.write_text("scene= brighter.rad\nQUALITY= Low\n")
+        client.told("loaded")
+        client.until(lambda m: isinstance(m, Frame))
+        picked = client.ask("pick", "picked", x=0.67, y=0.52)
+        assert abs(picked["luminance"] - 716) < 0.02 * 716, picked
+
+
 def returning(program):
     """A client that comes back finds its view."""
     with Server(program) as server:
@@ -266,6 +286,7 @@ def ranks(program):
     rest(program, ["--variant", "hybrid", "-n", "2"], [*mpirun, "2"])
     mended(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
     mended(program, ["--variant", "ranks", "--scene-from", "rank0", "-ab", "1", "-ad", "64"], [*mpirun, "3"])
+    rad_file(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
     with Server(program, ["--variant", "ranks"], launcher=[*mpirun, "3"]) as server:
         client = Client(server.port)
         client.enter()
@@ -280,7 +301,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, roles, mended, returning, slow, abuse, ranks)}
+CASES = {case.__name__: case for case in (rest, light, roles, mended, rad_file, returning, slow, abuse, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

@@ -157,5 +157,12 @@ TEST_CASE("mutated photometric data and lamp tables are read or refused") {
 TEST_CASE("mutated object files and their materials are read or refused") {
     endure(kFuzzTargets[11]);
 }
+TEST_CASE("mutated glTF files are read or refused") {
+    endure(kFuzzTargets[12]);
+    endure(kFuzzTargets[12], overwrite);
+}
+TEST_CASE("mutated images are read or refused") {
+    endure(kFuzzTargets[13]);
+}
 
 }  // namespace lightwalk::test

@@ -6,6 +6,7 @@
 #include "core/bsdf/bsdf.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
+#include "io/picture/image_encoder.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/scene/binary_models.h"
@@ -13,6 +14,8 @@
 #include "io/scene/scene_reader.h"
 #include "tests/fuzz/targets.h"
 #include "tests/io/bsdf/bsdf_text.h"
+#include "tests/io/gltf/small_gltf.h"
+#include "tests/io/picture/small_images.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk::test {
@@ -178,6 +181,34 @@ Picture gradient() {
     return picture;
 }
 
+SmallGltf gltf_seed() {
+    SmallGltf gltf;
+    gltf.nodes =
+        R"({"children":[1,2],"rotation":[0,0.7,0,0.7],"scale":[1,2,1]},{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1]},)"
+        R"({"mesh":1,"extensions":{"KHR_lights_punctual":{"light":0}}})";
+    gltf.meshes +=
+        R"(,{"primitives":[{"attributes":{"POSITION":0},"mode":5},{"attributes":{"POSITION":4},"indices":3,"material":1}]})";
+    gltf.materials =
+        R"({"name":"m","alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.2,0.5],"metallicFactor":0.2},"extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5}}},)"
+        R"({"emissiveFactor":[1,1,0.5],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":100}}})";
+    gltf.more_accessors =
+        R"(,{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":3,"byteOffset":2,"componentType":5123},"values":{"bufferView":1}}})";
+    gltf.more =
+        R"(,"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":100,"color":[1,0.5,0.5],"spot":{"outerConeAngle":0.5}}]}})";
+    return gltf;
+}
+
+std::string jpeg_seed() {
+    std::vector<std::uint8_t> pixels(16 * 8 * 3);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(7 * i);
+    ImageRequest request;
+    request.format = "jpeg";
+    request.width = 16;
+    request.height = 8;
+    request.pixels = pixels.data();
+    return encode_image(request);
+}
+
 /// What makes use of every kind of library file, of some that are missing, too.
 const std::string kUsers = R"rad(
 void brightfunc shade 2 if(a,1,.5) f.cal 0 0
@@ -261,6 +292,10 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_luminaire) return luminaires;
     static const std::vector<std::string> objects{kObject, kObjectMaterials};
     if (target == read_wavefront) return objects;
+    static const std::vector<std::string> gltfs{gltf_seed().binary(), gltf_seed().json("a.bin")};
+    if (target == read_gltf_file) return gltfs;
+    static const std::vector<std::string> images{small_png(), small_tiff(), jpeg_seed()};
+    if (target == read_image) return images;
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;
 }

@@ -15,10 +15,12 @@
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
 #include "io/generators/luminaire_scene.h"
+#include "io/gltf/gltf_material.h"
 #include "io/net/walk_request.h"
 #include "io/photometry/eulumdat.h"
 #include "io/photometry/ies_file.h"
 #include "io/photometry/lamp_table.h"
+#include "io/picture/image_decoder.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/rad/rad_options.h"
@@ -28,6 +30,7 @@
 #include "io/scene/scene_reader.h"
 #include "io/wavefront/mtl_file.h"
 #include "io/wavefront/obj_mesh.h"
+#include "tests/io/gltf/small_gltf.h"
 #include "tests/test_scene.h"
 
 namespace lightwalk::test {
@@ -195,6 +198,40 @@ bool read_wavefront(std::string_view bytes) {
                 parse_scene(mtl_scene(material, std::nullopt), "mutant.rad", options, silence));
     });
     return object && materials;
+}
+
+bool read_gltf_file(std::string_view bytes) {
+    return accepts([&] {
+        const GltfFile file = decode_gltf(bytes, "mutant.glb", [](const std::string& path) {
+            if (path == "a.bin") return SmallGltf{}.buffer();
+            throw InputError({path, 0}, "cannot open");
+        });
+        MemoryResources resources;
+        std::string text = "void plastic p 0 0 5 .5 .5 .5 0 0\n";
+        for (std::size_t i = 0; i < file.parts.size(); ++i) {
+            const std::string number = std::to_string(i);
+            resources.meshes["m" + number] = file.parts[i];
+            std::string material = "p";
+            if (i < file.materials.size()) {
+                material = file.materials[i].name;
+                text += gltf_material_scene(file.materials[i], {}, false);
+            }
+            append_primitive(material, "mesh", "m", {"m" + number}, {}, kFullDigits, text);
+        }
+        for (const GltfLight& light : file.lights) text += gltf_light_scene(light, "l");
+        Silence silence;
+        SceneReadOptions options;
+        options.library = LibraryPath(std::vector<std::string>{});
+        trace_some(parse_scene(text, "mutant.rad", options, silence), resources);
+    });
+}
+
+bool read_image(std::string_view bytes) {
+    return accepts([&] {
+        for (const auto channels :
+             {ImageChannels::color, ImageChannels::alpha, ImageChannels::numbers})
+            (void)interpolate(decode_image(bytes, "mutant.png", channels), 0.4, 0.7);
+    });
 }
 
 bool read_walk_request(std::string_view bytes) {

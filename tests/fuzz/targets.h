@@ -24,6 +24,8 @@ bool read_frozen(std::string_view bytes);         ///< a frozen scene: open, com
 bool read_resealed(std::string_view bytes);       ///< a frozen scene whose digests are made right
 bool read_luminaire(std::string_view bytes);      ///< photometric data, a table of lamps
 bool read_wavefront(std::string_view bytes);      ///< an object file as a mesh, a material file
+bool read_gltf_file(std::string_view bytes);      ///< a glTF file: meshes, materials, lights
+bool read_image(std::string_view bytes);          ///< PNG, JPEG, TIFF
 
 /// Valid inputs for each target; generated, so that the tests need no files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
@@ -36,6 +38,7 @@ inline constexpr NamedTarget kFuzzTargets[] = {
     {"scene", read_scene_text}, {"octree", read_octree},       {"function", read_function_file},
     {"picture", read_picture},  {"data", read_data_file},      {"request", read_walk_request},
     {"frozen", read_frozen},    {"resealed", read_resealed},   {"bsdf", read_bsdf_file},
-    {"rad", read_rad_file},     {"luminaire", read_luminaire}, {"wavefront", read_wavefront}};
+    {"rad", read_rad_file},     {"luminaire", read_luminaire}, {"wavefront", read_wavefront},
+    {"gltf", read_gltf_file},   {"image", read_image}};
 
 }  // namespace lightwalk::test

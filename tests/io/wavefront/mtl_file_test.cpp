@@ -14,7 +14,7 @@ namespace lightwalk {
 namespace {
 
 std::vector<PrimitiveText> materials(const std::string& statements,
-                                     const std::optional<MtlPicture>& picture = {}) {
+                                     const std::optional<TexturePicture>& picture = {}) {
     const auto decoded = decode_mtl("newmtl m\n" + statements, "x.mtl");
     REQUIRE(decoded.size() == 1);
     const std::string text = mtl_scene(decoded[0], picture);
@@ -92,7 +92,7 @@ TEST_CASE("mtl: Ke glows, a map multiplies Kd") {
     CHECK(lamp.type_word == "glow");
     CHECK(lamp.reals == std::vector<double>{3, 2, 1, 0});
     CHECK(decode_mtl("newmtl m\nmap_Kd -s 1 1 1 my.hdr\n", "x.mtl")[0].map_kd == "my.hdr");
-    const auto mapped = materials("Kd .5 .5 .5\nmap_Kd my.hdr\n", MtlPicture{"./my.hdr", 2});
+    const auto mapped = materials("Kd .5 .5 .5\nmap_Kd my.hdr\n", TexturePicture{"./my.hdr", 2});
     CHECK(mapped.at(0).type_word == "colorpict");
     CHECK(mapped[0].strings == std::vector<std::string>{"red", "green", "blue", "./my.hdr", ".",
                                                         "frac(Lu)*2.000000", "frac(Lv)"});

@@ -1,0 +1,69 @@
+// The module that holds OpenImageIO: decoding; see io/picture/image_decoder.h.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+
+#include "io/picture/image_decoder.h"
+
+namespace {
+
+constexpr int kRowsTogether = 64;
+
+void read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, lightwalk::ImageRows& rows,
+               std::string& error) {
+    const int channels = std::min(spec.nchannels, 4);
+    const bool is_float = spec.format.is_floating_point();
+    if (spec.depth > 1 || channels < 1) {
+        error = "not a flat image";
+        return;
+    }
+    if (!rows.begin(spec.width, spec.height, channels, is_float)) return;
+    const bool tiled = spec.tile_width > 0;
+    const int step = tiled ? spec.tile_height : kRowsTogether;
+    std::vector<float> values(static_cast<std::size_t>(std::min(step, spec.height)) *
+                              static_cast<std::size_t>(spec.width) *
+                              static_cast<std::size_t>(channels));
+    for (int y = 0; y < spec.height; y += step) {
+        const int end = std::min(y + step, spec.height);
+        const int x0 = spec.x, y0 = spec.y;
+        const bool read =
+            tiled ? input.read_tiles(0, 0, x0, x0 + spec.width, y0 + y, y0 + end, spec.z,
+                                     spec.z + 1, 0, channels, OIIO::TypeFloat, values.data())
+                  : input.read_scanlines(0, 0, y0 + y, y0 + end, spec.z, 0, channels,
+                                         OIIO::TypeFloat, values.data());
+        if (!read) {
+            error = input.geterror();
+            if (error.empty()) error = "unknown error";
+            return;
+        }
+        rows.take(y, end - y, values.data());
+    }
+}
+
+}  // namespace
+
+extern "C" void lightwalk_decode_image(std::string_view bytes, const char* format,
+                                       lightwalk::ImageRows& rows, std::string& error) {
+    try {
+        OIIO::attribute("threads", 1);  // they would outlive the image
+        OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
+        const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+        if (!input) {
+            error = OIIO::geterror();
+            return;
+        }
+        OIIO::ImageSpec spec, wanted;
+        wanted.attribute("oiio:UnassociatedAlpha", 1);  // colours are not multiplied by it
+        if (!input->set_ioproxy(&memory) || !input->open(format, spec, wanted)) {
+            error = input->geterror();
+            if (error.empty()) error = "it cannot be opened";
+            return;
+        }
+        read_rows(*input, spec, rows, error);
+    } catch (const std::exception& failed) {
+        error = failed.what();
+    }
+}

@@ -1,0 +1,148 @@
+#include "io/picture/image_decoder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "core/error.h"
+#include "io/files/module.h"
+#include "io/formats/header.h"
+#include "io/picture/image_encoder.h"
+#include "io/picture/picture_data.h"
+#include "io/picture/resolution_line.h"
+
+namespace lightwalk {
+namespace {
+
+/// Deflate makes a byte of up to 1032.
+constexpr std::size_t kMostPixelsOfByte = 1024, kLeastMostPixels = std::size_t{1} << 20,
+                      kMostPixels = std::size_t{1} << 26;
+
+constexpr std::array<std::pair<std::string_view, const char*>, 4> kMarks{
+    {{"\x89PNG\r\n\x1a\n", "png"},
+     {"\xff\xd8\xff", "jpeg"},
+     {std::string_view("II*\0", 4), "tiff"},
+     {std::string_view("MM\0*", 4), "tiff"}}};
+
+/// OpenImageIO's name; null for others.
+const char* format_of_bytes(std::string_view bytes) {
+    for (const auto& [mark, format] : kMarks) {
+        if (bytes.starts_with(mark)) return format;
+    }
+    return nullptr;
+}
+
+float linear_of_srgb(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+/// A sample that is no number is black.
+float finite_part(float v) {
+    return std::isfinite(v) ? std::max(v, 0.0f) : 0.0f;
+}
+
+class TableOfRows final : public ImageRows {
+  public:
+    TableOfRows(ImageChannels wanted, std::size_t most_pixels)
+        : wanted_(wanted), most_pixels_(most_pixels) {}
+
+    bool begin(int width, int height, int channels, bool is_float) override {
+        width_ = static_cast<std::size_t>(std::max(width, 0));
+        height_ = static_cast<std::size_t>(std::max(height, 0));
+        channels_ = static_cast<std::size_t>(channels);
+        decoded_ = wanted_ == ImageChannels::color && !is_float;
+        if (width_ == 0 || height_ == 0 || width_ > most_pixels_ / height_) return false;
+        fits_ = true;
+        data_ = empty_picture(width, height, 1);
+        values_ = data_.values.zeros(width_ * height_);
+        return true;
+    }
+
+    void take(int y, int count, const float* values) override {
+        for (int row = 0; row < count; ++row) {
+            // Rows of tables go upward.
+            const std::size_t from_below = height_ - 1 - static_cast<std::size_t>(y + row);
+            Rgb* to = &values_[from_below * width_];
+            for (std::size_t x = 0; x < width_; ++x, values += channels_) to[x] = pixel(values);
+        }
+    }
+
+    [[nodiscard]] bool fits() const { return fits_; }
+    PictureData release() { return std::move(data_); }
+
+  private:
+    [[nodiscard]] Rgb pixel(const float* v) const {
+        const bool has_alpha = channels_ == 2 || channels_ == 4;
+        if (wanted_ == ImageChannels::alpha && has_alpha)
+            return Rgb::grey(finite_part(v[channels_ - 1]));
+        const std::size_t green = channels_ >= 3 ? 1 : 0, blue = channels_ >= 3 ? 2 : 0;
+        const Rgb stored{finite_part(v[0]), finite_part(v[green]), finite_part(v[blue])};
+        if (!decoded_) return stored;
+        return {linear_of_srgb(stored.r), linear_of_srgb(stored.g), linear_of_srgb(stored.b)};
+    }
+
+    ImageChannels wanted_;
+    std::size_t most_pixels_, width_ = 0, height_ = 0, channels_ = 0;
+    bool fits_ = false;
+    bool decoded_ = false;  ///< from sRGB
+    PictureData data_;
+    std::span<Rgb> values_;
+};
+
+class SizeOfRows final : public ImageRows {
+  public:
+    bool begin(int width, int height, int /*channels*/, bool /*is_float*/) override {
+        if (width > 0 && height > 0) aspect = static_cast<double>(width) / height;
+        return false;
+    }
+    void take(int /*y*/, int /*count*/, const float* /*values*/) override {}
+    double aspect = 0;
+};
+
+void decode_rows(std::string_view bytes, const std::string& name, ImageRows& rows) {
+    const char* format = format_of_bytes(bytes);
+    if (format == nullptr)
+        throw InputError({name, 0}, "neither a Radiance picture, nor PNG, JPEG or TIFF");
+    std::string error;
+    const auto decode =
+        reinterpret_cast<DecodeImage>(load_from_module(kImageModule, kDecodeImageSymbol, error));
+    if (!decode)
+        throw InputError({name, 0}, "cannot decode: OpenImageIO's module does not load: " + error);
+    decode(bytes, format, rows, error = {});
+    if (error.empty()) return;
+    throw InputError({name, 0}, std::string("damaged ") + format +
+                                    " image: " + error.substr(0, error.find('\n')));
+}
+
+}  // namespace
+
+bool is_image(std::string_view bytes) {
+    return format_of_bytes(bytes) != nullptr;
+}
+
+PictureData decode_image(std::string_view bytes, const std::string& name, ImageChannels channels) {
+    TableOfRows table(channels,
+                      std::min(kLeastMostPixels + kMostPixelsOfByte * bytes.size(), kMostPixels));
+    decode_rows(bytes, name, table);
+    if (!table.fits())
+        throw InputError({name, 0},
+                         "an image of no pixels, or of more than a file of this size holds");
+    return table.release();
+}
+
+double image_aspect(std::string_view bytes, const std::string& name) {
+    if (is_image(bytes)) {
+        SizeOfRows size;
+        decode_rows(bytes, name, size);
+        if (!(size.aspect > 0)) throw InputError({name, 0}, "an image of no pixels");
+        return size.aspect;
+    }
+    std::string_view rest = bytes.substr(decode_header(bytes, name).size);
+    const PictureResolution size = take_resolution(rest, name);
+    return static_cast<double>(size.width) / size.height;
+}
+
+}  // namespace lightwalk

@@ -1,0 +1,101 @@
+#include "io/picture/image_decoder.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/error.h"
+#include "io/picture/image_encoder.h"
+#include "io/picture/picture.h"
+#include "tests/io/picture/small_images.h"
+
+namespace lightwalk {
+namespace {
+
+/// IEC 61966-2-1.
+double from_srgb(double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+void check_pixel(const Rgb& got, double r, double g, double b) {
+    CHECK(static_cast<double>(got.r) == doctest::Approx(r).epsilon(1e-5));
+    CHECK(static_cast<double>(got.g) == doctest::Approx(g).epsilon(1e-5));
+    CHECK(static_cast<double>(got.b) == doctest::Approx(b).epsilon(1e-5));
+}
+
+std::string image_error(const std::string& bytes) {
+    try {
+        (void)decode_image(bytes, "x", ImageChannels::color);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("images: integers are sRGB, rows go upward, alpha multiplies nothing") {
+    const PictureData data = decode_image(test::small_png(), "x", ImageChannels::color);
+    REQUIRE(data.values.size() == 4);
+    CHECK(data.axes[0].count == 2);
+    CHECK(data.axes[1].extent == 1);
+    check_pixel(data.values[0], 0, 0, 1);
+    const double grey = from_srgb(188 / 255.0);
+    check_pixel(data.values[1], grey, grey, grey);
+    check_pixel(data.values[2], 1, 0, 0);
+    check_pixel(data.values[3], 0, 1, 0);
+}
+
+TEST_CASE("images: what an encoder made of linear values is these again") {
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < 256; ++i)
+        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::uint8_t>(i));
+    ImageRequest request;
+    request.width = 16;
+    request.height = 16;
+    request.pixels = pixels.data();
+    const PictureData data = decode_image(encode_image(request), "x", ImageChannels::color);
+    REQUIRE(data.values.size() == 256);
+    for (std::size_t y = 0; y < 16; ++y) {
+        for (std::size_t x = 0; x < 16; ++x) {
+            const double linear = from_srgb(static_cast<double>(y * 16 + x) / 255);
+            check_pixel(data.values[(15 - y) * 16 + x], linear, linear, linear);
+        }
+    }
+    request.format = "jpeg";
+    request.quality = 100;
+    const PictureData jpeg = decode_image(encode_image(request), "x", ImageChannels::color);
+    const double middle = from_srgb((7 * 16 + 8) / 255.0);
+    CHECK(static_cast<double>(jpeg.values[8 * 16 + 8].g) == doctest::Approx(middle).epsilon(0.05));
+}
+
+TEST_CASE("images: alpha and numbers are as stored, 16 bits too") {
+    const PictureData alpha = decode_image(test::small_png(), "x", ImageChannels::alpha);
+    check_pixel(alpha.values[0], 1, 1, 1);
+    check_pixel(alpha.values[1], 0, 0, 0);
+    const PictureData numbers = decode_image(test::wide_png(), "x", ImageChannels::numbers);
+    check_pixel(numbers.values[0], 128 / 255.0, 64 / 255.0, 32 / 255.0);
+    CHECK(numbers.axes[1].extent == 2);
+    CHECK(image_aspect(test::wide_png(), "x") == 2);
+    CHECK(image_aspect(encode_hdr({3, 1, std::vector<Rgb>(3)}, {}), "x") == 3);
+    const PictureData tiff = decode_image(test::small_tiff(), "x", ImageChannels::numbers);
+    REQUIRE(tiff.values.size() == 2);
+    check_pixel(tiff.values[0], 1, 0, 32768 / 65535.0);
+    check_pixel(tiff.values[1], 0, 1, 1000 / 65535.0);
+}
+
+TEST_CASE("images: what is damaged is refused by its name") {
+    CHECK(image_error("nothing") == "x: neither a Radiance picture, nor PNG, JPEG or TIFF");
+    const std::string png = test::small_png();
+    CHECK(image_error(png.substr(0, 30)).find("x: damaged png image") == 0);
+    std::string flipped = png;
+    flipped[20] = '\x7f';  // the width
+    CHECK(image_error(flipped).find("x: ") == 0);
+    CHECK(image_error(std::string("\xff\xd8\xff\xe0")).find("x: damaged jpeg image") == 0);
+    CHECK(image_error(test::small_tiff().substr(0, 60)).find("x: damaged tiff image") == 0);
+}
+
+}  // namespace lightwalk
