@@ -66,9 +66,9 @@ std::unique_ptr<SceneCaster> RankBackend::make_rays(const FrameOrder& order) {
     const auto picture = wire::decode<PictureOrder>(order.payload);
     const bool direct = direct_light_ && !picture.indirect;
     WalkLight& light = direct ? *direct_light_ : *light_;
-    auto rays =
-        std::make_unique<SceneCaster>(light.tracer, light.visibility, Camera(picture.view), options,
-                                      light.contexts, stop(), order.budget > 0 && !order.rests);
+    auto rays = std::make_unique<SceneCaster>(light.tracer, light.visibility, Camera(picture.view),
+                                              options, light.contexts, stop(),
+                                              use_of_frame(order.budget, order.rests));
     const CachePrepass how = direct || options_.steered ? CachePrepass::none : prepass();
     const bool deterministic = how == CachePrepass::deterministic;
     if (how == CachePrepass::none || (!order.rules.empty && !deterministic)) return rays;

@@ -25,9 +25,12 @@ inline constexpr std::uint8_t kPointKinds = 5;
 /// kinds of panes and mirrors.
 inline constexpr std::uint32_t kMaterialBits = 0xff;
 
-/// Whether two surfaces are of one material, as the leaves of a tree are.
-[[nodiscard]] inline bool same_material(std::uint32_t one, std::uint32_t other) {
-    return ((one ^ other) & kMaterialBits) == 0;
+/// Whether two surfaces are of one material and about as far away [m], as the leaves of a tree are.
+[[nodiscard]] inline bool is_kin(std::uint32_t one, float one_distance, std::uint32_t other,
+                                 float other_distance) {
+    constexpr float kCrown = 0.25f;  // of a tree, as a share of its distance
+    return ((one ^ other) & kMaterialBits) == 0 &&
+           std::abs(one_distance - other_distance) <= kCrown * other_distance;
 }
 
 /// The view angle is not limited: the colour holds from all directions.

@@ -70,7 +70,7 @@ struct PointFinder::Search {
     bool turned = false;  ///< some points were seen from a too different direction:
     std::uint32_t nearest_turned = kNoPoint;
     float turned_squared = HUGE_VALF;  ///< distance of the nearest of them [pixels²]
-    std::uint32_t kin = kNoPoint;      ///< nearest point of the same material at the same depth
+    std::uint32_t kin = kNoPoint;      ///< nearest point that is_kin()
     float kin_squared = HUGE_VALF;     ///< its distance [pixels²]
 };
 
@@ -88,16 +88,16 @@ inline void PointFinder::consider(std::uint32_t index, float squared,
     const CloudPoint& point = points_[index];
     const float light = brightness(point.radiance);
     if (light > found.faint) {
-        if (!same_material(point.surface, primary.surface)) return;
         const float distance = places_[index].distance;
-        if (std::abs(distance - primary.distance) > kSameDepth * primary.distance) return;
         if (point.surface != primary.surface) {
-            if (squared < found.kin_squared) {
+            if (squared < found.kin_squared &&
+                is_kin(point.surface, distance, primary.surface, primary.distance)) {
                 found.kin_squared = squared;
                 found.kin = index;
             }
             return;
         }
+        if (std::abs(distance - primary.distance) > kSameDepth * primary.distance) return;
         if (point.max_view_angle != kAnyViewAngle &&
             !holds_from(point, toward(point, visibility, primary), rules_.tightness)) {
             found.turned = true;
@@ -180,6 +180,7 @@ TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
     if (found.points == 0 && found.kin != kNoPoint) {
         best = found.kin;
         answer.radiance += points_[best].radiance;
+        return TraceCause::uneven;
     }
     if (found.points == 0) return found.any ? TraceCause::hidden : TraceCause::uncovered;
     const bool sharp = inside_pixel || found.squared <= kOwnPixel2;
@@ -190,6 +191,14 @@ TraceCause PointFinder::search(const DepthGrid& grid, const PixelPlace& pixel,
     const float contrast =
         (found.brightest - found.darkest) / std::max(found.brightest + base, 1e-30f);
     return found.squared <= squared_reach(contrast) ? TraceCause::none : TraceCause::uneven;
+}
+
+/// Why a pixel is traced whose point ahead is there, but not what it reflects. What is seen through
+/// a pane is a guess of both.
+TraceCause PointFinder::without_image(const PixelAnswer& answer, TraceCause cause) const {
+    const bool through =
+        answer.ahead != kNoPoint && points_[answer.ahead].kind == PointKind::through;
+    return through ? TraceCause::uneven : cause;
 }
 
 inline void PointFinder::check(const PixelPlace& pixel, const PixelVisibility& visibility,
@@ -208,7 +217,8 @@ inline void PointFinder::check(const PixelPlace& pixel, const PixelVisibility& v
     if (!visibility.mirrored.seen) return;
     const TraceCause cause =
         search(grids_.mirrored, pixel, visibility, visibility.mirrored, answer.mirrored, answer);
-    if (answer.found()) answer.cause = cause;
+    if (answer.found())
+        answer.cause = cause == TraceCause::none ? cause : without_image(answer, cause);
 }
 
 /// Prefetch the points of the pixels.
@@ -250,7 +260,7 @@ void PointFinder::find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& a
     answer.radiance = {};
     if (ahead == kNoPoint || points_[ahead].paired) {
         answer.mirrored = mirrored;
-        if (mirrored == kNoPoint) answer.cause = TraceCause::uncovered;
+        if (mirrored == kNoPoint) answer.cause = without_image(answer, TraceCause::uncovered);
     }
     for (const std::uint32_t index : {answer.ahead, answer.mirrored})
         if (index != kNoPoint) answer.radiance += points_[index].radiance;
@@ -368,7 +378,7 @@ void PointFinder::find_around(const PixelPlace& pixel, PixelAnswer& answer) cons
 void PointFinder::fill_unverified(const PixelSquare& square, const PixelPlace& pixel,
                                   PixelAnswer& answer) const {
     find_own(pixel, square.mirrors, answer);
-    if (!answer.found()) {
+    if (answer.cause == TraceCause::uncovered) {
         if (is_amidst(square, pixel)) find_around(pixel, answer);
         return;
     }
@@ -424,11 +434,10 @@ bool PointFinder::is_edge(const PixelPlace& pixel) const {
 }
 
 bool PointFinder::is_guess(const PixelAnswer& answer) const {
-    const bool kin = answer.cause == TraceCause::hidden &&
-                     (answer.ahead != kNoPoint || answer.mirrored != kNoPoint);
-    if (!kin && answer.cause != TraceCause::uneven && answer.cause != TraceCause::turned)
-        return false;
-    return answer.ahead == kNoPoint || !points_[answer.ahead].paired || answer.mirrored != kNoPoint;
+    if (answer.cause != TraceCause::uneven && answer.cause != TraceCause::turned) return false;
+    if (answer.ahead == kNoPoint || answer.mirrored != kNoPoint) return true;
+    const CloudPoint& ahead = points_[answer.ahead];
+    return !ahead.paired || ahead.kind == PointKind::through;
 }
 
 float PointFinder::distance(const PixelAnswer& answer) const {

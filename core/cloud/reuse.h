@@ -137,6 +137,7 @@ class PointFinder {
     void consider(std::uint32_t index, float squared, const PixelVisibility& visibility,
                   const PrimaryVisibility& primary, Search& found) const;
     void expect(std::span<const PixelPlace> pixels) const;
+    [[nodiscard]] TraceCause without_image(const PixelAnswer& answer, TraceCause cause) const;
     void find_own(const PixelPlace& pixel, bool mirrors, PixelAnswer& answer) const;
     void find_around(const PixelPlace& pixel, PixelAnswer& answer) const;
     void fill_unverified(const PixelSquare& square, const PixelPlace& pixel,

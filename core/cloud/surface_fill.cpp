@@ -64,11 +64,9 @@ void look_around(const CloudFrame& frame, const PixelPlace& place, int step,
             const float weight = 1 / (dx * dx + dy * dy);
             if (frame.surfaces[at] == seen.surface)
                 around.same.add(frame.radiance[at], frame.patterns[at], weight);
-            else if (std::abs(frame.distance[at] - seen.distance) > kAsFarAway * seen.distance)
-                continue;
-            else if (same_material(frame.surfaces[at], seen.surface))
+            else if (is_kin(frame.surfaces[at], frame.distance[at], seen.surface, seen.distance))
                 around.kin.add(frame.radiance[at], frame.patterns[at], weight);
-            else
+            else if (std::abs(frame.distance[at] - seen.distance) <= kAsFarAway * seen.distance)
                 around.level.add(frame.radiance[at], kNoPattern, weight);
         }
     }

@@ -104,7 +104,7 @@ void VisibilityProbe::Walk::pass(const Hit& hit, bool reflect) {
 
 bool VisibilityProbe::reflects_flat(const Walk& walk, const Hit& hit,
                                     const SurfaceAppearance& appearance) const {
-    return (!appearance.textured || walk.needs.passing) &&
+    return (!appearance.textured || walk.needs.steered) &&
            tracer_.scene().surface(hit.surface).is_flat() && hit.perturbation == Vec3{};
 }
 
@@ -191,7 +191,7 @@ bool VisibilityProbe::goes_on(Walk& walk, const Hit& hit) const {
     const bool mirror =
         appearance.appearance == Appearance::mirror && reflects_flat(walk, hit, appearance);
     const bool pane =
-        appearance.appearance == Appearance::pane && (!appearance.textured || walk.needs.passing);
+        appearance.appearance == Appearance::pane && (!appearance.textured || walk.needs.steered);
     if (!mirror && !pane && appearance.appearance != Appearance::absent) {
         end(walk, hit, appearance);
         return false;

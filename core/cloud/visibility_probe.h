@@ -36,8 +36,9 @@ class VisibilityProbe {
     struct Needs {
         bool slopes = false;  ///< else slopes are right only where they are kNeverReuse
         TraceContext* patterns = nullptr;  ///< what patterns are evaluated with; null: not needed
-        bool passing = false;  ///< what is seen is shown for a moment: panes and mirrors with
-                               ///< ripples show what even ones would, within their small bends
+        /// Points will be shown for a moment: panes and mirrors with ripples show what even ones
+        /// would, within their small bends.
+        bool steered = false;
     };
 
     /// @param rays    of the pixels

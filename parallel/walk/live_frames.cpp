@@ -116,7 +116,7 @@ WalkFrame LocalFrames::draw(const View& view, double budget, double refine, cons
     WorkerContexts& contexts = walking_->contexts;
     contexts.reset_counters();
     SceneCaster caster(walking_->tracer, walking_->visibility, Camera(view), options_, contexts,
-                       stop, budget > 0 && !frames_->refines(view));
+                       stop, use_of_frame(budget, frames_->refines(view)));
     const CloudFrame& drawn = frames_->draw(caster.camera(), caster, executor_, stop);
     WalkFrame result{turned_over(drawn, executor_), drawn.report};
     if (drawn.complete)

@@ -26,21 +26,21 @@ FrameOptions with_rays(FrameOptions options, bool passing) {
 
 SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility,
                          const Camera& camera, const FrameOptions& options,
-                         WorkerContexts& contexts, const StopFlag& stop, bool passing)
+                         WorkerContexts& contexts, const StopFlag& stop, FrameUse use)
     : tracer_(tracer),
       probe_(visibility),
       camera_(camera),
-      options_(with_rays(options, passing)),
+      options_(with_rays(options, use == FrameUse::passing)),
       rays_(rays_of_sample(camera_, options_, 0)),
       contexts_(contexts),
       stop_(stop),
-      passing_(passing),
+      steered_(use != FrameUse::picture),
       scratch_(static_cast<std::size_t>(contexts.size())) {}
 
 void SceneCaster::probe(std::span<const PixelPlace> places, const ProbeOptions& options,
                         std::span<PixelVisibility> visibility, int worker) {
     probe_along(rays_, options.spacing,
-                {false, options.patterns ? &contexts_[worker] : nullptr, passing_}, places,
+                {false, options.patterns ? &contexts_[worker] : nullptr, steered_}, places,
                 visibility, scratch_[static_cast<std::size_t>(worker)]);
 }
 
@@ -137,14 +137,14 @@ void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixe
     s.values.resize(places.size());
     s.pixel_hits.resize(places.size());
     const PixelRays rays = rays_of_sample(camera_, options_, sample);
-    probe_along(rays, 1, {true, passing_ ? &contexts_[worker] : nullptr, passing_}, places,
+    probe_along(rays, 1, {true, steered_ ? &contexts_[worker] : nullptr, steered_}, places,
                 s.visibility, s);
     PixelTracer trace_pixels(tracer_, rays, contexts_[worker], stop_);
     trace_pixels(places, s.values, s.pixel_hits);
     for (std::size_t i = 0; i < places.size(); ++i) {
         pixels[i] = {s.visibility[i], s.values[i].radiance, s.pixel_hits[i].mirrored,
                      s.values[i].distance};
-        if (passing_) pixels[i].distance = distance_of(pixels[i]);
+        if (steered_) pixels[i].distance = distance_of(pixels[i]);
     }
 }
 

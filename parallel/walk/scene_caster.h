@@ -20,17 +20,29 @@ namespace lightwalk {
 [[nodiscard]] PixelRays rays_of_sample(const Camera& camera, const FrameOptions& options,
                                        int sample);
 
+/// What frames are for.
+enum class FrameUse {
+    picture,  ///< each is as true as the cloud can make it
+    resting,  ///< of a walk that somebody steers, whose view rests: its points will be shown from
+              ///< elsewhere, and traced pixels tell their patterns (VisibilityProbe::Needs)
+    passing,  ///< of such a walk, seen for a moment only: rays are not jittered either, as jagged
+              ///< edges that change from frame to frame crawl
+};
+
+/// @param budget  see CloudOptions: only frames of a steered walk have one [s]
+[[nodiscard]] constexpr FrameUse use_of_frame(double budget, bool rests) {
+    if (!(budget > 0)) return FrameUse::picture;
+    return rests ? FrameUse::resting : FrameUse::passing;
+}
+
 /// The camera of one frame, and its rays: those that a picture with the same options has, to the
 /// bit, or for a frame that is seen for a moment those through the middles of pixels.
 class SceneCaster final : public PixelCaster {
   public:
     /// All but the camera must outlive this.
-    /// @param passing  whether the frame is seen for a moment only: its rays are not jittered, as
-    ///                 jagged edges that change from frame to frame crawl, and traced pixels tell
-    ///                 their patterns
     SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
                 const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop,
-                bool passing = false);
+                FrameUse use = FrameUse::picture);
     SceneCaster(const SceneCaster&) = delete;
     SceneCaster& operator=(const SceneCaster&) = delete;
 
@@ -76,7 +88,7 @@ class SceneCaster final : public PixelCaster {
     PixelRays rays_;  ///< of sample 0
     WorkerContexts& contexts_;
     const StopFlag& stop_;
-    bool passing_;
+    bool steered_;  ///< not FrameUse::picture
     std::vector<Scratch> scratch_;
 };
 

@@ -96,7 +96,8 @@ wood polygon wall 0 0 12  -90 40 -90  90 40 -90  90 40 90  -90 40 90
     for (const int u : {0, 8})
         for (int y = 0; y < 8; ++y)
             for (int x = u; x < u + 8; ++x) places.push_back({x, y});
-    SceneCaster caster(room.tracer, visibility, Camera(ahead), options, contexts, stop, true);
+    SceneCaster caster(room.tracer, visibility, Camera(ahead), options, contexts, stop,
+                       FrameUse::passing);
     std::vector<PixelVisibility> seen(places.size());
     std::vector<TracedPixel> traced(places.size());
     caster.trace(places, traced, 0, 0);
@@ -121,7 +122,7 @@ TEST_CASE("a pane or mirror with ripples shows in passing what an even one does,
     lightwalk::test::MemoryResources files;
     files.functions["waves.cal"] = "small = .002*cos(9*Pz); large = .3*cos(9*Pz);\n";
     const auto seen_through = [&](const std::string& texture, const std::string& kind,
-                                  bool passing) {
+                                  FrameUse use) {
         TestScene room("void texfunc waves 4 " + texture + " " + texture + " 0 waves.cal 0\n" +
                            "0\nwaves " + kind + R"( pane 0 0 3 .9 .9 .9
 void glow sky 0 0 4 1 1 1 0
@@ -137,8 +138,7 @@ pane polygon window 0 0 12  -40 5 -40  40 5 -40  40 5 40  -40 5 40
         ahead.horizontal = ahead.vertical = 40;
         FrameOptions options;
         options.width = options.height = 8;
-        SceneCaster caster(room.tracer, visibility, Camera(ahead), options, contexts, stop,
-                           passing);
+        SceneCaster caster(room.tracer, visibility, Camera(ahead), options, contexts, stop, use);
         const PixelPlace place{3, 3};
         PixelVisibility probed;
         TracedPixel traced;
@@ -147,20 +147,21 @@ pane polygon window 0 0 12  -40 5 -40  40 5 -40  40 5 40  -40 5 40
         const PrimaryVisibility& image =
             kind == "mirror" ? traced.visibility.mirrored : traced.visibility.ahead;
         const PrimaryVisibility& check = kind == "mirror" ? probed.mirrored : probed.ahead;
-        if (passing) CHECK(check.surface == image.surface);
-        if (passing) CHECK(check.distance == image.distance);
+        if (use != FrameUse::picture) CHECK(check.surface == image.surface);
+        if (use != FrameUse::picture) CHECK(check.distance == image.distance);
         CHECK(probed.x == traced.visibility.x);
-        CHECK((probed.x == 3.5f) == passing);
+        CHECK((probed.x == 3.5f) == (use == FrameUse::passing));
         return std::pair(traced.distance, image.slope);
     };
     for (const char* kind : {"glass", "mirror"}) {
         CAPTURE(kind);
-        const auto [exact, never] = seen_through("small", kind, false);
+        const auto [exact, never] = seen_through("small", kind, FrameUse::picture);
         CHECK(exact < 4);
         CHECK(never >= kMirrorLike);
-        const auto [passing, slope] = seen_through("small", kind, true);
+        const auto [passing, slope] = seen_through("small", kind, FrameUse::passing);
         CHECK(passing == doctest::Approx(30).epsilon(kind[0] == 'g' ? 0.001 : 0.3));
         CHECK(slope < 1);
-        CHECK(seen_through("large", kind, true).second >= kMirrorLike);
+        CHECK(seen_through("small", kind, FrameUse::resting).second < 1);
+        CHECK(seen_through("large", kind, FrameUse::passing).second >= kMirrorLike);
     }
 }
