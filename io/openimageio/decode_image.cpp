@@ -10,7 +10,9 @@
 
 namespace {
 
-constexpr int kRowsTogether = 64;
+/// Of rows that are read together: what is allocated for each part costs more than its pixels where
+/// these are few.
+constexpr int kValuesTogether = 1 << 18;
 
 void read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, lightwalk::ImageRows& rows,
                std::string& error) {
@@ -22,7 +24,8 @@ void read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, lightwalk::
     }
     if (!rows.begin(spec.width, spec.height, channels, is_float)) return;
     const bool tiled = spec.tile_width > 0;
-    const int step = tiled ? spec.tile_height : kRowsTogether;
+    const int step = tiled ? spec.tile_height
+                           : std::max(1, kValuesTogether / channels / std::max(1, spec.width));
     std::vector<float> values(static_cast<std::size_t>(std::min(step, spec.height)) *
                               static_cast<std::size_t>(spec.width) *
                               static_cast<std::size_t>(channels));
