@@ -68,17 +68,17 @@ class GltfMaterialWriter {
         const bool clear = width < kSmooth && m_.transmission >= kMostlyClear;
         const auto& base = m_.base;
         if (clear && m_.thickness > 0) {
-            std::vector<double> reals;
-            for (const double a : m_.attenuation)  // what is left after a metre
-                reals.push_back(
-                    m_.attenuation_distance > 0 ? std::pow(a, 1 / m_.attenuation_distance) : 1);
-            reals.insert(reals.end(), {m_.ior, 0});
-            text_.add(modifier, "dielectric", name, {}, reals);
+            const auto left = [&](std::size_t c) {  // after a metre
+                const double distance = m_.attenuation_distance;
+                return distance > 0 ? std::pow(m_.attenuation[c], 1 / distance) : 1;
+            };
+            text_.add(modifier, "dielectric", name, {}, {left(0), left(1), left(2), m_.ior, 0});
         } else if (clear) {
-            std::vector<double> reals;
-            for (const double c : base) reals.push_back(transmissivity((1 - f0) * (1 - f0) * c));
-            reals.push_back(std::max(m_.ior, 1.0));
-            text_.add(modifier, "glass", name, {}, reals);
+            const auto left = [&](std::size_t c) {
+                return transmissivity((1 - f0) * (1 - f0) * base[c]);
+            };
+            text_.add(modifier, "glass", name, {},
+                      {left(0), left(1), left(2), std::max(m_.ior, 1.0)});
         } else {
             text_.add(modifier, "trans", name, {},
                       {base[0], base[1], base[2], f0, width, m_.transmission, 1});
