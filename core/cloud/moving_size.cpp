@@ -9,7 +9,7 @@ namespace {
 
 // At the second step frames take more time, from each further one to the next there are fewer
 // pixels by the square root of two.
-constexpr std::array kShares{1.0, 1.0, 0.8409, 0.7071, 0.5946, 0.5, 0.4204, 0.3536};
+constexpr std::array kShares{1.0, 1.0, 0.8409, 0.7071, 0.5946, 0.5, 0.4204, 0.3536, 0.2973, 0.25};
 constexpr double kGrowth = 1.4142;
 // Pictures of up to so many pixels take a little more time, of so many twice as much, and so on.
 constexpr double kSmallPixels = 640 * 480, kLargePixels = 1280 * 720;

@@ -12,7 +12,7 @@ class MovingSize {
   public:
     /// Whether frames may take longer than a period.
     void set_patient(bool patient);
-    /// Share of the width and of the height that are wished for, 0.35 ... 1.
+    /// Share of the width and of the height that are wished for, 0.25 ... 1.
     [[nodiscard]] double share() const;
     [[nodiscard]] int of(int side) const;
     /// What the next frame may take of a picture of which so many pixels are wished for, in periods

@@ -49,7 +49,7 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     record(much, 1, 0.5, 1);
     CHECK(much.of(1000) == 500);
     record(much, 100, 1, 1);
-    CHECK(much.of(1000) == 354);
+    CHECK(much.of(1000) == 250);
     CHECK(much.of(1) == 1);
 }
 
