@@ -11,6 +11,9 @@ namespace {
 // pixels by the square root of two.
 constexpr std::array kShares{1.0, 1.0, 0.8409, 0.7071, 0.5946, 0.5, 0.4204, 0.3536, 0.2973, 0.25};
 constexpr double kGrowth = 1.4142;
+// A smaller share than this one leaves large pictures alone enough pixels to be of use.
+constexpr int kLastOfAll = 7;
+constexpr double kLeastPixels = 110'000;
 // Pictures of up to so many pixels take a little more time, of so many twice as much, and so on.
 constexpr double kSmallPixels = 640 * 480, kLargePixels = 1280 * 720;
 constexpr double kLeastPeriods = 1, kPeriodsOfLarge = 2, kMostPeriods = 2.5;
@@ -48,8 +51,21 @@ int MovingSize::of(int side) const {
     return std::max(1, static_cast<int>(std::lround(share() * side)));
 }
 
-void MovingSize::step(int by) {
-    const int first = patient_ ? 0 : 1, last = static_cast<int>(kShares.size()) - 1;
+/// The step of the smallest share of a picture.
+/// @param pixels  of its frames at the share of now
+int MovingSize::last_step(double pixels) const {
+    int last = kLastOfAll;
+    const auto pixels_at = [&](int step) {
+        const double share = kShares[static_cast<std::size_t>(step)] / this->share();
+        return pixels * share * share;
+    };
+    while (last + 1 < static_cast<int>(kShares.size()) && pixels_at(last + 1) >= kLeastPixels)
+        ++last;
+    return last;
+}
+
+void MovingSize::step(int by, double pixels) {
+    const int first = patient_ ? 0 : 1, last = last_step(pixels);
     const int next = std::clamp(step_ + by, first, last);
     changed_ = next != step_;
     step_ = next;
@@ -76,9 +92,9 @@ void MovingSize::record(const CloudReport& report, double budget) {
         // A larger size that soon proved too large is tried again later and later.
         if (since_larger_ > 0) patience_ = std::min(2 * patience_, kMostPatience);
         since_larger_ = 0;
-        step(wrong > kMany ? 4 : 1);
+        step(wrong > kMany ? 4 : 1, pixels);
     } else if (good_ >= patience_ && step_ > (patient_ ? 0 : 1)) {
-        step(seconds < kShort * kShort * budget ? -2 : -1);
+        step(seconds < kShort * kShort * budget ? -2 : -1, pixels);
         since_larger_ = 1;
     }
 }

@@ -23,7 +23,8 @@ class MovingSize {
     void record(const CloudReport& report, double budget);
 
   private:
-    void step(int by);
+    [[nodiscard]] int last_step(double pixels) const;
+    void step(int by, double pixels);
 
     bool patient_ = false;
     int step_ = 5;          ///< of the table of shares; the first frames know little, and are small

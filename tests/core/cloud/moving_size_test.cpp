@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
+
 using namespace lightwalk;
 
 namespace {
@@ -49,8 +51,21 @@ TEST_CASE("moving size: guessed pixels make frames smaller, the more of them the
     record(much, 1, 0.5, 1);
     CHECK(much.of(1000) == 500);
     record(much, 100, 1, 1);
-    CHECK(much.of(1000) == 250);
+    CHECK(much.of(1000) == 354);
     CHECK(much.of(1) == 1);
+}
+
+TEST_CASE("moving size: frames of large pictures may be a quarter as wide, of others a third") {
+    for (const auto& [pixels, least] : {std::pair(1280 * 720, 354), std::pair(1920 * 1080, 250)}) {
+        MovingSize size;
+        for (int i = 0; i < 100; ++i) {
+            CloudReport report;
+            report.pixels = report.filled =
+                static_cast<std::size_t>(size.share() * size.share() * pixels);
+            size.record(report, 1);
+        }
+        CHECK(size.of(1000) == least);
+    }
 }
 
 TEST_CASE("moving size: frames that take longer than there is time for get smaller") {
