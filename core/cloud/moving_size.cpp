@@ -11,8 +11,9 @@ namespace {
 // pixels by the square root of two.
 constexpr std::array kShares{1.0, 1.0, 0.8409, 0.7071, 0.5946, 0.5, 0.4204, 0.3536, 0.2973, 0.25};
 constexpr double kGrowth = 1.4142;
-// A smaller share than this one leaves large pictures alone enough pixels to be of use.
-constexpr int kLastOfAll = 7;
+// The last step for pictures of any size; smaller shares are for those that they leave so many
+// pixels, as fewer are of no use.
+constexpr int kLastStep = 7;
 constexpr double kLeastPixels = 110'000;
 // Pictures of up to so many pixels take a little more time, of so many twice as much, and so on.
 constexpr double kSmallPixels = 640 * 480, kLargePixels = 1280 * 720;
@@ -54,7 +55,7 @@ int MovingSize::of(int side) const {
 /// The step of the smallest share of a picture.
 /// @param pixels  of its frames at the share of now
 int MovingSize::last_step(double pixels) const {
-    int last = kLastOfAll;
+    int last = kLastStep;
     const auto pixels_at = [&](int step) {
         const double share = kShares[static_cast<std::size_t>(step)] / this->share();
         return pixels * share * share;

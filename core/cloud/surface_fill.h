@@ -16,7 +16,8 @@ struct InferredPixel {
     std::size_t at = 0;  ///< its index in the frame
     Rgb radiance;        ///< [W/(m² sr)]
     float distance = 0;  ///< along its ray, which was cast [m]
-    bool same = false;   ///< from the surface that it shows; else from others about as far away
+    bool same = false;   ///< from the surface that it shows, or one that is_kin(); else from others
+                         ///< about as far away
 };
 
 /// What a pixel shows whose ray sees `visibility`: the mean of known pixels around, weighted by

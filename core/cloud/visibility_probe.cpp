@@ -124,18 +124,25 @@ float VisibilityProbe::glossy_slope(const Walk& walk, const Hit& hit,
     return static_cast<float>(highlights_.slope(hit, walk.segment.direction, lobe));
 }
 
-/// The brightness of the patterns of a surface's chain. Textures are left out: what patterns make
-/// of a perturbed normal is too fine to be seen in passing.
-float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
+/// The ray of a walk at a hit, with what those modifiers of the surface's chain do to it that are
+/// of a kind that `applies`.
+Ray VisibilityProbe::modified_ray(const Walk& walk, const Hit& hit,
+                                  bool (*applies)(PrimitiveKind)) const {
     const Scene& scene = tracer_.scene();
     Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
     ray.hit = hit;
     for (ModifierId m = hit.modifier; m != kVoid; m = scene.modifier(m).next) {
         const ModifierRecord& record = scene.modifier(m);
-        if (record.node && is_pattern(kind_of(record.type)))
+        if (record.node && applies(kind_of(record.type)))
             (void)record.node->shade(ray, *walk.needs.patterns);
     }
-    const float value = brightness(ray.pattern);
+    return ray;
+}
+
+/// The brightness of the patterns of a surface's chain. Textures are left out: what patterns make
+/// of a perturbed normal is too fine to be seen in passing.
+float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
+    const float value = brightness(modified_ray(walk, hit, is_pattern).pattern);
     return std::isfinite(value) ? value : 1;
 }
 
@@ -143,14 +150,8 @@ float VisibilityProbe::pattern_at(const Walk& walk, const Hit& hit) const {
 float VisibilityProbe::ripple_slope(const Walk& walk, const Hit& hit,
                                     const SurfaceAppearance& appearance) const {
     if (!appearance.textured || !walk.needs.slopes || walk.needs.patterns == nullptr) return 0;
-    const Scene& scene = tracer_.scene();
-    Ray ray = tracer_.primary(walk.segment.origin, walk.segment.direction, 0, RandomStream{});
-    ray.hit = hit;
-    for (ModifierId m = hit.modifier; m != kVoid; m = scene.modifier(m).next) {
-        const ModifierRecord& record = scene.modifier(m);
-        if (record.node && kind_of(record.type) == PrimitiveKind::texture)
-            (void)record.node->shade(ray, *walk.needs.patterns);
-    }
+    const Ray ray =
+        modified_ray(walk, hit, [](PrimitiveKind kind) { return kind == PrimitiveKind::texture; });
     return length_squared(ray.hit.perturbation) <= kRipple * kRipple ? 0 : kMirrorLike;
 }
 

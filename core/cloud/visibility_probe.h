@@ -59,6 +59,8 @@ class VisibilityProbe {
     void end(const Walk& walk, const Hit& hit, const SurfaceAppearance& appearance) const;
     [[nodiscard]] float glossy_slope(const Walk& walk, const Hit& hit,
                                      const SurfaceAppearance& appearance) const;
+    [[nodiscard]] Ray modified_ray(const Walk& walk, const Hit& hit,
+                                   bool (*applies)(PrimitiveKind)) const;
     [[nodiscard]] float pattern_at(const Walk& walk, const Hit& hit) const;
     [[nodiscard]] bool goes_on(Walk& walk, const Hit& hit) const;
     [[nodiscard]] bool begins(Walk& walk, const Hit& hit, std::vector<Walk>& images) const;
