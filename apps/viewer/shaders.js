@@ -39,10 +39,11 @@ void main() {
     bvec4 torn = bvec4((edges & 1) != 0, (edges & 4) != 0, (edges & 2) != 0, (edges & 8) != 0);
     vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     vec2 first = vec2(patch_place.xy);
-    vec4 beyond = mix(vec4(overlap), vec4(0.0), vec4(torn));
+    // Chosen by truth values: a number in between, of numbers that are so far apart, would be rounded.
+    vec4 beyond = mix(vec4(overlap), vec4(0.0), torn);
     pixel = first + corner * side + mix(-beyond.xy, beyond.zw, corner);
     float off = dot(vec2(slope), pixel - first - 0.5 * side) / 64.0;
-    bounds = mix(vec4(-1e9, -1e9, 1e9, 1e9), vec4(first + 0.5, first + side - 0.5), vec4(torn));
+    bounds = mix(vec4(-1e9, -1e9, 1e9, 1e9), vec4(first + 0.5, first + side - 0.5), torn);
     float inverse = max(step * (float(patch_place.w) + off), 0.0);
     gl_Position = warped(pixel, inverse, (patch_place.z & 8) != 0 ? guesses : layer);
 }`,
