@@ -105,7 +105,7 @@ async function start_camera([width, height, plain]) {
             const bytes = Uint8Array.from(atob(depth), (c) => c.charCodeAt(0));
             known = await decode_depth({ bytes }, ...size);
         }
-        if (known) reprojection.keep({ picture, depth: known, view }, false);
+        if (known) reprojection.keep({ picture, depth: known, view }, false, [width, height]);
     };
     window.draw = (view) => {
         if (plain) return picture.toDataURL();

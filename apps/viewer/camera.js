@@ -7,14 +7,17 @@ export class Camera {
      * @param canvas   over the picture; hidden while the picture itself is what is to be seen
      * @param picture  the canvas that frames are drawn on
      * @param wanted   false: never draw
+     * @param refine   whether frames of few pixels are refined also where the processor draws
      */
-    constructor(canvas, picture, wanted) {
+    constructor(canvas, picture, wanted, refine = false) {
         this.canvas_ = canvas;
         this.picture_ = picture;
         this.view_ = null; // of the newest frame; null: it cannot be drawn from elsewhere
         this.depth_ = null;
         this.kept_ = true; // whether the newest frame is in the graphics memory
         this.reprojection_ = wanted ? started(canvas) : null;
+        this.refines = this.available && (refine || !this.reprojection_.in_software); ///< see Reprojection.keep()
+        this.size_ = null; // of the screen's picture
         this.draws = false; ///< whether the screen shows what this draws, instead of the picture
         this.refreshes = 0; ///< that were drawn
     }
@@ -57,7 +60,8 @@ export class Camera {
     keep_() {
         this.kept_ = true;
         const frame = { picture: this.picture_, depth: this.depth_, view: this.view_ };
-        this.reprojection_.keep(frame, this.again_ ?? false);
+        const size = this.refines && this.size_ ? this.size_ : undefined;
+        this.reprojection_.keep(frame, this.again_ ?? false, size);
         this.again_ = true; // until a frame of another view comes
     }
 
@@ -71,6 +75,7 @@ export class Camera {
     draw_(view, width, height) {
         if (!this.ready || !view || !can_warp(view) || is_picture_of(this.view_, view))
             return false;
+        this.size_ = [width, height];
         if (!this.kept_) this.keep_();
         if (!this.reprojection_.has_frame) return false;
         this.reprojection_.draw(view, width, height);

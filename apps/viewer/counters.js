@@ -34,6 +34,9 @@ export function make_counters(session, navigator, camera, decoder) {
         get camera_draws() {
             return camera.draws;
         }, ///< whether the screen shows what the page has drawn from frames, not a frame
+        get refines() {
+            return camera.refines;
+        }, ///< whether small frames are refined by those before them
         get decodes_beside() {
             return decoder.beside;
         }, ///< whether a worker decodes frames, not the page

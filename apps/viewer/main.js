@@ -42,8 +42,9 @@ let display_number = 0; // of the newest settings of the display; frames that ar
 
 const navigator = new Navigator();
 const screen = new Screen(picture, { drawn, skipped, failed });
-const plain = new URL(location).searchParams.has("plain"); // show frames as they come
-const camera = new Camera(by_id("camera"), picture, !plain);
+const asked = new URL(location).searchParams;
+const plain = asked.has("plain"); // show frames as they come
+const camera = new Camera(by_id("camera"), picture, !plain, asked.has("refine"));
 const session = new Session(session_id(), camera.available, screen, {
     connected: () => cover("Connected. Waiting for the scene…"),
     lost,

@@ -1,52 +1,13 @@
 // Draws frames from views that are not theirs, in WebGL2: the newest frame, earlier ones in its gaps, a sheet behind them.
 import { background_of, grid_triangles } from "./background.js";
 import { kNumbers, kPatchRow } from "./depth.js";
+import { compiled, made_texture } from "./graphics.js";
+import { draws_in_software, Refinement } from "./refinement.js";
 import { kPatches, kSheet } from "./shaders.js";
 import { warp_of } from "./warp.js";
 
 const kFrames = 2; // that are kept
 const kOverlap = 0.3; // see the shader [pixels]
-
-function compiled(gl, { vertex, fragment }) {
-    const program = gl.createProgram();
-    for (const [type, text] of [
-        [gl.VERTEX_SHADER, vertex],
-        [gl.FRAGMENT_SHADER, fragment],
-    ]) {
-        const shader = gl.createShader(type);
-        gl.shaderSource(shader, text);
-        gl.compileShader(shader);
-        gl.attachShader(program, shader);
-        gl.deleteShader(shader);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
-        throw new Error(`WebGL: ${gl.getProgramInfoLog(program)}`);
-    const at = {};
-    for (const name of [
-        "turn",
-        "shift",
-        "nearest",
-        "step",
-        "overlap",
-        "layer",
-        "guesses",
-        "frame",
-        "patches",
-    ])
-        at[name] = gl.getUniformLocation(program, name);
-    return { program, at };
-}
-
-function made_texture(gl, filter) {
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
-        gl.texParameteri(gl.TEXTURE_2D, name, filter);
-    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
-        gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
-    return texture;
-}
 
 /** Corners of two triangles for each patch, four vertices each. */
 function patch_triangles(count) {
@@ -62,7 +23,10 @@ function patch_triangles(count) {
 class KeptFrame {
     constructor(gl) {
         this.gl_ = gl;
-        this.texture = made_texture(gl, gl.LINEAR);
+        this.raw = made_texture(gl, gl.LINEAR); // as it came
+        this.refined = made_texture(gl, gl.LINEAR);
+        this.refined_size = [0, 0];
+        this.is_refined = false;
         this.patches = made_texture(gl, gl.NEAREST);
         this.size_ = "";
         this.places_ = gl.createBuffer();
@@ -78,12 +42,23 @@ class KeptFrame {
         gl.bindVertexArray(null);
     }
 
+    /** What it shows. */
+    get texture() {
+        return this.is_refined ? this.refined : this.raw;
+    }
+
+    /** Half a pixel of that [pixels of the frame]. */
+    get inset() {
+        return this.is_refined ? (0.5 * this.width) / this.refined_size[0] : 0.5;
+    }
+
     /** Take over a frame; see Reprojection.keep(). */
     take({ picture, depth, view }) {
         const gl = this.gl_;
         const { width, height } = picture;
         Object.assign(this, { view, width, height, step: depth.step, count: depth.count });
-        gl.bindTexture(gl.TEXTURE_2D, this.texture);
+        this.is_refined = false;
+        gl.bindTexture(gl.TEXTURE_2D, this.raw);
         const resized = this.size_ !== `${width} ${height}`;
         if (resized) gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, picture);
         else gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, gl.RGBA, gl.UNSIGNED_BYTE, picture);
@@ -122,6 +97,7 @@ export class Reprojection {
         this.canvas = canvas;
         this.gl_ = canvas.getContext("webgl2", { alpha: false, antialias: false });
         if (!this.gl_) throw new Error("WebGL2 is not there");
+        this.in_software = draws_in_software(this.gl_); ///< the processor draws
         this.frames_ = []; // the newest first
         this.lost = false; ///< the graphics memory is gone, for now
         canvas.addEventListener("webglcontextlost", (event) => {
@@ -137,6 +113,7 @@ export class Reprojection {
         const gl = this.gl_;
         this.patches_ = compiled(gl, kPatches);
         this.sheet_ = compiled(gl, kSheet);
+        this.refinement_ = new Refinement(gl);
         this.patch_array_ = gl.createVertexArray();
         gl.bindVertexArray(this.patch_array_);
         gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
@@ -154,14 +131,36 @@ export class Reprojection {
      * Keep a frame, as the newest.
      * @param frame  {picture, depth, view}: picture: a canvas; depth: as decode_depth() or decode_frame() returns it; view: that it shows
      * @param again  whether it replaces the newest one, which shows the same view
+     * @param size   of the screen's picture [width, height]: a smaller frame is refined by those before it; nothing: it is not
      */
-    keep(frame, again) {
+    keep(frame, again, size) {
         if (this.lost) return;
         let kept = again ? this.frames_.shift() : undefined;
+        const [before] = this.frames_;
         if (!kept && this.frames_.length >= kFrames) kept = this.frames_.pop();
         kept ??= new KeptFrame(this.gl_);
         kept.take(frame);
+        if (size && this.refinement_.is_worth(kept, size[0])) this.refine_(kept, before, size);
         this.frames_.unshift(kept);
+    }
+
+    refine_(kept, before, size) {
+        const draw = (program) => {
+            this.test_depth_();
+            this.draw_patches_(program, before, kept.view, {
+                own: [0, 0.49],
+                guesses: [0.5, 0.49],
+                down: true,
+            });
+        };
+        this.refinement_.refine(kept, before && draw, size);
+        kept.is_refined = true;
+    }
+
+    test_depth_() {
+        const gl = this.gl_;
+        gl.enable(gl.DEPTH_TEST);
+        gl.depthFunc(gl.LESS);
     }
 
     /** Draw what `view` shows, width x height pixels. */
@@ -172,29 +171,36 @@ export class Reprojection {
             canvas.height = height;
         }
         gl.viewport(0, 0, width, height);
-        gl.clearDepth(1);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-        gl.enable(gl.DEPTH_TEST);
-        gl.depthFunc(gl.LESS);
+        this.test_depth_();
         // What frames know, the newest first; what the newest guesses; the sheet.
         const layers = this.frames_.length + 2;
         const layer = (k) => [k / layers, 0.99 / layers];
         this.frames_.forEach((frame, k) => {
-            this.use_(this.patches_, frame, view, layer(k));
-            gl.uniform2fv(this.patches_.at.guesses, layer(layers - 2));
-            gl.uniform1f(this.patches_.at.overlap, kOverlap);
-            gl.activeTexture(gl.TEXTURE1);
-            gl.bindTexture(gl.TEXTURE_2D, frame.patches);
-            gl.activeTexture(gl.TEXTURE0);
-            gl.uniform1i(this.patches_.at.patches, 1);
-            this.bind_corners_(frame.count);
-            gl.drawElements(gl.TRIANGLES, 6 * frame.count, gl.UNSIGNED_INT, 0);
+            const own = layer(k),
+                guesses = layer(layers - 2);
+            this.draw_patches_(this.patches_, frame, view, { own, guesses, down: false });
         });
         const [newest] = this.frames_;
         this.use_(this.sheet_, newest, view, layer(layers - 1));
         gl.bindVertexArray(newest.sheet_array);
         gl.drawElements(gl.TRIANGLES, newest.corner_count, gl.UNSIGNED_INT, 0);
         gl.bindVertexArray(null);
+    }
+
+    /** @param layers  {own, guesses, down}: of what the frame knows and of what it guesses; whether the picture has its first row below */
+    draw_patches_(program, frame, view, { own, guesses, down }) {
+        const gl = this.gl_;
+        this.use_(program, frame, view, own, down);
+        gl.uniform2fv(program.at.guesses, guesses);
+        gl.uniform1f(program.at.overlap, kOverlap);
+        gl.uniform1f(program.at.inset, frame.inset);
+        gl.activeTexture(gl.TEXTURE1);
+        gl.bindTexture(gl.TEXTURE_2D, frame.patches);
+        gl.activeTexture(gl.TEXTURE0);
+        gl.uniform1i(program.at.patches, 1);
+        this.bind_corners_(frame.count);
+        gl.drawElements(gl.TRIANGLES, 6 * frame.count, gl.UNSIGNED_INT, 0);
     }
 
     /** Corners of the triangles of so many patches; the vertices are made by the shader. */
@@ -206,14 +212,17 @@ export class Reprojection {
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, patch_triangles(2 * count), gl.STATIC_DRAW);
     }
 
-    use_({ program, at }, frame, view, layer) {
+    use_({ program, at }, frame, view, layer, down = false) {
         const gl = this.gl_;
         const { turn, shift } = warp_of(frame.view, frame.width, frame.height, view);
+        if (down)
+            for (const row of [turn, shift]) for (let k = 1; k < row.length; k += 3) row[k] *= -1;
         gl.useProgram(program);
         gl.uniformMatrix3fv(at.turn, false, turn);
         gl.uniform3fv(at.shift, shift);
         gl.uniform2fv(at.layer, layer);
         gl.uniform1f(at.step, frame.step);
+        gl.uniform2f(at.size, frame.width, frame.height);
         gl.uniform1f(at.nearest, 0.5 / (65535 * frame.step));
         gl.bindTexture(gl.TEXTURE_2D, frame.texture);
         gl.uniform1i(at.frame, 0);

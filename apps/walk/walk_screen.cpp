@@ -10,7 +10,10 @@ namespace lightwalk {
 namespace {
 
 constexpr int kPieceWidth = 160, kPieceHeight = 120;  // [pixels]
-constexpr int kMovingQuality = 75, kProgressiveQuality = 95;
+constexpr int kHurriedQuality = 75, kMovingQuality = 85, kProgressiveQuality = 95;
+/// Of the share of frames that could not be sent when they were there: its weight of the newest,
+/// and from where on links are slow.
+constexpr float kNewest = 0.1f, kSlow = 0.3f;
 constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how bright a picture is
 
 }  // namespace
@@ -82,7 +85,7 @@ void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
     view_ = view;
     contents_[depth_index()] = depth_.content();
     const bool measured = how_many(&Client::wants_luminance) > 0;
-    const int quality = view.at_rest ? kProgressiveQuality : kMovingQuality;
+    const int quality = view.at_rest ? kProgressiveQuality : moving_quality(now);
     executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
         colour(pieces_[i], picture, display, quality);
         contents_[i] = pieces_[i].content;
@@ -93,6 +96,15 @@ void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
     else
         luminance_.forget();  // for who comes later it would be that of an earlier picture
     contents_[luminance_index()] = luminance_.content();
+}
+
+/// Quality of frames of a view in motion: less where links cannot keep up with them.
+int WalkScreen::moving_quality(Time now) {
+    const bool held = std::any_of(clients_.begin(), clients_.end(), [now](const auto& client) {
+        return !client.second.flow.may_send(now);
+    });
+    held_ += kNewest * ((held ? 1.0f : 0.0f) - held_);
+    return held_ > kSlow ? kHurriedQuality : kMovingQuality;
 }
 
 /// A piece that shows the same as before need not be compressed, nor sent, again.

@@ -17,7 +17,7 @@ struct PixelRows {
 };
 
 /// The least quality at which colours keep their full resolution (4:4:4); below it 4:2:0.
-inline constexpr int kJpegFullColour = 90;
+inline constexpr int kJpegFullColour = 85;
 
 /// A compressor whose memory is reused from rectangle to rectangle; for one thread.
 class JpegCompressor {

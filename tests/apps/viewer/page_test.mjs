@@ -28,6 +28,7 @@ import {
     until,
     value,
 } from "./page_helpers.mjs";
+import { camera_steps } from "./page_camera.mjs";
 import { place_steps } from "./page_places.mjs";
 
 const { values: args } = parseArgs({
@@ -72,6 +73,7 @@ function drawn_camera() {
 
 const prank = (name) => fetch(`${address}fake/${name}`);
 const steps = {
+    ...camera_steps(),
     ...place_steps(address),
     ...colour_steps(address, prank),
     async "all keys move as the help says"(page) {
@@ -147,8 +149,12 @@ const steps = {
         await page.waitForSelector("#pin");
         await page.keyboard.press("p");
         await until(page, () => window.lightwalk.last_probes?.settled === 1);
-        const dot = page.locator("#overlay .pin");
-        const at = await dot.boundingBox();
+        // Marks are made anew at refreshes: asked for and measured in one.
+        const place = await until(page, () => {
+            const mark = document.querySelector("#overlay .pin");
+            return mark && mark.getBoundingClientRect().toJSON();
+        });
+        const at = await place.jsonValue();
         assert.ok(
             Math.abs(at.x + at.width / 2 - 240) < 2 && Math.abs(at.y + at.height / 2 - 250) < 2,
         );
