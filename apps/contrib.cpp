@@ -27,6 +27,9 @@ class ContribRun final : CommandRun {
         resolve_scene_files(command_.common, "the rays", files);
         if (command_.modifiers.empty())
             throw UsageError("no modifier is named: expected -m MODIFIER or -M FILE");
+        if (command_.next_open)
+            throw UsageError(
+                "options -o -b -bn -p hold for the modifiers behind them: expected -m");
         if (command_.formats.input == NumberFormat::rgbe)
             throw UsageError("option -f: format c is for output only");
         for (const ModifierRequest& request : command_.modifiers) {

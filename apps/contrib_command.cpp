@@ -20,11 +20,16 @@ void track(ContribCommand& c, const std::vector<std::string>& names) {
             throw UsageError("option -b: how many bins modifier \"" + name +
                              "\" has is not known: expected -bn N before it");
         c.modifiers.push_back(std::move(request));
+        c.next_open = false;
     }
 }
 
-CustomOption word_option(std::string& place) {
-    return {[&place](OptionWords& words) { place = words.text(); }};
+/// Holds for the modifiers behind it.
+CustomOption next_option(ContribCommand& c, std::string& place) {
+    return {[&c, &place](OptionWords& words) {
+        place = words.text();
+        c.next_open = true;
+    }};
 }
 
 std::vector<OptionRow> modifier_rows(ContribCommand& c, const LibraryPath& library) {
@@ -47,14 +52,15 @@ std::vector<OptionRow> modifier_rows(ContribCommand& c, const LibraryPath& libra
                       if (c.rays == 0) c.x = c.y = 0;
                   }}},
         {"Bins", SectionTitle{}},
-        {"-b EXPRESSION", word_option(c.next.bin),
+        {"-b EXPRESSION", next_option(c, c.next.bin),
          "the bin of a contribution, rounded, from 0 on; by where the emitter is met (Px Py Pz) "
          "and the ray's direction towards it (Dx Dy Dz); 0: there is one bin"},
         {"-bn N", CustomOption{[&c](OptionWords& words) {
              c.next.bins = c.definitions.count(words.text(), c.next.parameters);
+             c.next_open = true;
          }},
          "number of bins: a constant expression of what -e and -f have defined before"},
-        {"-p NAME=VALUE,...", word_option(c.next.parameters),
+        {"-p NAME=VALUE,...", next_option(c, c.next.parameters),
          "definitions for the expression -b alone"},
         {"-e DEFINITIONS",
          CustomOption{[&c](OptionWords& words) { c.definitions.add_expression(words.text()); }},
@@ -77,7 +83,7 @@ std::vector<OptionRow> record_rows(ContribCommand& c, const LibraryPath& library
     };
     return {
         {"Records", SectionTitle{}},
-        {"-o FILE", word_option(c.next.output),
+        {"-o FILE", next_option(c, c.next.output),
          "where records go; in the name %s stands for the modifier, %d or %04d for the bin: a "
          "file each. Without: standard output"},
         {"-fo", keeps(ExistingOutputs::replace), "replace files that exist"},

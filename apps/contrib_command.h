@@ -30,7 +30,8 @@ struct ContribCommand {
     ExistingOutputs existing = ExistingOutputs::refuse;  ///< -fo -r
     BinDefinitions definitions;                          ///< -e -f
     ModifierRequest next;                                ///< as far as it is known
-    std::vector<ModifierRequest> modifiers;              ///< -m -M
+    bool next_open = false;                  ///< what was said of it holds for no modifier yet
+    std::vector<ModifierRequest> modifiers;  ///< -m -M
 };
 
 /// The options of contrib, which set the command's members; must not outlive it.

@@ -298,6 +298,7 @@ TEST_CASE("contrib: what is wrong is told, and no file is half-written") {
     fails({"-o", "%s%s", "-m", "sky"}, 2, "bad output format \"%s%s\"");
     fails({"-o", "%f", "-m", "sky"}, 2, "bad output format \"%f\"");
     fails({"-o", "!cat", "-m", "sky"}, 2, "is a command");
+    fails({"-m", "sky", "-o", folder.path("%s")}, 2, "hold for the modifiers behind them");
     fails({"-r", "-m", "sky"}, 2, "it needs files to go on with");
     fails({"-af", "x.amb", "-m", "sky"}, 2, "not kept in ambient files");
     fails({"-o", folder.path("%s.dat"), "-m", "sky"}, 1, "standard input:2",
