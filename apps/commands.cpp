@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/contrib_command.h"
 #include "apps/render_command.h"
 #include "apps/trace_command.h"
 
@@ -61,6 +62,17 @@ switches work as in `lightwalk render`. Without -ab the output does not depend o
 A zero direction flushes the output. The input ends at its end, or at a word that is no number.
 
   echo "0 0 1  0 0 -1" | lightwalk trace -h -ovp -av .1 .1 .1 room.rad
+)"},
+    {"contrib", "OPTIONS SCENE...  what light sources bring to rays (like rcontrib)", run_contrib,
+     [] { return own_table(ContribCommand{}); },
+     R"(Tell what surfaces of some modifiers, light sources above all, bring to rays from standard input: coefficients, in bins
+by direction and place. Options are those of Radiance's rcontrib, as are the defaults (-defaults lists them); @FILE,
+$NAME and switches work as in `lightwalk render`. Files appear when they are whole; until then they are named FILE.part.
+)",
+     R"(
+Daylight coefficients of sensors, points and normals, for the 145 patches of the sky and the ground:
+
+  lightwalk contrib -I -ab 3 -ad 4096 -f tregenza.cal -b tbin -bn Ntbins -o %s.dat -m sky room.rad < sensors.txt
 )"},
     {"freeze", "SCENE... -o FILE   a scene in one file, for a quick start", run_freeze,
      freeze_option_table,

@@ -93,7 +93,8 @@ std::vector<OptionRow> common_option_rows(CommonOptions& o) {
                                     {"tbb", ExecutorKind::tbb}}),
          "what runs the work: serial: one thread; threads: the standard library's; tbb: oneTBB"},
         {"Messages and statistics", SectionTitle{"render"}},
-        {"-e FILE", error_file(o.error_file), "append messages to FILE"},
+        {"-e FILE", error_file(o.error_file), "append messages to FILE",
+         With{.commands = ~kContrib}},
         {"--stats FILE.json", &o.stats_file,
          "seconds to read, build and render, rays by kind, rays per second, memory"},
         {"--quiet", &o.quiet, "no progress, no warnings; -w- alone: no warnings"},
@@ -110,7 +111,7 @@ std::vector<OptionRow> common_option_rows(CommonOptions& o) {
                 {{"Help", SectionTitle{}},
                  {"-defaults", &o.show_defaults,
                   "print all options with their values, as the words before it set them",
-                  With{.commands = kRender | kAnimate | kWalk | kTrace}},
+                  With{.commands = kRender | kAnimate | kWalk | kTrace | kContrib}},
                  {"--help", answered, "this text"},
                  {"--version", answered, "the version of Lightwalk"}});
     return rows;

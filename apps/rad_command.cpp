@@ -93,6 +93,16 @@ std::vector<NamedView> listed_views(const RadPlan& plan, const std::string& chos
     return views;
 }
 
+/// For commands that answer rays.
+void finish_rays(const RadPlanPtr& plan, CommonOptions& common) {
+    take_rad_scene(*plan, common);
+    settle_without_scene(*plan, common);
+    common.notices = plan->notices;
+    common.request.settle = [plan](const Scene& scene, RendererOptions& options) {
+        settle_rad_light(*plan, scene, options.light);
+    };
+}
+
 /// Words for standard views need the zone: without one they come from the scene.
 void settle_views(const RadPlan& plan, const std::string& chosen, const RadZone& zone,
                   RenderCommand& command, const Files& files) {
@@ -186,6 +196,11 @@ void take_rad_plan(const RadPlan& plan, const std::string& /*view*/, TraceComman
     take_rad_light(plan, command.common.settings, files);
 }
 
+void take_rad_plan(const RadPlan& plan, const std::string& /*view*/, ContribCommand& command,
+                   const Files& files) {
+    take_rad_light(plan, command.common.settings, files);
+}
+
 void finish_rad_plan(const RadPlanPtr& plan, const std::string& view, RenderCommand& command,
                      const Files& files) {
     CommonOptions& common = command.common;
@@ -205,12 +220,12 @@ void finish_rad_plan(const RadPlanPtr& plan, const std::string& view, RenderComm
 
 void finish_rad_plan(const RadPlanPtr& plan, const std::string& /*view*/, TraceCommand& command,
                      const Files& /*files*/) {
-    take_rad_scene(*plan, command.common);
-    settle_without_scene(*plan, command.common);
-    command.common.notices = plan->notices;
-    command.common.request.settle = [plan](const Scene& scene, RendererOptions& options) {
-        settle_rad_light(*plan, scene, options.light);
-    };
+    finish_rays(plan, command.common);
+}
+
+void finish_rad_plan(const RadPlanPtr& plan, const std::string& /*view*/, ContribCommand& command,
+                     const Files& /*files*/) {
+    finish_rays(plan, command.common);
 }
 
 }  // namespace lightwalk

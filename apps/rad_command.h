@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/contrib_command.h"
 #include "apps/render_command.h"
 #include "apps/trace_command.h"
 #include "io/rad/rad_plan.h"
@@ -36,16 +37,23 @@ void take_rad_plan(const RadPlan& plan, const std::string& view, RenderCommand& 
                    const std::shared_ptr<FileSource>& files);
 void take_rad_plan(const RadPlan& plan, const std::string& view, TraceCommand& command,
                    const std::shared_ptr<FileSource>& files);
+void take_rad_plan(const RadPlan& plan, const std::string& view, ContribCommand& command,
+                   const std::shared_ptr<FileSource>& files);
 // What comes behind these words.
 void finish_rad_plan(const RadPlanPtr& plan, const std::string& view, RenderCommand& command,
                      const std::shared_ptr<FileSource>& files);
 void finish_rad_plan(const RadPlanPtr& plan, const std::string& view, TraceCommand& command,
+                     const std::shared_ptr<FileSource>& files);
+void finish_rad_plan(const RadPlanPtr& plan, const std::string& view, ContribCommand& command,
                      const std::shared_ptr<FileSource>& files);
 
 [[nodiscard]] inline std::string rad_view_of(const RenderCommand& command) {
     return command.rad_view;
 }
 [[nodiscard]] inline std::string rad_view_of(const TraceCommand& /*command*/) {
+    return {};
+}
+[[nodiscard]] inline std::string rad_view_of(const ContribCommand& /*command*/) {
     return {};
 }
 

@@ -1,12 +1,9 @@
 // lightwalk trace: single rays, as rtrace answers them.
-#include <unistd.h>
-
 #include <cstdio>
-#include <deque>
 #include <optional>
 
 #include "apps/command_run.h"
-#include "apps/interrupt.h"
+#include "apps/ray_stream.h"
 #include "apps/session/render_backend.h"
 #include "apps/session/run_header.h"
 #include "apps/session/stopwatch.h"
@@ -23,7 +20,7 @@ class TraceRun final : CommandRun {
         : CommandRun(command.common, communicator),
           command_(command),
           options_(command.common.request.options.rays),
-          reader_(STDIN_FILENO, command.formats.input) {
+          stream_(command.formats.input) {
         prepare_output();
         resolve_scene_files(command_.common, "the rays", files);
         check();
@@ -42,7 +39,7 @@ class TraceRun final : CommandRun {
         else if (speaks())
             status = trace(nullptr);  // trees are told one after the other
         // After the answers to all rays before it, and when no rank waits for another any more.
-        if (speaks() && !reader_.problem().empty()) throw InputError(reader_.problem());
+        if (speaks() && !reader().problem().empty()) throw InputError(reader().problem());
         return status;
     }
 
@@ -59,9 +56,9 @@ class TraceRun final : CommandRun {
             const Stopwatch watch;
             put_header(backend.session().compiled().model());
             answer_all(renderer);
-            if (expected_ > 0 && read_ < expected_) warnings().warn("unexpected EOF on input");
-            if (reader_.misaligned_line() > 0)
-                warnings().warn("standard input:" + std::to_string(reader_.misaligned_line()) +
+            if (stream_.ended_early()) warnings().warn("unexpected EOF on input");
+            if (reader().misaligned_line() > 0)
+                warnings().warn("standard input:" + std::to_string(reader().misaligned_line()) +
                                 ": a ray begins within this line and ends in another one, "
                                 "expected six numbers a line");
             flush();
@@ -87,41 +84,17 @@ class TraceRun final : CommandRun {
         return task;
     }
 
+    [[nodiscard]] const RayReader& reader() const { return stream_.reader(); }
     [[nodiscard]] RenderOptions& light() { return command_.common.settings.light; }
 
-    /// All rays to the renderer, as many at a time as it asks for; their answers to the output.
     void answer_all(Renderer& renderer) {
-        bool more = true, wanted = true;
-        while (!interrupt_flag().requested() && (more || !lists_.empty())) {
-            // Where there is nothing to read for, something else has to come.
-            const RayDemand demand = renderer.ray_demand(!(more && wanted));
-            wanted = demand.lists > 0;
-            if (demand.answered) {
-                if (!put_answer(renderer)) return;
-            } else if (more && wanted) {
-                more = read_batch(demand.rays);
-                if (more) give_batch(renderer);
-            }
-        }
-    }
-
-    void give_batch(Renderer& renderer) {
-        const std::uint64_t first = read_ - queries_.size();
-        lists_.push_back(renderer.start(RayTask{std::move(queries_), first}));
-        if (!flush_due_) return;
-        while (!lists_.empty() && put_answer(renderer)) {
-        }
-        flush();
-    }
-
-    /// Of the oldest list. False: stopped.
-    bool put_answer(Renderer& renderer) {
-        const std::optional<RayBytes> answer = renderer.finish(lists_.front());
-        lists_.pop_front();
-        if (!answer) return false;
-        output_ += answer->bytes;
-        if (output_.size() >= kEnough) flush();
-        return true;
+        stream_.answer_all(
+            renderer,
+            [this](const std::string& bytes) {
+                output_ += bytes;
+                if (output_.size() >= kEnough) flush();
+            },
+            [this] { flush(); });
     }
 
     // Input and output.
@@ -152,10 +125,13 @@ class TraceRun final : CommandRun {
                                                             light().ambient_super_samples <= 0);
         if (tree_ && !exact && tree_->asks_for_coefficients())
             warnings().warn("-otV and -otW are only accurate with -aa 0 -as 0");
+        RayStreamLimits limits;
+        limits.row = command_.x;
         if (command_.y > 0)
-            expected_ =
+            limits.expected =
                 static_cast<std::uint64_t>(command_.y) *
                 (command_.x > 1 && command_.y > 1 ? static_cast<std::uint64_t>(command_.x) : 1);
+        stream_.limit(limits);
     }
 
     void put_header(const Model& model) {
@@ -176,24 +152,6 @@ class TraceRun final : CommandRun {
         if (!output_.empty()) flush();
     }
 
-    /// Read rays until the batch is full or an answer is due. False: there are no more.
-    bool read_batch(std::size_t most) {
-        queries_.clear();
-        flush_due_ = false;
-        while (queries_.size() < most && !flush_due_ && (expected_ == 0 || read_ < expected_)) {
-            const std::optional<InputRay> ray = reader_.next();
-            if (!ray) break;
-            queries_.push_back({ray->origin, ray->direction});
-            ++read_;
-            const bool row_ends = command_.x > 0 && ++in_row_ >= command_.x;
-            if (row_ends) in_row_ = 0;
-            // Who sends rays through a pipe and waits for answers does so at a row's end or with a
-            // zero direction.
-            flush_due_ = (ray->is_flush() || row_ends) && reader_.drained();
-        }
-        return !queries_.empty();
-    }
-
     void flush() {
         write_to_stdout(output_);
         output_.clear();
@@ -203,14 +161,9 @@ class TraceRun final : CommandRun {
     RayListOptions& options_;            ///< of the command
     std::optional<RayRecords> records_;  ///< not with trees alone
     std::optional<RayTree> tree_;        ///< -ot -oT
-    RayReader reader_;
+    RayStream stream_;
     const Scene* scene_ = nullptr;  ///< that records name parts of
-    std::vector<RayQuery> queries_;
-    std::deque<Ticket<RayBytes>> lists_;  ///< that were started
     std::string output_;
-    std::uint64_t read_ = 0, expected_ = 0;
-    int in_row_ = 0;
-    bool flush_due_ = false;
 };
 
 }  // namespace

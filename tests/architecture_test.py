@@ -23,7 +23,7 @@ FORBIDDEN_HEADERS = {
 ORDER = {
     "core": [".", "math", "spectrum", "bsdf", "model", "view", "glare", "function", "geometry", "scene", "plan", "transport", "texture", "light", "virtual_source", "material", "ambient", "batch", "trace", "cloud"],
     "parallel": ["comm", "fibers", ".", "walk", "work_queue", "ranks"],
-    "io": ["files", "formats", "photometry", "options", "picture", "openimageio", "ambient", "rays", "language", "wavefront", "gltf", "bsdf", "generators", "scene", "rad", "net"],
+    "io": ["files", "formats", "photometry", "options", "picture", "openimageio", "ambient", "rays", "contributions", "language", "wavefront", "gltf", "bsdf", "generators", "scene", "rad", "net"],
 }
 
 def wrong_includes(root):

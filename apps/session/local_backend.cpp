@@ -63,11 +63,12 @@ LiveFrames& LocalBackend::frames() {
 
 std::optional<std::string> LocalBackend::finish(const RayTask& list) {
     if (stop().requested()) return std::nullopt;
-    std::vector<std::string> records((list.rays.size() + kRaysPerTask - 1) / kRaysPerTask);
+    const std::size_t per_task = options_.long_rays ? 1 : kRaysPerTask;
+    std::vector<std::string> records((list.rays.size() + per_task - 1) / per_task);
     contexts_.reset_counters();
     trace_ray_list(session_.tracer(), contexts_, list.rays, list.first, ray_options(), *executor_,
-                   [&](std::size_t i, const Ray& ray, const Hit& first) {
-                       options_.record(list.rays[i], ray, first, records[i / kRaysPerTask]);
+                   per_task, [&](std::size_t i, int worker, const Ray& ray, const Hit& first) {
+                       record(worker, list.rays[i], ray, first, records[i / per_task]);
                    });
     statistics_.rays += contexts_.rays();
     statistics_.ambient += contexts_.ambient();

@@ -30,6 +30,11 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
     if (!options_.record)
         options_.record = [](const RayQuery&, const Ray& ray, const Hit& first,
                              std::string& bytes) { append_ray_answer(ray, first, bytes); };
+    for (int worker = 0; options_.make_tally && worker < contexts_.size(); ++worker) {
+        tallies_.push_back(options_.make_tally(session_.tracer()));
+        contexts_[worker].contributions = tallies_.back().get();
+        contexts_[worker].observer = tallies_.back()->observer();
+    }
     RenderOptions direct = session_.tracer().options();
     if (!options_.steered || direct.ambient_bounces == 0) return;
     direct.ambient_bounces = 0;
@@ -116,9 +121,17 @@ std::string RenderBackend::answer_rays(const RayTask& list, int worker) {
     std::string all;
     trace_rays(session_.tracer(), contexts_[worker], list.rays, list.first, ray_options(),
                [&](std::size_t i, const Ray& ray, const Hit& first) {
-                   options_.record(list.rays[i], ray, first, all);
+                   record(worker, list.rays[i], ray, first, all);
                });
     return all;
+}
+
+void RenderBackend::record(int worker, const RayQuery& query, const Ray& ray, const Hit& first,
+                           std::string& bytes) const {
+    if (tallies_.empty())
+        options_.record(query, ray, first, bytes);
+    else
+        tallies_[static_cast<std::size_t>(worker)]->take(bytes);
 }
 
 RunStatistics RenderBackend::statistics() const {

@@ -11,6 +11,7 @@
 #include "apps/session/run_statistics.h"
 #include "apps/session/scene_session.h"
 #include "core/math/function_ref.h"
+#include "core/trace/ray_tally.h"
 #include "core/view/view.h"
 #include "parallel/cache_prepass.h"
 #include "parallel/executor.h"
@@ -93,6 +94,9 @@ class RenderBackend {
     [[nodiscard]] virtual bool prepare(const PictureRequest& /*request*/, bool /*first*/) {
         return true;
     }
+    /// Appends the record of a finished ray to `bytes`.
+    void record(int worker, const RayQuery& query, const Ray& ray, const Hit& first,
+                std::string& bytes) const;
     /// The records of a list's rays, by one thread.
     [[nodiscard]] std::string answer_rays(const RayTask& list, int worker);
     [[nodiscard]] RayListOptions ray_options() const;
@@ -105,6 +109,7 @@ class RenderBackend {
                                             ///< null: there is none anyway
     std::unique_ptr<Executor> executor_;
     WorkerContexts contexts_;
+    std::vector<std::unique_ptr<RayTally>> tallies_;  ///< one a worker; none: see make_tally
     RunStatistics statistics_;
 
   private:

@@ -7,6 +7,7 @@
 
 #include "core/ambient/derivatives.h"
 #include "core/math/direction_code.h"
+#include "core/transport/contribution.h"
 
 namespace lightwalk {
 namespace {
@@ -182,12 +183,26 @@ Rgb AmbientCalculation::constant(const Rgb& coef) const {
     return coef * static_cast<float>(std::exp(stored.sum / k + h));
 }
 
+Rgb AmbientCalculation::told_constant(const Ray& ray, const Rgb& coef,
+                                      TraceContext& context) const {
+    const Rgb value = constant(coef);
+    if (context.contributions)
+        tell_constant(ray, path_throughput(ray) * coef, constant({1, 1, 1}),
+                      *context.contributions);
+    return value;
+}
+
+/// Cached values are sums of the light of many emitters.
+bool AmbientCalculation::uses_cache(const TraceContext& context) const {
+    return cache_ && tracer_.options().ambient_accuracy > kEpsilon && !context.contributions;
+}
+
 Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
                             TraceContext& context) const {
     const RenderOptions& options = tracer_.options();
     if (options.ambient_divisions <= 0 || context.path.ambient_level >= options.ambient_bounces ||
         !takes_part(ray)) {
-        return constant(coef);
+        return told_constant(ray, coef, context);
     }
     const bool far_side = dot(normal, ray.hit.normal) < 0;
     const Request request{ray,
@@ -196,13 +211,12 @@ Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
                            context.path.ambient_level, ray.weight},
                           far_side,
                           context};
-    return cache_ && options.ambient_accuracy > kEpsilon ? with_cache(request)
-                                                         : without_cache(request);
+    return uses_cache(context) ? with_cache(request) : without_cache(request);
 }
 
 bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
     const RenderOptions& options = tracer_.options();
-    return cache_ && options.ambient_accuracy > kEpsilon && options.ambient_divisions > 0 &&
+    return uses_cache(context) && options.ambient_divisions > 0 &&
            context.path.ambient_level < options.ambient_bounces &&
            (context.ambient.new_records || cache_->takes_values());
 }
@@ -215,7 +229,7 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     const double divisions =
         std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
     sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
-    if (request.context.ambient.missing == nullptr) {
+    if (request.context.ambient.missing == nullptr && request.context.contributions == nullptr) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
     }
@@ -242,12 +256,14 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
 Rgb AmbientCalculation::without_cache(const Request& request) const {
     const RenderOptions& options = tracer_.options();
     const auto peak = static_cast<double>(max_component(request.coef));
-    if (peak <= kEpsilon) return constant(request.coef);
+    const auto none = [&] { return told_constant(request.ray, request.coef, request.context); };
+    if (peak <= kEpsilon) return none();
     const double weight = request.query.weight;
     const double most =
         0.8 * peak * weight / (options.ambient_divisions * options.weight_limit + 1e-20);
     const Hemisphere h = sample(request, request.coef, std::min(weight, most), false);
-    if (h.succeeded == 0) return constant(request.coef);
+    if (h.succeeded == 0) return none();
+    if (request.context.contributions) return h.sum;
     const Vec3& n = request.query.shading_normal;
     if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions)
         return h.sum;

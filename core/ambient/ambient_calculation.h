@@ -47,6 +47,9 @@ class AmbientCalculation {
     };
     [[nodiscard]] bool takes_part(const Ray& ray) const;
     [[nodiscard]] Rgb constant(const Rgb& coef) const;
+    /// The same, of which the context's sink is told.
+    [[nodiscard]] Rgb told_constant(const Ray& ray, const Rgb& coef, TraceContext& context) const;
+    [[nodiscard]] bool uses_cache(const TraceContext& context) const;
     [[nodiscard]] Rgb without_cache(const Request& request) const;
     [[nodiscard]] AmbientSum known(const Request& request) const;
     [[nodiscard]] Rgb with_cache(const Request& request) const;

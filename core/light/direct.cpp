@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/light/direct_calculation.h"
+#include "core/transport/contribution.h"
 
 namespace lightwalk {
 namespace {
@@ -67,7 +68,8 @@ void DirectCalculation::run(std::span<const DirectRequest> requests) {
 /// Which of the point's candidates are to be tested, and in which order.
 void DirectCalculation::plan(ShadingPoint& point) {
     const RenderOptions& options = tracer_.options();
-    bool all = options.shadow_threshold <= 0 || point.count <= kFirstBlock;
+    bool all =
+        options.shadow_threshold <= 0 || point.count <= kFirstBlock || context_.contributions;
     for (std::size_t i = 0; i < point.count && !all && point.count <= kFewPatterned; ++i)
         all = ranked(point, i).state == CandidateState::unknown;
     point.adaptive = !all;
@@ -127,6 +129,7 @@ bool DirectCalculation::select_tests() {
 
 void DirectCalculation::sum_tested(ShadingPoint& point) {
     if (point.tested == point.block_end) return;
+    if (context_.contributions) tell_tested(point, *context_.contributions);
     Rgb& value = point.ray->value;
     for (; point.tested < point.block_end; ++point.tested) {
         const LightCandidate& candidate = ranked(point, point.tested);
@@ -135,6 +138,25 @@ void DirectCalculation::sum_tested(ShadingPoint& point) {
         point.tally.expected += static_cast<double>(lights_[candidate.source].hit_rate);
     }
     point.tally.brightness = brightness(value);
+}
+
+/// The contributions that sum_tested() adds, but for those of traced shadow rays: these have told
+/// of what they met.
+void DirectCalculation::tell_tested(const ShadingPoint& point, ContributionSink& sink) const {
+    if (point.ray->aimed) return;
+    const Rgb throughput = path_throughput(*point.ray);
+    for (std::size_t i = point.tested; i < point.block_end; ++i) {
+        const LightCandidate& candidate = ranked(point, i);
+        if (candidate.needs_shading || candidate.state != CandidateState::lit) continue;
+        const LightSource& source = lights_[candidate.source];
+        const bool distant = source.is_distant();
+        const Vec3 position =
+            distant ? point.position : point.position + candidate.direction * candidate.distance;
+        const Rgb left = transmittance(point.ray->medium, candidate.distance, true);
+        tell({tracer_.scene().surface(source.object).modifier(), candidate.direction, position,
+              throughput * candidate.coefficient * left, throughput * candidate.contribution},
+             sink);
+    }
 }
 
 void DirectCalculation::add_untested(ShadingPoint& point) {

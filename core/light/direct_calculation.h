@@ -97,6 +97,7 @@ class DirectCalculation {
     void rank(ShadingPoint& point);
     [[nodiscard]] bool select_tests();
     void sum_tested(ShadingPoint& point);
+    void tell_tested(const ShadingPoint& point, ContributionSink& sink) const;
     void add_untested(ShadingPoint& point);
     [[nodiscard]] const ShadingPoint& point_of(const LightCandidate& candidate) const {
         return scratch_.points[candidate.point];

@@ -79,7 +79,10 @@ void DirectCalculation::test_plainly() {
 
 /// Whether the candidate has to be traced in any case.
 bool DirectCalculation::mark_needs_shading(LightCandidate& candidate) const {
-    candidate.needs_shading = needs_tracing(lights_[candidate.source], point_of(candidate));
+    const LightSource& source = lights_[candidate.source];
+    // What is known of a virtual source is what it brings, not by which coefficient.
+    candidate.needs_shading = needs_tracing(source, point_of(candidate)) ||
+                              (context_.contributions && source.is_virtual());
     return candidate.needs_shading;
 }
 
@@ -148,6 +151,7 @@ void DirectCalculation::trace_shadow(LightCandidate& candidate) {
     shadow.target = candidate.source;
     tracer_.trace(shadow, context_);
     if (!shadow.hit.exists()) {  // at the aft clipping plane: what lies beyond does not shadow
+        candidate.needs_shading = false;
         set_seen(candidate);
     } else if (static_cast<double>(mean(shadow.value)) > kEpsilon) {
         candidate.state = CandidateState::lit;

@@ -47,9 +47,11 @@ void LightSources::add_in_scatter(Ray& ray, TraceContext& context) const {
             to_light.direction = sample->direction;
             to_light.target = index;
             ++context.counters.rays.shadow;
-            context.tracer.trace(to_light, context);
             const double weight = sample->solid_angle / (4 * kPi) *
                                   phase(g, dot(ray.direction, sample->direction)) * step;
+            // The way back through the medium is that of `at_step`.
+            to_light.coef = medium.albedo * medium.extinction * static_cast<float>(weight);
+            context.tracer.trace(to_light, context);
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto extinction = static_cast<double>(medium.extinction[c]);
                 ray.value[c] +=

@@ -6,6 +6,7 @@
 #include "core/material/argument_checks.h"
 #include "core/material/surface_side.h"
 #include "core/scene/modifier.h"
+#include "core/transport/contribution.h"
 
 namespace lightwalk {
 namespace {
@@ -25,6 +26,7 @@ class Light final : public Modifier {
     [[nodiscard]] bool far_glow(double distance) const;
     [[nodiscard]] bool misses(const Ray& ray, const LightSource* target) const;
     [[nodiscard]] bool shade_alternate(Ray& ray, TraceContext& context) const;
+    [[nodiscard]] Rgb emission(Ray& ray, TraceContext& context) const;
 
     PrimitiveType type_;
     ModifierId next_;
@@ -86,15 +88,23 @@ bool Light::shade(Ray& ray, TraceContext& context) const {
         ray.coef = {};
         return true;
     }
-    if (ray.hit.cos_out < 0) {
-        if (!tracer.options().back_faces_visible) tracer.pass_through(ray, context);
+    if (ray.hit.cos_out < 0 && !tracer.options().back_faces_visible) {
+        tracer.pass_through(ray, context);
         return true;
     }
-    if (type_ == PrimitiveType::spotlight && outside_spot(cone_, ray.origin, ray.direction))
-        return true;
-    tracer.apply_textures(ray, next_, context);
-    ray.value = color_ * ray.pattern;
+    ray.value = emission(ray, context);
+    // Where it sends nothing, too: the coefficient is asked for.
+    if (context.contributions) tell_emission(ray, *context.contributions);
     return true;
+}
+
+/// Le towards the ray's origin [W/(m² sr)].
+Rgb Light::emission(Ray& ray, TraceContext& context) const {
+    if (ray.hit.cos_out < 0) return {};
+    if (type_ == PrimitiveType::spotlight && outside_spot(cone_, ray.origin, ray.direction))
+        return {};
+    context.tracer.apply_textures(ray, next_, context);
+    return color_ * ray.pattern;
 }
 
 }  // namespace

@@ -21,6 +21,17 @@ namespace lightwalk {
     return specular_samples >= 0 && specular_samples < 1 ? 1 - specular_samples * xi : xi;
 }
 
+/// How many trials add_rough_samples() will need for `count` samples.
+template <class Draw>
+int count_trials(Ray& ray, int count, const Draw& draw) {
+    const RandomStream before = ray.random;
+    int accepted = 0, trials = 0;
+    for (; accepted < count && trials < 10 * count; ++trials)
+        if (draw(ray) && accepted++ > 0) (void)ray.random.child();
+    ray.random = before;
+    return trials;
+}
+
 /// Trace the samples of a lobe and add what they see to ray.value. A trial that gives nothing is
 /// drawn again, up to ten times a sample in the mean: the density of what is traced is the lobe's
 /// over the probability that a trial is accepted.
@@ -38,6 +49,13 @@ void add_rough_samples(Ray& ray, RayKind kind, const Rgb& coef, TraceContext& co
     const int count = rough_sample_count(tracer.options(), ray.weight, prototype.weight);
     prototype.coef *= 1.0f / static_cast<float>(count);
     prototype.weight /= count;
+    const bool scaled = share_of_trials && count > 1;
+    const auto scale = [&](int trials) {
+        return static_cast<float>(count) / static_cast<float>(trials);
+    };
+    // Who is told the terms of the radiance needs the scale before the samples are traced.
+    const float told_scale =
+        scaled && context.contributions ? scale(count_trials(ray, count, draw)) : 1;
     Rgb sum;
     int accepted = 0, trials = 0;
     for (; accepted < count && trials < 10 * count; ++trials) {
@@ -46,10 +64,13 @@ void add_rough_samples(Ray& ray, RayKind kind, const Rgb& coef, TraceContext& co
         Ray sample = prototype;
         if (accepted++ > 0) sample.random = ray.random.child();
         sample.direction = *direction;
+        const auto factor = static_cast<float>(weight(*direction, count));
+        sample.coef *= factor * told_scale;
         tracer.trace(sample, context);
-        sum += sample.value * sample.coef * static_cast<float>(weight(*direction, count));
+        // What must not be counted sets the coefficient to 0.
+        if (sample.coef != Rgb{}) sum += sample.value * prototype.coef * factor;
     }
-    if (share_of_trials && count > 1) sum *= static_cast<float>(count) / static_cast<float>(trials);
+    if (scaled) sum *= scale(trials);
     ray.value += sum;
 }
 

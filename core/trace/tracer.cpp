@@ -8,6 +8,7 @@
 #include "core/batch/shading_batch.h"
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
+#include "core/transport/contribution.h"
 #include "core/virtual_source/virtual_sources.h"
 
 namespace lightwalk {
@@ -236,17 +237,14 @@ void Tracer::apply_medium(Ray& ray, TraceContext& context) const {
     const Medium& medium = ray.medium;
     if (max_component(medium.extinction) <= 1e-10f) return;
     const bool shadow = ray.in(kShadow);
-    Rgb left;
-    for (std::size_t i = 0; i < 3; ++i) {
-        double depth = ray.hit.t * static_cast<double>(medium.extinction[i]);
-        if (shadow) depth *= 1 - static_cast<double>(medium.albedo[i]);
-        left[i] = depth <= kEpsilon ? 1.0f
-                  : depth > 92      ? 0.0f
-                                    : static_cast<float>(std::exp(-depth));
-    }
+    const Rgb left = transmittance(medium, ray.hit.t, shadow);
     ray.value *= left;
     if (shadow || max_component(medium.albedo) <= static_cast<float>(kEpsilon)) return;
     ray.value += medium.albedo * options().ambient_value * (Rgb{1, 1, 1} - left);
+    if (context.contributions) {
+        const Rgb coefficient = path_coefficient(ray) * medium.albedo * (Rgb{1, 1, 1} - left);
+        tell_constant(ray, coefficient, options().ambient_value, *context.contributions);
+    }
     lights_->add_in_scatter(ray, context);
 }
 

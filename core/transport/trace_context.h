@@ -14,6 +14,7 @@
 
 namespace lightwalk {
 
+class ContributionSink;
 class Fibers;
 class LightTransport;
 class ShadingBatch;
@@ -121,7 +122,8 @@ struct TraceContext {
     const LightTransport& tracer;
     WarningSink& warnings;
     TraceCounters counters;
-    RayObserver* observer = nullptr;  ///< told of every ray; null: nobody watches
+    RayObserver* observer = nullptr;            ///< told of every ray; null: nobody watches
+    ContributionSink* contributions = nullptr;  ///< told the terms of radiance; null: nobody asks
     PathState path;
     FunctionScratch functions;
     Opaque<LightScratch> light{nullptr, nullptr};  ///< buffers of direct light; made when needed

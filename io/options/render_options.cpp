@@ -192,6 +192,16 @@ RenderSettings default_render_settings(OptionDefaults program) {
     settings.light.ambient_divisions = 1024;
     settings.light.ambient_super_samples = 512;
     settings.light.reflection_limit = -10;
+    if (program == OptionDefaults::rtrace) return settings;
+    settings.light.shadow_threshold = 0;
+    settings.light.source_jitter = 0.9;
+    settings.light.redirections = 3;
+    settings.light.specular_threshold = 0.02;
+    settings.light.ambient_bounces = 1;
+    settings.light.ambient_accuracy = 0;
+    settings.light.ambient_divisions = 350;
+    settings.light.ambient_super_samples = 0;
+    settings.light.weight_limit = 2e-3;
     return settings;
 }
 

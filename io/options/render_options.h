@@ -19,8 +19,8 @@ struct RenderSettings {
     bool warnings = true;       ///< -w
 };
 
-/// Whose defaults: they differ. Source: the manual pages rpict(1) and rtrace(1).
-enum class OptionDefaults { rpict, rtrace };
+/// Whose defaults: they differ. Source: the manual pages rpict(1), rtrace(1) and rcontrib(1).
+enum class OptionDefaults { rpict, rtrace, rcontrib };
 [[nodiscard]] RenderSettings default_render_settings(OptionDefaults program);
 
 /// The rows of all rendering options, and of Radiance's that Lightwalk refuses by name (photon

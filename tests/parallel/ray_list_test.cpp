@@ -35,8 +35,8 @@ std::vector<Answer> trace(TestScene& scene, const std::vector<RayQuery>& queries
     const std::unique_ptr<Executor> executor = make_executor(kind, workers);
     WorkerContexts contexts(scene.tracer, scene.warnings, executor->concurrency());
     std::vector<Answer> answers(queries.size());
-    trace_ray_list(scene.tracer, contexts, queries, first, options, *executor,
-                   [&](std::size_t i, const Ray& ray, const Hit&) {
+    trace_ray_list(scene.tracer, contexts, queries, first, options, *executor, kRaysPerTask,
+                   [&](std::size_t i, int, const Ray& ray, const Hit&) {
                        answers[i] = {ray.value, ray.hit.t, ray.hit.position, ray.hit.exists()};
                    });
     return answers;

@@ -27,7 +27,9 @@ namespace lightwalk {
 
 class CheckpointSink;
 class RayObserver;
+class RayTally;
 class RenderBackend;
+class Tracer;
 struct CloudOptions;
 struct Hit;
 struct Ray;
@@ -84,7 +86,11 @@ struct RendererOptions {
     /// is those of its rays one after the other. Called by many threads. None: RayResults.
     std::function<void(const RayQuery& query, const Ray& ray, const Hit& first, std::string& bytes)>
         record;
-    RayListOptions rays;  ///< what ray lists ask for
+    /// Makes, for each thread, what answers ray lists in place of `record`: of the terms of their
+    /// radiance. None: `record` does.
+    std::function<std::unique_ptr<RayTally>(const Tracer& tracer)> make_tally;
+    bool long_rays = false;  ///< rays of lists take long: they are dealt out one by one
+    RayListOptions rays;     ///< what ray lists ask for
 };
 
 /// The options with which points are reused from frame to frame where nothing else is said.

@@ -1,0 +1,118 @@
+#include "io/contributions/contribution_tally.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/light/light_sources.h"
+
+namespace lightwalk {
+namespace {
+
+/// The type of the material at the end of a modifier's chain; nothing where there is none.
+std::optional<PrimitiveType> material_type(const Scene& scene, ModifierId modifier) {
+    const std::optional<ModifierId> material = scene.material_of(modifier);
+    if (!material) return std::nullopt;
+    return scene.modifier(*material).type;
+}
+
+/// A placed octree may have modifiers of names that the scene has, too.
+std::vector<ModifierId> modifiers_named(const Scene& scene, const std::string& name) {
+    std::vector<ModifierId> found;
+    for (std::size_t i = 0; i < scene.modifier_count(); ++i) {
+        const ModifierId id{static_cast<std::int32_t>(i)};
+        if (scene.modifier(id).name == name) found.push_back(id);
+    }
+    return found;
+}
+
+}  // namespace
+
+std::size_t column_count(const std::vector<TrackedModifier>& tracked) {
+    std::size_t columns = 0;
+    for (const TrackedModifier& modifier : tracked) columns += modifier.bins;
+    return columns;
+}
+
+std::vector<std::string> missing_modifiers(const Scene& scene,
+                                           const std::vector<TrackedModifier>& tracked) {
+    std::vector<std::string> missing;
+    for (const TrackedModifier& modifier : tracked)
+        if (modifiers_named(scene, modifier.name).empty()) missing.push_back(modifier.name);
+    return missing;
+}
+
+ContributionTally::ContributionTally(const Tracer& tracer,
+                                     const std::vector<TrackedModifier>& tracked, bool values,
+                                     WarningSink& warnings)
+    : tracer_(tracer),
+      places_(tracer.scene().modifier_count()),
+      sums_(3 * column_count(tracked)),
+      warnings_(warnings),
+      values_(values) {
+    const Scene& scene = tracer.scene();
+    std::size_t first = 0;
+    for (const TrackedModifier& modifier : tracked) {
+        for (const ModifierId id : modifiers_named(scene, modifier.name)) {
+            if (!scene.modifier(id).node) continue;  // no surface has it
+            const std::optional<PrimitiveType> type = material_type(scene, id);
+            const bool emits = type && is_light(*type);
+            const bool watched = !emits || type == PrimitiveType::illum;
+            places_[static_cast<std::size_t>(index(id))] = {&modifier, first, emits, watched};
+            watches_ = watches_ || watched;
+        }
+        first += modifier.bins;
+    }
+}
+
+const ContributionTally::Place* ContributionTally::place_of(ModifierId modifier) const {
+    if (modifier == kVoid) return nullptr;
+    const Place& place = places_[static_cast<std::size_t>(index(modifier))];
+    return place.tracked ? &place : nullptr;
+}
+
+void ContributionTally::add(const Contribution& term) {
+    const Place* const place = place_of(term.modifier);
+    if (place && place->emits)
+        count(*place, term.direction, term.position, values_ ? term.value : term.coefficient);
+}
+
+void ContributionTally::finished(const Ray& ray, const Hit& /*first*/) {
+    if (!ray.hit.exists()) return;
+    const Place* const place = place_of(ray.hit.modifier);
+    if (!place || !place->watched) return;
+    // Of an illum a shadow ray's emission was told.
+    if (ray.in(kShadow) && (place->emits || !meets_target(ray))) return;
+    count(*place, ray.direction, ray.hit.position,
+          values_ ? path_coefficient(ray) * ray.value : path_throughput(ray));
+}
+
+/// Whether a ray hits what it was sent to.
+bool ContributionTally::meets_target(const Ray& ray) const {
+    return ray.target != kNoTarget && ray.hit.surface == tracer_.lights()[ray.target].object;
+}
+
+void ContributionTally::count(const Place& place, const Vec3& direction, const Vec3& position,
+                              const Rgb& amount) {
+    const auto bin = chooser_.choose(place.tracked->bin, direction, position);
+    if (!bin) return;
+    if (*bin >= place.tracked->bins) {
+        if (!std::exchange(warned_, true))
+            warnings_.warn("what modifier \"" + place.tracked->name + "\" brings to bin " +
+                           std::to_string(*bin) + " of " + std::to_string(place.tracked->bins) +
+                           " (-bn) is left out, as to others beyond");
+        return;
+    }
+    double* const sum = &sums_[3 * (place.first + *bin)];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto part = static_cast<double>(amount[k]);
+        if (std::isfinite(part)) sum[k] += part;
+    }
+}
+
+void ContributionTally::take(std::string& bytes) {
+    bytes.append(reinterpret_cast<const char*>(sums_.data()), sums_.size() * sizeof(double));
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+}
+
+}  // namespace lightwalk
