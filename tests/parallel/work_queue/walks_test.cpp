@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/ranks/tracer_inbox.h"
+#include "tests/one_thread.h"
 #include "tests/parallel/work_queue/rank_network.h"
 
 using namespace lightwalk;
@@ -179,7 +180,8 @@ class Walk final : public RankNetwork {
 
 }  // namespace
 
-TEST_CASE("a walk over ranks: each pixel is traced once, and each frame ends, in 1000 schedules") {
+TEST_CASE("a walk over ranks: each pixel is traced once, and each frame ends, in 1000 schedules" *
+          one_thread) {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         CAPTURE(seed);
         WalkOptions options;
