@@ -21,6 +21,8 @@ template <class Wire>
 void visit_fields(Wire& wire, PixelPlace& place) {
     wire(place.x, place.y);
 }
+template <>
+inline constexpr bool wire::kPlain<PixelPlace> = sizeof(PixelPlace) == 2 * sizeof(int);
 template <class Wire>
 void visit_fields(Wire& wire, PixelRectangle& r) {
     wire(r.x0, r.y0, r.x1, r.y1);
@@ -29,6 +31,8 @@ template <class Wire>
 void visit_fields(Wire& wire, PixelValue& value) {
     wire(value.radiance, value.distance);
 }
+template <>
+inline constexpr bool wire::kPlain<PixelValue> = sizeof(PixelValue) == 4 * sizeof(float);
 template <class Wire>
 void visit_fields(Wire& wire, View& v) {
     wire(v.type, v.position, v.direction, v.up, v.horizontal, v.vertical, v.fore, v.aft, v.shift,

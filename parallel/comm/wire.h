@@ -42,6 +42,11 @@ inline constexpr bool is_variant<std::variant<Kinds...>> = true;
 template <class Enumeration>
 inline constexpr int kEnumerators = 0;
 
+/// Whether values of a type lie in memory as on the wire, numbers one behind the other: lists of
+/// them are copied as a whole.
+template <class T>
+inline constexpr bool kPlain = std::is_arithmetic_v<T>;
+
 [[noreturn]] inline void refuse(const char* problem) {
     throw InputError(std::string("bytes of another rank ") + problem);
 }
@@ -94,7 +99,7 @@ class Wire {
 
     template <class List>
     void elements(List& list) {
-        if constexpr (std::is_arithmetic_v<typename List::value_type>)
+        if constexpr (kPlain<typename List::value_type>)
             self().raw(list.data(), list.size() * sizeof list[0]);
         else
             for (auto& element : list) one(element);

@@ -71,9 +71,19 @@ void add_report(const CloudReport& part, CloudReport& all) {
                             part.audit_floors.end());
 }
 
+/// The pixels of a part. @param decoded  holds them where the part has them compressed
+const std::vector<PixelValue>& values_of(const FramePart& part, std::vector<PixelValue>& decoded) {
+    if (const auto* bytes = std::get_if<std::string>(&part.pixels))
+        return decoded = decode_piece(part.area, *bytes);
+    const auto& values = std::get<std::vector<PixelValue>>(part.pixels);
+    if (values.size() != part.area.pixels()) refuse_parts();
+    return values;
+}
+
 void put_together(const Parts& parts, int width, AssembledFrame& whole) {
     for (const FramePart* part : parts) {
-        const std::vector<PixelValue> values = decode_piece(part->area, part->pixels);
+        std::vector<PixelValue> decoded;
+        const std::vector<PixelValue>& values = values_of(*part, decoded);
         std::vector<std::uint8_t> known(values.size(), 1);
         for (const std::uint32_t i : part->unknown) {
             if (i >= known.size()) refuse_parts();

@@ -74,9 +74,7 @@ class RankFrameExchange final : public FrameExchange {
                 return inbox_.next_run(order_.number, stop);
             };
             while (const std::optional<PixelRun> run = next())
-                link_.finish_work({FinishedWork::Payload::pixels, 0,
-                                   static_cast<std::uint32_t>(run->places.size()), 0},
-                                  trace_run(*run, tracer, sample, worker));
+                finish(trace_run(*run, tracer, sample, worker));
         });
     }
 
@@ -112,16 +110,19 @@ class RankFrameExchange final : public FrameExchange {
     [[nodiscard]] TracedRun trace_run(const PixelRun& run, const UncachedPixelTracer& tracer,
                                       int sample, int worker) const {
         const auto count = static_cast<std::uint32_t>(run.places.size());
-        TracedRun result{run.frame, run.owner, run.first, count, std::nullopt};
-        if (!run.at_once && tracer.is_late()) return result;
+        TracedRun result{run.frame, run.owner, run.first, count, {}};
         const TimedActivity tracing(link_.timeline(), worker, Activity::trace);
-        std::vector<TracedPixelResult>& all = result.traced.emplace(count);
-        const auto keep = [&](std::size_t first, std::span<const TracedPixelResult> traced) {
-            std::copy(traced.begin(), traced.end(),
-                      all.begin() + static_cast<std::ptrdiff_t>(first));
+        const auto keep = [&](std::size_t, std::span<const TracedPixelResult> traced) {
+            result.traced.insert(result.traced.end(), traced.begin(), traced.end());
         };
-        tracer.trace_part(run.places, run.noise_pairs ? 1 : sample, worker, keep);
+        tracer.trace_part(run.places, run.noise_pairs ? 1 : sample, worker, run.at_once, keep);
         return result;
+    }
+
+    void finish(TracedRun run) {
+        FinishedWork finished{FinishedWork::Payload::pixels, 0, run.count, 0};
+        if (run.traced.size() < run.count) finished.late = run.frame;
+        link_.finish_work(finished, std::move(run));
     }
 
     /// Each pixel must have been dealt with, and once.
@@ -132,18 +133,18 @@ class RankFrameExchange final : public FrameExchange {
             const std::size_t end = std::size_t{run.first} + run.count;
             // What is handed out together is either of the one kind or of the other.
             const bool sound = end <= expected && (run.first >= uncached || end <= uncached) &&
-                               (!run.traced || run.traced->size() == run.count) &&
+                               run.traced.size() <= run.count &&
                                std::none_of(there.begin() + run.first,
                                             there.begin() + static_cast<std::ptrdiff_t>(end),
                                             [](bool is) { return is; });
             if (!sound) throw InputError("a rank has traced pixels that it should not have");
             std::fill(there.begin() + run.first, there.begin() + static_cast<std::ptrdiff_t>(end),
                       true);
-            if (run.traced) region.to_trace().record(run.first, *run.traced);
+            region.to_trace().record(run.first, run.traced);
         }
     }
 
-    static void encode(CloudRegion& region, FramePart& part) {
+    void encode(CloudRegion& region, FramePart& part) const {
         const CloudFrame& frame = region.frame();
         std::vector<PixelValue> values(frame.radiance.size());
         for (std::size_t i = 0; i < values.size(); ++i)
@@ -152,7 +153,10 @@ class RankFrameExchange final : public FrameExchange {
             for (std::size_t i = 0; i < frame.known.size(); ++i)
                 if (frame.known[i] == 0) part.unknown.push_back(static_cast<std::uint32_t>(i));
         }
-        part.pixels = encode_piece(frame.area, values);
+        if (link_.leads() || link_.on_one_machine())
+            part.pixels = std::move(values);
+        else
+            part.pixels = encode_piece(frame.area, values);
     }
 
     RankLink& link_;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/cloud/cloud_frame.h"
@@ -34,7 +35,9 @@ struct FrameOrder {
 struct FramePart {
     FrameNumber frame = 0;
     PixelRectangle area;
-    std::string pixels;                  ///< compressed (encode_piece); empty where the view rests
+    /// Row by row from the bottom; for another machine compressed (encode_piece). Empty where the
+    /// view rests.
+    std::variant<std::vector<PixelValue>, std::string> pixels;
     std::vector<std::uint32_t> unknown;  ///< indices of pixels of which nothing is known, ascending
     CloudReport report;                  ///< its points: those that may be kept
     std::vector<PixelOrigin> origins;    ///< row by row from the bottom, where they are wanted

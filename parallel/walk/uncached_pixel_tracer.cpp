@@ -35,10 +35,11 @@ std::chrono::steady_clock::time_point tracing_deadline(
 }
 
 void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sample, int worker,
-                                     Take take) const {
+                                     bool at_once, Take take) const {
     std::array<TracedPixel, kPixelsARun> traced;
     std::array<TracedPixelResult, kPixelsARun> uncached;
     for (std::size_t first = 0; first < places.size(); first += kPixelsARun) {
+        if ((first > 0 || !at_once) && is_late()) return;
         const std::size_t count = std::min(kPixelsARun, places.size() - first);
         caster_.trace(places.subspan(first, count), {traced.data(), count}, sample, worker);
         for (std::size_t i = 0; i < count; ++i)
@@ -52,11 +53,10 @@ void UncachedPixelTracer::trace(std::span<const PixelPlace> places, int sample, 
                                 const StopFlag& stop, Take take) const {
     executor.for_each((places.size() + kPixelsARun - 1) / kPixelsARun,
                       [&](std::size_t task, int worker) {
-                          if (task > 0 && is_late()) return;
                           const std::size_t begin = task * kPixelsARun;
                           const std::size_t count = std::min(kPixelsARun, places.size() - begin);
                           trace_part(
-                              places.subspan(begin, count), sample, worker,
+                              places.subspan(begin, count), sample, worker, task == 0,
                               [&](std::size_t first, std::span<const TracedPixelResult> traced) {
                                   take(begin + first, traced);
                               });

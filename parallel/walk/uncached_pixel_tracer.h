@@ -43,8 +43,10 @@ class UncachedPixelTracer {
     /// Trace pixels by all threads. After the deadline no more are begun, but some are at once.
     void trace(std::span<const PixelPlace> places, int sample, Executor& executor,
                const StopFlag& stop, Take take) const;
-    /// Trace pixels by one thread, some tens at a time, whatever the time is.
-    void trace_part(std::span<const PixelPlace> places, int sample, int worker, Take take) const;
+    /// Trace pixels by one thread, some tens at a time, until the deadline.
+    /// @param at_once  the first of them whatever the time is
+    void trace_part(std::span<const PixelPlace> places, int sample, int worker, bool at_once,
+                    Take take) const;
     [[nodiscard]] bool is_late() const { return Clock::now() > deadline_; }
 
   private:

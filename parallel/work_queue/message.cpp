@@ -25,7 +25,7 @@ LIGHTWALK_FIELDS(CloudRules, m.frame, m.empty, m.tightness)
 LIGHTWALK_FIELDS(FrameOrder, m.number, m.width, m.height, m.rules, m.payload, m.budget,
                  m.most_points, m.rests, m.leaves, m.sample, m.refined, m.tells_origins)
 LIGHTWALK_FIELDS(Announcement, m.job)
-LIGHTWALK_FIELDS(FinishedWork, m.payload, m.job, m.count, m.seconds)
+LIGHTWALK_FIELDS(FinishedWork, m.payload, m.job, m.count, m.seconds, m.late)
 LIGHTWALK_FIELDS(WorkRequest, m.count, m.finished)
 LIGHTWALK_FIELDS(JobBlock, m.job, m.block)
 LIGHTWALK_FIELDS(RayChunk, m.number, m.first, m.numbers)
@@ -68,7 +68,7 @@ void visit_fields(Wire& wire, TracedPixelResult& pixel) {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 5;
+constexpr std::uint8_t kVersion = 6;
 
 }  // namespace
 

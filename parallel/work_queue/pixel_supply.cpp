@@ -26,7 +26,7 @@ PixelSupply::PixelSupply(std::vector<int> owners, int slots)
 void PixelSupply::start(FrameNumber frame) {
     if (drawing_) throw InputError("a frame is ordered before the last one is there");
     drawing_ = true;
-    begun_ = over_ = false;
+    begun_ = over_ = late_ = false;
     frame_ = frame;
     untold_ = stores_.size();
     stores_.assign(stores_.size(), {});
@@ -47,6 +47,10 @@ void PixelSupply::add(int rank, UncachedPixels pixels) {
     --untold_;
 }
 
+void PixelSupply::note(const FinishedWork& finished) {
+    if (finished.late == frame_) late_ = true;
+}
+
 std::optional<PixelRun> PixelSupply::next() {
     if (left_ == 0) return std::nullopt;
     while (stores_[turn_].left() == 0) turn_ = (turn_ + 1) % stores_.size();
@@ -55,8 +59,9 @@ std::optional<PixelRun> PixelSupply::next() {
     const std::size_t own = places.size() - store.pixels.noise_pairs;  // traced by their own rays
     const bool noise_pairs = store.next >= own;
     const std::size_t end = noise_pairs ? places.size() : own;
-    const std::size_t count =
-        std::min(std::clamp(left_ / (kShares * slots_), kFewest, kMost), end - store.next);
+    const std::size_t share =
+        late_ ? left_ : std::clamp(left_ / (kShares * slots_), kFewest, kMost);
+    const std::size_t count = std::min(share, end - store.next);
     const auto first = places.begin() + static_cast<std::ptrdiff_t>(store.next);
     PixelRun run{frame_,
                  static_cast<std::uint32_t>(turn_),

@@ -19,6 +19,9 @@ class PixelSupply {
     /// The frame before must be finished.
     void start(FrameNumber frame);
     void add(int rank, UncachedPixels pixels);
+    /// A run has come back. Where there was no time for all of it there is none for what is left of
+    /// the frame: it is handed out in runs as long as can be, only for its owners to be told.
+    void note(const FinishedWork& finished);
     /// A run of one owner's pixels: the owners' in turn, so that no owner's results pile up.
     [[nodiscard]] std::optional<PixelRun> next();
     /// Once a frame, when all of it is handed out: its number.
@@ -46,6 +49,7 @@ class PixelSupply {
     std::size_t turn_ = 0;    ///< owner whose pixels are handed out next
     bool begun_ = false;      ///< something has been handed out
     bool over_ = true;        ///< see over()
+    bool late_ = false;       ///< time is over
     std::vector<FramePart> parts_;
 };
 

@@ -73,8 +73,8 @@ struct RayAnswer {
 };
 struct TracedRun {
     FrameNumber frame = 0;
-    std::uint32_t owner = 0, first = 0, count = 0;         ///< as in the run
-    std::optional<std::vector<TracedPixelResult>> traced;  ///< none: it was too late for them
+    std::uint32_t owner = 0, first = 0, count = 0;  ///< as in the run
+    std::vector<TracedPixelResult> traced;  ///< the first ones; for the others it was too late
 };
 using TracedWork = std::variant<Pixels, RayAnswer, TracedRun>;
 
@@ -85,6 +85,7 @@ struct FinishedWork {
     JobId job = 0;            ///< of blocks
     std::uint32_t count = 0;  ///< pixels or rays
     double seconds = 0;
+    std::optional<FrameNumber> late = std::nullopt;  ///< frame of pixels that there was no time for
     friend bool operator==(const FinishedWork&, const FinishedWork&) = default;
 };
 

@@ -41,7 +41,8 @@ void WorkQueue::handle(int from, const WorkRequest& request, Outbox& out) {
                 rays_.note(finished);
                 break;
             case FinishedWork::Payload::pixels:
-                break;  // runs are as long as what is left says
+                pixels_.note(finished);
+                break;
         }
     }
     requests_.add(from, request.count);

@@ -73,7 +73,7 @@ def build(name, work, shared, targets):
     # passes through is not optimised at all.
     call(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
           f"-DLIGHTWALK_ISA={level}", f"-DCMAKE_CXX_FLAGS={flags}", "-DLIGHTWALK_PERF=OFF", "-DLIGHTWALK_UNITY=ON", f"-DLIGHTWALK_SHARED={shared}",
-          "-DLIGHTWALK_UNOPTIMIZED=io/net;apps;apps/session;apps/walk"])
+          "-DLIGHTWALK_UNOPTIMIZED=io/net;io/gltf;io/wavefront;apps;apps/session;apps/walk;parallel/ranks;parallel/work_queue"])
     call(["ninja", "-C", folder, *targets])
     return folder
 

@@ -7,10 +7,12 @@
 #include <string>
 
 #include "parallel/frame.h"
+#include "tests/one_thread.h"
 #include "tests/parallel/room_view.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
+using lightwalk::test::one_thread;
 using lightwalk::test::room_view;
 using lightwalk::test::Silence;
 using lightwalk::test::TestScene;
@@ -142,7 +144,7 @@ TEST_CASE("a straight edge gets what the Gaussian of .6 pixels sees of it") {
     }
 }
 
-TEST_CASE("16 samples have less than an eighth of the variance of one") {
+TEST_CASE("16 samples have less than an eighth of the variance of one" * one_thread) {
     const TestScene scene(kSampledRoom, noisy_samples());
     const auto variance = [&](int samples) {
         constexpr int kSeeds = 24;
@@ -163,7 +165,7 @@ TEST_CASE("16 samples have less than an eighth of the variance of one") {
     CHECK(variance(16) < variance(1) / 8);
 }
 
-TEST_CASE("small sources are found by the samples, and count once") {
+TEST_CASE("small sources are found by the samples, and count once" * one_thread) {
     // 0.2 x 0.2 pixels of a lamp.
     const TestScene scene(
         "void light lamp 0 0 3 100 100 100\n"

@@ -54,3 +54,18 @@ TEST_CASE("bytes that no value has are refused") {
     CHECK_THROWS_AS((void)wire::decode<Colour>("\x02"), InputError);
     CHECK_THROWS_AS((void)(wire::decode<std::variant<int, bool>>("\x02")), InputError);
 }
+
+TEST_CASE("lists that are copied as a whole have the bytes of their elements one after the other") {
+    const std::vector<PixelValue> values{{{1, -0.0F, 3}, 4}, {{5, 6, 7}, 1e10F}};
+    const std::vector<PixelPlace> places{{1, -2}, {3, 4}, {5, 6}};
+    const auto check = [](const auto& list) {
+        std::string bytes = wire::encode(std::uint64_t{list.size()});
+        for (const auto& element : list) bytes += wire::encode(element);
+        CHECK(wire::encode(list) == bytes);
+        CHECK(wire::size_of(list) == bytes.size());
+        CHECK(wire::decode<std::decay_t<decltype(list)>>(bytes) == list);
+    };
+    static_assert(wire::kPlain<PixelValue> && wire::kPlain<PixelPlace>);
+    check(values);
+    check(places);
+}

@@ -161,7 +161,7 @@ const char* const kWalks[] = {"turn", "forward", "backward", "sideways"};
 
 }  // namespace
 
-TEST_CASE("cloud: the first frame is the picture, every pixel traced") {
+TEST_CASE("cloud: the first frame is the picture, every pixel traced" * one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudFrames frames(kWidth, kHeight, {});
@@ -257,7 +257,8 @@ TEST_CASE("cloud: the same bytes with any number of threads, in every mode") {
     }
 }
 
-TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them for long") {
+TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them for long" *
+          one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudFrames frames(kWidth, kHeight, rotating());
@@ -273,7 +274,8 @@ TEST_CASE("cloud: a rotating check spares pixels in each frame, and none of them
     CHECK(std::count(room.seen.begin(), room.seen.end(), 0) == 0);
 }
 
-TEST_CASE("cloud: a frame that has no time to look shows what points say, and the next one looks") {
+TEST_CASE("cloud: a frame that has no time to look shows what points say, and the next one looks" *
+          one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudFrames frames(kWidth, kHeight, rotating());
@@ -365,7 +367,8 @@ TEST_CASE("cloud: what a budget leaves out is filled from around, and traced in 
     }
 }
 
-TEST_CASE("cloud: of one traced pixel in sixteen a frame's edges and most of its light are right") {
+TEST_CASE("cloud: of one traced pixel in sixteen a frame's edges and most of its light are right" *
+          one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     const View view = view_at(0, 0, 0);
@@ -413,7 +416,8 @@ TEST_CASE("cloud: of one traced pixel in sixteen a frame's edges and most of its
     CHECK(off < 0.8 * static_cast<double>(off_by_a_tenth(filled, truth)));
 }
 
-TEST_CASE("cloud: a view that stands still becomes the traced picture, then a smoother one") {
+TEST_CASE("cloud: a view that stands still becomes the traced picture, then a smoother one" *
+          one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudOptions options;
@@ -446,7 +450,7 @@ TEST_CASE("cloud: a view that stands still becomes the traced picture, then a sm
     CHECK(on.report.reused > on.report.pixels * 8 / 10);
 }
 
-TEST_CASE("cloud: audited errors are told, and too large ones tighten reuse") {
+TEST_CASE("cloud: audited errors are told, and too large ones tighten reuse" * one_thread) {
     Room room;
     const auto executor = make_executor(ExecutorKind::serial, 1);
     CloudOptions options;

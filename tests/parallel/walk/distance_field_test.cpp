@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "parallel/walk/cloud_frames.h"
+#include "tests/one_thread.h"
 
 using namespace lightwalk;
+using lightwalk::test::one_thread;
 
 namespace {
 
@@ -100,7 +102,8 @@ View step(int i, bool turns) {
 
 }  // namespace
 
-TEST_CASE("cloud: another ray caster's frames are true, turning and walking backwards") {
+TEST_CASE("cloud: another ray caster's frames are true, turning and walking backwards" *
+          one_thread) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
     for (const bool turns : {true, false}) {
         CAPTURE(turns);

@@ -63,9 +63,11 @@ std::vector<Message> some_messages() {
     part.report.audit_errors = {.5F, 1e-9F, 0};
     part.origins = {{PixelOrigin::Kind::traced, 3, 0}, {PixelOrigin::Kind::reused, 0, 255}};
     part.refined = {values[3], std::nullopt};
+    FramePart plain = part;
+    plain.pixels = values;
     return {Announcement{PictureJob{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true}},
             Announcement{order},
-            WorkRequest{2, {{FinishedWork::Payload::rays, 7, 64, .125}, {}}},
+            WorkRequest{2, {{FinishedWork::Payload::rays, 7, 64, .125, 3}, {}}},
             WorkGrant{{work, RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
                        PixelRun{3, 1, 7, true, false, {{1, 2}}}},
                       std::nullopt},
@@ -73,10 +75,11 @@ std::vector<Message> some_messages() {
             WorkResult{Pixels{work, values}},
             WorkResult{LoggedPixels{{work, {}}}},
             WorkResult{RayAnswer{5, std::string("\0\xff", 2)}},
-            WorkResult{TracedRun{3, 1, 7, 3, {{{values[0], {}}, one, two}}}},
-            WorkResult{TracedRun{3, 1, 7, 3, std::nullopt}},
+            WorkResult{TracedRun{3, 1, 7, 3, {{values[0], {}}, one, two}}},
+            WorkResult{TracedRun{3, 1, 7, 3, {}}},
             FinishedPart{PicturePart{work, std::string("\0\xff bytes", 8)}},
             FinishedPart{part},
+            FinishedPart{plain},
             UncachedPixels{3, 1, {{1, 2}, {1, 2}}},
             PointExchange{3, SharedPoints{{some_point(), CloudPoint{}}}},
             PointExchange{3, UsedPixels{{{1, 2}, {3, 4}}, {{5, 6}}}},

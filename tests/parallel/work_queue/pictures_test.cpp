@@ -5,6 +5,7 @@
 #include <deque>
 #include <set>
 
+#include "tests/one_thread.h"
 #include "tests/parallel/work_queue/rank_network.h"
 
 using namespace lightwalk;
@@ -187,7 +188,8 @@ std::vector<JobBlock> blocks_of(const Outbox& out) {
 
 TEST_CASE(
     "a thousand schedules: no pixel and no ambient value is lost or doubled, nobody waits for "
-    "ever") {
+    "ever" *
+    one_thread) {
     std::mt19937_64 random(1);
     for (int schedule = 0; schedule < 1000; ++schedule) {
         CAPTURE(schedule);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/one_thread.h"
 #include "tests/parallel/work_queue/rank_network.h"
 
 using namespace lightwalk;
@@ -123,7 +124,8 @@ std::uint32_t size_after(int chunks, double seconds) {
 }  // namespace
 
 TEST_CASE(
-    "a thousand schedules: no answer is lost, doubled or out of order, and the window is kept") {
+    "a thousand schedules: no answer is lost, doubled or out of order, and the window is kept" *
+    one_thread) {
     std::mt19937_64 random(1);
     for (int schedule = 0; schedule < 1000; ++schedule) {
         CAPTURE(schedule);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/ranks/tracer_inbox.h"
+#include "tests/one_thread.h"
 #include "tests/parallel/work_queue/rank_network.h"
 
 using namespace lightwalk;
@@ -179,7 +180,8 @@ class Walk final : public RankNetwork {
 
 }  // namespace
 
-TEST_CASE("a walk over ranks: each pixel is traced once, and each frame ends, in 1000 schedules") {
+TEST_CASE("a walk over ranks: each pixel is traced once, and each frame ends, in 1000 schedules" *
+          one_thread) {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         CAPTURE(seed);
         WalkOptions options;
@@ -219,6 +221,41 @@ TEST_CASE("a walk over ranks: what nobody asked for is refused") {
     supply.add(2, UncachedPixels{3, 0, {}});
     CHECK(supply.over() == 3);
     CHECK_FALSE(supply.over());
+}
+
+TEST_CASE("a walk over ranks: once time is over what is left of a frame is handed out as a whole") {
+    constexpr std::size_t kPixels = 20'000;
+    const auto late = [](FrameNumber frame) {
+        return FinishedWork{FinishedWork::Payload::pixels, 0, 1, 0, frame};
+    };
+    PixelSupply supply({0, 1}, 2);
+    const auto begin = [&](FrameNumber frame) {
+        supply.start(frame);
+        supply.add(0, UncachedPixels{frame, 10, std::vector<PixelPlace>(kPixels)});
+        supply.add(1, UncachedPixels{frame, 0, std::vector<PixelPlace>(kPixels)});
+    };
+    const auto runs = [&] {
+        std::size_t count = 0, pixels = 0;
+        for (; const std::optional<PixelRun> run = supply.next(); ++count)
+            pixels += run->places.size();
+        return std::pair(count, pixels);
+    };
+    begin(1);
+    const std::size_t first = supply.next().value().places.size();
+    CHECK(first < kPixels / 8);
+    supply.note({FinishedWork::Payload::pixels, 0, 1, 0});
+    CHECK(supply.next().value().places.size() <= first);
+    supply.note(late(1));
+    CHECK(runs().first == 3);  // one of the noise pairs, as they are traced by other rays
+    Outbox out;
+    FramePart part;
+    part.frame = 1;
+    for (const int owner : {0, 1}) supply.gather(owner, part, out);
+    begin(2);
+    supply.note(late(1));  // of the frame before
+    const auto [count, pixels] = runs();
+    CHECK(count > 20);
+    CHECK(pixels == 2 * kPixels);
 }
 
 TEST_CASE("mail of a frame is kept until all of it is there, whatever comes first") {
