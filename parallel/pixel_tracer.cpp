@@ -28,12 +28,16 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
         if (!hits.empty()) hits[i] = {true, kNoSurface, kVoid, Vec3{}, kHuge, Rgb{}};
         const PixelRay pixel = pixel_rays_(places[i].x, places[i].y, sample);
         if (!pixel.ray) continue;
-        rays_.push_back(tracer_.primary(pixel.ray->origin, pixel.ray->direction, pixel.ray->limit,
-                                        pixel.random));
-        segments_.push_back(rays_.back().segment());
+        Ray& ray = rays_.emplace_back();
+        tracer_.start_primary(ray, pixel.ray->origin, pixel.ray->direction, pixel.ray->limit,
+                              pixel.random);
+        RaySegment& segment = segments_.emplace_back();
+        segment.origin = ray.origin;
+        segment.direction = ray.direction;
+        segment.t_max = farthest_hit(ray.limit);
         targets_.push_back(i);
     }
-    hits_.assign(rays_.size(), Hit{});
+    hits_.resize(rays_.size());
     tracer_.scene().geometry().intersect(segments_, hits_);
     if (stop_.requested()) return;
     tracer_.shade_hits(rays_, hits_, context_);

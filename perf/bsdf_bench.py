@@ -5,12 +5,13 @@
 
 DIR is a folder that holds Radiance's sample models: DIR/cabin and DIR/lib; without it there are no rows of the cabin, without rpict
 no columns of it. Each row is a picture, by direct light or with two bounces: seconds of whole processes (the median of runs that take
-turns), Lightwalk on --threads threads and rpict with an octree that oconv made before, and how many times rpict's time is ours. The
-rooms' data is made by bsdf_data.py: `blind` is a matrix over Klems' full basis (slats that let light down and up), `pane` a tensor tree
-of rank 4 with a peak straight on, as aBSDF; `proxy` has slats as geometry, and the matrix for scattered light. Rooms are the cabin's
-living room, whose panes get the data, and a room of one window. --keep leaves scenes and pictures there.
+turns), Lightwalk on --threads threads and rpict with an octree that oconv made before, and how many times rpict's time is ours: by the
+clock, and by processor time on as many threads. The rooms' data is made by bsdf_data.py: `blind` is a matrix over Klems' full basis
+(slats that let light down and up), `pane` a tensor tree of rank 4 with a peak straight on, as aBSDF; `proxy` has slats as geometry, and
+the matrix for scattered light. Rooms are the cabin's living room, whose panes get the data, and a room of one window. --keep leaves
+scenes and pictures there.
 """
-import argparse, os, pathlib, re, shutil, statistics, subprocess, sys, tempfile, time
+import argparse, os, pathlib, re, resource, shutil, statistics, subprocess, sys, tempfile, time
 
 import bsdf_data
 from render_bench import SCENE, commit, machine, run
@@ -79,9 +80,13 @@ def cabin_scene(cabin, folder, name):
 
 
 def timed(command, folder, environment):
-    start = time.perf_counter()
+    """Seconds by the clock, and of processors."""
+    def used():
+        children = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return children.ru_utime + children.ru_stime
+    start, before = time.perf_counter(), used()
     run(command, folder, environment)
-    return time.perf_counter() - start
+    return time.perf_counter() - start, used() - before
 
 
 def make_octree(arguments, folder, environment, scene, path):
@@ -108,9 +113,14 @@ def measure(arguments, folder, environment, options, scene, scratch, name):
     return ours, theirs
 
 
-def cells(ours, theirs):
-    numbers = [f"{number:.2f}" for runs in (ours, theirs) if runs for number in (statistics.median(runs), max(runs) - min(runs))]
-    return numbers + ([f"{statistics.median(theirs) / statistics.median(ours):.1f}"] if theirs else ["-"] * 3)
+def cells(ours, theirs, threads):
+    def median(runs, which):
+        return statistics.median(run[which] for run in runs)
+    clocks = [[clock for clock, _ in runs] for runs in (ours, theirs) if runs]
+    numbers = [f"{number:.3f}" for runs in clocks for number in (statistics.median(runs), max(runs) - min(runs))]
+    if not theirs:
+        return numbers + ["-"] * 4
+    return numbers + [f"{median(theirs, 0) / median(ours, 0):.1f}", f"{threads * median(theirs, 1) / median(ours, 1):.1f}"]
 
 
 def find_rpict(named):
@@ -141,7 +151,7 @@ def main():
     if arguments.rpict:
         environment["PATH"] = os.path.dirname(arguments.rpict) + os.pathsep + os.environ.get("PATH", "")
     print(f"{commit()}\t{machine()}\t{arguments.threads} threads")
-    print("picture\tours s\tspread s\trpict s\tspread s\ttimes", flush=True)
+    print("picture\tours s\tspread s\trpict s\tspread s\ttimes\tof processors", flush=True)
     with tempfile.TemporaryDirectory() as made:
         scratch = pathlib.Path(arguments.keep or made).resolve()
         scratch.mkdir(parents=True, exist_ok=True)
@@ -156,7 +166,7 @@ def main():
                                        (scratch, VIEW, [f"{room}.rad"]))
                 result = measure(arguments, folder, environment, [*view, *OPTIONS, *options, *pixels], scene, scratch,
                                  f"{room}-{light}".replace(" ", "-"))
-                print("\t".join([f"{room} {light}", *cells(*result)]), flush=True)
+                print("\t".join([f"{room} {light}", *cells(*result, arguments.threads)]), flush=True)
 
 
 if __name__ == "__main__":

@@ -29,6 +29,7 @@ AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) 
         const double area = kPi * (outer - inner) / static_cast<double>(ring.sectors);
         places_.push_back({inner, outer, area, patch_count_});
         patch_count_ += ring.sectors;
+        areas_.insert(areas_.end(), ring.sectors, area);
         for (std::size_t k = 0; k < ring.sectors; ++k) {
             const double azimuth =
                 2 * kPi * (static_cast<double>(k) + 0.5) / static_cast<double>(ring.sectors);
@@ -36,12 +37,15 @@ AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) 
         }
         inner = outer;
     }
+    for (std::size_t ring = 0; ring + 1 < places_.size(); ++ring)
+        outer_.push_back(places_[ring].outer);
 }
 
 std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     const double square = p.x * p.x + p.y * p.y;
+    // Counted without branches, which jittered directions would take at random.
     std::size_t ring = 0;
-    while (ring + 1 < places_.size() && square >= places_[ring].outer) ++ring;
+    for (const double outer : outer_) ring += square >= outer ? 1 : 0;
     const std::size_t sectors = rings_[ring].sectors;
     if (sectors == 1) return places_[ring].first;
     const double azimuth = pseudo_azimuth(p);

@@ -43,9 +43,7 @@ class AngleBasis {
     /// The number of the patch that holds a direction.
     [[nodiscard]] std::size_t index(const ProjectedDirection& p) const;
     /// A patch's projected solid angle [sr].
-    [[nodiscard]] double solid_angle(std::size_t patch) const {
-        return places_[ring_of(patch)].area;
-    }
+    [[nodiscard]] double solid_angle(std::size_t patch) const { return areas_[patch]; }
     /// The smallest of these.
     [[nodiscard]] double least_solid_angle() const;
     /// A point of the patch from two numbers that are uniform in [0, 1), uniform in projected solid
@@ -62,6 +60,8 @@ class AngleBasis {
 
     std::vector<AngleRing> rings_;
     std::vector<Place> places_;  ///< one a ring
+    std::vector<double> outer_;  ///< Place::outer of all rings but the last
+    std::vector<double> areas_;  ///< Place::area of each patch
     /// Of each patch where its sector ends, as pseudo_azimuth.
     std::vector<double> ends_;
     std::size_t patch_count_ = 0;

@@ -19,6 +19,15 @@ void begin_tracing(TracedRay& ray, const RaySegment& segment) {
     ray.local_instance = kWorld;
 }
 
+/// Takes a copy: no reference then keeps the caller's candidate out of registers.
+void collect(NearestRay& ray, Candidate candidate) {
+    try {
+        ray.all->push_back(candidate);
+    } catch (const std::bad_alloc&) {  // must not unwind through the C frames of the search
+        ray.out_of_memory = true;
+    }
+}
+
 GeometryInput with_a_model(GeometryInput input) {
     if (input.models.empty()) input.models.emplace_back();
     return input;
@@ -98,11 +107,7 @@ bool PlacedScene::propose(NearestRay& ray, PrimitiveRef what) const {
     const std::optional<Candidate> candidate = cross(ray, what);
     if (!candidate) return false;
     if (ray.all) {
-        try {
-            ray.all->push_back(*candidate);
-        } catch (const std::bad_alloc&) {  // must not unwind through the C frames of the search
-            ray.out_of_memory = true;
-        }
+        collect(ray, *candidate);
         return false;
     }
     if (ray.nearest) {
@@ -166,10 +171,15 @@ Candidate PlacedScene::resolve(std::vector<Candidate>& all) const {
 }
 
 Hit PlacedScene::hit_of(const RaySegment& segment, const Candidate& winner) const {
+    const InstanceId instance = winner.what.instance;
+    return instance == kWorld ? hit_in(world_, segment, winner)
+                              : hit_in(paths_.at(instance), segment, winner);
+}
+
+/// The same, the model known that was hit.
+Hit PlacedScene::hit_in(const PlacedModel& placed, const RaySegment& segment,
+                        const Candidate& winner) const {
     const auto [instance, primitive] = winner.what;
-    std::optional<PlacedModel> inside;
-    if (instance != kWorld) inside = paths_.at(instance);
-    const PlacedModel& placed = inside ? *inside : world_;
     const ModelPrimitives& model = models_[placed.model];
     const Transform& to_world = placed.to_world;
     Hit hit;

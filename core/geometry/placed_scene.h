@@ -116,6 +116,8 @@ class PlacedScene {
     bool propose(ShadowRay& ray, PrimitiveRef what) const;
 
   private:
+    [[nodiscard]] Hit hit_in(const PlacedModel& placed, const RaySegment& segment,
+                             const Candidate& winner) const;
     [[nodiscard]] const ModelPrimitives& model_of(InstanceId instance) const {
         return models_[instance == kWorld ? 0 : paths_.space_at(instance).model];
     }

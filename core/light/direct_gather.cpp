@@ -140,8 +140,12 @@ void DirectCalculation::consider(std::uint32_t number, std::int32_t index,
 /// A candidate whose radiance is not known yet.
 void DirectCalculation::add_unknown(std::uint32_t point, std::int32_t source, const Vec3& direction,
                                     const Rgb& coefficient, double distance) {
-    scratch_.candidates.push_back(
-        {source, point, direction, distance, coefficient, {}, 0, CandidateState::unknown, false});
+    LightCandidate& candidate = scratch_.candidates.emplace_back();
+    candidate.source = source;
+    candidate.point = point;
+    candidate.direction = direction;
+    candidate.distance = distance;
+    candidate.coefficient = coefficient;
 }
 
 /// Unless nothing arrives.
@@ -151,8 +155,11 @@ void DirectCalculation::add_candidate(std::uint32_t point, std::int32_t source,
     const Rgb contribution = coefficient * emitted.radiance;
     const float b = brightness(contribution);
     if (!brings_light(b)) return;
-    scratch_.candidates.push_back({source, point, direction, emitted.distance, coefficient,
-                                   contribution, b, CandidateState::known, false});
+    add_unknown(point, source, direction, coefficient, emitted.distance);
+    LightCandidate& candidate = scratch_.candidates.back();
+    candidate.contribution = contribution;
+    candidate.brightness = b;
+    candidate.state = CandidateState::known;
 }
 
 /// Most samples of a virtual source pass its mirror by: the outline says so before a ray is traced.

@@ -96,7 +96,10 @@ void SourceSamples::add(const LightSource& source, std::int32_t index, const Sou
 }
 
 void SourceSamples::sample(std::span<const LightSource> sources, const Vec3& point, bool lanes) {
-    lanes ? aim<true>() : aim<false>();
+    if (known_ == count_)
+        take_known();
+    else
+        lanes ? aim<true>() : aim<false>();
     double* const distance = row(kDistance);
     retain([&](std::size_t i) {
         const LightSource& source = sources[static_cast<std::size_t>(sources_[i])];
@@ -106,6 +109,13 @@ void SourceSamples::sample(std::span<const LightSource> sources, const Vec3& poi
             angle = round_solid_angle(source, direction, distance[i], row(kShare)[i]);
         return angle >= 0 && !(source.spot && outside_spot(*source.spot, point, direction));
     });
+}
+
+void SourceSamples::take_known() {
+    std::copy_n(row(kKnownX), count_, row(kX));
+    std::copy_n(row(kKnownY), count_, row(kY));
+    std::copy_n(row(kKnownZ), count_, row(kZ));
+    std::copy_n(row(kKnownDistance), count_, row(kDistance));
 }
 
 /// Directions and distances, and what polygons and rings show: their part's share of the projected
@@ -177,6 +187,11 @@ SourceBoxes::SourceBoxes(std::span<const LightSource> sources, std::span<const s
             for (int k = 0; k < 3; ++k) set(first + k, v[static_cast<std::size_t>(k)]);
         };
         set_vector(kCenter, source.center);
+        if (source.is_distant()) {  // as aim() calculates it
+            const double size = length(source.center);
+            set_vector(kKnown, source.center * (1 / size));
+            set(kKnownDistance, size);
+        }
         set_vector(kU, source.u);
         set_vector(kV, source.v);
         set_vector(kW, source.w);
@@ -297,6 +312,12 @@ void SourceBoxes::add_whole(std::size_t i, std::int32_t index, const SourceViews
     samples.row(To::kBehind)[k] = row(kBehind)[i];
     samples.row(To::kReach)[k] = row(kReach)[i];
     samples.sources_[k] = index;
+    if (row(kLocal)[i] > 0) return;
+    samples.row(To::kKnownX)[k] = row(kKnown)[i];
+    samples.row(To::kKnownY)[k] = row(kKnown + 1)[i];
+    samples.row(To::kKnownZ)[k] = row(kKnown + 2)[i];
+    samples.row(To::kKnownDistance)[k] = row(kKnownDistance)[i];
+    ++samples.known_;
 }
 
 }  // namespace lightwalk

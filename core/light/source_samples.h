@@ -36,7 +36,7 @@ class SourceSamples {
     friend class SourceBoxes;
 
   public:
-    void clear() { count_ = 0; }
+    void clear() { count_ = known_ = 0; }
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Add one of the `parts` parts that a source has from `point`.
     /// @param index  the source's index into the list of sources, which source() returns
@@ -82,6 +82,12 @@ class SourceSamples {
         kArea,
         kBehind,
         kReach,
+        // Of whole distant sources, which look alike from everywhere: the unit direction, and the
+        // length of the vector.
+        kKnownX,
+        kKnownY,
+        kKnownZ,
+        kKnownDistance,
         kRows
     };
     /// Make room for one more sample, and return its number.
@@ -89,6 +95,8 @@ class SourceSamples {
         if (count_ == capacity_) grow();
         return count_++;
     }
+    /// Directions and distances of samples that are all known beforehand.
+    void take_known();
     [[nodiscard]] double* row(Row r) { return rows_.data() + r * capacity_; }
     [[nodiscard]] const double* row(Row r) const { return rows_.data() + r * capacity_; }
     void grow();
@@ -97,6 +105,7 @@ class SourceSamples {
     void aim();
 
     std::size_t count_ = 0, capacity_ = 0;
+    std::size_t known_ = 0;  ///< samples that have the rows from kKnownX on
     std::vector<double> rows_;
     std::vector<std::int32_t> sources_;
 };
@@ -143,6 +152,8 @@ class SourceBoxes {
         kReach,
         kRadius,  ///< the longer half axis of local sources [m], 0 at infinity
         kWorth,   ///< LightSource::worth
+        kKnown,   ///< of distant sources: the rows of samples from kKnownX on
+        kKnownDistance = kKnown + 3,
         kRows
     };
     [[nodiscard]] const double* row(int r) const {

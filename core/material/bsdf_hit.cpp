@@ -90,7 +90,7 @@ ProjectedDirection jittered(const BsdfHit& hit, double size, double specular_sam
     const double reach = size * std::min(specular_samples, 1.0);
     if (!(reach > 0)) return hit.e;
     const double dx = reach * (0.5 - random.next()), dy = reach * (0.5 - random.next());
-    const Vec3 moved = normalize({hit.e.x + dx, hit.e.y + dy, above_disk(hit.e).z});
+    const Vec3 moved = normalize({hit.e.x + dx, hit.e.y + dy, hit.height});
     return {moved.x, moved.y};
 }
 

@@ -34,6 +34,7 @@ struct BsdfHit {
     /// Over all components with lobes that are seen from this side: the smallest and the largest
     /// projected solid angle that directions about e are told apart by [sr].
     SolidAngleRange resolution{kPi, kPi};
+    double height = above_disk(e).z;  ///< of e above the disk, for what is jittered
     bool split = false;     ///< the part that passes straight is traced by a ray of its own
     ThroughPart through{};  ///< that part, without the pattern
 

@@ -19,8 +19,8 @@ namespace {
 
 /// What one hit makes of the material: shares of the light and directions.
 struct PlasticShading {
-    Rgb color;     ///< material times pattern
-    Rgb specular;  ///< colour of the reflected lobe
+    Rgb color;       ///< material times pattern
+    Rgb specular{};  ///< colour of the reflected lobe
     PerturbedNormal facing;
     Vec3 straight;                         ///< direction of specular transmission
     double rho = 0, rho_d = 0;             ///< specular and diffuse reflectance
@@ -111,14 +111,14 @@ bool Plastic::shade(Ray& ray, TraceContext& context) const {
 }
 
 PlasticShading Plastic::prepare(const Ray& ray, const TraceContext& context) const {
-    PlasticShading s;
-    s.color = color_ * ray.pattern;
-    s.perturbed = ray.perturbed();
-    s.flat = is_flat_hit(ray, context);
-    s.facing = textured_normal(ray, s.perturbed);
+    const bool perturbed = ray.perturbed();
+    PlasticShading s{.color = color_ * ray.pattern,
+                     .facing = textured_normal(ray, perturbed),
+                     .straight = ray.direction,
+                     .perturbed = perturbed,
+                     .flat = is_flat_hit(ray, context)};
     s.facing.cosine = std::max(s.facing.cosine, kMinCosine);
     set_shares(s, context.tracer.options());
-    s.straight = ray.direction;
     if (s.tau_s > kEpsilon && s.perturbed && !ray.in(kShadow | kAmbient) &&
         !is_phong_hit(ray, context)) {
         s.straight = bent_through(ray.direction, ray.hit.perturbation, ray.hit.normal);
@@ -127,18 +127,20 @@ PlasticShading Plastic::prepare(const Ray& ray, const TraceContext& context) con
 }
 
 void Plastic::set_shares(PlasticShading& s, const RenderOptions& options) const {
-    double coating = 0;
-    s.rho = specularity_;
+    double coating = 0, rho = specularity_, tau = 0, tau_s = 0;
     if (coated_) {
         coating = fresnel_estimate(s.facing.cosine);
-        s.rho = coating + specularity_ * (1 - coating);
+        rho = coating + specularity_ * (1 - coating);
     }
     if (type_ == PrimitiveType::trans) {
-        s.tau = transmissivity_ * (1 - s.rho);
-        s.tau_s = s.tau * transmitted_specular_;
-        s.tau_d = s.tau - s.tau_s;
+        tau = transmissivity_ * (1 - rho);
+        tau_s = tau * transmitted_specular_;
     }
-    s.rho_d = 1 - s.tau - s.rho;
+    s.rho = rho;
+    s.rho_d = 1 - tau - rho;
+    s.tau = tau;
+    s.tau_s = tau_s;
+    s.tau_d = tau - tau_s;
     if (s.rho > kEpsilon) {
         if (type_ != PrimitiveType::metal) {
             s.specular = Rgb::grey(static_cast<float>(s.rho));

@@ -1,5 +1,6 @@
 #include "core/math/rgbe.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -15,8 +16,8 @@ double usable(float component) {
 }
 
 unsigned char mantissa(double component, double scale) {
-    const double m = component * scale;
-    return static_cast<unsigned char>(m > 0 ? (m < 255 ? m : 255) : 0);
+    return static_cast<unsigned char>(
+        static_cast<int>(std::min(std::max(component * scale, 0.0), 255.0)));
 }
 
 /// 2^exponent of a normal number.

@@ -47,6 +47,9 @@ class LightTransport {
     /// @param limit      aft clipping distance; 0: none [m]
     [[nodiscard]] Ray primary(const Vec3& origin, const Vec3& direction, double limit,
                               RandomStream random) const;
+    /// The same for a new ray where it stands: rays are large, and to copy them takes time.
+    void start_primary(Ray& ray, const Vec3& origin, const Vec3& direction, double limit,
+                       RandomStream random) const;
 
     /// Prepare a child of `parent`, whose hit is set; the caller sets child.direction and calls
     /// trace().

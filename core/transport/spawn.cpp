@@ -35,6 +35,12 @@ bool within_limits(Ray& ray, bool has_coef, const RenderOptions& options) {
 Ray LightTransport::primary(const Vec3& origin, const Vec3& direction, double limit,
                             RandomStream random) const {
     Ray ray;
+    start_primary(ray, origin, direction, limit, random);
+    return ray;
+}
+
+void LightTransport::start_primary(Ray& ray, const Vec3& origin, const Vec3& direction,
+                                   double limit, RandomStream random) const {
     ray.origin = origin;
     const double squared = fused_dot(direction, direction);
     // Normalising twice would change the last bits of a direction that is unit already.
@@ -43,7 +49,6 @@ Ray LightTransport::primary(const Vec3& origin, const Vec3& direction, double li
     ray.medium = {options_.extinction, options_.albedo, static_cast<float>(options_.eccentricity),
                   nullptr};
     ray.random = random;
-    return ray;
 }
 
 bool LightTransport::spawn(Ray& child, RayKind kind, Ray& parent, const Rgb* coef) const {

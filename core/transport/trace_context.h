@@ -86,8 +86,9 @@ struct PathState {
     /// A path starts: the sets of the one before are forgotten. The tracer calls it where a ray is
     /// evaluated while no other is.
     void start() {
-        clip_sets.clear();
-        scatter_lists.clear();
+        // Most paths have none, and to clear a deque takes time even then.
+        if (!clip_sets.empty()) clip_sets.clear();
+        if (!scatter_lists.empty()) scatter_lists.clear();
     }
 };
 

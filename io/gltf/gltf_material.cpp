@@ -11,7 +11,6 @@
 namespace lightwalk {
 namespace {
 
-constexpr const char* kGltfLibrary = "gltf.cal";
 constexpr double kSmooth = 0.05;       ///< a lobe's width below which a pane is clear
 constexpr double kMostlyClear = 0.9;   ///< transmission from which nothing else is left
 constexpr double kLeastLit = 0.02;     ///< sum of a texel's channels that emits
@@ -36,7 +35,8 @@ class GltfMaterialWriter {
             write_surface(dark);
             text_.add_map(lit + "_map", *pictures_.emitted);
             write_emission("glow", lit + "_map", lit);
-            text_.add_mix(whole, lit, dark, "lit", kGltfLibrary, *pictures_.emitted, {kLeastLit});
+            text_.add_mix(whole, lit, dark, "lit", kMaterialLibrary, *pictures_.emitted,
+                          {kLeastLit});
         } else {
             write_surface(whole);
         }
@@ -109,11 +109,10 @@ class GltfMaterialWriter {
             text_.add_veil(m_.name, whole, !masked ? m_.opacity : m_.opacity < m_.cutoff ? 0 : 1);
         } else if (m_.alpha == GltfMaterial::Alpha::mask) {
             const double least = m_.opacity > 0 ? m_.cutoff / m_.opacity : 2;
-            text_.add_mix(m_.name, whole, "void", "cutout", kGltfLibrary, *pictures_.opacity,
+            text_.add_mix(m_.name, whole, "void", "cutout", kMaterialLibrary, *pictures_.opacity,
                           {least});
         } else {
-            text_.add_mix(m_.name, whole, "void", "faded", kGltfLibrary, *pictures_.opacity,
-                          {m_.opacity});
+            text_.add_fading(m_.name, whole, *pictures_.opacity, m_.opacity);
         }
     }
 

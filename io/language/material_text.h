@@ -20,6 +20,9 @@ struct TexturePicture {
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
 };
 
+/// The library file of the functions that mixtures take.
+inline constexpr const char* kMaterialLibrary = "gltf.cal";
+
 /// Writes the primitives of a material.
 class MaterialText {
   public:
@@ -33,6 +36,12 @@ class MaterialText {
     void add_mix(const std::string& name, const std::string& fore, const std::string& back,
                  const std::string& function, const std::string& library,
                  const TexturePicture& picture, const std::vector<double>& reals);
+    /// A `mixpict` of a material and what lies behind it, by a picture of opacities times
+    /// `opacity`.
+    void add_fading(const std::string& name, const std::string& material,
+                    const TexturePicture& picture, double opacity) {
+        add_mix(name, material, "void", "faded", kMaterialLibrary, picture, {opacity});
+    }
     /// A `mixfunc` of a material and what lies behind it.
     void add_veil(const std::string& name, const std::string& material, double opacity);
 

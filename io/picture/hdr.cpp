@@ -65,6 +65,7 @@ std::string encode_hdr(const Picture& picture, const PictureHeader& header) {
                         picture.width);
     bytes += header.xyz ? "FORMAT=32-bit_rle_xyze\n\n" : "FORMAT=32-bit_rle_rgbe\n\n";
     bytes += resolution.data();
+    bytes.reserve(bytes.size() + picture.pixels.size() * sizeof(Rgbe));
     std::vector<Rgbe> scanline(width);
     for (std::size_t y = 0; y < height; ++y) {
         for (std::size_t x = 0; x < width; ++x) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -27,12 +28,53 @@ constexpr std::array<std::pair<std::string_view, const char*>, 4> kMarks{
      {std::string_view("II*\0", 4), "tiff"},
      {std::string_view("MM\0*", 4), "tiff"}}};
 
+/// Numbers of a header, the low byte first.
+class HeaderBytes {
+  public:
+    explicit HeaderBytes(std::string_view bytes) : bytes_(bytes) {}
+    [[nodiscard]] std::uint32_t at(std::size_t place, std::size_t size) const {
+        std::uint32_t number = 0;
+        for (std::size_t i = size; i-- > 0;)
+            number = number << 8 | static_cast<unsigned char>(bytes_[place + i]);
+        return number;
+    }
+
+  private:
+    std::string_view bytes_;
+};
+
+/// TGA files have no mark at their beginning: whether all numbers are such as occur there. None
+/// that have a palette, beyond which OpenImageIO 2.4 reads. Source: "Truevision TGA File Format
+/// Specification 2.0" (1991).
+bool begins_as_tga(std::string_view bytes) {
+    if (bytes.size() < 18) return false;
+    const HeaderBytes header(bytes);
+    const std::uint32_t has_palette = header.at(1, 1), type = header.at(2, 1),
+                        bits = header.at(16, 1);
+    const bool is_known = type == 2 || type == 3 || type == 10 || type == 11;
+    return has_palette == 0 && is_known && bits % 8 == 0 && bits > 0 && bits <= 32 &&
+           header.at(12, 2) > 0 && header.at(14, 2) > 0;
+}
+
+/// BMP files of three or four bytes a pixel. Those of run-length encoded pixels OpenImageIO decodes
+/// before it says how many there are. Source: "Bitmap Storage", Windows GDI documentation.
+bool begins_as_bmp(std::string_view bytes) {
+    if (bytes.size() < 34 || !bytes.starts_with("BM")) return false;
+    constexpr std::uint32_t kPlain = 0, kBitFields = 3;
+    const HeaderBytes header(bytes);
+    const std::uint32_t size = header.at(14, 4), bits = header.at(28, 2),
+                        compression = header.at(30, 4);
+    return size >= 40 && size <= 124 && (bits == 24 || bits == 32) &&
+           (compression == kPlain || compression == kBitFields);
+}
+
 /// OpenImageIO's name; null for others.
 const char* format_of_bytes(std::string_view bytes) {
     for (const auto& [mark, format] : kMarks) {
         if (bytes.starts_with(mark)) return format;
     }
-    return nullptr;
+    if (begins_as_bmp(bytes)) return "bmp";
+    return begins_as_tga(bytes) ? "targa" : nullptr;
 }
 
 float linear_of_srgb(float v) {
@@ -105,7 +147,7 @@ class SizeOfRows final : public ImageRows {
 void decode_rows(std::string_view bytes, const std::string& name, ImageRows& rows) {
     const char* format = format_of_bytes(bytes);
     if (format == nullptr)
-        throw InputError({name, 0}, "neither a Radiance picture, nor PNG, JPEG or TIFF");
+        throw InputError({name, 0}, "neither a Radiance picture, nor PNG, JPEG, TIFF, TGA or BMP");
     std::string error;
     const auto decode =
         reinterpret_cast<DecodeImage>(load_from_module(kImageModule, kDecodeImageSymbol, error));

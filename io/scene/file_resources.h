@@ -24,8 +24,8 @@ class FileResources final : public Resources {
     FileResources(LibraryPath path, bool allow_commands, WarningSink& warnings);
     [[nodiscard]] std::string function_file(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const DataArray> data(const std::string& name) override;
-    /// If NAME.pic does not exist NAME.hdr is read, and the other way round. PNG, JPEG and TIFF
-    /// files are pictures, too (decode_image), and the images that a glTF file holds
+    /// If NAME.pic does not exist NAME.hdr is read, and the other way round. PNG, JPEG, TIFF, TGA
+    /// and BMP files are pictures, too (decode_image), and the images that a glTF file holds
     /// (gltf_scene.h).
     [[nodiscard]] std::shared_ptr<const PictureData> picture(const std::string& name) override;
     [[nodiscard]] std::shared_ptr<const SpectralPicture> spectral_picture(

@@ -39,22 +39,25 @@ class ObjLibrary {
     /// The material, which the scene calls `shown`.
     [[nodiscard]] std::string scene(const std::string& name, const std::string& shown) {
         MtlMaterial material = materials_.at(name);
-        const std::optional<TexturePicture> picture = picture_of(material);
+        MtlPictures pictures{picture(material.map_kd, "map_Kd", name),
+                             picture(material.map_d, "map_d", name)};
+        if (pictures.opacity) pictures.opacity->file += kAlphaPart;
         material.name = shown;
-        return mtl_scene(material, picture);
+        return mtl_scene(material, pictures);
     }
 
   private:
-    std::optional<TexturePicture> picture_of(const MtlMaterial& material) {
-        if (material.map_kd.empty()) return std::nullopt;
-        std::string file = material.map_kd;
+    /// @param map  the statement that names it, for the warning where it is no picture
+    std::optional<TexturePicture> picture(std::string file, const char* map,
+                                          const std::string& material) {
+        if (file.empty()) return std::nullopt;
         // Many come from where paths are written with backslashes.
         if (!files_.readable(path_from(directory_, file))) std::ranges::replace(file, '\\', '/');
         try {
             return texture_beside(file, directory_, shown_, files_);
         } catch (const InputError& error) {
-            warnings_.warn("material \"" + material.name +
-                           "\": map_Kd is left out: " + error.what());
+            warnings_.warn("material \"" + material + "\": " + map +
+                           " is left out: " + error.what());
             return std::nullopt;
         }
     }

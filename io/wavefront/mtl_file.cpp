@@ -50,6 +50,7 @@ class MtlReader {
             m.d = number(line, 1);
         }
         if (statement == "map_Kd") m.map_kd = file_of(without_blanks(line));
+        if (statement == "map_d") m.map_d = file_of(without_blanks(line));
     }
 
     /// The file after the options of a map, the words of which begin with '-'.
@@ -98,8 +99,8 @@ bool is_grey(const Color& c) {
 
 class MtlScene {
   public:
-    MtlScene(const MtlMaterial& material, const std::optional<TexturePicture>& picture)
-        : m_(material), picture_(picture) {}
+    MtlScene(const MtlMaterial& material, const MtlPictures& pictures)
+        : m_(material), pictures_(pictures) {}
 
     std::string write() {
         const int illum = m_.illum.value_or(2);
@@ -122,10 +123,10 @@ class MtlScene {
     }
 
     void write_reflection(int illum) {
-        const bool dissolves = m_.d < 1;
+        const bool dissolves = m_.d < 1 || pictures_.opacity;
         const std::string name = dissolves ? m_.name + "_opaque" : m_.name;
-        const std::string modifier = picture_ ? m_.name + "_map" : "void";
-        if (picture_) out_.add_map(modifier, *picture_);
+        const std::string modifier = pictures_.diffuse ? m_.name + "_map" : "void";
+        if (pictures_.diffuse) out_.add_map(modifier, *pictures_.diffuse);
         const Color ks = illum == 0 || illum == 1 ? Color{} : m_.ks;
         Color sum = m_.kd;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += ks[c];
@@ -144,11 +145,14 @@ class MtlScene {
                          {std::min(1.0, brightness_of(ks) / brightness_of(sum)), roughness});
             out_.add(modifier, "metal", name, {}, reals);
         }
-        if (dissolves) out_.add_veil(m_.name, name, m_.d);
+        if (pictures_.opacity)
+            out_.add_fading(m_.name, name, *pictures_.opacity, m_.d);
+        else if (dissolves)
+            out_.add_veil(m_.name, name, m_.d);
     }
 
     const MtlMaterial& m_;
-    const std::optional<TexturePicture>& picture_;
+    const MtlPictures& pictures_;
     MaterialText out_;
 };
 
@@ -158,8 +162,8 @@ std::vector<MtlMaterial> decode_mtl(std::string_view text, const std::string& na
     return MtlReader(text, name).read();
 }
 
-std::string mtl_scene(const MtlMaterial& material, const std::optional<TexturePicture>& picture) {
-    return MtlScene(material, picture).write();
+std::string mtl_scene(const MtlMaterial& material, const MtlPictures& pictures) {
+    return MtlScene(material, pictures).write();
 }
 
 }  // namespace lightwalk

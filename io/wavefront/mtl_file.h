@@ -20,6 +20,13 @@ struct MtlMaterial {
     double ni = 1;                            ///< refractive index
     std::optional<int> illum;                 ///< model of illumination, from 0 to 10
     std::string map_kd;                       ///< picture of the diffuse reflectance
+    std::string map_d;                        ///< picture of the opacity
+};
+
+/// The pictures of a material that are there.
+struct MtlPictures {
+    std::optional<TexturePicture> diffuse;
+    std::optional<TexturePicture> opacity;  ///< of which the red channel counts
 };
 
 /// Decode a file. Statements that do not matter here are skipped. Throws InputError "NAME:LINE:
@@ -36,8 +43,9 @@ struct MtlMaterial {
 ///   the power of a cosine (Walter et al., "Microfacet models for refraction through rough
 ///   surfaces", EGSR 2007, sec. 5.2). What reflects more than all is scaled down.
 /// * d below 1 without glass: `mixfunc` of the material and what lies behind.
+/// * map_d without glass: `mixpict` of the two by the picture's alpha, or its values where it has
+/// none, times d.
 /// * map_Kd: `colorpict` that multiplies Kd by the picture at the mesh's coordinates, repeating.
-[[nodiscard]] std::string mtl_scene(const MtlMaterial& material,
-                                    const std::optional<TexturePicture>& picture);
+[[nodiscard]] std::string mtl_scene(const MtlMaterial& material, const MtlPictures& pictures);
 
 }  // namespace lightwalk

@@ -71,7 +71,8 @@ const std::string kObject =
 const std::string kObjectMaterials =
     "newmtl a\nKd .8 .7 .6\nKs .1 .1 .1\nNs 100\nillum 2\nnewmtl b\nKd .2 .2 .2\nKs .7 .5 .3\nNs "
     "20\nd "
-    ".5\nnewmtl c\nd .1\nTf 1 .9 .8\nNi 1.5\nillum 4\nnewmtl d\nKe 3 2 1\nmap_Kd -s 1 1 1 a.hdr\n";
+    ".5\nnewmtl c\nd .1\nTf 1 .9 .8\nNi 1.5\nillum 4\nnewmtl d\nKe 3 2 1\nmap_Kd -s 1 1 1 "
+    "a.hdr\nmap_d a.png\n";
 
 const std::string kFunctions = R"({ comments { nest } }
 a = if(Px - .5, noise3(Px,Py,Pz)*k, sqrt(max(0, Dz)));
@@ -294,7 +295,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_wavefront) return objects;
     static const std::vector<std::string> gltfs{gltf_seed().binary(), gltf_seed().json("a.bin")};
     if (target == read_gltf_file) return gltfs;
-    static const std::vector<std::string> images{small_png(), small_tiff(), jpeg_seed()};
+    static const std::vector<std::string> images{small_png(), small_tiff(), jpeg_seed(),
+                                                 small_tga(), small_bmp()};
     if (target == read_image) return images;
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;

@@ -194,8 +194,7 @@ bool read_wavefront(std::string_view bytes) {
         SceneReadOptions options;
         options.library = LibraryPath(std::vector<std::string>{});
         for (const MtlMaterial& material : decode_mtl(bytes, "mutant.mtl"))
-            trace_some(
-                parse_scene(mtl_scene(material, std::nullopt), "mutant.rad", options, silence));
+            trace_some(parse_scene(mtl_scene(material, {}), "mutant.rad", options, silence));
     });
     return object && materials;
 }

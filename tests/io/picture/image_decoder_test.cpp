@@ -87,8 +87,43 @@ TEST_CASE("images: alpha and numbers are as stored, 16 bits too") {
     check_pixel(tiff.values[1], 0, 1, 1000 / 65535.0);
 }
 
+TEST_CASE("images: TGA and BMP files, whose rows go upward and whose colours begin with blue") {
+    for (const std::string& bytes : {test::small_tga(), test::small_bmp()}) {
+        CAPTURE(bytes.substr(0, 2));
+        CHECK(is_image(bytes));
+        const PictureData data = decode_image(bytes, "x", ImageChannels::numbers);
+        REQUIRE(data.values.size() == 2);
+        check_pixel(data.values[0], 1, 0, 128 / 255.0);
+        check_pixel(data.values[1], 0, 1, 64 / 255.0);
+        CHECK(image_error(bytes.substr(0, bytes.size() - 5)).find("x: damaged ") == 0);
+    }
+    const PictureData alpha = decode_image(test::small_tga(), "x", ImageChannels::alpha);
+    check_pixel(alpha.values[0], 1, 1, 1);
+    check_pixel(alpha.values[1], 0, 0, 0);
+}
+
+TEST_CASE("images: of few bytes no large picture is made") {
+    for (const std::string& small : {test::small_tga(), test::small_bmp()}) {
+        std::string large = small;
+        const std::size_t width = large.starts_with("BM") ? 18 : 12;
+        large[width + 1] = large[width + (large.starts_with("BM") ? 5 : 3)] = '\x7f';
+        CHECK(image_error(large) ==
+              "x: an image of no pixels, or of more than a file of this size holds");
+    }
+}
+
+TEST_CASE("images: what OpenImageIO does not read safely is refused") {
+    std::string runs = test::small_bmp();
+    runs[30] = 1;  // run-length encoded, for which memory would be taken first
+    CHECK(!is_image(runs));
+    std::string palette = test::small_tga();
+    palette[1] = palette[2] = 1;
+    CHECK(!is_image(palette));
+}
+
 TEST_CASE("images: what is damaged is refused by its name") {
-    CHECK(image_error("nothing") == "x: neither a Radiance picture, nor PNG, JPEG or TIFF");
+    CHECK(image_error("nothing") ==
+          "x: neither a Radiance picture, nor PNG, JPEG, TIFF, TGA or BMP");
     const std::string png = test::small_png();
     CHECK(image_error(png.substr(0, 30)).find("x: damaged png image") == 0);
     std::string flipped = png;

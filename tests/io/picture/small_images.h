@@ -37,4 +37,16 @@ inline std::string small_tiff() {
         "0c00000000000000");
 }
 
+/// TGA of 2 x 1 pixels of 32 bits: 255 0 128, and 0 255 64, which is transparent.
+inline std::string small_tga() {
+    return bytes_of_digits("0000020000000000000000000200010020088000ffff40ff0000");
+}
+
+/// BMP of the same colours, of 24 bits.
+inline std::string small_bmp() {
+    return bytes_of_digits(
+        "424d3e000000000000003600000028000000020000000100000001001800000000000800000013"
+        "0b0000130b000000000000000000008000ff40ff000000");
+}
+
 }  // namespace lightwalk::test

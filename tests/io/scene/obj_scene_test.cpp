@@ -119,7 +119,7 @@ TEST_CASE("a material of an object file is the scene's, or else its library's, o
     const test::TemporaryFolder folder;
     folder.write("m/lib.mtl",
                  "newmtl slate\nKe 7 7 7\nnewmtl plaster\nKe 5 5 5\nnewmtl pict\nKd 1 1 1\n"
-                 "map_Kd p.hdr\n");
+                 "map_Kd p.hdr\nnewmtl leaf\nKd 0 0 0\nmap_d p.hdr\n");
     folder.write("m/p.hdr", encode_hdr({1, 1, {Rgb::grey(0.5f)}}, {}));
     const std::string square =
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nmtllib lib.mtl\n";
@@ -137,6 +137,7 @@ TEST_CASE("a material of an object file is the scene's, or else its library's, o
           doctest::Approx(2));
     CHECK(value("g plaster\nf 1 2 3 4\n", "") == doctest::Approx(5));
     CHECK(value("g unknown\nf 1 2 3 4\n", "") == doctest::Approx(.5));
+    CHECK(value("usemtl leaf\nf 1/1 2/1 3/2 4/2\n", "") == doctest::Approx(.5).epsilon(.01));
     CHECK(value("f 1 2 3 4\n", "void glow white 0 0 4 3 3 3 0\n") == doctest::Approx(3));
     CHECK(value("usemtl pict\nf 1/1 2/1 3/2 4/2\n", "") == doctest::Approx(.5).epsilon(1.0 / 128));
     CHECK_THROWS_WITH_AS(value("\nusemtl gone\nf 1 2 3 4\n", ""),

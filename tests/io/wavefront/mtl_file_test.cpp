@@ -14,10 +14,10 @@ namespace lightwalk {
 namespace {
 
 std::vector<PrimitiveText> materials(const std::string& statements,
-                                     const std::optional<TexturePicture>& picture = {}) {
+                                     const MtlPictures& pictures = {}) {
     const auto decoded = decode_mtl("newmtl m\n" + statements, "x.mtl");
     REQUIRE(decoded.size() == 1);
-    const std::string text = mtl_scene(decoded[0], picture);
+    const std::string text = mtl_scene(decoded[0], pictures);
     std::vector<PrimitiveText> result;
     SceneTokenizer tokens(text, "scene");
     while (tokens.peek() != SceneTokenizer::Item::end) result.push_back(read_primitive(tokens));
@@ -92,11 +92,26 @@ TEST_CASE("mtl: Ke glows, a map multiplies Kd") {
     CHECK(lamp.type_word == "glow");
     CHECK(lamp.reals == std::vector<double>{3, 2, 1, 0});
     CHECK(decode_mtl("newmtl m\nmap_Kd -s 1 1 1 my.hdr\n", "x.mtl")[0].map_kd == "my.hdr");
-    const auto mapped = materials("Kd .5 .5 .5\nmap_Kd my.hdr\n", TexturePicture{"./my.hdr", 2});
+    const auto mapped =
+        materials("Kd .5 .5 .5\nmap_Kd my.hdr\n", {TexturePicture{"./my.hdr", 2}, {}});
     CHECK(mapped.at(0).type_word == "colorpict");
     CHECK(mapped[0].strings == std::vector<std::string>{"red", "green", "blue", "./my.hdr", ".",
                                                         "frac(Lu)*2.000000", "frac(Lv)"});
     CHECK(mapped.at(1).modifier == "m_map");
+}
+
+TEST_CASE("mtl: map_d cuts out, times d, and glass stays glass") {
+    const MtlPictures pictures{{}, TexturePicture{"./leaf.png#alpha", 1}};
+    const auto leaf = materials("Kd .1 .4 .1\nd .75\nmap_d leaf.png\n", pictures);
+    REQUIRE(leaf.size() == 2);
+    CHECK(leaf[0].name == "m_opaque");
+    CHECK(leaf[1].type_word == "mixpict");
+    CHECK(leaf[1].strings == std::vector<std::string>{"m_opaque", "void", "faded",
+                                                      "./leaf.png#alpha", "gltf.cal", "frac(Lu)",
+                                                      "frac(Lv)"});
+    CHECK(leaf[1].reals == std::vector<double>{.75});
+    CHECK(decode_mtl("newmtl m\nmap_d -imfchan m a.tga\n", "x.mtl")[0].map_d == "a.tga");
+    CHECK(materials("d .5\nillum 4\n", pictures).back().type_word == "glass");
 }
 
 TEST_CASE("mtl: mistakes have their line") {
