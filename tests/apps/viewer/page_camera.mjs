@@ -45,7 +45,7 @@ async function drawn_at_home() {
  * stripes: after one frame, and after some whose views are parts of a pixel apart.
  */
 async function fine_stripes() {
-    const { Reprojection } = await import("/page/reprojection.js");
+    const { Camera } = await import("/page/camera.js");
     const { kNumbers, kPatchRow } = await import("/page/depth.js");
     const size = 96,
         small = 32;
@@ -64,9 +64,11 @@ async function fine_stripes() {
     patches.set([0, 0, 5, 0]); // one, at infinity
     const depth = { step: 0.001, count: 1, patches };
     const canvas = document.createElement("canvas");
-    const camera = new Reprojection(canvas);
+    const picture = new OffscreenCanvas(small, small);
+    const context = picture.getContext("2d", { alpha: false });
+    const camera = new Camera(canvas, picture, true, true);
     const correlation = () => {
-        camera.draw(view_of(0), size, size);
+        camera.draw(view_of(0), { width: size, height: size });
         const shown = new OffscreenCanvas(size, size).getContext("2d");
         shown.drawImage(canvas, 0, 0);
         const { data } = shown.getImageData(0, size / 2, size, 1);
@@ -82,14 +84,12 @@ async function fine_stripes() {
     const found = [];
     for (let k = 0; k < 24; ++k) {
         const shift = (((k * 0.618034) % 1) - 0.5) / small;
-        const picture = new OffscreenCanvas(small, small);
-        const context = picture.getContext("2d", { alpha: false });
         for (let x = 0; x < small; ++x) {
             const grey = Math.round(stripe((size / small) * (x + 0.5) + shift * size));
             context.fillStyle = `rgb(${grey} ${grey} ${grey})`;
             context.fillRect(x, 0, 1, small);
         }
-        camera.keep({ picture, depth, view: view_of(shift) }, false, [size, size]);
+        camera.take(view_of(shift), depth);
         found.push(correlation());
     }
     return { first: found[0], last: found.at(-1) };
