@@ -69,10 +69,11 @@ def call(command, **more):
 def build(name, work, shared, targets):
     level, flags, _ = LEVELS[name]
     folder = work / name
-    # As the release preset, but -O2 and nothing across files: it builds sooner, and compilers err as well. What no picture, ray or value
+    # As the release preset, but -O2 and nothing across files, and without the walk: it builds sooner, and compilers err as well. What no picture, ray or value
     # passes through is not optimised at all.
     call(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
           f"-DLIGHTWALK_ISA={level}", f"-DCMAKE_CXX_FLAGS={flags}", "-DLIGHTWALK_PERF=OFF", "-DLIGHTWALK_UNITY=ON", f"-DLIGHTWALK_SHARED={shared}",
+          f"-DLIGHTWALK_WALK={'ON' if 'all' in targets else 'OFF'}",
           "-DLIGHTWALK_UNOPTIMIZED=io/net;io/gltf;io/wavefront;apps;apps/session;apps/walk;parallel/ranks;parallel/work_queue"])
     call(["ninja", "-C", folder, *targets])
     return folder

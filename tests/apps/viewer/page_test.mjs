@@ -261,9 +261,9 @@ const steps = {
     },
 
     async "a watcher watches, and takes over when nobody drives"(page) {
-        const before = await value(page, "view_id");
         await prank("steal");
         await page.waitForSelector("text=Watching");
+        const before = await value(page, "view_id"); // one may still have been on its way
         await page.focus("#picture");
         await page.keyboard.press("w", { delay: 200 });
         assert.equal(await value(page, "view_id"), before);
@@ -445,11 +445,32 @@ async function start_server() {
     return [server, String(said).trim()];
 }
 
-/** Nothing is held any longer: what one step leaves behind must not spoil the next. */
-async function let_go(page) {
+/** What a step that failed leaves behind must not spoil the next: nothing is held, and a new page has the drive. */
+async function begin_anew(page) {
     for (const key of ["w", "a", "s", "d", "e", "ArrowLeft", "ArrowRight", "PageDown", "Shift"])
         await page.keyboard.up(key);
     await page.mouse.up();
+    for (const name of ["speak", "leave"]) await prank(name);
+    await page.goto("about:blank"); // another hash alone would not load the page
+    await page.goto(address);
+    await shown(page);
+}
+
+async function passes(page, name, step) {
+    const start = Date.now();
+    try {
+        await step(page);
+        console.log(`ok: ${name} (${((Date.now() - start) / 1000).toFixed(1)} s)`);
+        return true;
+    } catch (error) {
+        console.log(`FAILED: ${name}\n${error.stack}`);
+        if (args.pictures) {
+            const file = `failed-${name.replaceAll(/\W+/g, "-")}.png`;
+            await page.screenshot({ path: path.join(args.pictures, file) });
+        }
+        await begin_anew(page);
+        return false;
+    }
 }
 
 async function run() {
@@ -474,19 +495,9 @@ async function run() {
         await shown(page);
         for (const [name, step] of Object.entries(steps)) {
             if (!name.includes(args.only)) continue;
-            const start = Date.now();
-            try {
-                await step(page);
-                console.log(`ok: ${name} (${((Date.now() - start) / 1000).toFixed(1)} s)`);
-            } catch (error) {
-                ++failed;
-                await let_go(page);
-                console.log(`FAILED: ${name}\n${error.stack}`);
-                if (args.pictures)
-                    await page.screenshot({
-                        path: path.join(args.pictures, `failed-${failed}.png`),
-                    });
-            }
+            // Once more where it failed: a machine that stands still for a second is no fault of the page.
+            const good = (await passes(page, name, step)) || (await passes(page, name, step));
+            if (!good) ++failed;
         }
     } finally {
         await browser.close();
