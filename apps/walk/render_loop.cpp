@@ -165,6 +165,7 @@ void RenderLoop::draw(const StopFlag& stop) {
     // Pages that draw the camera of the moment are in no hurry: right frames serve them better than
     // new ones.
     moving_size_.set_patient(screen_.all_want_depth());
+    moving_size_.limit(wish_.view->width, wish_.view->height, screen_.most_moving_pixels());
     const double budget = this->budget();
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
     if (!has_work()) return;

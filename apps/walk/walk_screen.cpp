@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string_view>
 
 #include "io/net/walk_frame.h"
@@ -13,7 +14,9 @@ constexpr int kPieceWidth = 160, kPieceHeight = 120;  // [pixels]
 constexpr int kHurriedQuality = 75, kMovingQuality = 85, kProgressiveQuality = 95;
 /// A frame of a view in motion should take no longer on the wire [s].
 constexpr double kLongestWay = 0.05;
-constexpr double kBytesAPixel = 0.45;  ///< of such a frame at kMovingQuality, depth included
+constexpr double kBytesAPixel = 0.45;  ///< of such a frame, depth included
+/// Where a link is slower frames are smaller, too, so that each takes so long [s].
+constexpr double kLongestSmallWay = 0.2;
 constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how bright a picture is
 
 }  // namespace
@@ -107,6 +110,15 @@ int WalkScreen::moving_quality() const {
         return speed > 0 && bytes > kLongestWay * speed;
     });
     return slow ? kHurriedQuality : kMovingQuality;
+}
+
+double WalkScreen::most_moving_pixels() const {
+    double most = std::numeric_limits<double>::max();
+    for (const auto& [id, client] : clients_) {
+        const double speed = client.flow.bytes_per_second();
+        if (speed > 0) most = std::min(most, kLongestSmallWay * speed / kBytesAPixel);
+    }
+    return most;
 }
 
 /// A piece that shows the same as before need not be compressed, nor sent, again.

@@ -46,6 +46,8 @@ class WalkScreen {
     [[nodiscard]] bool all_want_depth() const {
         return !clients_.empty() && how_many(&Client::wants_depth) == clients_.size();
     }
+    /// How many pixels a frame of a view in motion may have, that no client waits for long for it.
+    [[nodiscard]] double most_moving_pixels() const;
     /// Before show(): how far away what the picture shows is, for the pages that want to know.
     /// @param eye_height  see DepthPiece
     void measure_depth(const LivePicture& picture, const View& view, double eye_height);

@@ -65,9 +65,25 @@ int MovingSize::last_step(double pixels) const {
     return last;
 }
 
+int MovingSize::first_step() const {
+    return std::max(patient_ ? 0 : 1, limit_);
+}
+
+void MovingSize::limit(int width, int height, double most_pixels) {
+    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    const int last = last_step(pixels * share() * share());
+    limit_ = 0;
+    const auto pixels_at = [&](int step) {
+        const double share = kShares[static_cast<std::size_t>(step)];
+        return pixels * share * share;
+    };
+    while (limit_ < last && pixels_at(limit_) > most_pixels) ++limit_;
+    if (step_ < limit_) step(limit_ - step_, pixels_at(step_));
+}
+
 void MovingSize::step(int by, double pixels) {
-    const int first = patient_ ? 0 : 1, last = last_step(pixels);
-    const int next = std::clamp(step_ + by, first, last);
+    const int last = last_step(pixels);
+    const int next = std::clamp(step_ + by, std::min(first_step(), last), last);
     changed_ = next != step_;
     step_ = next;
     good_ = bad_ = 0;
@@ -94,7 +110,7 @@ void MovingSize::record(const CloudReport& report, double budget) {
         if (since_larger_ > 0) patience_ = std::min(2 * patience_, kMostPatience);
         since_larger_ = 0;
         step(wrong > kMany ? 4 : 1, pixels);
-    } else if (good_ >= patience_ && step_ > (patient_ ? 0 : 1)) {
+    } else if (good_ >= patience_ && step_ > first_step()) {
         step(seconds < kShort * kShort * budget ? -2 : -1, pixels);
         since_larger_ = 1;
     }

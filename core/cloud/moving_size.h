@@ -12,6 +12,8 @@ class MovingSize {
   public:
     /// Whether frames may take longer than a period.
     void set_patient(bool patient);
+    /// Before the next frame: how many pixels it may have at most, of so many that are wished for.
+    void limit(int width, int height, double most_pixels);
     /// Share of the width and of the height that are wished for, 0.25 ... 1.
     [[nodiscard]] double share() const;
     [[nodiscard]] int of(int side) const;
@@ -24,11 +26,13 @@ class MovingSize {
 
   private:
     [[nodiscard]] int last_step(double pixels) const;
+    [[nodiscard]] int first_step() const;
     void step(int by, double pixels);
 
     bool patient_ = false;
     int step_ = 5;          ///< of the table of shares; the first frames know little, and are small
     bool changed_ = false;  ///< the next frame is the first one of its size, which tells little
+    int limit_ = 0;         ///< step of the largest share that is allowed
     int good_ = 0, bad_ = 0;  ///< frames in a row that call for a larger, or a smaller size
     int patience_ = 2;        ///< good frames until a larger size is tried
     int since_larger_ = 0;    ///< frames since one was; 0: none was

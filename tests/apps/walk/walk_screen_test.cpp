@@ -128,6 +128,21 @@ TEST_CASE(
     CHECK(number_at<std::uint32_t>(all.last(kDriving), 8) == 5);
 }
 
+TEST_CASE("walk screen: moving frames have no more pixels than the slowest link carries in time") {
+    Screen all;
+    CHECK(all.screen.most_moving_pixels() > 1e9);  // nothing is known
+    all.show(picture_of(0.5f), 1);
+    all.send();
+    const double bytes = static_cast<double>(all.last(kDriving).size());
+    all.ack(kDriving);  // 10 ms later
+    CHECK(all.screen.most_moving_pixels() == doctest::Approx(100 * bytes * 0.2 / 0.45));
+    all.join(kWatching);
+    all.send();
+    all.now += std::chrono::seconds(1);
+    all.ack(kWatching);
+    CHECK(all.screen.most_moving_pixels() < bytes);
+}
+
 TEST_CASE("walk screen: a picture of another size is sent whole") {
     Screen all;
     all.show(picture_of(0.5f), 1);

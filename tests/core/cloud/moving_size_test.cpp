@@ -108,6 +108,23 @@ TEST_CASE("moving size: who is patient gets fewer frames before they get smaller
     CHECK(size.of(1000) == 841);
 }
 
+TEST_CASE("moving size: no more pixels than a link carries, and never fewer than the least") {
+    MovingSize size;
+    size.set_patient(true);
+    record(size, 30, 0, 0.1);
+    size.limit(1280, 720, 1e9);
+    CHECK(size.share() == 1);
+    size.limit(1280, 720, 1280 * 720 / 4.0);  // a quarter of the picture
+    CHECK(size.share() == 0.5);
+    record(size, 100, 0, 0.1);
+    CHECK(size.share() == 0.5);
+    size.limit(1280, 720, 1);
+    CHECK(size.of(1000) == 354);
+    size.limit(1280, 720, 1e9);
+    record(size, 300, 0, 0.1);
+    CHECK(size.share() == 1);
+}
+
 TEST_CASE("moving size: pixels inferred from their own surface count little") {
     MovingSize size = grown();
     CloudReport report = drawn(0.25, 1);
