@@ -51,6 +51,11 @@ std::vector<OptionRow> modifier_rows(ContribCommand& c, const LibraryPath& libra
                   [&c] {
                       if (c.rays == 0) c.x = c.y = 0;
                   }}},
+        {"--cache[+-]", &c.cache,
+         "cache of coefficients | with -ab 2 and more: what rays of indirect light see is not "
+         "traced further, but interpolated between places whose coefficients are kept, which -aa "
+         "(0 counts as 0.15) and -ar choose as they do for values. For bins by direction, of light "
+         "sources"},
         {"Bins", SectionTitle{}},
         {"-b EXPRESSION", next_option(c, c.next.bin),
          "the bin of a contribution, rounded, from 0 on; by where the emitter is met (Px Py Pz) "

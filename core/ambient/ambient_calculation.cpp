@@ -18,6 +18,7 @@ constexpr int kFewestDivisions = 7;  ///< for gradients
 constexpr double kAligned = 0.9999;  ///< cosine of normals that count as one
 constexpr double kLeastFactor =
     0.05;  ///< a correction for a tilted normal that is smaller is left out
+constexpr int kLookingDivisions = 8;  ///< of hemispheres that look where coefficients are missing
 
 /// Random numbers of the hemisphere at a place: they do not depend on who asks first.
 RandomStream stream_of(const AmbientQuery& query, std::uint64_t seed) {
@@ -57,6 +58,7 @@ class Claimed {
 /// The ray that asked at a point, as far as its hemisphere's rays inherit from it.
 Ray ray_to(const AmbientPoint& point) {
     Ray ray;
+    ray.coef = Rgb::grey(1 / kReflectance);  // the terms of its hemisphere are those of the value
     ray.hit.t = point.distance;
     ray.hit.position = point.query.position;
     ray.hit.normal = point.far_side ? -point.query.normal : point.query.normal;
@@ -211,7 +213,47 @@ Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
                            context.path.ambient_level, ray.weight},
                           far_side,
                           context};
+    if (uses_coefficients(context)) return with_coefficients(request);
     return uses_cache(context) ? with_cache(request) : without_cache(request);
+}
+
+/// Not what the ray itself sees: of its own surroundings it wants to know each bin by itself.
+bool AmbientCalculation::uses_coefficients(const TraceContext& context) const {
+    return coefficients_ && context.contributions && context.path.ambient_level > 0;
+}
+
+Rgb AmbientCalculation::with_coefficients(Request request) const {
+    // As if all levels had been cached: who asks shall not decide what is kept.
+    request.query.weight = std::pow(kReflectance, request.query.level);
+    Opaque<CoefficientScratch>& scratch = request.context.coefficients;
+    if (!scratch) scratch = make_opaque<CoefficientScratch>();
+    std::vector<RecordShare>& shares = scratch->shares;
+    coefficients_->find(
+        request.query, [&](const Vec3& target) { return is_blocked(request.ray, target); }, shares);
+    if (!shares.empty()) {
+        ++request.context.counters.ambient.interpolated;
+        const Rgb coefficient = path_throughput(request.ray) * request.coef;
+        Rgb value;
+        for (const RecordShare& share : shares) {
+            const auto part = static_cast<float>(share.weight * share.factor);
+            value += coefficients_->value(share.record) * part;
+            request.context.contributions->add_record(share.record, coefficient * part);
+        }
+        return request.coef * value;
+    }
+    const bool alone = can_stand_alone(request.ray) && request.ray.limit <= 0;
+    if (MissingAmbient* missing = request.context.ambient.missing) {
+        if (!alone) return {};
+        AmbientPoint& point = missing->points.emplace_back(point_of(request));
+        point.path_length += std::exchange(point.distance, 0);  // whose medium is not the point's
+        return {};
+    }
+    request.query.weight = 0;  // the path goes on by one ray
+    return without_cache(request);
+}
+
+const AmbientLimits& AmbientCalculation::limits() const {
+    return coefficients_ ? coefficients_->limits() : cache_->limits();
 }
 
 bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
@@ -221,14 +263,21 @@ bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
            (context.ambient.new_records || cache_->takes_values());
 }
 
+/// Of a hemisphere, per axis.
+int AmbientCalculation::divisions(const Request& request, double weight, bool cached) const {
+    const double effort = coefficients_ && cached ? coefficients_->effort() : 1;
+    const double samples = tracer_.options().ambient_divisions * weight * effort;
+    const double divisions = std::min(std::floor(std::sqrt(samples) + 0.5), 1000.0);
+    const int most = coefficients_ && request.context.ambient.missing ? kLookingDivisions : 1000;
+    return std::clamp(static_cast<int>(divisions), cached ? kFewestDivisions : 1, most);
+}
+
 Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, double weight,
                                       bool cached) const {
     const RenderOptions& options = tracer_.options();
     Ray& ray = request.ray;
     HemisphereSampling sampling;
-    const double divisions =
-        std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
-    sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
+    sampling.divisions = divisions(request, weight, cached);
     if (request.context.ambient.missing == nullptr && request.context.contributions == nullptr) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
@@ -261,6 +310,7 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     const double weight = request.query.weight;
     const double most =
         0.8 * peak * weight / (options.ambient_divisions * options.weight_limit + 1e-20);
+    if (divisions(request, std::min(weight, most), false) == 1) return by_one_ray(request);
     const Hemisphere h = sample(request, request.coef, std::min(weight, most), false);
     if (h.succeeded == 0) return none();
     if (request.context.contributions) return h.sum;
@@ -270,6 +320,28 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     const std::array<double, 2> rotation = rotation_gradient(h);
     const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
     return factor >= kLeastFactor ? h.sum * static_cast<float>(factor) : h.sum;
+}
+
+/// A hemisphere of one division. Most are, once paths have branched: no memory is asked for.
+Rgb AmbientCalculation::by_one_ray(const Request& request) const {
+    TraceContext& context = request.context;
+    const bool counts = context.ambient.missing == nullptr;
+    const RandomStream stream = request.ray.random.child();
+    if (counts) ++context.counters.ambient.computed;
+    Ray ray;
+    bool seen = tracer_.spawn(ray, request.far_side ? kAmbientThrough : kAmbientSame, request.ray,
+                              &request.coef);
+    if (seen) {
+        ray.direction = sample_direction(request.query.normal, stream);
+        ++context.path.ambient_level;
+        const Hit hit = tracer_.scene().geometry().intersect(ray.segment());
+        tracer_.shade_hits({&ray, 1}, {&hit, 1}, context);
+        --context.path.ambient_level;
+        seen = ray.effective_distance() > kEpsilon;
+    }
+    if (seen) return ray.value * ray.coef;
+    if (counts) ++context.counters.ambient.incomplete;
+    return told_constant(request.ray, request.coef, context);
 }
 
 AmbientSum AmbientCalculation::known(const Request& request) const {
@@ -337,9 +409,8 @@ std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     if (h.succeeded == 0) return std::nullopt;
     NewValue made{h.sum * static_cast<float>(1 / kReflectance), std::nullopt};
     if (!h.complete()) return made;
-    const AmbientLimits& limits = cache_->limits();
     const AmbientDerivatives d =
-        derive(h, {limits.accuracy, limits.least_radius, limits.most_radius, weight});
+        derive(h, {limits().accuracy, limits().least_radius, limits().most_radius, weight});
     if (!(d.radius[0] > kEpsilon)) return made;
     AmbientRecord& record = made.record.emplace();
     for (std::size_t k = 0; k < 3; ++k) record.position[k] = static_cast<float>(query.position[k]);
@@ -372,9 +443,9 @@ AmbientPoint AmbientCalculation::point_of(const Request& request) {
 
 bool AmbientCalculation::is_served(const AmbientPoint& point) const {
     const Ray ray = ray_to(point);
-    const AmbientSum sum =
-        cache_->lookup(point.query, [&](const Vec3& target) { return is_blocked(ray, target); });
-    return sum.weight > kEpsilon;
+    const auto leaks = [&](const Vec3& target) { return is_blocked(ray, target); };
+    if (coefficients_) return coefficients_->serves(point.query, leaks);
+    return cache_->lookup(point.query, leaks).weight > kEpsilon;
 }
 
 std::optional<AmbientRecord> AmbientCalculation::record_at(const AmbientPoint& point,

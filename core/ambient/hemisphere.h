@@ -68,6 +68,9 @@ struct HemisphereSampling {
 [[nodiscard]] Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,
                                            RandomStream random, HemisphereRays& rays);
 
+/// Where the only ray of a hemisphere of one division goes, as above.
+[[nodiscard]] Vec3 sample_direction(const Vec3& normal, RandomStream random);
+
 /// Point of the unit disk for a point of the unit square (Shirley & Chiu); areas keep their ratio.
 struct DiskPoint {
     double x = 0, y = 0;

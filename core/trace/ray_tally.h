@@ -2,6 +2,7 @@
 // Answers to separate rays that are made of the terms of their radiance.
 #include <string>
 
+#include "core/ambient/coefficient_cache.h"
 #include "core/transport/contribution.h"
 #include "core/transport/trace_context.h"
 
@@ -14,6 +15,8 @@ class RayTally : public ContributionSink {
     [[nodiscard]] virtual RayObserver* observer() { return nullptr; }
     /// Appends the answer to the ray whose terms were told since the last call.
     virtual void take(std::string& bytes) = 0;
+    /// The same terms for a record of coefficients; columns are those of the answers.
+    [[nodiscard]] virtual CoefficientTerms take_terms() = 0;
 };
 
 }  // namespace lightwalk
