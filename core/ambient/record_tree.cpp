@@ -12,10 +12,23 @@ struct RecordTree::Search {
     std::vector<RecordShare>& shares;
 };
 
+void RecordTree::Box::grow(const Box& other) {
+    const bool empty = low[0] > high[0];
+    for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = empty ? other.low[k] : std::min(low[k], other.low[k]);
+        high[k] = empty ? other.high[k] : std::max(high[k], other.high[k]);
+    }
+}
+
 void RecordTree::insert(const AmbientRecord& record) {
     const auto number = static_cast<std::uint32_t>(records_.size());
     DecodedRecord& decoded = records_.emplace_back(record);
     const RecordReach reach = reach_of(decoded, limits_);
+    Leaf& leaf = leaves_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+        leaf.box.low[k] = static_cast<float>(reach.low[k]);
+        leaf.box.high[k] = static_cast<float>(reach.high[k]);
+    }
     CachePath cube{limits_.origin, limits_.size};
     std::uint32_t at = 0;
     while (cube.edge / 2 > limits_.accuracy * static_cast<double>(record.radius[1])) {
@@ -25,16 +38,9 @@ void RecordTree::insert(const AmbientRecord& record) {
             nodes_[at].children = children;
         }
         at = nodes_[at].children + descend(cube, record.position);
-        Node& node = nodes_[at];
-        const bool empty = node.low[0] > node.high[0];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto low = static_cast<float>(reach.low[k]),
-                       high = static_cast<float>(reach.high[k]);
-            node.low[k] = empty ? low : std::min(node.low[k], low);
-            node.high[k] = empty ? high : std::max(node.high[k], high);
-        }
+        nodes_[at].box.grow(leaf.box);
     }
-    decoded.next = nodes_[at].first;
+    leaf.next = nodes_[at].first;
     nodes_[at].first = number;
 }
 
@@ -53,17 +59,15 @@ double RecordTree::find(const AmbientQuery& query, LeakTest leaks,
 double RecordTree::find_below(const Node& node, double edge, const Search& search) const {
     double weight = 0;
     if (node.children != 0) {
-        const std::array<float, 3>& p = search.at;
         for (std::uint32_t child = 0; child < 8; ++child) {
             const Node& inside = nodes_[node.children + child];
-            if (p[0] >= inside.low[0] && p[0] <= inside.high[0] && p[1] >= inside.low[1] &&
-                p[1] <= inside.high[1] && p[2] >= inside.low[2] && p[2] <= inside.high[2])
-                weight += find_below(inside, 0.5 * edge, search);
+            if (inside.box.holds(search.at)) weight += find_below(inside, 0.5 * edge, search);
         }
         if (weight >= kEnoughWeight && edge * 0.5 * limits_.accuracy > limits_.least_radius)
             return weight;
     }
-    for (std::uint32_t i = node.first; i != kNone; i = records_[i].next) {
+    for (std::uint32_t i = node.first; i != kNone; i = leaves_[i].next) {
+        if (!leaves_[i].box.holds(search.at)) continue;
         const DecodedRecord& record = records_[i];
         if (!record.serves(search.query.level, search.query.weight)) continue;
         const RecordUse use = use_of(record, search.query, limits_, search.angle, search.leaks);

@@ -28,17 +28,31 @@ class RecordTree {
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffff;
+    /// Where records are usable.
+    struct Box {
+        std::array<float, 3> low{1, 1, 1}, high{};
+        [[nodiscard]] bool holds(const std::array<float, 3>& p) const {
+            return p[0] >= low[0] && p[0] <= high[0] && p[1] >= low[1] && p[1] <= high[1] &&
+                   p[2] >= low[2] && p[2] <= high[2];
+        }
+        void grow(const Box& other);
+    };
     struct Node {
-        std::array<float, 3> low{1, 1, 1},
-            high{};                   ///< where its records, or those below, are usable
+        Box box;                      ///< of its records and those below
         std::uint32_t children = 0;   ///< first of eight; 0: none
         std::uint32_t first = kNone;  ///< record
+    };
+    /// A record's place in the tree, beside the record itself: most are not usable.
+    struct Leaf {
+        Box box;
+        std::uint32_t next = kNone;  ///< record of its node
     };
     struct Search;
     [[nodiscard]] double find_below(const Node& node, double edge, const Search& search) const;
 
     AmbientLimits limits_;
     std::vector<Node> nodes_;
+    std::vector<Leaf> leaves_;  ///< one a record
     std::vector<DecodedRecord> records_;
 };
 
