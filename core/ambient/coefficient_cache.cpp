@@ -82,7 +82,8 @@ void CoefficientSums::take(std::span<double> sums) {
         const Rgb weight = weights_[record];
         for (const CoefficientTerm& term : cache_.columns(record)) {
             for (std::size_t k = 0; k < 3; ++k)
-                sums[3 * term.number + k] += static_cast<double>(weight[k] * term.coefficient[k]);
+                sums[std::size_t{3} * term.number + k] +=
+                    static_cast<double>(weight[k] * term.coefficient[k]);
         }
         for (const CoefficientTerm& term : cache_.records(record))
             add(term.number, weight * term.coefficient);
