@@ -11,7 +11,7 @@ export function draws_in_software(gl) {
     return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-/** A picture and a depth buffer of one size, to draw in. */
+/** What refining frames needs: programs, and a picture with depths in which what was shown before is drawn. */
 export class Refinement {
     constructor(gl) {
         this.gl_ = gl;

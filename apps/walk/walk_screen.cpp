@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kPieceWidth = 160, kPieceHeight = 120;  // [pixels]
 constexpr int kHurriedQuality = 75, kMovingQuality = 85, kProgressiveQuality = 95;
-/// Of the share of frames that could not be sent when they were there: its weight of the newest,
-/// and from where on links are slow.
-constexpr float kNewest = 0.1f, kSlow = 0.3f;
+/// A frame of a view in motion should take no longer on the wire [s].
+constexpr double kLongestWay = 0.05;
+constexpr double kBytesAPixel = 0.45;  ///< of such a frame at kMovingQuality, depth included
 constexpr std::size_t kLookedAt = 19;  // every so-manieth pixel tells how bright a picture is
 
 }  // namespace
@@ -85,7 +85,7 @@ void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
     view_ = view;
     contents_[depth_index()] = depth_.content();
     const bool measured = how_many(&Client::wants_luminance) > 0;
-    const int quality = view.at_rest ? kProgressiveQuality : moving_quality(now);
+    const int quality = view.at_rest ? kProgressiveQuality : moving_quality();
     executor_.for_each(pieces_.size(), [&](std::size_t i, int) {
         colour(pieces_[i], picture, display, quality);
         contents_[i] = pieces_[i].content;
@@ -98,13 +98,15 @@ void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
     contents_[luminance_index()] = luminance_.content();
 }
 
-/// Quality of frames of a view in motion: less where links cannot keep up with them.
-int WalkScreen::moving_quality(Time now) {
-    const bool held = std::any_of(clients_.begin(), clients_.end(), [now](const auto& client) {
-        return !client.second.flow.may_send(now);
+/// Quality of frames of a view in motion: less where a link would take long to carry them, as far
+/// as is known of it.
+int WalkScreen::moving_quality() const {
+    const double bytes = kBytesAPixel * width_ * height_;
+    const bool slow = std::any_of(clients_.begin(), clients_.end(), [bytes](const auto& client) {
+        const double speed = client.second.flow.bytes_per_second();
+        return speed > 0 && bytes > kLongestWay * speed;
     });
-    held_ += kNewest * ((held ? 1.0f : 0.0f) - held_);
-    return held_ > kSlow ? kHurriedQuality : kMovingQuality;
+    return slow ? kHurriedQuality : kMovingQuality;
 }
 
 /// A piece that shows the same as before need not be compressed, nor sent, again.

@@ -74,7 +74,7 @@ class WalkScreen {
     void cut(int width, int height);
     [[nodiscard]] std::size_t how_many(bool Client::*want) const;
     void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
-    [[nodiscard]] int moving_quality(Time now);
+    [[nodiscard]] int moving_quality() const;
     void compress(std::span<const std::size_t> pieces);
     // Beside the picture's pieces.
     [[nodiscard]] std::size_t depth_index() const { return pieces_.size(); }
@@ -107,7 +107,6 @@ class WalkScreen {
     Adaptation eye_;
     Time last_look_{};
     float exposure_ = 1;
-    float held_ = 0;            ///< share of recent frames that could not be sent at once
     std::uint8_t display_ = 0;  ///< number of the settings that the colours are after
     std::uint32_t frame_ = 0;
 };

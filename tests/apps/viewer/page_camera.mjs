@@ -1,8 +1,17 @@
 // Steps of page_test.mjs: what WebGL2 makes of frames whose scene is known.
 import assert from "node:assert/strict";
 
+const kView = {
+    type: "v",
+    position: [0, 0, 0],
+    direction: [0, 1, 0],
+    up: [0, 0, 1],
+    horizontal: 60,
+    vertical: 60,
+};
+
 /** Runs in the page: the largest difference of a frame, drawn at its own view, from its picture [0..255]. */
-async function drawn_at_home() {
+async function drawn_at_home(view) {
     const { Reprojection } = await import("/page/reprojection.js");
     const { kNumbers, kPatchRow } = await import("/page/depth.js");
     const size = 128,
@@ -22,14 +31,6 @@ async function drawn_at_home() {
             kNumbers * k,
         );
     const depth = { step: 0.001, count: across * across, patches };
-    const view = {
-        type: "v",
-        position: [0, 0, 0],
-        direction: [0, 1, 0],
-        up: [0, 0, 1],
-        horizontal: 60,
-        vertical: 60,
-    };
     const canvas = document.createElement("canvas");
     const camera = new Reprojection(canvas);
     camera.keep({ picture, depth, view }, false);
@@ -44,22 +45,14 @@ async function drawn_at_home() {
  * Runs in the page: how frames of a third of the screen's width, of far stripes finer than their pixels can tell, correlate with the
  * stripes: after one frame, and after some whose views are parts of a pixel apart.
  */
-async function fine_stripes() {
+async function fine_stripes(view) {
     const { Camera } = await import("/page/camera.js");
     const { kNumbers, kPatchRow } = await import("/page/depth.js");
     const size = 96,
         small = 32;
     // The stripes' colour at a place of the screen's picture [pixels]: a place to the right of a view's middle by `shift` of its width.
     const stripe = (x) => 128 + 100 * Math.sin(1.2 * x);
-    const view_of = (shift) => ({
-        type: "v",
-        position: [0, 0, 0],
-        direction: [0, 1, 0],
-        up: [0, 0, 1],
-        horizontal: 60,
-        vertical: 60,
-        shift,
-    });
+    const view_of = (shift) => ({ ...view, shift });
     const patches = new Uint16Array(kNumbers * kPatchRow);
     patches.set([0, 0, 5, 0]); // one, at infinity
     const depth = { step: 0.001, count: 1, patches };
@@ -97,12 +90,12 @@ async function fine_stripes() {
 
 export const camera_steps = () => ({
     async "a frame that is drawn at its own view is its picture"(page) {
-        const most = await page.evaluate(drawn_at_home);
+        const most = await page.evaluate(drawn_at_home, kView);
         assert.ok(most <= 8, `off by ${most}`);
     },
 
     async "frames of few pixels are refined by those before them"(page) {
-        const { first, last } = await page.evaluate(fine_stripes);
+        const { first, last } = await page.evaluate(fine_stripes, kView);
         assert.ok(first < 0.7, `one frame cannot know the stripes, but correlates by ${first}`);
         assert.ok(last > 0.9, `frames correlate by ${last}`);
     },
