@@ -2,7 +2,7 @@
 """Daylight coefficients of a room's sensors: lightwalk contrib, without and with --cache, beside Radiance's rcontrib; whole processes in turns, a
 core each.
 
-  contrib_bench.py --radiance DIR --library DIR [--lightwalk PROGRAM] [--sensors 20x10] [--subdivisions 1,4] [--divisions 256,1024,4096]
+  contrib_bench.py --radiance DIR --library DIR [--lightwalk PROGRAM] [--sensors 20x10] [--subdivisions 1,4] [--divisions 128,256,1024,2048,4096]
                    [--bounces 3] [--runs 3] [--converged 65536] [--options "..."]
 
 --radiance holds Radiance's programs oconv and rcontrib, --library its function files (reinhart.cal). The room has a window, furniture and an
@@ -134,7 +134,7 @@ def main():
     parser.add_argument("--sensors", default="20x10")
     numbers = lambda text: [int(word) for word in text.split(",")]
     parser.add_argument("--subdivisions", type=numbers, default=[1, 4])
-    parser.add_argument("--divisions", type=numbers, default=[256, 1024, 4096])
+    parser.add_argument("--divisions", type=numbers, default=[128, 256, 1024, 2048, 4096])
     parser.add_argument("--bounces", type=int, default=3)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--converged", type=int, default=65536)
