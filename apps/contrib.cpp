@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  ///< of answers that wait to be written
 constexpr std::size_t kMostLongRays = 1024;                ///< with indirect light, at once
-constexpr double kCacheAccuracy = 0.15;                    ///< -aa, with --cache and -aa 0
+constexpr double kCacheAccuracy = 0.2;                     ///< -aa, with --cache and -aa 0
 
 class ContribRun final : CommandRun {
   public:
@@ -82,7 +82,9 @@ class ContribRun final : CommandRun {
                                  "Dz alone");
         }
         if (communicator != nullptr && communicator->size() > 1)
-            throw UsageError("option --cache: the records are those of one process, no ranks");
+            throw UsageError(
+                "option --cache: the places are kept by one process, no ranks: expected threads "
+                "(-n)");
         if (command_.common.settings.light.ambient_bounces < 2)
             warnings().warn("--cache changes nothing: it is for -ab 2 and more");
     }

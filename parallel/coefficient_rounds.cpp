@@ -44,13 +44,26 @@ CoefficientRounds::CoefficientRounds(const Tracer& tracer, CoefficientCache& cac
       contexts_(contexts),
       tallies_(std::move(tallies)),
       stop_(stop),
-      calculation_(tracer),
-      guess_(cache.limits()) {
-    calculation_.use_coefficients(&cache);
-}
+      calculation_(tracer, cache),
+      guess_(cache.limits()) {}
 
 void CoefficientRounds::fill(FunctionRef<void()> trace) {
-    compute_in_rounds(collect(trace));
+    WaitingPoints waiting(
+        collect(trace), guess_,
+        [this](const AmbientPoint* some, std::size_t count) { return served(some, count); });
+    while (!stop_.requested() && !cache_.full()) {
+        const std::vector<AmbientPoint> chosen =
+            waiting.choose(WaitingPoints::most_values(cache_.size()));
+        if (chosen.empty()) return;
+        const std::vector<Made> made = compute(chosen);
+        if (stop_.requested()) return;
+        for (const Made& one : made) {
+            if (!one.record || cache_.full()) continue;
+            cache_.insert(*one.record, one.terms);
+            guess_.add(one.record->position, one.record->normal, CoefficientCache::kLevel,
+                       one.record->reach);
+        }
+    }
 }
 
 std::vector<AmbientPoint> CoefficientRounds::collect(FunctionRef<void()> trace) {
@@ -65,45 +78,11 @@ std::vector<char> CoefficientRounds::served(const AmbientPoint* points, std::siz
     std::vector<char> result(count, 0);
     executor_.for_each((count + kPointsPerTask - 1) / kPointsPerTask, [&](std::size_t task, int) {
         const std::size_t last = std::min(count, (task + 1) * kPointsPerTask);
+        CoefficientScratch scratch;
         for (std::size_t i = task * kPointsPerTask; i < last; ++i)
-            result[i] = calculation_.is_served(points[i]) ? 1 : 0;
+            result[i] = calculation_.is_served(points[i], scratch) ? 1 : 0;
     });
     return result;
-}
-
-/// Until each of the points, which must be of one level, has a record or cannot have one.
-void CoefficientRounds::compute_in_rounds(std::vector<AmbientPoint> points) {
-    if (points.empty()) return;
-    const int level = points.front().query.level;
-    WaitingPoints waiting(
-        std::move(points), guess_,
-        [this](const AmbientPoint* some, std::size_t count) { return served(some, count); });
-    while (!stop_.requested() && !cache_.full()) {
-        const std::vector<AmbientPoint> chosen =
-            waiting.choose(WaitingPoints::most_values(cache_.size(level)));
-        if (chosen.empty()) return;
-        prepare(chosen);
-        const std::vector<Made> made = compute(chosen);
-        if (stop_.requested()) return;
-        for (const Made& one : made) {
-            if (!one.record || cache_.full()) continue;
-            cache_.insert(*one.record, one.terms);
-            guess_.add(*one.record);
-        }
-    }
-}
-
-/// The records of the next level that those of these points will need.
-void CoefficientRounds::prepare(const std::vector<AmbientPoint>& chosen) {
-    if (chosen.front().query.level + 1 >= tracer_.options().ambient_bounces) return;
-    compute_in_rounds(collect([&] {
-        executor_.for_each(
-            chosen.size(),
-            [&](std::size_t task, int worker) {
-                calculation_.prefetch(chosen[task], contexts_[worker]);
-            },
-            stop_);
-    }));
 }
 
 /// The records of the points, in their order; after a stop, some of them.
@@ -114,7 +93,9 @@ std::vector<CoefficientRounds::Made> CoefficientRounds::compute(
         chosen.size(),
         [&](std::size_t task, int worker) {
             Made& own = made[task];
-            own.record = calculation_.record_at(chosen[task], contexts_[worker]);
+            const std::optional<double> reach = calculation_.reach_at(chosen[task]);
+            if (!reach) return;
+            own.record = calculation_.record_at(chosen[task], *reach, contexts_[worker]);
             own.terms = tallies_[static_cast<std::size_t>(worker)]->take_terms();
         },
         stop_);

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/ambient/ambient_calculation.h"
+#include "core/ambient/coefficient_calculation.h"
 #include "core/ambient/spacing_guess.h"
 #include "core/math/function_ref.h"
 #include "core/trace/ray_tally.h"
@@ -14,9 +14,9 @@
 namespace lightwalk {
 
 /// As AmbientRounds does it for ambient values: a round chooses points that are apart, computes
-/// their records while the cache stays as it is, and stores them in the points' order; records of
-/// the level below, which those will need, come first. Where no record is, rays go on by
-/// themselves, so that not every place needs one.
+/// their records while the cache stays as it is, and stores them in the points' order. Where no
+/// record is, rays go on by themselves, so that not every place needs one: few rays look, and where
+/// none of these asks hardly any would.
 class CoefficientRounds {
   public:
     /// All must outlive this; `cache` is the one that `tracer` uses.
@@ -31,13 +31,11 @@ class CoefficientRounds {
 
   private:
     struct Made {
-        std::optional<AmbientRecord> record;
-        CoefficientTerms terms;
+        std::optional<CoefficientRecord> record;
+        std::vector<CoefficientTerm> terms;
     };
     [[nodiscard]] std::vector<AmbientPoint> collect(FunctionRef<void()> trace);
     [[nodiscard]] std::vector<char> served(const AmbientPoint* points, std::size_t count);
-    void compute_in_rounds(std::vector<AmbientPoint> points);
-    void prepare(const std::vector<AmbientPoint>& chosen);
     [[nodiscard]] std::vector<Made> compute(const std::vector<AmbientPoint>& chosen);
 
     const Tracer& tracer_;
@@ -46,7 +44,7 @@ class CoefficientRounds {
     WorkerContexts& contexts_;
     std::vector<RayTally*> tallies_;
     const StopFlag& stop_;
-    AmbientCalculation calculation_;
+    CoefficientCalculation calculation_;
     SpacingGuess guess_;
 };
 

@@ -1,10 +1,11 @@
 #include "core/ambient/ambient_calculation.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
+#include "core/ambient/ambient_request.h"
+#include "core/ambient/coefficient_calculation.h"
 #include "core/ambient/derivatives.h"
 #include "core/math/direction_code.h"
 #include "core/transport/contribution.h"
@@ -12,29 +13,11 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kReflectance =
-    0.5;  ///< that cached values assume of what lies between them and the eye
+constexpr double kReflectance = kAssumedReflectance;
 constexpr int kFewestDivisions = 7;  ///< for gradients
 constexpr double kAligned = 0.9999;  ///< cosine of normals that count as one
 constexpr double kLeastFactor =
     0.05;  ///< a correction for a tilted normal that is smaller is left out
-constexpr int kLookingDivisions = 8;  ///< of hemispheres that look where coefficients are missing
-
-/// Random numbers of the hemisphere at a place: they do not depend on who asks first.
-RandomStream stream_of(const AmbientQuery& query, std::uint64_t seed) {
-    std::uint64_t key = mix_bits(seed + static_cast<std::uint64_t>(query.level));
-    for (const Vec3& v : {query.position, query.normal}) {
-        for (std::size_t k = 0; k < 3; ++k)
-            key = mix_bits(key ^ std::bit_cast<std::uint64_t>(v[k]));
-    }
-    return RandomStream(key);
-}
-
-/// Whether all that its hemisphere's rays inherit fits an AmbientPoint.
-bool can_stand_alone(const Ray& ray) {
-    return ray.clip == nullptr && ray.next_clip == nullptr && ray.medium.scatter == nullptr &&
-           !ray.aimed;
-}
 
 std::array<float, 2> floats(const std::array<double, 2>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1])};
@@ -53,37 +36,6 @@ class Claimed {
   private:
     AmbientCache& cache_;
     AmbientClaim claim_;
-};
-
-/// The ray that asked at a point, as far as its hemisphere's rays inherit from it.
-Ray ray_to(const AmbientPoint& point) {
-    Ray ray;
-    ray.coef = Rgb::grey(1 / kReflectance);  // the terms of its hemisphere are those of the value
-    ray.hit.t = point.distance;
-    ray.hit.position = point.query.position;
-    ray.hit.normal = point.far_side ? -point.query.normal : point.query.normal;
-    ray.limit = point.limit;
-    ray.weight = point.query.weight;
-    ray.level = point.ray_level;
-    ray.history = point.history;
-    ray.target = point.target;
-    ray.medium = point.medium;
-    ray.path_length = point.path_length;
-    return ray;
-}
-
-/// The level at which a point asks, while this lives.
-class AtLevel {
-  public:
-    AtLevel(TraceContext& context, int level)
-        : context_(context), before_(std::exchange(context.path.ambient_level, level)) {}
-    ~AtLevel() { context_.path.ambient_level = before_; }
-    AtLevel(const AtLevel&) = delete;
-    AtLevel& operator=(const AtLevel&) = delete;
-
-  private:
-    TraceContext& context_;
-    int before_;
 };
 
 /// The rays of one value's hemisphere.
@@ -140,14 +92,7 @@ class AmbientRays final : public HemisphereRays {
 
 }  // namespace
 
-/// One ambient value that a surface asks for.
-struct AmbientCalculation::Request {
-    Ray& ray;
-    const Rgb& coef;
-    AmbientQuery query;
-    bool far_side = false;  ///< not the viewer's
-    TraceContext& context;
-};
+AmbientCalculation::~AmbientCalculation() = default;
 
 AmbientCalculation::AmbientCalculation(const LightTransport& tracer) : tracer_(tracer) {
     const AmbientSelection& selection = tracer.options().ambient_surfaces;
@@ -159,6 +104,10 @@ AmbientCalculation::AmbientCalculation(const LightTransport& tracer) : tracer_(t
         listed_[i] = std::find(selection.modifiers.begin(), selection.modifiers.end(), name) !=
                      selection.modifiers.end();
     }
+}
+
+void AmbientCalculation::use_coefficients(const CoefficientCache* cache) {
+    coefficients_ = cache ? std::make_unique<CoefficientCalculation>(tracer_, *cache) : nullptr;
 }
 
 bool AmbientCalculation::takes_part(const Ray& ray) const {
@@ -213,47 +162,17 @@ Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
                            context.path.ambient_level, ray.weight},
                           far_side,
                           context};
-    if (uses_coefficients(context)) return with_coefficients(request);
+    if (coefficients_ && context.contributions) return with_coefficients(request);
     return uses_cache(context) ? with_cache(request) : without_cache(request);
 }
 
-/// Not what the ray itself sees: of its own surroundings it wants to know each bin by itself.
-bool AmbientCalculation::uses_coefficients(const TraceContext& context) const {
-    return coefficients_ && context.contributions && context.path.ambient_level > 0;
-}
-
-Rgb AmbientCalculation::with_coefficients(Request request) const {
-    // As if all levels had been cached: who asks shall not decide what is kept.
-    request.query.weight = std::pow(kReflectance, request.query.level);
-    Opaque<CoefficientScratch>& scratch = request.context.coefficients;
-    if (!scratch) scratch = make_opaque<CoefficientScratch>();
-    std::vector<RecordShare>& shares = scratch->shares;
-    coefficients_->find(
-        request.query, [&](const Vec3& target) { return is_blocked(request.ray, target); }, shares);
-    if (!shares.empty()) {
-        ++request.context.counters.ambient.interpolated;
-        const Rgb coefficient = path_throughput(request.ray) * request.coef;
-        Rgb value;
-        for (const RecordShare& share : shares) {
-            const auto part = static_cast<float>(share.weight * share.factor);
-            value += coefficients_->value(share.record) * part;
-            request.context.contributions->add_record(share.record, coefficient * part);
-        }
-        return request.coef * value;
+/// A ray's own surroundings are not interpolated: it wants to know each bin by itself.
+Rgb AmbientCalculation::with_coefficients(const Request& request) const {
+    if (request.query.level == 0) return without_cache(request);
+    if (request.query.level == CoefficientCache::kLevel) {
+        if (const std::optional<Rgb> known = coefficients_->known(request)) return *known;
     }
-    const bool alone = can_stand_alone(request.ray) && request.ray.limit <= 0;
-    if (MissingAmbient* missing = request.context.ambient.missing) {
-        if (!alone) return {};
-        AmbientPoint& point = missing->points.emplace_back(point_of(request));
-        point.path_length += std::exchange(point.distance, 0);  // whose medium is not the point's
-        return {};
-    }
-    request.query.weight = 0;  // the path goes on by one ray
-    return without_cache(request);
-}
-
-const AmbientLimits& AmbientCalculation::limits() const {
-    return coefficients_ ? coefficients_->limits() : cache_->limits();
+    return by_one_ray(request);
 }
 
 bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
@@ -264,12 +183,10 @@ bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
 }
 
 /// Of a hemisphere, per axis.
-int AmbientCalculation::divisions(const Request& request, double weight, bool cached) const {
-    const double effort = coefficients_ && cached ? coefficients_->effort() : 1;
-    const double samples = tracer_.options().ambient_divisions * weight * effort;
+int AmbientCalculation::divisions(double weight, bool cached) const {
+    const double samples = tracer_.options().ambient_divisions * weight;
     const double divisions = std::min(std::floor(std::sqrt(samples) + 0.5), 1000.0);
-    const int most = coefficients_ && request.context.ambient.missing ? kLookingDivisions : 1000;
-    return std::clamp(static_cast<int>(divisions), cached ? kFewestDivisions : 1, most);
+    return std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
 }
 
 Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, double weight,
@@ -277,7 +194,7 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     const RenderOptions& options = tracer_.options();
     Ray& ray = request.ray;
     HemisphereSampling sampling;
-    sampling.divisions = divisions(request, weight, cached);
+    sampling.divisions = divisions(weight, cached);
     if (request.context.ambient.missing == nullptr && request.context.contributions == nullptr) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
@@ -310,7 +227,12 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     const double weight = request.query.weight;
     const double most =
         0.8 * peak * weight / (options.ambient_divisions * options.weight_limit + 1e-20);
-    if (divisions(request, std::min(weight, most), false) == 1) return by_one_ray(request);
+    const int per_axis = divisions(std::min(weight, most), false);
+    if (per_axis == 1) return by_one_ray(request);
+    if (coefficients_ && request.context.contributions) {
+        const std::optional<Rgb> sum = coefficients_->seen(request, per_axis);
+        return sum ? *sum : none();
+    }
     const Hemisphere h = sample(request, request.coef, std::min(weight, most), false);
     if (h.succeeded == 0) return none();
     if (request.context.contributions) return h.sum;
@@ -409,8 +331,9 @@ std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     if (h.succeeded == 0) return std::nullopt;
     NewValue made{h.sum * static_cast<float>(1 / kReflectance), std::nullopt};
     if (!h.complete()) return made;
+    const AmbientLimits& limits = cache_->limits();
     const AmbientDerivatives d =
-        derive(h, {limits().accuracy, limits().least_radius, limits().most_radius, weight});
+        derive(h, {limits.accuracy, limits.least_radius, limits.most_radius, weight});
     if (!(d.radius[0] > kEpsilon)) return made;
     AmbientRecord& record = made.record.emplace();
     for (std::size_t k = 0; k < 3; ++k) record.position[k] = static_cast<float>(query.position[k]);
@@ -426,26 +349,11 @@ std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     return made;
 }
 
-AmbientPoint AmbientCalculation::point_of(const Request& request) {
-    const Ray& ray = request.ray;
-    AmbientPoint point;
-    point.query = request.query;
-    point.far_side = request.far_side;
-    point.distance = ray.hit.t;
-    point.path_length = ray.path_length;
-    point.limit = ray.limit;
-    point.ray_level = ray.level;
-    point.history = ray.history;
-    point.target = ray.target;
-    point.medium = ray.medium;
-    return point;
-}
-
 bool AmbientCalculation::is_served(const AmbientPoint& point) const {
     const Ray ray = ray_to(point);
-    const auto leaks = [&](const Vec3& target) { return is_blocked(ray, target); };
-    if (coefficients_) return coefficients_->serves(point.query, leaks);
-    return cache_->lookup(point.query, leaks).weight > kEpsilon;
+    const AmbientSum sum =
+        cache_->lookup(point.query, [&](const Vec3& target) { return is_blocked(ray, target); });
+    return sum.weight > kEpsilon;
 }
 
 std::optional<AmbientRecord> AmbientCalculation::record_at(const AmbientPoint& point,

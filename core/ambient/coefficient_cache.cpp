@@ -1,54 +1,42 @@
 #include "core/ambient/coefficient_cache.h"
 
 namespace lightwalk {
+namespace {
 
-const CoefficientCache::Level* CoefficientCache::level(int number) const {
-    const auto n = static_cast<std::size_t>(number);
-    return n < levels_.size() ? &levels_[n] : nullptr;
+/// Of what -ar allows: obstacles limit records of coefficients more than those of values.
+constexpr double kLeastReach = 0.125;
+
+double least_reach_of(const AmbientLimits& limits) {
+    return kLeastReach * limits.accuracy * limits.least_radius;
 }
 
-std::size_t CoefficientCache::size(int number) const {
-    const Level* const own = level(number);
-    return own ? own->numbers.size() : 0;
+}  // namespace
+
+CoefficientCache::CoefficientCache(const AmbientLimits& limits, double effort)
+    : limits_(limits),
+      effort_(effort),
+      grid_(limits.origin, least_reach_of(limits), largest_angle(limits.accuracy, 1, true)) {}
+
+double CoefficientCache::least_reach() const {
+    return least_reach_of(limits_);
 }
 
-void CoefficientCache::find(const AmbientQuery& query, LeakTest leaks,
-                            std::vector<RecordShare>& shares) const {
+void CoefficientCache::find(const AmbientQuery& query, std::vector<RecordShare>& shares) const {
     shares.clear();
-    const Level* const own = level(query.level);
-    if (!own) return;
-    const double weight = own->tree.find(query, leaks, shares);
-    if (weight <= kEpsilon) return shares.clear();
-    for (RecordShare& share : shares) {
-        share.record = own->numbers[share.record];
-        share.weight /= weight;
-    }
+    const double weight = grid_.find(query.position, query.normal, shares);
+    for (RecordShare& share : shares) share.weight /= weight;
 }
 
-bool CoefficientCache::serves(const AmbientQuery& query, LeakTest leaks) const {
-    const Level* const own = level(query.level);
-    std::vector<RecordShare> shares;
-    return own && own->tree.find(query, leaks, shares) > kEpsilon;
-}
-
-std::span<const CoefficientTerm> CoefficientCache::columns(std::uint32_t record) const {
+std::span<const CoefficientTerm> CoefficientCache::terms(std::uint32_t record) const {
     const Record& own = records_[record];
-    return std::span(terms_).subspan(own.first, own.columns);
+    return std::span(terms_).subspan(own.first, own.count);
 }
 
-std::span<const CoefficientTerm> CoefficientCache::records(std::uint32_t record) const {
-    const Record& own = records_[record];
-    return std::span(terms_).subspan(own.first + own.columns, own.records);
-}
-
-void CoefficientCache::insert(const AmbientRecord& record, const CoefficientTerms& terms) {
-    while (levels_.size() <= record.level) levels_.emplace_back(limits_);
-    Level& own = levels_[record.level];
-    own.tree.insert(record);
-    own.numbers.push_back(static_cast<std::uint32_t>(records_.size()));
-    records_.push_back({record.value, terms_.size(), terms.columns.size(), terms.records.size()});
-    terms_.insert(terms_.end(), terms.columns.begin(), terms.columns.end());
-    terms_.insert(terms_.end(), terms.records.begin(), terms.records.end());
+void CoefficientCache::insert(const CoefficientRecord& record,
+                              std::span<const CoefficientTerm> terms) {
+    grid_.insert(record);
+    records_.push_back({record.value, terms_.size(), terms.size()});
+    terms_.insert(terms_.end(), terms.begin(), terms.end());
 }
 
 void CoefficientSums::add(std::uint32_t record, const Rgb& coefficient) {
@@ -62,33 +50,14 @@ void CoefficientSums::add(std::uint32_t record, const Rgb& coefficient) {
     touched_.push_back(record);
 }
 
-std::vector<CoefficientTerm> CoefficientSums::take() {
-    std::vector<CoefficientTerm> terms;
-    terms.reserve(touched_.size());
-    for (const std::uint32_t record : touched_) {
-        terms.push_back({record, weights_[record]});
-        weights_[record] = {};
-        is_touched_[record] = 0;
-    }
-    touched_.clear();
-    return terms;
-}
-
 void CoefficientSums::take(std::span<double> sums) {
-    // Those that the records refer to come behind them, level after level: when a record's turn
-    // comes all that refers to it was before.
-    for (std::size_t i = 0; i < touched_.size(); ++i) {
-        const std::uint32_t record = touched_[i];
+    for (const std::uint32_t record : touched_) {
         const Rgb weight = weights_[record];
-        for (const CoefficientTerm& term : cache_.columns(record)) {
+        for (const CoefficientTerm& term : cache_.terms(record)) {
             for (std::size_t k = 0; k < 3; ++k)
-                sums[std::size_t{3} * term.number + k] +=
+                sums[std::size_t{3} * term.column + k] +=
                     static_cast<double>(weight[k] * term.coefficient[k]);
         }
-        for (const CoefficientTerm& term : cache_.records(record))
-            add(term.number, weight * term.coefficient);
-    }
-    for (const std::uint32_t record : touched_) {
         weights_[record] = {};
         is_touched_[record] = 0;
     }

@@ -222,10 +222,17 @@ DiskPoint square_to_disk(double x, double y) {
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 
+HemisphereFrame::HemisphereFrame(const Vec3& n, RandomStream& random)
+    : normal(n), u(random_tangent(n, random)), v(cross(n, u)) {}
+
+Vec3 HemisphereFrame::above(const DiskPoint& d) const {
+    return lightwalk::above(d, u, v, normal);
+}
+
 Vec3 sample_direction(const Vec3& normal, RandomStream random) {
-    const Vec3 u = random_tangent(normal, random);
+    const HemisphereFrame frame(normal, random);
     const double along_i = random.next(), along_j = random.next();
-    return above(square_to_disk(along_j, along_i), u, cross(normal, u), normal);
+    return frame.above(square_to_disk(along_j, along_i));
 }
 
 Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,

@@ -68,13 +68,21 @@ struct HemisphereSampling {
 [[nodiscard]] Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,
                                            RandomStream random, HemisphereRays& rays);
 
-/// Where the only ray of a hemisphere of one division goes, as above.
-[[nodiscard]] Vec3 sample_direction(const Vec3& normal, RandomStream random);
-
 /// Point of the unit disk for a point of the unit square (Shirley & Chiu); areas keep their ratio.
 struct DiskPoint {
     double x = 0, y = 0;
 };
 [[nodiscard]] DiskPoint square_to_disk(double x, double y);
+
+/// A hemisphere turned at random about its normal.
+struct HemisphereFrame {
+    HemisphereFrame(const Vec3& normal, RandomStream& random);
+    /// The unit vector above a point of the disk.
+    [[nodiscard]] Vec3 above(const DiskPoint& d) const;
+    Vec3 normal, u, v;
+};
+
+/// Where the only ray of a hemisphere of one division goes, as above.
+[[nodiscard]] Vec3 sample_direction(const Vec3& normal, RandomStream random);
 
 }  // namespace lightwalk

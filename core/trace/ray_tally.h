@@ -1,6 +1,7 @@
 #pragma once
 // Answers to separate rays that are made of the terms of their radiance.
 #include <string>
+#include <vector>
 
 #include "core/ambient/coefficient_cache.h"
 #include "core/transport/contribution.h"
@@ -16,7 +17,7 @@ class RayTally : public ContributionSink {
     /// Appends the answer to the ray whose terms were told since the last call.
     virtual void take(std::string& bytes) = 0;
     /// The same terms for a record of coefficients; columns are those of the answers.
-    [[nodiscard]] virtual CoefficientTerms take_terms() = 0;
+    [[nodiscard]] virtual std::vector<CoefficientTerm> take_terms() = 0;
 };
 
 }  // namespace lightwalk

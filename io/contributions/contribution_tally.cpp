@@ -124,13 +124,12 @@ void ContributionTally::take(std::string& bytes) {
     std::fill(sums_.begin(), sums_.end(), 0.0);
 }
 
-CoefficientTerms ContributionTally::take_terms() {
-    CoefficientTerms terms;
-    if (records_) terms.records = records_->take();
+std::vector<CoefficientTerm> ContributionTally::take_terms() {
+    std::vector<CoefficientTerm> terms;
     for (std::size_t i = 0; i < sums_.size(); i += 3) {
         const Rgb sum(static_cast<float>(sums_[i]), static_cast<float>(sums_[i + 1]),
                       static_cast<float>(sums_[i + 2]));
-        if (sum != Rgb{}) terms.columns.push_back({static_cast<std::uint32_t>(i / 3), sum});
+        if (sum != Rgb{}) terms.push_back({static_cast<std::uint32_t>(i / 3), sum});
     }
     std::fill(sums_.begin(), sums_.end(), 0.0);
     return terms;

@@ -48,7 +48,7 @@ class ContributionTally final : public RayTally, RayObserver {
     void add_record(std::uint32_t record, const Rgb& coefficient) override;
     /// Three numbers of double precision a column.
     void take(std::string& bytes) override;
-    [[nodiscard]] CoefficientTerms take_terms() override;
+    [[nodiscard]] std::vector<CoefficientTerm> take_terms() override;
 
   private:
     /// What a modifier's surfaces count as.

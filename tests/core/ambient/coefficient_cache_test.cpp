@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "core/ambient/ambient_calculation.h"
-#include "core/ambient/serial_cache.h"
+#include "core/ambient/ambient_cache.h"
+#include "core/ambient/coefficient_calculation.h"
 #include "core/trace/ray_tally.h"
 #include "tests/test_scene.h"
 #include "tests/tolerance.h"
@@ -66,11 +66,10 @@ class Quarters final : public RayTally {
         bytes.append(reinterpret_cast<const char*>(sums_.data()), sizeof sums_);
         sums_ = {};
     }
-    [[nodiscard]] CoefficientTerms take_terms() override {
-        CoefficientTerms terms;
-        terms.records = records_.take();
+    [[nodiscard]] std::vector<CoefficientTerm> take_terms() override {
+        std::vector<CoefficientTerm> terms;
         for (std::uint32_t i = 0; i < kQuarters; ++i)
-            terms.columns.push_back({i, rgb(&sums_[std::size_t{3} * i])});
+            terms.push_back({i, rgb(&sums_[std::size_t{3} * i])});
         sums_ = {};
         return terms;
     }
@@ -107,12 +106,12 @@ AmbientLimits limits_of(const Scene& scene, const RenderOptions& options) {
 }
 
 /// A place on the floor, or the back wall, where a ray of a hemisphere asks.
-AmbientPoint asks_at(double x, double y, int level) {
+AmbientPoint asks_at(double x, double y) {
     AmbientPoint point;
     point.query.position = {x, y, 0};
     point.query.normal = point.query.shading_normal = {0, 0, 1};
-    point.query.level = level;
-    point.query.weight = level == 1 ? 0.5 : 0.25;
+    point.query.level = 1;
+    point.query.weight = 0.5;
     point.history = kPrimary | kAmbientSame;
     return point;
 }
@@ -123,88 +122,90 @@ struct KeptRoom {
         : scene(kRoom, room_options(bounces)),
           cache(limits_of(scene.scene, scene.tracer.options()), 1),
           tally(cache),
-          calculation(scene.tracer) {
+          calculation(scene.tracer, cache) {
         scene.tracer.use_coefficients(&cache);
-        calculation.use_coefficients(&cache);
         scene.context.contributions = &tally;
     }
+    struct Made {
+        std::optional<CoefficientRecord> record;
+        std::vector<CoefficientTerm> terms;
+    };
+    Made make(const AmbientPoint& point) {
+        const auto reach = calculation.reach_at(point);
+        if (!reach) return {};
+        Made made;
+        made.record = calculation.record_at(point, *reach, scene.context);
+        made.terms = tally.take_terms();
+        return made;
+    }
     /// Computes a record and stores it.
-    std::optional<AmbientRecord> keep(const AmbientPoint& point) {
-        const auto record = calculation.record_at(point, scene.context);
-        const CoefficientTerms terms = tally.take_terms();
-        if (record) cache.insert(*record, terms);
-        return record;
+    std::optional<CoefficientRecord> keep(const AmbientPoint& point) {
+        const Made made = make(point);
+        if (made.record) cache.insert(*made.record, made.terms);
+        return made.record;
     }
 
     TestScene scene;
     CoefficientCache cache;
     Quarters tally;
-    AmbientCalculation calculation;
+    CoefficientCalculation calculation;
 };
-
-const auto no_leak = [](const Vec3& /*target*/) { return false; };
 
 }  // namespace
 
-TEST_CASE(
-    "coefficients: under a sky of 1 their sum, interpolated, is the ambient value of the plain "
-    "cache") {
-    KeptRoom kept(2);
-    TestScene plain(kRoom, room_options(2));
-    SerialCache values(kept.cache.limits());
-    plain.tracer.use_ambient_cache(&values);
-    AmbientCalculation calculation(plain.tracer);
-    calculation.use_cache(&values);
+TEST_CASE("coefficients: the terms of a record add up to its irradiance") {
+    KeptRoom kept(3);
     for (double x = 0.3; x < 4; x += 0.7) {
         for (double y = 0.3; y < 5; y += 0.7) {
-            const auto record = kept.keep(asks_at(x, y, 1));
-            const auto value = calculation.record_at(asks_at(x, y, 1), plain.context);
-            REQUIRE(record.has_value());
-            REQUIRE(value.has_value());
-            CHECK(record->radius == value->radius);
-            CHECK(record->translation == value->translation);
-            check_same(record->value, value->value);
-            values.insert(*value);
+            const KeptRoom::Made made = kept.make(asks_at(x, y));
+            REQUIRE(made.record.has_value());
+            Rgb sum;
+            for (const CoefficientTerm& term : made.terms) sum += term.coefficient;
+            check_same(sum, made.record->value);
         }
     }
-    int served = 0;
-    std::vector<RecordShare> shares;
-    for (double x = 0.05; x < 4; x += 0.21) {
-        AmbientQuery query = asks_at(x, 5 * x / 4, 1).query;
-        query.shading_normal = normalize(Vec3{0.2, 0.1, 1});
-        const AmbientSum sum = values.lookup(query, no_leak);
-        kept.cache.find(query, no_leak, shares);
-        CHECK(shares.empty() == (sum.weight <= kEpsilon));
-        if (shares.empty()) continue;
-        ++served;
-        for (const RecordShare& share : shares)
-            kept.tally.add_record(share.record,
-                                  Rgb::grey(static_cast<float>(share.weight * share.factor)));
-        Rgb expected;
-        for (std::size_t k = 0; k < 3; ++k)
-            expected[k] = static_cast<float>(sum.sum[k] / sum.weight);
-        check_same(total(kept.tally.take()), expected);
-    }
-    CHECK(served > 5);
 }
 
-TEST_CASE(
-    "coefficients: what a sensor is told adds up to what it sees, through records of records") {
+TEST_CASE("coefficients: records do not reach through walls") {
+    KeptRoom kept(2);
+    for (double y = -0.2; y > -6; y -= 0.4) {  // under the sky
+        AmbientPoint point = asks_at(2, y);
+        point.query.position.z = -0.5;
+        CHECK_FALSE(kept.keep(point).has_value());
+    }
+    for (double x = 0.1; x < 2; x += 0.3) {
+        const auto record = kept.keep(asks_at(x, 4));
+        REQUIRE(record.has_value());
+        CHECK(record->reach <= std::max(x, kept.cache.least_reach()));
+    }
+}
+
+TEST_CASE("coefficients: how far a record reaches does not depend on light") {
     KeptRoom kept(3);
-    for (const int level : {2, 1}) {
-        for (double x = 0.3; x < 4; x += 0.7) {
-            for (double y = 0.3; y < 5; y += 0.7) {
-                AmbientPoint point = asks_at(x, y, level);
-                if (level == 2) {  // on the ceiling, which the floor sees
-                    point.query.position.z = 3;
-                    point.query.normal = point.query.shading_normal = {0, 0, -1};
-                }
-                CHECK(kept.keep(point).has_value());
-            }
+    TestScene dark(kRoom.substr(kRoom.find("void plastic wall")), room_options(3));
+    const CoefficientCache cache(kept.cache.limits(), 1);
+    const CoefficientCalculation calculation(dark.tracer, cache);
+    for (double x = 0.3; x < 4; x += 0.7) {
+        const auto reach = calculation.reach_at(asks_at(x, 4));
+        REQUIRE(reach.has_value());
+        CHECK(reach == kept.calculation.reach_at(asks_at(x, 4)));
+    }
+}
+
+TEST_CASE("coefficients: what a sensor is told adds up to what it sees, with records and without") {
+    KeptRoom kept(3);
+    int kept_records = 0;
+    for (double x = 0.3; x < 4; x += 0.7) {
+        for (double y = 0.3; y < 5; y += 0.7) {
+            AmbientPoint ceiling = asks_at(x, y);
+            ceiling.query.position.z = 3;
+            ceiling.query.normal = ceiling.query.shading_normal = {0, 0, -1};
+            kept_records += kept.keep(ceiling) ? 1 : 0;
+            kept_records += kept.keep(asks_at(x, y)) ? 1 : 0;
         }
     }
+    CHECK(kept_records > 50);
     const std::uint64_t before = kept.scene.context.counters.ambient.interpolated;
-    CHECK(before > 0);  // records of level 1 saw those of level 2
     for (const Vec3& at : {Vec3{2, 1, 0.8}, Vec3{2, 4, 0.8}, Vec3{1, 2.5, 1.5}}) {
         for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{0, 0.3, -1}}) {
             const Ray ray = kept.scene.tracer.irradiance(
@@ -213,43 +214,25 @@ TEST_CASE(
             check_same(total(kept.tally.take()), ray.value);
         }
     }
-    CHECK(kept.scene.context.counters.ambient.interpolated > before);
+    CHECK(kept.scene.context.counters.ambient.interpolated > before + 100);
 }
 
-TEST_CASE("coefficients of a level serve that level alone, other than ambient values") {
-    KeptRoom kept(3);
-    CHECK(kept.keep(asks_at(2, 2, 1)).has_value());
-    CHECK(kept.cache.serves(asks_at(2, 2, 1).query, no_leak));
-    CHECK_FALSE(kept.cache.serves(asks_at(2, 2, 2).query, no_leak));
-    CHECK(kept.cache.size(1) == 1);
-    CHECK(kept.cache.size(2) == 0);
-}
-
-TEST_CASE("coefficients: sums go through records of records, however often one is referred to") {
+TEST_CASE("coefficients: sums are those of the records' terms, each as often as it was added") {
     CoefficientCache cache(ambient_limits({-1, -1, -1}, 4, 0.2, 32), 1);
-    AmbientRecord record;
-    record.radius = {1, 1};
-    record.level = 3;
-    cache.insert(record, {{{0, {1, 2, 3}}, {2, {4, 4, 4}}}, {}});
-    record.level = 2;
-    cache.insert(record, {{{1, {1, 1, 1}}}, {{0, {2, 2, 2}}}});
-    cache.insert(record, {{}, {{0, {1, 0, 1}}}});
-    record.level = 1;
-    cache.insert(record, {{{0, {1, 1, 1}}}, {{2, {1, 1, 1}}, {1, {0.5f, 0.5f, 0.5f}}}});
-    cache.insert(record, {{}, {{1, {1, 1, 1}}}});
-    CHECK(cache.size(1) == 2);
+    const CoefficientRecord record{{}, {0, 0, 1}, 1, {}};
+    using Terms = std::vector<CoefficientTerm>;
+    cache.insert(record, Terms{{0, {1, 2, 3}}, {2, {4, 4, 4}}});
+    cache.insert(record, Terms{});
+    cache.insert(record, Terms{{1, {1, 1, 1}}, {0, {0, 1, 0}}});
+    CHECK(cache.size() == 3);
     CoefficientSums sums(cache);
-    // Record 3 counts 10 times, so record 2 does, and record 1 15 times: record 0, 40 times, 30 in
-    // green.
-    const std::vector<double> expected{10 + 40 * 1, 10 + 30 * 2, 10 + 40 * 3, 15,    15,
-                                       15,          40 * 4,      30 * 4,      40 * 4};
     for (int again = 0; again < 2; ++again) {
-        sums.add(3, {4, 4, 4});
-        sums.add(4, {10, 10, 10});
-        sums.add(3, {6, 6, 6});
+        sums.add(2, {4, 4, 4});
+        sums.add(0, {10, 0, 10});
+        sums.add(1, {1, 1, 1});
+        sums.add(2, {6, 6, 6});
         std::vector<double> found(9);
         sums.take(found);
-        CHECK(found == expected);
+        CHECK(found == std::vector<double>{10, 10, 30, 10, 10, 10, 40, 0, 40});
     }
-    CHECK(sums.take().empty());
 }
