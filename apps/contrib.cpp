@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  ///< of answers that wait to be written
 constexpr std::size_t kMostLongRays = 1024;                ///< with indirect light, at once
+constexpr double kCacheAccuracy = 0.2;                     ///< -aa, with --cache and -aa 0
 
 class ContribRun final : CommandRun {
   public:
@@ -40,6 +41,7 @@ class ContribRun final : CommandRun {
         }
         (void)contribution_outputs(outputs_);  // what is wrong with names is told at once
         settle_light();
+        if (command_.cache) settle_cache(communicator);
     }
 
     int run() {
@@ -60,11 +62,31 @@ class ContribRun final : CommandRun {
         RenderSettings& settings = command_.common.settings;
         if (!settings.ambient_file.empty())
             throw UsageError("option -af: contributions are not kept in ambient files");
-        if (settings.light.ambient_accuracy > 0 || settings.light.ambient_super_samples > 0)
-            warnings().warn("-aa and -as count as 0: contributions are not interpolated");
-        settings.light.ambient_accuracy = 0;
+        if (settings.light.ambient_super_samples > 0)
+            warnings().warn("-as counts as 0: contributions tell no places that need more samples");
+        if (settings.light.ambient_accuracy > 0 && !command_.cache)
+            warnings().warn("-aa counts as 0: without --cache contributions are not interpolated");
+        if (!command_.cache)
+            settings.light.ambient_accuracy = 0;
+        else if (settings.light.ambient_accuracy <= 0)
+            settings.light.ambient_accuracy = kCacheAccuracy;
         settings.light.ambient_super_samples = 0;
         settings.light.shadow_threshold = 0;
+    }
+
+    void settle_cache(const Communicator* communicator) {
+        for (const TrackedModifier& modifier : tracked_) {
+            if (depends_on_position(modifier.bin))
+                throw UsageError("option --cache: the bins of modifier \"" + modifier.name +
+                                 "\" depend on place (Px Py Pz), which is not kept: expected Dx Dy "
+                                 "Dz alone");
+        }
+        if (communicator != nullptr && communicator->size() > 1)
+            throw UsageError(
+                "option --cache: the places are kept by one process, no ranks: expected threads "
+                "(-n)");
+        if (command_.common.settings.light.ambient_bounces < 2)
+            warnings().warn("--cache changes nothing: it is for -ab 2 and more");
     }
 
     int trace() {
@@ -89,6 +111,7 @@ class ContribRun final : CommandRun {
         RendererRequest task = request();
         task.options.answers_rays = true;
         task.options.long_rays = indirect();
+        task.options.keep_coefficients = keeps_coefficients();
         task.options.make_tally = [this](const Tracer& tracer) {
             return std::make_unique<ContributionTally>(tracer, tracked_, command_.values,
                                                        warnings());
@@ -98,6 +121,10 @@ class ContribRun final : CommandRun {
 
     [[nodiscard]] bool indirect() const {
         return command_.common.settings.light.ambient_bounces > 0;
+    }
+
+    [[nodiscard]] bool keeps_coefficients() const {
+        return command_.cache && command_.common.settings.light.ambient_bounces > 1;
     }
 
     void warn_of_missing(const Scene& scene) {
@@ -124,6 +151,7 @@ class ContribRun final : CommandRun {
         limits.expected =
             y * std::max<std::uint64_t>(x, 1) * static_cast<std::uint64_t>(command_.rays);
         limits.row = command_.x;
+        limits.waits = keeps_coefficients();
         const std::size_t bytes = 3 * sizeof(double) * column_count(tracked_);
         limits.most = std::clamp<std::size_t>(kMostBytes / bytes, 1, limits.most);
         if (indirect()) limits.most = std::min(limits.most, kMostLongRays);

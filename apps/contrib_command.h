@@ -27,6 +27,7 @@ struct ContribCommand {
     int x = 0, y = 0;                                    ///< -x -y
     int rays = 1;                                        ///< -c
     bool values = false;                                 ///< -V
+    bool cache = false;                                  ///< --cache
     ExistingOutputs existing = ExistingOutputs::refuse;  ///< -fo -r
     BinDefinitions definitions;                          ///< -e -f
     ModifierRequest next;                                ///< as far as it is known

@@ -67,7 +67,7 @@ bool RayStream::read_batch(std::size_t most) {
         if (row_ends) in_row_ = 0;
         // Who sends rays through a pipe and waits for answers does so at a row's end or with a
         // zero direction.
-        flush_due_ = (ray->is_flush() || row_ends) && reader_.drained();
+        flush_due_ = (ray->is_flush() || row_ends) && (limits_.waits || reader_.drained());
     }
     return !queries_.empty();
 }

@@ -15,6 +15,7 @@ namespace lightwalk {
 struct RayStreamLimits {
     std::uint64_t expected = 0;  ///< rays after which it stops; 0: at the end of the input
     int row = 0;  ///< rays after which whoever sends them may wait for answers; 0: no such number
+    bool waits = false;  ///< whoever sends them: lists of rays do not depend on how fast they come
     std::size_t most = std::size_t{1} << 20;  ///< rays that are given to the renderer at once
 };
 

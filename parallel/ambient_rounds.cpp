@@ -4,58 +4,12 @@
 #include <utility>
 
 #include "core/error.h"
+#include "parallel/waiting_points.h"
 
 namespace lightwalk {
 namespace {
 
-// Limits of the number of values in a round, which grows with the number of known values, so that
-// few are needless. Independent of the number of workers, for determinism.
-constexpr std::size_t kFewestValues = 64, kMostValues = 1024;
-constexpr std::size_t kKnownPerValue = 4;
-constexpr std::size_t kPointsPerValue = 4;  ///< points looked at, per value that a round may have
 constexpr std::size_t kLookupsPerTask = 64;
-
-/// Sorts points in a pseudo-random order that depends on their contents only: any prefix is spread
-/// evenly.
-void put_in_order(std::vector<AmbientPoint>& points) {
-    std::vector<std::pair<std::uint64_t, std::size_t>> order(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) order[i] = {hash_of(points[i]), i};
-    std::sort(order.begin(), order.end());
-    std::vector<AmbientPoint> sorted;
-    sorted.reserve(points.size());
-    for (const auto& [hash, i] : order) sorted.push_back(points[i]);
-    points.swap(sorted);
-}
-
-/// For its lifetime the rays of all workers record missing ambient values.
-class Collecting {
-  public:
-    explicit Collecting(WorkerContexts& contexts)
-        : contexts_(contexts), missing_(static_cast<std::size_t>(contexts.size())) {
-        for (int w = 0; w < contexts.size(); ++w)
-            contexts[w].ambient.missing = &missing_[static_cast<std::size_t>(w)];
-    }
-    ~Collecting() {
-        for (int w = 0; w < contexts_.size(); ++w) contexts_[w].ambient.missing = nullptr;
-    }
-    Collecting(const Collecting&) = delete;
-    Collecting& operator=(const Collecting&) = delete;
-
-    [[nodiscard]] bool left_out() const {
-        return std::any_of(missing_.begin(), missing_.end(),
-                           [](const MissingAmbient& missing) { return missing.left_out; });
-    }
-    [[nodiscard]] std::vector<AmbientPoint> points() const {
-        std::vector<AmbientPoint> all;
-        for (const MissingAmbient& missing : missing_)
-            all.insert(all.end(), missing.points.begin(), missing.points.end());
-        return all;
-    }
-
-  private:
-    WorkerContexts& contexts_;
-    std::vector<MissingAmbient> missing_;
-};
 
 /// For its lifetime the values that a worker computes on the way are recorded.
 class RecordCollector {
@@ -76,64 +30,6 @@ class RecordCollector {
 };
 
 }  // namespace
-
-/// The queue of waiting points, in their order.
-class AmbientRounds::Waiting {
-  public:
-    Waiting(AmbientRounds& rounds, std::vector<AmbientPoint> points)
-        : rounds_(rounds), points_(std::move(points)) {
-        put_in_order(points_);
-    }
-
-    /// Drop points from the head that have a usable value by now, and refill it to `size` or
-    /// somewhat more.
-    void look(std::size_t size) {
-        drop_served(0);
-        while (head_.size() < size && next_ < points_.size()) {
-            const std::size_t count = std::min(points_.size() - next_, 2 * size),
-                              first = head_.size();
-            const auto from = points_.begin() + static_cast<std::ptrdiff_t>(next_);
-            head_.insert(head_.end(), from, from + static_cast<std::ptrdiff_t>(count));
-            drop_served(first);
-            next_ += count;
-        }
-    }
-
-    /// Remove up to `most` points from the head, in order, none close to an earlier one.
-    [[nodiscard]] std::vector<AmbientPoint> choose(std::size_t most) {
-        const SpacingGuess& guess = rounds_.guess_;
-        ApartSet taken(guess.least(), guess.greatest());
-        std::vector<AmbientPoint> chosen, rest;
-        for (const AmbientPoint& point : head_) {
-            if (chosen.size() >= most || taken.reached(point.query)) {
-                rest.push_back(point);
-                continue;
-            }
-            taken.add(point.query, guess(point.query));
-            chosen.push_back(point);
-        }
-        head_.swap(rest);
-        return chosen;
-    }
-
-    [[nodiscard]] std::size_t left() const { return head_.size() + points_.size() - next_; }
-
-  private:
-    /// Drop points with a usable value from index `first` of the head on.
-    void drop_served(std::size_t first) {
-        const std::vector<char> done = rounds_.served(head_.data() + first, head_.size() - first);
-        std::size_t kept = first;
-        for (std::size_t i = 0; i < done.size(); ++i) {
-            if (done[i] == 0) head_[kept++] = head_[first + i];
-        }
-        head_.resize(kept);
-    }
-
-    AmbientRounds& rounds_;
-    std::vector<AmbientPoint> points_;
-    std::size_t next_ = 0;  ///< index of the first point that has not been moved to the head
-    std::vector<AmbientPoint> head_;  ///< in the order of points_
-};
 
 AmbientRounds::AmbientRounds(const Tracer& tracer, PublishedCache& cache, Executor& executor,
                              WorkerContexts& contexts, Group& exchange, const StopFlag& stop,
@@ -176,7 +72,7 @@ std::vector<RoundShare> AmbientRounds::gather(RoundShare mine) {
 std::vector<AmbientPoint> AmbientRounds::collect(FunctionRef<void()> trace) {
     RoundShare mine;
     {
-        const Collecting collecting(contexts_);
+        const CollectingPoints collecting(contexts_);
         trace();
         mine.points = collecting.points();
         left_out_ = left_out_ || collecting.left_out();
@@ -203,13 +99,13 @@ std::vector<char> AmbientRounds::served(const AmbientPoint* points, std::size_t 
 void AmbientRounds::compute_in_rounds(std::vector<AmbientPoint> points) {
     if (points.empty()) return;
     const auto level = static_cast<std::size_t>(points.front().query.level);
-    Waiting waiting(*this, std::move(points));
+    WaitingPoints waiting(
+        std::move(points), guess_,
+        [this](const AmbientPoint* some, std::size_t count) { return served(some, count); });
     if (level == 0) left_ = waiting.left();
     while (!stopped_) {
-        const std::size_t most =
-            std::clamp(counts_[level].values / kKnownPerValue, kFewestValues, kMostValues);
-        waiting.look(kPointsPerValue * most);
-        const std::vector<AmbientPoint> chosen = waiting.choose(most);
+        const std::vector<AmbientPoint> chosen =
+            waiting.choose(WaitingPoints::most_values(counts_[level].values));
         if (chosen.empty()) return;
         prepare(chosen);
         if (stopped_) return;

@@ -61,7 +61,6 @@ class AmbientRounds {
     [[nodiscard]] const std::vector<Counts>& counts() const { return counts_; }  ///< by level
 
   private:
-    class Waiting;
     [[nodiscard]] std::vector<RoundShare> gather(RoundShare mine);
     [[nodiscard]] std::vector<char> served(const AmbientPoint* points, std::size_t count);
     void prepare(const std::vector<AmbientPoint>& chosen);

@@ -5,29 +5,6 @@
 #include <utility>
 
 namespace lightwalk {
-namespace {
-
-constexpr double kEnough = 0.05;  ///< weight of small records that keeps larger ones out
-constexpr double kSlack = 0.01;   ///< of the long radius: more than coded axes tilt the ellipse
-
-/// Corners of the bounding box of all points at which a record may be usable: an ellipsoid, cut off
-/// below the surface.
-std::pair<Vec3, Vec3> reach_of(const DecodedRecord& record, const AmbientLimits& limits) {
-    const double r0 = limits.accuracy * static_cast<double>(record.radius[0]),
-                 r1 = limits.accuracy * static_cast<double>(record.radius[1]);
-    const double below = std::min(limits.accuracy * limits.least_radius, r0);
-    const Vec3 n = record.n(), u = record.u(), v = cross(n, u);
-    Vec3 low, high;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double wide = std::hypot(r0 * u[k], r1 * v[k]) + kSlack * r1;
-        const double at = static_cast<double>(record.position[k]);
-        low[k] = at - wide + std::min(-below * n[k], r0 * n[k]);
-        high[k] = at + wide + std::max(-below * n[k], r0 * n[k]);
-    }
-    return {low, high};
-}
-
-}  // namespace
 
 ConcurrentCache::ConcurrentCache(const AmbientLimits& limits)
     : limits_(limits), claims_(limits.accuracy * limits.least_radius) {
@@ -127,7 +104,7 @@ void ConcurrentCache::sum_node(const Node& node, const CachePath& cube, const Se
                          sum_node(child, inside, search, own);
                      });
     }
-    const bool enough = children != 0 && own.weight >= kEnough &&
+    const bool enough = children != 0 && own.weight >= kEnoughWeight &&
                         cube.edge * 0.5 * limits_.accuracy > limits_.least_radius;
     if (!enough) sum_records(node.first.load(std::memory_order_acquire), search, own);
     sum.weight += own.weight;

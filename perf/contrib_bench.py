@@ -1,14 +1,18 @@
 #!/usr/bin/python3
-"""Daylight coefficients of a room's sensors: lightwalk contrib beside Radiance's rcontrib, whole processes in turns, a core each.
+"""Daylight coefficients of a room's sensors: lightwalk contrib, without and with --cache, beside Radiance's rcontrib; whole processes in turns, a
+core each.
 
-  contrib_bench.py --radiance DIR --library DIR [--lightwalk PROGRAM] [--sensors 20x10] [--subdivision 1] [--divisions 1024]
-                   [--bounces 3] [--runs 3]
+  contrib_bench.py --radiance DIR --library DIR [--lightwalk PROGRAM] [--sensors 20x10] [--subdivisions 1,4] [--divisions 128,256,1024,2048,4096]
+                   [--bounces 3] [--runs 3] [--converged 65536] [--options "..."]
 
 --radiance holds Radiance's programs oconv and rcontrib, --library its function files (reinhart.cal). The room has a window, furniture and an
-overhang; the sensors lie on a grid above the floor. Prints for each program the seconds of processor time of each run and their median,
-then the ratio, and how the coefficients differ: of the sums over the sky, the mean and the root mean square of the relative difference.
+overhang; the sensors lie on a grid above the floor. For each subdivision of the sky (MF) and each -ad it prints for each program the processor time
+(median), and the error against converged coefficients, those of lightwalk contrib, uncached, with another seed and --converged divisions:
+of the coefficients, the root mean square of the difference in that of the coefficients; and the same for sums over the sky. Then at how much
+time lightwalk has the error that rcontrib has with the middle one of the divisions (by interpolation, "none": at no time), and how its mean differs
+from the converged one. --options are further ones of lightwalk contrib --cache. --converged 0 leaves errors out.
 """
-import argparse, array, os, pathlib, resource, statistics, subprocess, tempfile
+import argparse, array, math, os, pathlib, resource, statistics, subprocess, tempfile
 
 ROOM = """
 void plastic wall 0 0 5 .6 .6 .6 0 0
@@ -40,11 +44,86 @@ def processor_seconds(command, rays):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, output
 
 
-def sky_sums(output, sensors):
-    """Mean of the channels of the sum over all bins, for each sensor."""
+def coefficients(output, sensors):
+    """For each sensor the mean of the channels of each bin."""
     numbers = array.array("f", output)
     size = len(numbers) // sensors
-    return [sum(numbers[i * size:(i + 1) * size]) / 3 for i in range(sensors)]
+    return [[sum(numbers[i * size + 3 * bin:i * size + 3 * bin + 3]) / 3 for bin in range(size // 3)] for i in range(sensors)]
+
+
+def relative_error(found, expected):
+    square = sum((a - b) ** 2 for x, y in zip(found, expected) for a, b in zip(x, y))
+    return (square / sum(b * b for y in expected for b in y)) ** .5
+
+
+def sums(rows):
+    return [[sum(row)] for row in rows]
+
+
+def time_at(error, seconds, errors):
+    """When a program has this error, from its errors at some times, on logarithmic scales; None: at none of them, nor beyond the last."""
+    points = sorted(zip(seconds, errors))
+    if points[0][1] <= error:
+        return points[0][0]  # at the latest
+    for (t, e), (u, f) in zip(points, points[1:]):
+        if f <= error < e:
+            return t * (u / t) ** (math.log(e / error) / math.log(e / f))
+    return None
+
+
+class Bench:
+    def __init__(self, a, scratch):
+        self.a, self.scratch = a, scratch
+        columns, rows = map(int, a.sensors.split("x"))
+        self.sensors = columns * rows
+        self.rays = "".join(f"{(i + .5) * 6 / rows:.4f} {(j + .5) * 8 / columns:.4f} .8 0 0 1\n" for i in range(rows) for j in range(columns)).encode()
+        self.octree = f"{scratch}/room.oct"
+        scene = f"{scratch}/room.rad"
+        pathlib.Path(scene).write_text(ROOM)
+        with open(self.octree, "wb") as out:
+            subprocess.run(["oconv", scene], stdout=out, check=True)
+
+    def run(self, program, subdivision, divisions, more=()):
+        options = (f"-h- -faf -n 1 -I+ -ab {self.a.bounces} -ad {divisions} -lw {.2 / divisions:.1e} -e MF:{subdivision} -f reinhart.cal "
+                   "-b rbin -bn Nrbins -m sky").split()
+        seconds, output = processor_seconds([*program, *options, *more, self.octree], self.rays)
+        return seconds, output
+
+    def compare(self, subdivision):
+        ours = [self.a.lightwalk, "contrib"]
+        programs = {"rcontrib": (["rcontrib"], []), "lightwalk": (ours, []), "--cache": (ours, ["--cache", *self.a.options.split()])}
+        converged = None
+        if self.a.converged:
+            _, output = self.run(ours, subdivision, self.a.converged, ["--seed", "1234"])
+            converged = coefficients(output, self.sensors)
+        print(f"MF:{subdivision}\t-ad\tseconds\terror of coefficients\tof sums\tof the mean")
+        table = {name: [] for name in programs}
+        for divisions in self.a.divisions:
+            seconds = {name: [] for name in programs}
+            for _ in range(self.a.runs):
+                for name, (program, more) in programs.items():
+                    taken, output = self.run(program, subdivision, divisions, more)
+                    seconds[name].append(taken)
+                    if len(seconds[name]) == self.a.runs:
+                        self.tell(name, divisions, statistics.median(seconds[name]), coefficients(output, self.sensors), converged, table)
+        middle = len(self.a.divisions) // 2
+        reference = table["rcontrib"][middle]
+        for name in ("lightwalk", "--cache"):
+            print(f"{name}\tat -ad {self.a.divisions[middle]} rcontrib takes {reference[0] / table[name][middle][0]:.1f} times as long", end="")
+            if converged:
+                at = time_at(reference[1], [row[0] for row in table[name]], [row[1] for row in table[name]])
+                print("; its error " + (f"within {at:.3f} s: {reference[0] / at:.1f} times as fast" if at else "at no time: none"), end="")
+            print()
+
+    def tell(self, name, divisions, seconds, found, converged, table):
+        row = [seconds]
+        text = f"{name}\t{divisions}\t{seconds:.3f}"
+        if converged:
+            all_of = [sum(map(sum, rows)) for rows in (found, converged)]
+            row += [relative_error(found, converged), relative_error(sums(found), sums(converged)), all_of[0] / all_of[1] - 1]
+            text += f"\t{row[1]:.4f}\t{row[2]:.4f}\t{row[3]:+.4f}"
+        table[name].append(row)
+        print(text, flush=True)
 
 
 def main():
@@ -53,35 +132,20 @@ def main():
     parser.add_argument("--library", required=True)
     parser.add_argument("--lightwalk", default=str(pathlib.Path(__file__).resolve().parent.parent / "build/release/lightwalk"))
     parser.add_argument("--sensors", default="20x10")
-    parser.add_argument("--subdivision", type=int, default=1)
-    parser.add_argument("--divisions", type=int, default=1024)
+    numbers = lambda text: [int(word) for word in text.split(",")]
+    parser.add_argument("--subdivisions", type=numbers, default=[1, 4])
+    parser.add_argument("--divisions", type=numbers, default=[128, 256, 1024, 2048, 4096])
     parser.add_argument("--bounces", type=int, default=3)
     parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--converged", type=int, default=65536)
+    parser.add_argument("--options", default="")
     a = parser.parse_args()
     os.environ["RAYPATH"] = f".:{a.library}"
     os.environ["PATH"] = f"{a.radiance}:{os.environ['PATH']}"
-    columns, rows = map(int, a.sensors.split("x"))
-    rays = "".join(f"{(i + .5) * 6 / rows:.4f} {(j + .5) * 8 / columns:.4f} .8 0 0 1\n" for i in range(rows) for j in range(columns)).encode()
-    sensors = columns * rows
     with tempfile.TemporaryDirectory() as scratch:
-        scene, octree = f"{scratch}/room.rad", f"{scratch}/room.oct"
-        pathlib.Path(scene).write_text(ROOM)
-        with open(octree, "wb") as out:
-            subprocess.run(["oconv", scene], stdout=out, check=True)
-        options = (f"-h- -faf -n 1 -I+ -ab {a.bounces} -ad {a.divisions} -lw {.2 / a.divisions:.1e} -e MF:{a.subdivision} -f reinhart.cal "
-                   "-b rbin -bn Nrbins -m sky").split()
-        programs = {"lightwalk": [a.lightwalk, "contrib", *options, octree], "rcontrib": ["rcontrib", *options, octree]}
-        seconds, sums = {name: [] for name in programs}, {}
-        for _ in range(a.runs):
-            for name, command in programs.items():
-                taken, output = processor_seconds(command, rays)
-                seconds[name].append(taken)
-                sums[name] = sky_sums(output, sensors)
-    for name, taken in seconds.items():
-        print(f"{name}\t{' '.join(f'{t:.2f}' for t in taken)}\tmedian {statistics.median(taken):.2f} s\tsum over sensors {sum(sums[name]):.4f}")
-    print(f"ratio\t{statistics.median(seconds['rcontrib']) / statistics.median(seconds['lightwalk']):.2f}")
-    relative = [x / y - 1 for x, y in zip(sums["lightwalk"], sums["rcontrib"]) if y > 0]
-    print(f"difference\tmean {statistics.mean(relative):+.4f}\trms {statistics.mean(r * r for r in relative) ** .5:.4f}")
+        bench = Bench(a, scratch)
+        for subdivision in a.subdivisions:
+            bench.compare(subdivision)
 
 
 main()

@@ -11,6 +11,12 @@ namespace lightwalk {
 LocalBackend::LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), true) {
     if (options_.observer != nullptr) contexts_[0].observer = options_.observer;
+    if (!session_.coefficients) return;
+    std::vector<RayTally*> tallies;
+    for (const std::unique_ptr<RayTally>& tally : tallies_) tallies.push_back(tally.get());
+    rounds_ =
+        std::make_unique<CoefficientRounds>(session_.tracer(), *session_.coefficients, *executor_,
+                                            contexts_, std::move(tallies), stop());
 }
 
 std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
@@ -61,11 +67,23 @@ LiveFrames& LocalBackend::frames() {
     return *frames_;
 }
 
+/// Records of coefficients for what the rays' hemispheres see, before any of these is answered: an
+/// answer depends on the list as a whole, not on what is answered when.
+void LocalBackend::fill_coefficients(const RayTask& list) {
+    rounds_->fill([&] {
+        trace_ray_list(session_.tracer(), contexts_, list.rays, list.first, ray_options(),
+                       *executor_, 1,
+                       [](std::size_t, int, const Ray& /*ray*/, const Hit& /*first*/) {});
+    });
+}
+
 std::optional<std::string> LocalBackend::finish(const RayTask& list) {
     if (stop().requested()) return std::nullopt;
     const std::size_t per_task = options_.long_rays ? 1 : kRaysPerTask;
     std::vector<std::string> records((list.rays.size() + per_task - 1) / per_task);
     contexts_.reset_counters();
+    if (rounds_) fill_coefficients(list);
+    if (stop().requested()) return std::nullopt;
     trace_ray_list(session_.tracer(), contexts_, list.rays, list.first, ray_options(), *executor_,
                    per_task, [&](std::size_t i, int worker, const Ray& ray, const Hit& first) {
                        record(worker, list.rays[i], ray, first, records[i / per_task]);

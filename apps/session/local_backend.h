@@ -1,6 +1,7 @@
 #pragma once
 // A renderer's work by the threads of this process.
 #include "apps/session/render_backend.h"
+#include "parallel/coefficient_rounds.h"
 
 namespace lightwalk {
 
@@ -20,7 +21,10 @@ class LocalBackend final : public RenderBackend {
     [[nodiscard]] bool prepare(const PictureRequest& request, bool first) override;
     [[nodiscard]] bool fill_cache(const PictureRequest& request, TakeProgress progress);
 
-    std::unique_ptr<LiveFrames> frames_;  ///< null: not asked for yet
+    void fill_coefficients(const RayTask& list);
+
+    std::unique_ptr<CoefficientRounds> rounds_;  ///< null: coefficients are not kept
+    std::unique_ptr<LiveFrames> frames_;         ///< null: not asked for yet
 };
 
 }  // namespace lightwalk

@@ -23,7 +23,7 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
     : options_(std::move(options)),
       warnings_(options_.warn),
       session_(std::move(scene), options_.light, leads ? options_.ambient_file : std::string(),
-               warnings_),
+               options_.keep_coefficients, warnings_),
       executor_(make_executor(options_.executor.value_or(kDefaultExecutor),
                               options_.threads > 0 ? options_.threads : hardware_threads())),
       contexts_(session_.tracer(), warnings_, executor_->concurrency()) {

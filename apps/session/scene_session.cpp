@@ -8,6 +8,13 @@
 #include "parallel/executor_task_runner.h"
 
 namespace lightwalk {
+namespace {
+
+/// Of records of coefficients: what a sensor sees of the walls is the mean of hundreds of them, so
+/// that with fewer samples each there is no more noise, but less to trace.
+constexpr double kEffort = 0.25;
+
+}  // namespace
 
 bool caches_ambient_values(const RenderOptions& light) {
     return light.ambient_bounces > 0 && light.ambient_accuracy > kEpsilon;
@@ -15,14 +22,17 @@ bool caches_ambient_values(const RenderOptions& light) {
 
 SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
                            const RenderOptions& light, const std::string& ambient_file,
-                           WarningSink& warnings)
+                           bool keeps_coefficients, WarningSink& warnings)
     : compiled_(std::move(compiled)), warnings_(warnings), cost_(compiled_->cost()) {
     const Stopwatch watch;
     const std::unique_ptr<Executor> executor =
         make_executor(kDefaultExecutor, compiled_->threads());
     auto tracer = std::make_unique<Tracer>(compiled_->scene(), light, warnings,
                                            ExecutorTaskRunner(*executor));
-    if (caches_ambient_values(light)) {
+    if (keeps_coefficients) {
+        coefficients = std::make_unique<CoefficientCache>(limits_of(light), kEffort);
+        tracer->use_coefficients(coefficients.get());
+    } else if (caches_ambient_values(light)) {
         make_cache(light, ambient_file);
         tracer->use_ambient_cache(freezable.get());
     } else if (!ambient_file.empty()) {
@@ -33,10 +43,13 @@ SceneSession::SceneSession(std::shared_ptr<const CompiledScene> compiled,
     cost_.build_peak_bytes = peak_memory_bytes();
 }
 
-void SceneSession::make_cache(const RenderOptions& light, const std::string& ambient_file) {
+AmbientLimits SceneSession::limits_of(const RenderOptions& light) const {
     const SceneCube cube = scene().cube();
-    ambient = std::make_unique<ConcurrentCache>(
-        ambient_limits(cube.origin, cube.size, light.ambient_accuracy, light.ambient_resolution));
+    return ambient_limits(cube.origin, cube.size, light.ambient_accuracy, light.ambient_resolution);
+}
+
+void SceneSession::make_cache(const RenderOptions& light, const std::string& ambient_file) {
+    ambient = std::make_unique<ConcurrentCache>(limits_of(light));
     freezable = std::make_unique<PublishedCache>(*ambient);
     if (ambient_file.empty()) return;
     ambient_store = std::make_unique<AmbientStore>(ambient_file, light, *ambient, warnings_);

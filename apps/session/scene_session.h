@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/session/compiled_scene.h"
+#include "core/ambient/coefficient_cache.h"
 #include "core/trace/tracer.h"
 #include "core/transport/options.h"
 #include "io/ambient/ambient_store.h"
@@ -22,9 +23,10 @@ class SceneSession {
     /// Throws InputError.
     /// @param compiled      after compile()
     /// @param ambient_file  where indirect values are kept; "": nowhere
+    /// @param keeps_coefficients  in place of indirect values
     /// @param warnings      must outlive this
     SceneSession(std::shared_ptr<const CompiledScene> compiled, const RenderOptions& light,
-                 const std::string& ambient_file, WarningSink& warnings);
+                 const std::string& ambient_file, bool keeps_coefficients, WarningSink& warnings);
 
     [[nodiscard]] const CompiledScene& compiled() const { return *compiled_; }
     [[nodiscard]] const Scene& scene() const { return compiled_->scene(); }
@@ -36,6 +38,7 @@ class SceneSession {
     void warn_of_darkness() const;
 
   private:
+    [[nodiscard]] AmbientLimits limits_of(const RenderOptions& light) const;
     void make_cache(const RenderOptions& light, const std::string& ambient_file);
 
     std::shared_ptr<const CompiledScene> compiled_;
@@ -47,6 +50,8 @@ class SceneSession {
     std::unique_ptr<AmbientStore> ambient_store;  ///< with an ambient file
     std::unique_ptr<PublishedCache> freezable;    ///< what the tracer asks
     std::vector<AmbientRecord> known;             ///< values that were in the ambient file
+    // Without these:
+    std::unique_ptr<CoefficientCache> coefficients;  ///< null: none are kept
 
   private:
     std::unique_ptr<const Tracer> tracer_;

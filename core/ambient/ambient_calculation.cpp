@@ -1,10 +1,11 @@
 #include "core/ambient/ambient_calculation.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
+#include "core/ambient/ambient_request.h"
+#include "core/ambient/coefficient_calculation.h"
 #include "core/ambient/derivatives.h"
 #include "core/math/direction_code.h"
 #include "core/transport/contribution.h"
@@ -12,28 +13,11 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kReflectance =
-    0.5;  ///< that cached values assume of what lies between them and the eye
+constexpr double kReflectance = kAssumedReflectance;
 constexpr int kFewestDivisions = 7;  ///< for gradients
 constexpr double kAligned = 0.9999;  ///< cosine of normals that count as one
 constexpr double kLeastFactor =
     0.05;  ///< a correction for a tilted normal that is smaller is left out
-
-/// Random numbers of the hemisphere at a place: they do not depend on who asks first.
-RandomStream stream_of(const AmbientQuery& query, std::uint64_t seed) {
-    std::uint64_t key = mix_bits(seed + static_cast<std::uint64_t>(query.level));
-    for (const Vec3& v : {query.position, query.normal}) {
-        for (std::size_t k = 0; k < 3; ++k)
-            key = mix_bits(key ^ std::bit_cast<std::uint64_t>(v[k]));
-    }
-    return RandomStream(key);
-}
-
-/// Whether all that its hemisphere's rays inherit fits an AmbientPoint.
-bool can_stand_alone(const Ray& ray) {
-    return ray.clip == nullptr && ray.next_clip == nullptr && ray.medium.scatter == nullptr &&
-           !ray.aimed;
-}
 
 std::array<float, 2> floats(const std::array<double, 2>& v) {
     return {static_cast<float>(v[0]), static_cast<float>(v[1])};
@@ -52,36 +36,6 @@ class Claimed {
   private:
     AmbientCache& cache_;
     AmbientClaim claim_;
-};
-
-/// The ray that asked at a point, as far as its hemisphere's rays inherit from it.
-Ray ray_to(const AmbientPoint& point) {
-    Ray ray;
-    ray.hit.t = point.distance;
-    ray.hit.position = point.query.position;
-    ray.hit.normal = point.far_side ? -point.query.normal : point.query.normal;
-    ray.limit = point.limit;
-    ray.weight = point.query.weight;
-    ray.level = point.ray_level;
-    ray.history = point.history;
-    ray.target = point.target;
-    ray.medium = point.medium;
-    ray.path_length = point.path_length;
-    return ray;
-}
-
-/// The level at which a point asks, while this lives.
-class AtLevel {
-  public:
-    AtLevel(TraceContext& context, int level)
-        : context_(context), before_(std::exchange(context.path.ambient_level, level)) {}
-    ~AtLevel() { context_.path.ambient_level = before_; }
-    AtLevel(const AtLevel&) = delete;
-    AtLevel& operator=(const AtLevel&) = delete;
-
-  private:
-    TraceContext& context_;
-    int before_;
 };
 
 /// The rays of one value's hemisphere.
@@ -138,14 +92,7 @@ class AmbientRays final : public HemisphereRays {
 
 }  // namespace
 
-/// One ambient value that a surface asks for.
-struct AmbientCalculation::Request {
-    Ray& ray;
-    const Rgb& coef;
-    AmbientQuery query;
-    bool far_side = false;  ///< not the viewer's
-    TraceContext& context;
-};
+AmbientCalculation::~AmbientCalculation() = default;
 
 AmbientCalculation::AmbientCalculation(const LightTransport& tracer) : tracer_(tracer) {
     const AmbientSelection& selection = tracer.options().ambient_surfaces;
@@ -157,6 +104,10 @@ AmbientCalculation::AmbientCalculation(const LightTransport& tracer) : tracer_(t
         listed_[i] = std::find(selection.modifiers.begin(), selection.modifiers.end(), name) !=
                      selection.modifiers.end();
     }
+}
+
+void AmbientCalculation::use_coefficients(const CoefficientCache* cache) {
+    coefficients_ = cache ? std::make_unique<CoefficientCalculation>(tracer_, *cache) : nullptr;
 }
 
 bool AmbientCalculation::takes_part(const Ray& ray) const {
@@ -211,7 +162,17 @@ Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
                            context.path.ambient_level, ray.weight},
                           far_side,
                           context};
+    if (coefficients_ && context.contributions) return with_coefficients(request);
     return uses_cache(context) ? with_cache(request) : without_cache(request);
+}
+
+/// A ray's own surroundings are not interpolated: it wants to know each bin by itself.
+Rgb AmbientCalculation::with_coefficients(const Request& request) const {
+    if (request.query.level == 0) return without_cache(request);
+    if (request.query.level == CoefficientCache::kLevel) {
+        if (const std::optional<Rgb> known = coefficients_->known(request)) return *known;
+    }
+    return by_one_ray(request);
 }
 
 bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
@@ -221,14 +182,19 @@ bool AmbientCalculation::depends_on_order(const TraceContext& context) const {
            (context.ambient.new_records || cache_->takes_values());
 }
 
+/// Of a hemisphere, per axis.
+int AmbientCalculation::divisions(double weight, bool cached) const {
+    const double samples = tracer_.options().ambient_divisions * weight;
+    const double divisions = std::min(std::floor(std::sqrt(samples) + 0.5), 1000.0);
+    return std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
+}
+
 Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, double weight,
                                       bool cached) const {
     const RenderOptions& options = tracer_.options();
     Ray& ray = request.ray;
     HemisphereSampling sampling;
-    const double divisions =
-        std::min(std::floor(std::sqrt(options.ambient_divisions * weight) + 0.5), 1000.0);
-    sampling.divisions = std::max(static_cast<int>(divisions), cached ? kFewestDivisions : 1);
+    sampling.divisions = divisions(weight, cached);
     if (request.context.ambient.missing == nullptr && request.context.contributions == nullptr) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
@@ -261,6 +227,12 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     const double weight = request.query.weight;
     const double most =
         0.8 * peak * weight / (options.ambient_divisions * options.weight_limit + 1e-20);
+    const int per_axis = divisions(std::min(weight, most), false);
+    if (per_axis == 1) return by_one_ray(request);
+    if (coefficients_ && request.context.contributions) {
+        const std::optional<Rgb> sum = coefficients_->seen(request, per_axis);
+        return sum ? *sum : none();
+    }
     const Hemisphere h = sample(request, request.coef, std::min(weight, most), false);
     if (h.succeeded == 0) return none();
     if (request.context.contributions) return h.sum;
@@ -270,6 +242,28 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     const std::array<double, 2> rotation = rotation_gradient(h);
     const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
     return factor >= kLeastFactor ? h.sum * static_cast<float>(factor) : h.sum;
+}
+
+/// A hemisphere of one division. Most are, once paths have branched: no memory is asked for.
+Rgb AmbientCalculation::by_one_ray(const Request& request) const {
+    TraceContext& context = request.context;
+    const bool counts = context.ambient.missing == nullptr;
+    const RandomStream stream = request.ray.random.child();
+    if (counts) ++context.counters.ambient.computed;
+    Ray ray;
+    bool seen = tracer_.spawn(ray, request.far_side ? kAmbientThrough : kAmbientSame, request.ray,
+                              &request.coef);
+    if (seen) {
+        ray.direction = sample_direction(request.query.normal, stream);
+        ++context.path.ambient_level;
+        const Hit hit = tracer_.scene().geometry().intersect(ray.segment());
+        tracer_.shade_hits({&ray, 1}, {&hit, 1}, context);
+        --context.path.ambient_level;
+        seen = ray.effective_distance() > kEpsilon;
+    }
+    if (seen) return ray.value * ray.coef;
+    if (counts) ++context.counters.ambient.incomplete;
+    return told_constant(request.ray, request.coef, context);
 }
 
 AmbientSum AmbientCalculation::known(const Request& request) const {
@@ -353,21 +347,6 @@ std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     record.corral = d.corral;
     record.level = static_cast<std::uint8_t>(std::min(query.level, 255));
     return made;
-}
-
-AmbientPoint AmbientCalculation::point_of(const Request& request) {
-    const Ray& ray = request.ray;
-    AmbientPoint point;
-    point.query = request.query;
-    point.far_side = request.far_side;
-    point.distance = ray.hit.t;
-    point.path_length = ray.path_length;
-    point.limit = ray.limit;
-    point.ray_level = ray.level;
-    point.history = ray.history;
-    point.target = ray.target;
-    point.medium = ray.medium;
-    return point;
 }
 
 bool AmbientCalculation::is_served(const AmbientPoint& point) const {

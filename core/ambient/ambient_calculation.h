@@ -2,6 +2,7 @@
 // Indirect diffuse light: from the cache, or from a hemisphere of rays, or the constant -av.
 // Source: Ward, Rubinstein & Clear, "A Ray Tracing Solution for Diffuse Interreflection", SIGGRAPH
 // 1988.
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,11 +13,22 @@
 
 namespace lightwalk {
 
+class CoefficientCache;
+class CoefficientCalculation;
+struct AmbientRequest;
+
 class AmbientCalculation {
   public:
     /// Finds the modifiers that -ae and -ai name.
     explicit AmbientCalculation(const LightTransport& tracer);
+    ~AmbientCalculation();
+    AmbientCalculation(const AmbientCalculation&) = delete;
+    AmbientCalculation& operator=(const AmbientCalculation&) = delete;
     void use_cache(AmbientCache* cache) { cache_ = cache; }
+    /// Light is made of the terms that a context's sink is told: those of the rays of hemispheres
+    /// come from here where there are records, and from one more ray each elsewhere. The values
+    /// that other rays get stay as they are.
+    void use_coefficients(const CoefficientCache* cache);
 
     /// `coef` times the ambient value at the ray's hit [W/(m² sr)].
     /// @param normal  shading normal, on the side of the surface whose light is wanted
@@ -40,7 +52,7 @@ class AmbientCalculation {
     void prefetch(const AmbientPoint& point, TraceContext& context) const;
 
   private:
-    struct Request;
+    using Request = AmbientRequest;
     struct NewValue {
         Rgb value;
         std::optional<AmbientRecord> record;  ///< nothing: it cannot be stored
@@ -50,7 +62,10 @@ class AmbientCalculation {
     /// The same, of which the context's sink is told.
     [[nodiscard]] Rgb told_constant(const Ray& ray, const Rgb& coef, TraceContext& context) const;
     [[nodiscard]] bool uses_cache(const TraceContext& context) const;
+    [[nodiscard]] Rgb with_coefficients(const Request& request) const;
+    [[nodiscard]] int divisions(double weight, bool cached) const;
     [[nodiscard]] Rgb without_cache(const Request& request) const;
+    [[nodiscard]] Rgb by_one_ray(const Request& request) const;
     [[nodiscard]] AmbientSum known(const Request& request) const;
     [[nodiscard]] Rgb with_cache(const Request& request) const;
     [[nodiscard]] Rgb new_value(const Request& request) const;
@@ -58,13 +73,13 @@ class AmbientCalculation {
     [[nodiscard]] std::optional<NewValue> make_value(const Request& request) const;
     void store(const Request& request, const AmbientRecord& record) const;
     [[nodiscard]] static double evaluation_weight(const AmbientQuery& query);
-    [[nodiscard]] static AmbientPoint point_of(const Request& request);
     [[nodiscard]] Hemisphere sample(const Request& request, const Rgb& coef, double weight,
                                     bool cached) const;
     [[nodiscard]] bool is_blocked(const Ray& ray, const Vec3& target) const;
 
     const LightTransport& tracer_;
     AmbientCache* cache_ = nullptr;
+    std::unique_ptr<const CoefficientCalculation> coefficients_;  ///< null: nothing is kept
     std::vector<bool> listed_;  ///< by modifier, whether -ae or -ai names it; empty without these
 };
 

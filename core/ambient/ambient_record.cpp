@@ -10,6 +10,7 @@ namespace lightwalk {
 namespace {
 
 constexpr double kLeastExtrapolation = 0.05, kMostExtrapolation = 20;  ///< of extrapolation
+constexpr double kSlack = 0.01;  ///< of the long radius: more than coded axes tilt the ellipse
 constexpr double kNearAngle = 10 * kPi / 180;  ///< between normals, before -aa is added
 
 std::array<float, 3> floats(const Vec3& v) {
@@ -73,32 +74,53 @@ double extrapolated(const DecodedRecord& record, const Vec3& offset, const Vec3&
     return std::clamp(factor, kLeastExtrapolation, kMostExtrapolation);
 }
 
-void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits,
-                double most_angle, LeakTest leaks, AmbientSum& sum) {
+RecordReach reach_of(const DecodedRecord& record, const AmbientLimits& limits) {
+    const double r0 = limits.accuracy * static_cast<double>(record.radius[0]),
+                 r1 = limits.accuracy * static_cast<double>(record.radius[1]);
+    const double below = std::min(limits.accuracy * limits.least_radius, r0);
+    const Vec3 n = record.n(), u = record.u(), v = cross(n, u);
+    RecordReach reach;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double wide = std::hypot(r0 * u[k], r1 * v[k]) + kSlack * r1;
+        const double at = static_cast<double>(record.position[k]);
+        reach.low[k] = at - wide + std::min(-below * n[k], r0 * n[k]);
+        reach.high[k] = at + wide + std::max(-below * n[k], r0 * n[k]);
+    }
+    return reach;
+}
+
+RecordUse use_of(const DecodedRecord& record, const AmbientQuery& query,
+                 const AmbientLimits& limits, double most_angle, LeakTest leaks) {
     const Vec3 n = record.n();
     const double cosine = dot(n, query.normal);
-    if (cosine <= 0) return;
+    if (cosine <= 0) return {};
     const double angle2 = std::max(0.0, 2 - 2 * cosine);
-    if (angle2 >= most_angle * most_angle) return;
+    if (angle2 >= most_angle * most_angle) return {};
     const Vec3 offset =
         query.position - Vec3{record.position[0], record.position[1], record.position[2]};
     const double height = dot(offset, n), aa = limits.accuracy;
-    if (height < -limits.least_radius * aa) return;
+    if (height < -limits.least_radius * aa) return {};
     const double r0 = static_cast<double>(record.radius[0]),
                  r1 = static_cast<double>(record.radius[1]);
     double distance2 = height * height / (r0 * r0);
-    if (distance2 >= aa * aa) return;
+    if (distance2 >= aa * aa) return {};
     const Vec3 u = record.u();
     const double a = dot(offset, u), b = dot(offset, cross(n, u));
     distance2 += a * a / (r0 * r0) + b * b / (r1 * r1);
-    if (distance2 >= aa * aa) return;
-    if (record.corral != 0 && is_hidden(record, query, a, b, leaks)) return;
+    if (distance2 >= aa * aa) return {};
+    if (record.corral != 0 && is_hidden(record, query, a, b, leaks)) return {};
     const double factor = extrapolated(record, offset, query.shading_normal);
-    if (factor <= kLeastExtrapolation) return;
-    const double weight = (1 - std::sqrt(angle2) / most_angle) * (1 - std::sqrt(distance2) / aa);
-    sum.weight += weight;
+    if (factor <= kLeastExtrapolation) return {};
+    return {(1 - std::sqrt(angle2) / most_angle) * (1 - std::sqrt(distance2) / aa), factor};
+}
+
+void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits,
+                double most_angle, LeakTest leaks, AmbientSum& sum) {
+    const RecordUse use = use_of(record, query, limits, most_angle, leaks);
+    if (use.weight <= 0) return;
+    sum.weight += use.weight;
     for (std::size_t k = 0; k < 3; ++k)
-        sum.sum[k] += weight * factor * static_cast<double>(record.value[k]);
+        sum.sum[k] += use.weight * use.factor * static_cast<double>(record.value[k]);
 }
 
 }  // namespace lightwalk

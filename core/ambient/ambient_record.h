@@ -76,6 +76,24 @@ struct DecodedRecord {
 /// record of their level.
 [[nodiscard]] double largest_angle(double accuracy, double query_weight, bool has_level);
 
+/// Corners of the bounding box of all points at which a record may be usable: an ellipsoid, cut off
+/// below the surface [m].
+struct RecordReach {
+    Vec3 low, high;
+};
+[[nodiscard]] RecordReach reach_of(const DecodedRecord& record, const AmbientLimits& limits);
+
+/// Weight of small records that keeps larger ones out.
+inline constexpr double kEnoughWeight = 0.05;
+
+/// What a record is good for at a point.
+struct RecordUse {
+    double weight = 0;  ///< among others; 0: it is not valid there
+    double factor = 1;  ///< of its value there
+};
+[[nodiscard]] RecordUse use_of(const DecodedRecord& record, const AmbientQuery& query,
+                               const AmbientLimits& limits, double most_angle, LeakTest leaks);
+
 /// Add what the record says about the query's point; nothing when it is not valid there.
 void add_record(const DecodedRecord& record, const AmbientQuery& query, const AmbientLimits& limits,
                 double most_angle, LeakTest leaks, AmbientSum& sum);

@@ -14,6 +14,11 @@ constexpr int kFewestForTrading = 4;  ///< divisions from which close directions
 constexpr int kTrades = 20;           ///< tries before a position is accepted as it is
 constexpr int kFewestForExtras = 7;   ///< divisions above which extra samples make sense
 
+/// The direction above a point of the disk of u and v.
+Vec3 above(const DiskPoint& d, const Vec3& u, const Vec3& v, const Vec3& normal) {
+    return u * d.x + v * d.y + normal * std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
+}
+
 class Sampler {
   public:
     Sampler(Hemisphere& hemisphere, const HemisphereSampling& sampling, RandomStream& random,
@@ -98,8 +103,7 @@ class Sampler {
 
     /// False: the ray may not start.
     bool start(int i, int j, const DiskPoint& d, int m) {
-        const Vec3 direction = h_.u * d.x + h_.v * d.y +
-                               h_.normal * std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
+        const Vec3 direction = above(d, h_.u, h_.v, h_.normal);
         if (!rays_.start(direction)) return false;
         if (m == 0) {
             places_[at(i, j)] = d;
@@ -216,6 +220,19 @@ DiskPoint square_to_disk(double x, double y) {
     }
     r *= 0.9999999999999;  // keeps off the horizon; Radiance's factor, as its values show it
     return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+HemisphereFrame::HemisphereFrame(const Vec3& n, RandomStream& random)
+    : normal(n), u(random_tangent(n, random)), v(cross(n, u)) {}
+
+Vec3 HemisphereFrame::above(const DiskPoint& d) const {
+    return lightwalk::above(d, u, v, normal);
+}
+
+Vec3 sample_direction(const Vec3& normal, RandomStream random) {
+    const HemisphereFrame frame(normal, random);
+    const double along_i = random.next(), along_j = random.next();
+    return frame.above(square_to_disk(along_j, along_i));
 }
 
 Hemisphere sample_hemisphere(const Vec3& normal, const HemisphereSampling& sampling,

@@ -74,4 +74,15 @@ struct DiskPoint {
 };
 [[nodiscard]] DiskPoint square_to_disk(double x, double y);
 
+/// A hemisphere turned at random about its normal.
+struct HemisphereFrame {
+    HemisphereFrame(const Vec3& normal, RandomStream& random);
+    /// The unit vector above a point of the disk.
+    [[nodiscard]] Vec3 above(const DiskPoint& d) const;
+    Vec3 normal, u, v;
+};
+
+/// Where the only ray of a hemisphere of one division goes, as above.
+[[nodiscard]] Vec3 sample_direction(const Vec3& normal, RandomStream random);
+
 }  // namespace lightwalk

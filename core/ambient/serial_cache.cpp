@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace lightwalk {
-namespace {
-
-constexpr double kEnough = 0.05;  ///< weight of small records that keeps larger ones out
-
-}  // namespace
 
 AmbientLimits ambient_limits(const Vec3& origin, double size, double accuracy, int resolution) {
     AmbientLimits limits{origin, size, accuracy, 10 * kEpsilon, size / 5};
@@ -66,7 +61,7 @@ void SerialCache::sum_node(const Node& node, const CachePath& cube, const Ambien
                 sum_node(nodes_[node.children + child], inside, query, leaks, own);
         }
     }
-    const bool enough = node.children != 0 && own.weight >= kEnough &&
+    const bool enough = node.children != 0 && own.weight >= kEnoughWeight &&
                         cube.edge * 0.5 * limits_.accuracy > limits_.least_radius;
     if (!enough) sum_records(node, query, leaks, own);
     sum.weight += own.weight;

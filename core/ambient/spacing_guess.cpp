@@ -45,11 +45,14 @@ std::uint64_t SpacingGuess::key(std::size_t scale, int level, const Vec3& positi
 
 void SpacingGuess::add(const AmbientRecord& record) {
     const Vec3 position{record.position[0], record.position[1], record.position[2]};
-    const Vec3 normal = decode_direction(record.normal);
-    const double reach = accuracy_ * std::sqrt(static_cast<double>(record.radius[0]) *
-                                               static_cast<double>(record.radius[1]));
+    add(position, decode_direction(record.normal), record.level,
+        accuracy_ * std::sqrt(static_cast<double>(record.radius[0]) *
+                              static_cast<double>(record.radius[1])));
+}
+
+void SpacingGuess::add(const Vec3& position, const Vec3& normal, int level, double reach) {
     for (std::size_t scale = 0; scale < scales_; ++scale) {
-        Mean& mean = cells_[key(scale, record.level, position, normal)];
+        Mean& mean = cells_[key(scale, level, position, normal)];
         mean.log_sum += std::log(reach);
         ++mean.count;
     }

@@ -18,6 +18,8 @@ class SpacingGuess {
     explicit SpacingGuess(const AmbientLimits& limits);
     /// Add a known value.
     void add(const AmbientRecord& record);
+    /// @param reach  distance up to which a known value is usable [m]
+    void add(const Vec3& position, const Vec3& normal, int level, double reach);
     /// The predicted distance up to which a value at the point will be usable [m]: the geometric
     /// mean over the known values in the smallest cell around the point that holds any; the largest
     /// possible distance where there are none.

@@ -1,7 +1,9 @@
 #pragma once
 // Answers to separate rays that are made of the terms of their radiance.
 #include <string>
+#include <vector>
 
+#include "core/ambient/coefficient_cache.h"
 #include "core/transport/contribution.h"
 #include "core/transport/trace_context.h"
 
@@ -14,6 +16,8 @@ class RayTally : public ContributionSink {
     [[nodiscard]] virtual RayObserver* observer() { return nullptr; }
     /// Appends the answer to the ray whose terms were told since the last call.
     virtual void take(std::string& bytes) = 0;
+    /// The same terms for a record of coefficients; columns are those of the answers.
+    [[nodiscard]] virtual std::vector<CoefficientTerm> take_terms() = 0;
 };
 
 }  // namespace lightwalk

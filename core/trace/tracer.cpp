@@ -221,6 +221,11 @@ void Tracer::use_ambient_cache(AmbientCache* cache) {
     ambient_->use_cache(cache);
 }
 
+void Tracer::use_coefficients(const CoefficientCache* cache) {
+    coefficients_ = cache;
+    ambient_->use_coefficients(cache);
+}
+
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                         const Vec3* front) const {
     if (context.ambient.missing != nullptr || lights_->sampled().empty()) return;

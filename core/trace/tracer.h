@@ -10,6 +10,7 @@ namespace lightwalk {
 
 class AmbientCache;
 class AmbientCalculation;
+class CoefficientCache;
 
 /// Radiance along rays in one scene. Holds the light sources, virtual ones included, and the
 /// ambient calculation.
@@ -40,6 +41,10 @@ class Tracer final : public LightTransport {
     /// Where -ab > 0 and -aa > 0 keep their values; it must outlive the tracer's use. Null: every
     /// value is computed anew, as with -aa 0. Not while rays are traced.
     void use_ambient_cache(AmbientCache* cache);
+    /// Where the terms of indirect light come from that hemispheres see; it must outlive the
+    /// tracer's use. Null: all are traced. Not while rays are traced.
+    void use_coefficients(const CoefficientCache* cache);
+    [[nodiscard]] const CoefficientCache* coefficients() const { return coefficients_; }
     [[nodiscard]] Rgb ambient(Ray& ray, const Rgb& coef, const Vec3& normal,
                               TraceContext& context) const override;
     void add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
@@ -52,6 +57,7 @@ class Tracer final : public LightTransport {
 
     std::unique_ptr<LightSources> lights_;
     std::unique_ptr<AmbientCalculation> ambient_;
+    const CoefficientCache* coefficients_ = nullptr;
 };
 
 }  // namespace lightwalk

@@ -1,6 +1,8 @@
 #pragma once
 // The terms of a ray's radiance: all light that reaches the eye is a sum over emitters of a
 // coefficient, which the way of the light decides, times what the emitter sends.
+#include <cstdint>
+
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
 #include "core/model/ids.h"
@@ -22,12 +24,15 @@ struct Contribution {
 /// of the primary rays, to rounding, but for samples that are left out once their light is known:
 /// shadow rays that bring less than kEpsilon. Belongs to one thread's TraceContext.
 /// While somebody listens all light sources are tested for shadows (-dt 0), and indirect light is
-/// neither interpolated nor extrapolated nor sampled where it differs most (-aa 0 -as 0, no
-/// gradients): these decide by radiance what a coefficient would be.
+/// neither interpolated (but see add_record) nor extrapolated nor sampled where it differs most
+/// (-aa 0 -as 0, no gradients): these decide by radiance what a coefficient would be.
 class ContributionSink {
   public:
     virtual ~ContributionSink() = default;
     virtual void add(const Contribution& term) = 0;
+    /// In place of terms: a record of the cache of coefficients, where the tracer uses one.
+    /// @param coefficient  factor of the record's value in the radiance of the primary ray
+    virtual void add_record(std::uint32_t /*record*/, const Rgb& /*coefficient*/) {}
 };
 
 /// What a medium leaves of the radiance along `distance`; direct light loses only what is absorbed.

@@ -18,6 +18,7 @@ class ContributionSink;
 class Fibers;
 class LightTransport;
 class ShadingBatch;
+struct CoefficientScratch;
 struct Hit;
 struct LightScratch;
 struct MissingAmbient;
@@ -128,7 +129,8 @@ struct TraceContext {
     PathState path;
     FunctionScratch functions;
     Opaque<LightScratch> light{nullptr, nullptr};  ///< buffers of direct light; made when needed
-    Opaque<RecentThroughPart> through_part{nullptr, nullptr};  ///< of aBSDF; made when needed
+    Opaque<RecentThroughPart> through_part{nullptr, nullptr};   ///< of aBSDF; made when needed
+    Opaque<CoefficientScratch> coefficients{nullptr, nullptr};  ///< of lookups; made when needed
     BatchState batches;
     AmbientCollection ambient;
 };

@@ -78,6 +78,12 @@ int BinDefinitions::count(const std::string& expression, const std::string& para
     return static_cast<int>(value);
 }
 
+bool depends_on_position(const Program& bin) {
+    ChannelMask position = 0;
+    for (const Channel c : {Channel::Px, Channel::Py, Channel::Pz}) position |= channel_bit(c);
+    return (bin.channels() & position) != 0;
+}
+
 std::optional<std::size_t> BinChooser::choose(const Program& bin, const Vec3& direction,
                                               const Vec3& position) {
     channel(channels_, Channel::Dx) = direction.x;

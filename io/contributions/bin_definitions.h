@@ -39,6 +39,9 @@ class BinDefinitions {
     std::vector<Definitions> definitions_;
 };
 
+/// Whether the bin depends on where the emitter is met.
+[[nodiscard]] bool depends_on_position(const Program& bin);
+
 /// Chooses bins. Belongs to one thread.
 class BinChooser {
   public:

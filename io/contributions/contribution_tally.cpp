@@ -51,6 +51,7 @@ ContributionTally::ContributionTally(const Tracer& tracer,
       warnings_(warnings),
       values_(values) {
     const Scene& scene = tracer.scene();
+    if (tracer.coefficients()) records_.emplace(*tracer.coefficients());
     std::size_t first = 0;
     for (const TrackedModifier& modifier : tracked) {
         for (const ModifierId id : modifiers_named(scene, modifier.name)) {
@@ -60,6 +61,9 @@ ContributionTally::ContributionTally(const Tracer& tracer,
             const bool watched = !emits || type == PrimitiveType::illum;
             places_[static_cast<std::size_t>(index(id))] = {&modifier, first, emits, watched};
             watches_ = watches_ || watched;
+            if (watched && records_)
+                throw InputError("option --cache: modifier \"" + modifier.name +
+                                 "\" is not of light, glow or spotlight");
         }
         first += modifier.bins;
     }
@@ -75,6 +79,10 @@ void ContributionTally::add(const Contribution& term) {
     const Place* const place = place_of(term.modifier);
     if (place && place->emits)
         count(*place, term.direction, term.position, values_ ? term.value : term.coefficient);
+}
+
+void ContributionTally::add_record(std::uint32_t record, const Rgb& coefficient) {
+    records_->add(record, coefficient);
 }
 
 void ContributionTally::finished(const Ray& ray, const Hit& /*first*/) {
@@ -111,8 +119,20 @@ void ContributionTally::count(const Place& place, const Vec3& direction, const V
 }
 
 void ContributionTally::take(std::string& bytes) {
+    if (records_) records_->take(sums_);
     bytes.append(reinterpret_cast<const char*>(sums_.data()), sums_.size() * sizeof(double));
     std::fill(sums_.begin(), sums_.end(), 0.0);
+}
+
+std::vector<CoefficientTerm> ContributionTally::take_terms() {
+    std::vector<CoefficientTerm> terms;
+    for (std::size_t i = 0; i < sums_.size(); i += 3) {
+        const Rgb sum(static_cast<float>(sums_[i]), static_cast<float>(sums_[i + 1]),
+                      static_cast<float>(sums_[i + 2]));
+        if (sum != Rgb{}) terms.push_back({static_cast<std::uint32_t>(i / 3), sum});
+    }
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+    return terms;
 }
 
 }  // namespace lightwalk

@@ -2,9 +2,11 @@
 // What tracked modifiers bring to single rays, in bins.
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/ambient/coefficient_cache.h"
 #include "core/trace/ray_tally.h"
 #include "core/trace/tracer.h"
 #include "io/contributions/bin_definitions.h"
@@ -29,8 +31,12 @@ struct TrackedModifier {
 /// not those in its chain. Light sources bring what they emit. Other materials bring all that a ray
 /// sees of them, whatever made it; but shadow rays count only for the surface that they are sent
 /// to: a light source, or a mirror that relays one.
+/// Where the tracer has a cache of coefficients its records, which hold the same columns, count as
+/// what they stand for.
 class ContributionTally final : public RayTally, RayObserver {
   public:
+    /// Throws InputError for other materials than light sources where there is such a cache: it
+    /// does not keep what a ray sees of them.
     /// @param tracked  must outlive this
     /// @param values   radiance; else coefficients
     /// @param warnings  is told of bins beyond the last one; must outlive this
@@ -39,8 +45,10 @@ class ContributionTally final : public RayTally, RayObserver {
 
     [[nodiscard]] RayObserver* observer() override { return watches_ ? this : nullptr; }
     void add(const Contribution& term) override;
+    void add_record(std::uint32_t record, const Rgb& coefficient) override;
     /// Three numbers of double precision a column.
     void take(std::string& bytes) override;
+    [[nodiscard]] std::vector<CoefficientTerm> take_terms() override;
 
   private:
     /// What a modifier's surfaces count as.
@@ -58,6 +66,7 @@ class ContributionTally final : public RayTally, RayObserver {
     const Tracer& tracer_;
     std::vector<Place> places_;  ///< by modifier
     std::vector<double> sums_;
+    std::optional<CoefficientSums> records_;  ///< nothing: there is no cache
     BinChooser chooser_;
     WarningSink& warnings_;
     bool values_, watches_ = false, warned_ = false;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/tolerance.h"
 
 using namespace lightwalk::test;
 
@@ -262,6 +263,33 @@ TEST_CASE(
     CHECK(other.err.find("its format is double, expected float") != std::string::npos);
 }
 
+TEST_CASE("contrib: -r with --cache goes on behind the records that are there") {
+    const TemporaryFolder folder;
+    const std::string open = kRoom.substr(0, kRoom.find("void illum"));
+    const auto run = [&](const std::vector<std::string>& more) {
+        const std::vector<std::string> words{"--cache", "-ab",  "2",  "-ad",
+                                             "1024",    "-fad", "-o", folder.path("sky.dat"),
+                                             "-m",      "sky"};
+        CHECK(contrib(folder, with(more, words), kRays, open).status == 0);
+        return read_whole(folder.path("sky.dat"));
+    };
+    const std::string whole = run({});
+    constexpr std::size_t kRecord = 3 * sizeof(double);
+    std::filesystem::remove(folder.path("sky.dat"));
+    const std::size_t kept = whole.size() - 3 * kRecord;
+    folder.write("sky.dat.part", whole.substr(0, kept + 5));  // killed within a record
+    const std::string again = run({"-r"});
+    REQUIRE(again.size() == whole.size());
+    CHECK(again.substr(0, kept) == whole.substr(0, kept));
+    // What is left makes places of its own, whose coefficients differ by noise.
+    for (std::size_t i = kept; i < whole.size(); i += sizeof(double)) {
+        double first = 0, second = 0;
+        std::memcpy(&first, &whole[i], sizeof first);
+        std::memcpy(&second, &again[i], sizeof second);
+        CHECK(second == within(0.1, first));
+    }
+}
+
 TEST_CASE("contrib: -r with -c 0 adds to what is there") {
     const TemporaryFolder folder;
     const std::vector<std::string> words{"-c", "0",   "-fad", "-r", "-o", folder.path("sum"),
@@ -300,6 +328,10 @@ TEST_CASE("contrib: what is wrong is told, and no file is half-written") {
     fails({"-o", "!cat", "-m", "sky"}, 2, "is a command");
     fails({"-m", "sky", "-o", folder.path("%s")}, 2, "hold for the modifiers behind them");
     fails({"-r", "-m", "sky"}, 2, "it needs files to go on with");
+    fails({"--cache", "-b", "Px", "-bn", "2", "-m", "sky"}, 2, "depend on place (Px Py Pz)");
+    fails({"--cache", "-ab", "2", "-m", "sky", "-m", "floor"}, 1,
+          "modifier \"floor\" is not of light, glow or spotlight");
+    fails({"--cache", "-ab", "2", "-m", "veil"}, 1, "modifier \"veil\" is not of light");
     fails({"-af", "x.amb", "-m", "sky"}, 2, "not kept in ambient files");
     fails({"-o", folder.path("%s.dat"), "-m", "sky"}, 1, "standard input:2",
           "0 0 1 0 0 1\n0 0 1 x 0 1\n");
@@ -337,6 +369,64 @@ TEST_CASE(
             sum += found[i / 3 * 12 + 3 * source + i % 3];
         CHECK(sum == doctest::Approx(expected[i]).epsilon(1e-5));
     }
+}
+
+TEST_CASE("contrib: cached coefficients are those of traced rays, the closer the lower -aa") {
+    const TemporaryFolder folder;
+    // The wide ground makes the scene large, so that records may reach far: not through the walls.
+    const std::string room = R"(
+void glow sky 0 0 4 1 1 1 0
+sky source dome 0 0 4 0 0 1 180
+void plastic wall 0 0 5 .6 .6 .6 0 0
+void plastic ground 0 0 5 .2 .2 .2 0 0
+void glass pane 0 0 3 .88 .88 .88
+ground ring earth 0 0 8 0 0 -.5 0 0 1 0 100
+wall polygon floor 0 0 12 0 0 0 5 0 0 5 8 0 0 8 0
+wall polygon ceiling 0 0 12 0 0 3 0 8 3 5 8 3 5 0 3
+wall polygon back 0 0 12 0 8 0 5 8 0 5 8 3 0 8 3
+wall polygon left 0 0 12 0 0 0 0 8 0 0 8 3 0 0 3
+wall polygon right 0 0 12 5 0 0 5 0 3 5 8 3 5 8 0
+wall polygon front 0 0 30 0 0 0 0 0 3 5 0 3 5 0 0 1 0 0 1 0 .9 4 0 .9 4 0 2.6 1 0 2.6 1 0 0
+pane polygon window 0 0 12 1 0 .9 1 0 2.6 4 0 2.6 4 0 .9
+wall polygon table 0 0 12 1 5 .7 4 5 .7 4 6 .7 1 6 .7
+)";
+    std::string rays;
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 8; ++j)
+            rays += std::to_string(i + 0.5) + " " + std::to_string(j + 0.5) + " .8 0 0 1\n";
+    }
+    const auto coefficients = [&](std::vector<std::string> words) {
+        const std::vector<std::string> bins{"-h-", "-I", "-ab",        "3",   "-lw", "1e-5", "-lr",
+                                            "-10", "-b", "if(Dx,1,0)", "-bn", "2",   "-m",   "sky"};
+        return contrib(folder, with(words, bins), rays, room).out;
+    };
+    struct Sums {
+        double all = 0, deep = 0;  ///< of all sensors; of those far from the window
+    };
+    const auto sums = [&](const std::string& text) {
+        const std::vector<double> found = numbers(text);
+        REQUIRE(found.size() == 40 * 6);
+        Sums s;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            s.all += found[i];
+            if (i / 6 % 8 >= 4) s.deep += found[i];
+        }
+        return s;
+    };
+    const Sums converged = sums(coefficients({"-ad", "4096"}));
+    for (const std::string& accuracy : std::vector<std::string>{".1", ".2", ".4"}) {
+        for (const std::string& divisions : std::vector<std::string>{"256", "1024"}) {
+            CAPTURE(accuracy);
+            CAPTURE(divisions);
+            const Sums s = sums(coefficients({"--cache", "-aa", accuracy, "-ad", divisions}));
+            CHECK(s.all == within(0.03, converged.all));
+            CHECK(s.deep == within(0.08, converged.deep));
+        }
+    }
+    const std::string one = coefficients({"--cache", "-ad", "256", "-n", "1"});
+    CHECK(one != coefficients({"-ad", "256"}));
+    CHECK(coefficients({"--cache", "-ad", "256", "-n", "4"}) == one);
+    CHECK(coefficients({"--cache", "-ad", "256", "-n", "3", "--executor", "threads"}) == one);
 }
 
 TEST_CASE("contrib: ranks share the rays, and answer the same bytes") {

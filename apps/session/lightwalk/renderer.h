@@ -89,6 +89,9 @@ struct RendererOptions {
     /// Makes, for each thread, what answers ray lists in place of `record`: of the terms of their
     /// radiance. None: `record` does.
     std::function<std::unique_ptr<RayTally>(const Tracer& tracer)> make_tally;
+    /// With tallies: what hemispheres see of indirect light is interpolated between records of
+    /// coefficients. By one process.
+    bool keep_coefficients = false;
     bool long_rays = false;  ///< rays of lists take long: they are dealt out one by one
     RayListOptions rays;     ///< what ray lists ask for
 };
