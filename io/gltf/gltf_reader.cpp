@@ -18,14 +18,12 @@ constexpr std::size_t kMostRepeated = std::size_t{1} << 23;  ///< triangles that
 constexpr std::size_t kLeastTriangleBytes = 3;
 constexpr std::size_t kGlbHead = 12, kChunkHead = 8;
 
-constexpr std::array<std::string_view, 14> kKnownExtensions = {
-    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",       "KHR_materials_clearcoat",
-    "KHR_materials_sheen",        "KHR_materials_iridescence",
-    "KHR_materials_anisotropy",   "KHR_materials_variants",
-    "KHR_mesh_quantization",      "KHR_texture_transform"};
+constexpr std::array<std::string_view, 15> kKnownExtensions = {
+    "EXT_texture_webp",       "KHR_lights_punctual",       "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_materials_specular",    "KHR_materials_transmission",
+    "KHR_materials_unlit",    "KHR_materials_volume",      "KHR_materials_clearcoat",
+    "KHR_materials_sheen",    "KHR_materials_iridescence", "KHR_materials_anisotropy",
+    "KHR_materials_variants", "KHR_mesh_quantization",     "KHR_texture_transform"};
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;

@@ -94,6 +94,24 @@ TEST_CASE("a glTF file's texture colours, and its alpha cuts") {
     }
 }
 
+TEST_CASE("a glTF file's texture may be WebP, by an extension that others may leave out") {
+    const test::TemporaryFolder folder;
+    SmallGltf gltf;
+    gltf.image = test::small_webp();
+    gltf.materials = diffuse("[1,1,1,1]", R"(,"baseColorTexture":{"index":0})");
+    std::string json = gltf.json();
+    const std::string plain = R"("textures":[{"source":0})";
+    const auto at = json.find(plain);
+    REQUIRE(at != std::string::npos);
+    json.replace(at, plain.size(),
+                 R"("textures":[{"extensions":{"EXT_texture_webp":{"source":0}}})");
+    json.insert(1, R"("extensionsRequired":["EXT_texture_webp"],)");
+    folder.write("x.glb", test::glb(json, gltf.buffer()));
+    folder.write("sky.rad", kWhiteSky);
+    FolderScene scene(folder, {"x.glb", "sky.rad"}, all_around());
+    CHECK(red(scene, .5, .5) == doctest::Approx(.956).epsilon(.02));  // 250 of 255 in sRGB
+}
+
 TEST_CASE("glTF: emission of few triangles is a light, of its luminance") {
     const test::TemporaryFolder folder;
     SmallGltf gltf;
