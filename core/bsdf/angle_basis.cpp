@@ -53,7 +53,8 @@ std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     if (sectors == 1) return places_[ring].first;
     const double azimuth = pseudo_azimuth(p);
     const double* ends = &ends_[places_[ring].ends];
-    auto sector = static_cast<std::size_t>(azimuth * 0.25 * static_cast<double>(sectors) + 0.5);
+    auto sector =
+        static_cast<std::size_t>(std::floor(azimuth * 0.25 * static_cast<double>(sectors) + 0.5));
     // Of few sectors that is one off at most.
     sector -= azimuth < ends[sector] ? 1 : 0;
     sector += azimuth >= ends[sector + 1] ? 1 : 0;

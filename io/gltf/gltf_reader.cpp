@@ -224,6 +224,9 @@ GltfFile decode_gltf(std::string_view bytes, const std::string& name,
     GltfFile file;
     const std::vector<GltfSurface> surfaces = gltf_surfaces(model, name);
     for (const GltfSurface& surface : surfaces) file.materials.push_back(surface.material);
+    if (std::ranges::any_of(model.materials,
+                            [](const auto& m) { return m.normalTexture.index >= 0; }))
+        file.left_out.emplace_back("normal textures are left out");
     file.images = gltf_images(model, name);
     std::size_t all_bytes = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) all_bytes += buffer.data.size();

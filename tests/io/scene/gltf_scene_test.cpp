@@ -167,6 +167,26 @@ TEST_CASE("what is wrong with a glTF file ends the reading, a missing picture do
     CHECK_THROWS_AS(FolderScene(folder, {"gone.gltf"}), InputError);
 }
 
+TEST_CASE("maps of normals are left out, which is told once a file") {
+    const test::TemporaryFolder folder;
+    SmallGltf gltf;
+    gltf.image = test::small_png();
+    gltf.materials = diffuse("[1,1,1,1]");
+    gltf.materials.insert(1, R"("normalTexture":{"index":0},)");
+    folder.write("x.glb", gltf.binary());
+    folder.write("x.obj",
+                 "mtllib x.mtl\nv 2 0 0\nv 3 0 0\nv 3 0 1\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
+    folder.write("x.mtl", "newmtl a\nmap_Bump a.png\nnewmtl b\nnorm b.png\n");
+    const FolderScene scene(folder, {"x.glb", "x.obj"});
+    const auto count = [&](const char* text) {
+        return std::ranges::count_if(scene.warnings.messages, [&](const std::string& message) {
+            return message.find(text) != std::string::npos;
+        });
+    };
+    CHECK(count("x.glb: normal textures are left out") == 1);
+    CHECK(count("map of heights or normals is left out") == 1);
+}
+
 TEST_CASE("an .obj's texture may be a PNG file, and scenes may name one") {
     const test::TemporaryFolder folder;
     folder.write("m/x.obj",
