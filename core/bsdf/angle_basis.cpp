@@ -27,14 +27,17 @@ AngleBasis::AngleBasis(std::vector<AngleRing> rings) : rings_(std::move(rings)) 
     for (const AngleRing& ring : rings_) {
         const double outer = squared_sine(ring.upper);
         const double area = kPi * (outer - inner) / static_cast<double>(ring.sectors);
-        places_.push_back({inner, outer, area, patch_count_});
+        places_.push_back({inner, outer, area, patch_count_, 0});
         patch_count_ += ring.sectors;
         areas_.insert(areas_.end(), ring.sectors, area);
+        places_.back().ends = ends_.size();
+        ends_.push_back(-1);
         for (std::size_t k = 0; k < ring.sectors; ++k) {
             const double azimuth =
                 2 * kPi * (static_cast<double>(k) + 0.5) / static_cast<double>(ring.sectors);
             ends_.push_back(pseudo_azimuth({std::cos(azimuth), std::sin(azimuth)}));
         }
+        ends_.push_back(5);
         inner = outer;
     }
     for (std::size_t ring = 0; ring + 1 < places_.size(); ++ring)
@@ -49,11 +52,14 @@ std::size_t AngleBasis::index(const ProjectedDirection& p) const {
     const std::size_t sectors = rings_[ring].sectors;
     if (sectors == 1) return places_[ring].first;
     const double azimuth = pseudo_azimuth(p);
-    const double* ends = &ends_[places_[ring].first];
+    const double* ends = &ends_[places_[ring].ends];
     auto sector =
         static_cast<std::size_t>(std::floor(azimuth * 0.25 * static_cast<double>(sectors) + 0.5));
-    while (sector > 0 && azimuth < ends[sector - 1]) --sector;
-    while (sector < sectors && azimuth >= ends[sector]) ++sector;
+    // Of few sectors that is one off at most.
+    sector -= azimuth < ends[sector] ? 1 : 0;
+    sector += azimuth >= ends[sector + 1] ? 1 : 0;
+    while (azimuth < ends[sector]) --sector;
+    while (azimuth >= ends[sector + 1]) ++sector;
     return places_[ring].first + (sector < sectors ? sector : 0);
 }
 

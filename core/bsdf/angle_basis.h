@@ -55,6 +55,7 @@ class AngleBasis {
         double inner = 0, outer = 0;  ///< squared sines of the polar angles
         double area = 0;              ///< of one patch [sr]
         std::size_t first = 0;        ///< number of the ring's first patch
+        std::size_t ends = 0;         ///< where the ring's begin in ends_
     };
     [[nodiscard]] std::size_t ring_of(std::size_t patch) const;
 
@@ -62,7 +63,8 @@ class AngleBasis {
     std::vector<Place> places_;  ///< one a ring
     std::vector<double> outer_;  ///< Place::outer of all rings but the last
     std::vector<double> areas_;  ///< Place::area of each patch
-    /// Of each patch where its sector ends, as pseudo_azimuth.
+    /// Where the sectors of each ring end, as pseudo_azimuth, between numbers that are less and
+    /// more than all.
     std::vector<double> ends_;
     std::size_t patch_count_ = 0;
 };

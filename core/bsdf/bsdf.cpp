@@ -37,7 +37,7 @@ std::size_t table_bytes(const BsdfTable& table) {
 
 Rgb BsdfComponent::value(const ProjectedDirection& e, const ProjectedDirection& l) const {
     const Rgb constant = lambertian * static_cast<float>(1 / kPi);
-    return lobes ? lobes->value(lobes->look_up(e), l).f + constant : constant;
+    return lobes ? lobes->value_for(lobes->look_up(e), l).f + constant : constant;
 }
 
 Bsdf::Bsdf(std::shared_ptr<const BsdfData> data) : data_(std::move(data)) {

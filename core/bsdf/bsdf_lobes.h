@@ -16,11 +16,11 @@ struct SolidAngleRange {
     double least = 0, largest = 0;
 };
 
-/// A direction to the viewer as one component's table is looked up for it: made once for many
-/// lights.
+/// A direction as one component's table is looked up for it. Made once: a direction to the viewer
+/// meets many lights, and that to a light several directions about the viewer's.
 struct BsdfLookup {
-    ProjectedDirection e;
-    std::size_t row = 0;                ///< of a matrix
+    ProjectedDirection direction;
+    std::size_t patch = 0;              ///< of a matrix
     std::array<HalvingPath, 2> path{};  ///< into a tree
 };
 
@@ -45,7 +45,12 @@ class BsdfLobes {
 
     virtual ~BsdfLobes() = default;
     [[nodiscard]] virtual BsdfLookup look_up(const ProjectedDirection& e) const = 0;
-    [[nodiscard]] virtual Value value(const BsdfLookup& e, const ProjectedDirection& l) const = 0;
+    [[nodiscard]] virtual BsdfLookup look_up_light(const ProjectedDirection& l) const = 0;
+    /// @param l  as look_up_light() returned it
+    [[nodiscard]] virtual Value value(const BsdfLookup& e, const BsdfLookup& l) const = 0;
+    [[nodiscard]] Value value_for(const BsdfLookup& e, const ProjectedDirection& l) const {
+        return value(e, look_up_light(l));
+    }
     /// The directional-hemispherical total: the integral of f over projected solid angle.
     [[nodiscard]] virtual double total(const BsdfLookup& e) const = 0;
     /// A direction of probability f / total over projected solid angle, for total(e) > 0.

@@ -18,15 +18,18 @@ class MatrixLobes final : public BsdfLobes {
     [[nodiscard]] BsdfLookup look_up(const ProjectedDirection& e) const override {
         return {e, row_of(e), {}};
     }
-    [[nodiscard]] Value value(const BsdfLookup& e, const ProjectedDirection& l) const override;
-    [[nodiscard]] double total(const BsdfLookup& e) const override { return totals_[e.row]; }
+    [[nodiscard]] BsdfLookup look_up_light(const ProjectedDirection& l) const override {
+        return {l, column_of(l), {}};
+    }
+    [[nodiscard]] Value value(const BsdfLookup& e, const BsdfLookup& l) const override;
+    [[nodiscard]] double total(const BsdfLookup& e) const override { return totals_[e.patch]; }
     [[nodiscard]] Sample sample(const BsdfLookup& e, double choice, double xi1,
                                 double xi2) const override;
     [[nodiscard]] std::uint32_t viewer_cell(const BsdfLookup& e) const override {
-        return static_cast<std::uint32_t>(e.row);
+        return static_cast<std::uint32_t>(e.patch);
     }
     [[nodiscard]] SolidAngleRange resolution(const BsdfLookup& e) const override {
-        const double area = rows_.solid_angle(e.row);
+        const double area = rows_.solid_angle(e.patch);
         return {area, area};
     }
     [[nodiscard]] double least_solid_angle() const override {
@@ -128,15 +131,15 @@ void MatrixLobes::add_up() {
     }
 }
 
-BsdfLobes::Value MatrixLobes::value(const BsdfLookup& e, const ProjectedDirection& l) const {
-    const std::size_t row = e.row, column = column_of(l), at = row * columns_.size() + column;
+BsdfLobes::Value MatrixLobes::value(const BsdfLookup& e, const BsdfLookup& l) const {
+    const std::size_t row = e.patch, column = l.patch, at = row * columns_.size() + column;
     const Rgb f = tints_.empty() ? Rgb::grey(values_[at]) : tints_[at] * values_[at];
     return {f, std::min(rows_.solid_angle(row), columns_.solid_angle(column)), column, true};
 }
 
 BsdfLobes::Sample MatrixLobes::sample(const BsdfLookup& e, double choice, double xi1,
                                       double xi2) const {
-    const std::size_t row = e.row;
+    const std::size_t row = e.patch;
     const auto sums = std::span(cumulative_).subspan(row * columns_.size(), columns_.size());
     const auto found = std::upper_bound(sums.begin(), sums.end(), choice * totals_[row]);
     const std::size_t column =

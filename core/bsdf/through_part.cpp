@@ -58,12 +58,12 @@ SeenCells look_around(const BsdfComponent& transmission, const BsdfLookup& looku
     static constexpr std::array<ProjectedDirection, kDirections> kOffsets = offsets();
     const Rgb constant = transmission.lambertian * static_cast<float>(1 / kPi);
     const double scale = std::sqrt(least);
-    const ProjectedDirection& e = lookup.e;
+    const ProjectedDirection& e = lookup.direction;
     const double z = above_disk(e).z;
     SeenCells seen;
     for (const ProjectedDirection& offset : kOffsets) {
         const Vec3 l = normalize({-e.x + offset.x * scale, -e.y + offset.y * scale, z});
-        const BsdfLobes::Value value = transmission.lobes->value(lookup, {l.x, l.y});
+        const BsdfLobes::Value value = transmission.lobes->value_for(lookup, {l.x, l.y});
         const Rgb f = value.f + constant;
         seen.add({f, value.solid_angle, static_cast<double>(brightness(f)), value.cell});
     }

@@ -34,7 +34,8 @@ class TreeLobes final : public BsdfLobes {
     [[nodiscard]] BsdfLookup look_up(const ProjectedDirection& e) const override {
         return {e, 0, incident_path(e)};
     }
-    [[nodiscard]] Value value(const BsdfLookup& e, const ProjectedDirection& l) const override;
+    [[nodiscard]] BsdfLookup look_up_light(const ProjectedDirection& l) const override;
+    [[nodiscard]] Value value(const BsdfLookup& e, const BsdfLookup& l) const override;
     [[nodiscard]] double total(const BsdfLookup& e) const override {
         if (!incident_.has_sums()) return 0;
         return static_cast<double>(incident_.sums(incident_.find(e.path)).total);
@@ -55,7 +56,7 @@ class TreeLobes final : public BsdfLobes {
   private:
     [[nodiscard]] bool is_isotropic() const { return table_.y.rank() == 3; }
     [[nodiscard]] IncidentPath incident_path(const ProjectedDirection& e) const;
-    [[nodiscard]] TreePoint place(const BsdfLookup& e, const ProjectedDirection& l) const;
+    [[nodiscard]] TreePoint place(const BsdfLookup& e, const BsdfLookup& l) const;
     [[nodiscard]] float left_of(float value) const {
         return std::max(0.0f, value - common_.luminance);
     }
@@ -168,19 +169,19 @@ struct Turn {
     }
 };
 
-TreePoint TreeLobes::place(const BsdfLookup& e, const ProjectedDirection& l) const {
-    UnitSquarePoint exitant;
-    IncidentPath incident;
-    if (is_isotropic()) {
-        const ProjectedDirection& from = reversed_ ? l : e.e;
-        const ProjectedDirection& to = reversed_ ? e.e : l;
-        incident = reversed_ ? incident_path(l) : e.path;
-        exitant = disk_to_square(Turn(from).apply(to));
-    } else {
-        incident = e.path;
-        exitant = disk_to_square(reversed_ ? ProjectedDirection{-l.x, -l.y} : l);
-    }
-    return {incident, {HalvingPath(exitant.x), HalvingPath(exitant.y)}};
+/// Where light of l lies among the exitant ones; of rank 3 that depends on e, and l is kept as an
+/// incident one, for data in reverse.
+BsdfLookup TreeLobes::look_up_light(const ProjectedDirection& l) const {
+    if (is_isotropic()) return {l, 0, reversed_ ? incident_path(l) : IncidentPath{}};
+    const UnitSquarePoint at = disk_to_square(reversed_ ? ProjectedDirection{-l.x, -l.y} : l);
+    return {l, 0, {HalvingPath(at.x), HalvingPath(at.y)}};
+}
+
+TreePoint TreeLobes::place(const BsdfLookup& e, const BsdfLookup& l) const {
+    if (!is_isotropic()) return {e.path, l.path};
+    const BsdfLookup &from = reversed_ ? l : e, &to = reversed_ ? e : l;
+    const UnitSquarePoint exitant = disk_to_square(Turn(from.direction).apply(to.direction));
+    return {from.path, {HalvingPath(exitant.x), HalvingPath(exitant.y)}};
 }
 
 /// The colour there of a BSDF whose luminance is `value`, without the Lambertian part.
@@ -198,7 +199,7 @@ Rgb TreeLobes::color_at(const TreePoint& point, float value) const {
     return without(color_from_xyz(unit) * value, common_.color);
 }
 
-BsdfLobes::Value TreeLobes::value(const BsdfLookup& e, const ProjectedDirection& l) const {
+BsdfLobes::Value TreeLobes::value(const BsdfLookup& e, const BsdfLookup& l) const {
     const TreePoint point = place(e, l);
     TensorTree::Entry entry = table_.y.root();
     int level = 0;
@@ -267,7 +268,7 @@ BsdfLobes::Sample TreeLobes::sample(const BsdfLookup& e, double choice, double x
         sample.color = tint_of(color_at(point, leaf.value));
     }
     if (is_isotropic())
-        l = Turn(e.e).undo(l);
+        l = Turn(e.direction).undo(l);
     else if (reversed_)
         l = {-l.x, -l.y};
     sample.l = l;

@@ -31,7 +31,7 @@ struct Hit {
 
 /// Answer of a shadow query.
 enum class Visibility : std::uint8_t {
-    clear,          ///< nothing but material-less surfaces in between
+    clear,          ///< nothing but material-less surfaces, or backs of illums, in between
     blocked,        ///< an opaque surface lies in between
     needs_shading,  ///< no opaque surface, but at least one of ShadowClass::needs_shading, or one
                     ///< that nearly coincides with the target: the nearest hit tells which is seen

@@ -239,6 +239,11 @@ ShadowClass PlacedScene::shadow_class(const ShadowRay& ray, PrimitiveRef what) c
                                             : models_[ray.local_model].shadow(what.primitive);
 }
 
+bool PlacedScene::meets_back(const ShadowRay& ray, const Candidate& candidate) {
+    const bool placed = candidate.what.instance != kWorld;
+    return fused_dot(placed ? ray.local.direction : ray.direction, candidate.local.normal) >= 0;
+}
+
 Obstacle PlacedScene::obstacle(ShadowRay& ray, const Candidate& candidate) const {
     if (ray.target == kNoSurface)
         return candidate.t < ray.t_max ? Obstacle::in_front : Obstacle::none;
@@ -283,6 +288,9 @@ bool PlacedScene::propose(ShadowRay& ray, PrimitiveRef what) const {
     if (shadow == ShadowClass::ignored) return false;
     const Obstacle found = obstacle(ray, *candidate);
     if (found == Obstacle::none) return false;
+    if (shadow == ShadowClass::clear_from_behind && found == Obstacle::in_front &&
+        meets_back(ray, *candidate))
+        return false;
     if (shadow != ShadowClass::blocks || found == Obstacle::unsure) {
         ray.result = Visibility::needs_shading;
         return false;

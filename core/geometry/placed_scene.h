@@ -128,6 +128,7 @@ class PlacedScene {
     [[nodiscard]] std::optional<Candidate> cross(TracedRay& ray, PrimitiveRef what) const;
     [[nodiscard]] Precedence precedence(const Candidate& candidate) const;
     [[nodiscard]] ShadowClass shadow_class(const ShadowRay& ray, PrimitiveRef what) const;
+    [[nodiscard]] static bool meets_back(const ShadowRay& ray, const Candidate& candidate);
     [[nodiscard]] Obstacle obstacle(ShadowRay& ray, const Candidate& candidate) const;
     [[nodiscard]] Obstacle beside_target(ShadowRay& ray, const Candidate& candidate) const;
     [[nodiscard]] bool hides_target(ShadowRay& ray, const Candidate& candidate) const;

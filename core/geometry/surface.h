@@ -12,9 +12,11 @@ namespace lightwalk {
 
 /// How a surface affects shadow queries, derived from its modifier chain.
 enum class ShadowClass : std::uint8_t {
-    ignored,        ///< no material: the ray passes as if nothing were there
-    blocks,         ///< opaque: one such surface before the light blocks it
-    needs_shading,  ///< glass, trans, mixtures, illum, ...: its transmission has to be calculated
+    ignored,            ///< no material: the ray passes as if nothing were there
+    blocks,             ///< opaque: one such surface before the light blocks it
+    needs_shading,      ///< glass, trans, mixtures, ...: its transmission has to be calculated
+    clear_from_behind,  ///< illum without an alternate: as nothing for rays that meet its back,
+                        ///< else it needs shading
 };
 
 /// Tie rules of coincident surfaces and shadow queries, derived from the modifier chain.

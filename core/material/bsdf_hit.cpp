@@ -122,19 +122,21 @@ Rgb BsdfDirect::lobe(const BsdfComponent& component, const ProjectedDirection& l
     if (through && hit_.split &&
         in_through_part(hit_.e, l, omega * cosine, lobes.least_solid_angle()))
         return max_component(hit_.through.surround) > kTiny ? hit_.through.surround : Rgb{};
-    const BsdfLobes::Value at = lobes.value(through ? hit_.in_transmission : hit_.in_reflection, l);
+    const BsdfLookup light = lobes.look_up_light(l);
+    const BsdfLobes::Value at =
+        lobes.value(through ? hit_.in_transmission : hit_.in_reflection, light);
     if (!(specular_samples_ > 0)) return brightness(at.f) > kTiny ? at.f : Rgb{};
     // The mean is that of values with the Lambertian part, of which those that have no lobe count
     // as nothing; then the part is taken off again. Lobes that end beside e lose light that way, as
     // they do in Radiance (measured: what its rtrace shows of trees of two values).
     const Rgb lambertian = component.lambertian * static_cast<float>(1 / kPi);
     RandomStream random = stream_for({l.x, l.y, cosine});
+    const double size = std::sqrt(at.solid_angle);
     Rgb sum;
     int counted = 0;
     for (int i = 0; i < count_; ++i) {
-        const ProjectedDirection e =
-            jittered(hit_, std::sqrt(at.solid_angle), specular_samples_, random);
-        const BsdfLobes::Value near = lobes.value(lobes.look_up(e), l);
+        const ProjectedDirection e = jittered(hit_, size, specular_samples_, random);
+        const BsdfLobes::Value near = lobes.value(lobes.look_up(e), light);
         if (near.solid_angle < kSmallestNeighbour * at.solid_angle) continue;
         ++counted;
         if (near.has_lobe) sum += near.f + lambertian;

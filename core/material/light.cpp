@@ -17,6 +17,7 @@ class Light final : public Modifier {
     [[nodiscard]] bool shade(Ray& ray, TraceContext& context) const override;
     [[nodiscard]] MaterialTraits traits() const override {
         return {.blocks_shadow_rays = type_ != PrimitiveType::illum,
+                .clear_from_behind = type_ == PrimitiveType::illum && alternate_ == kVoid,
                 .appearance = appearance(),
                 .seen = alternate_};
     }

@@ -38,6 +38,8 @@ struct MaterialTraits {
     /// Blocks every shadow ray, so that none needs to be shaded. Where false, each shadow ray that
     /// meets the material has to be shaded.
     bool blocks_shadow_rays = false;
+    /// Shadow rays that meet its back go on as if nothing were there.
+    bool clear_from_behind = false;
     /// Appearance to primary rays, unless textures perturb its normals.
     Appearance appearance = Appearance::unknown;
     /// Specular reflectance; for polished ones and mirrors at normal incidence.

@@ -154,7 +154,11 @@ SurfaceTraits ModifierTable::traits(ModifierId first) const {
     const MaterialTraits traits = material_traits(*material);
     // Antimatter can cut any surface away.
     const bool blocks = traits.blocks_shadow_rays && !has_antimatter_;
-    return {true, traits.transparent, blocks ? ShadowClass::blocks : ShadowClass::needs_shading};
+    const bool clear = traits.clear_from_behind && !has_antimatter_;
+    return {true, traits.transparent,
+            blocks  ? ShadowClass::blocks
+            : clear ? ShadowClass::clear_from_behind
+                    : ShadowClass::needs_shading};
 }
 
 ModifierTraits ModifierTable::all_traits() const {

@@ -12,9 +12,16 @@ namespace lightwalk {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\n\f\v";
-constexpr std::string_view kSeparators = " \t\r\n\f\v,";
-constexpr std::string_view kEndOfNumber = " \t\r\n\f\v,{}";
 constexpr double kLargest = 1e30;  ///< no value of a BSDF is larger [1/sr]
+
+/// A matrix has some 80,000 numbers; a search for characters of a list calls a function for each
+/// character.
+bool parts_numbers(char c) {
+    return c == ' ' || c == ',' || (c >= '\t' && c <= '\r');
+}
+bool ends_number(char c) {
+    return parts_numbers(c) || c == '{' || c == '}';
+}
 
 bool is_text(const pugi::xml_node& node) {
     return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
@@ -70,8 +77,8 @@ void XmlNumbers::next_piece() {
 
 XmlNumbers::Token XmlNumbers::next() {
     while (piece_) {
-        const std::size_t skipped = std::min(rest_.find_first_not_of(kSeparators), rest_.size());
-        rest_.remove_prefix(skipped);
+        const auto token = std::ranges::find_if_not(rest_, parts_numbers);
+        rest_.remove_prefix(static_cast<std::size_t>(token - rest_.begin()));
         if (!rest_.empty()) break;
         next_piece();
     }
@@ -84,7 +91,8 @@ XmlNumbers::Token XmlNumbers::next() {
 }
 
 XmlNumbers::Token XmlNumbers::read_number() {
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kEndOfNumber));
+    const auto end = std::ranges::find_if(rest_, ends_number);
+    const std::string_view word = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
     if (parse_simple_real(word, value_) != word.size() && !parse_real(word, value_))
         throw error("found \"" + std::string(word.substr(0, 40)) + "\", expected a number");
     if (!(std::abs(value_) <= kLargest))

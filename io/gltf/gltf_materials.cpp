@@ -10,6 +10,7 @@ namespace lightwalk {
 namespace {
 
 constexpr double kMostEmitted = 1e9;  ///< [cd/m²]
+constexpr double kMostImages = 1e9;
 
 double bounded(double value, double low, double high, double otherwise) {
     return std::isfinite(value) ? std::clamp(value, low, high) : otherwise;
@@ -88,10 +89,11 @@ class MaterialReader {
         if (index < 0 || static_cast<std::size_t>(index) >= model_.textures.size())
             fail("texture " + std::to_string(index), model_.textures.size());
         const tinygltf::Texture& from = model_.textures[static_cast<std::size_t>(index)];
-        if (from.source == -1) return std::nullopt;  // that of an extension
-        if (from.source < 0 || static_cast<std::size_t>(from.source) >= model_.images.size())
-            fail("image " + std::to_string(from.source), model_.images.size());
-        GltfTexture to{static_cast<std::size_t>(from.source)};
+        const int source = source_of(from);
+        if (source == -1) return std::nullopt;  // that of another extension
+        if (source < 0 || static_cast<std::size_t>(source) >= model_.images.size())
+            fail("image " + std::to_string(source), model_.images.size());
+        GltfTexture to{static_cast<std::size_t>(source)};
         if (from.sampler >= 0 && static_cast<std::size_t>(from.sampler) < model_.samplers.size()) {
             const tinygltf::Sampler& sampler =
                 model_.samplers[static_cast<std::size_t>(from.sampler)];
@@ -99,6 +101,15 @@ class MaterialReader {
             to.wrap_v = wrap_of(sampler.wrapT);
         }
         return to;
+    }
+
+    /// The image as WebP, where there is one: that of the texture itself is for those that cannot
+    /// read it.
+    static int source_of(const tinygltf::Texture& texture) {
+        const auto found = texture.extensions.find("EXT_texture_webp");
+        if (found == texture.extensions.end() || !found->second.IsObject()) return texture.source;
+        const double source = gltf_number(found->second, "source", texture.source);
+        return source >= 0 && source < kMostImages ? static_cast<int>(source) : texture.source;
     }
 
     [[noreturn]] void fail(const std::string& what, std::size_t count) const {

@@ -18,14 +18,12 @@ constexpr std::size_t kMostRepeated = std::size_t{1} << 23;  ///< triangles that
 constexpr std::size_t kLeastTriangleBytes = 3;
 constexpr std::size_t kGlbHead = 12, kChunkHead = 8;
 
-constexpr std::array<std::string_view, 14> kKnownExtensions = {
-    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_volume",       "KHR_materials_clearcoat",
-    "KHR_materials_sheen",        "KHR_materials_iridescence",
-    "KHR_materials_anisotropy",   "KHR_materials_variants",
-    "KHR_mesh_quantization",      "KHR_texture_transform"};
+constexpr std::array<std::string_view, 15> kKnownExtensions = {
+    "EXT_texture_webp",       "KHR_lights_punctual",       "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_materials_specular",    "KHR_materials_transmission",
+    "KHR_materials_unlit",    "KHR_materials_volume",      "KHR_materials_clearcoat",
+    "KHR_materials_sheen",    "KHR_materials_iridescence", "KHR_materials_anisotropy",
+    "KHR_materials_variants", "KHR_mesh_quantization",     "KHR_texture_transform"};
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -226,6 +224,9 @@ GltfFile decode_gltf(std::string_view bytes, const std::string& name,
     GltfFile file;
     const std::vector<GltfSurface> surfaces = gltf_surfaces(model, name);
     for (const GltfSurface& surface : surfaces) file.materials.push_back(surface.material);
+    if (std::ranges::any_of(model.materials,
+                            [](const auto& m) { return m.normalTexture.index >= 0; }))
+        file.left_out.emplace_back("normal textures are left out");
     file.images = gltf_images(model, name);
     std::size_t all_bytes = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) all_bytes += buffer.data.size();

@@ -14,6 +14,23 @@ namespace {
 /// these are few.
 constexpr int kValuesTogether = 1 << 18;
 
+/// Whether colours are multiplied by alpha, though that was not wanted: OpenImageIO 2.4 does it to
+/// WebP.
+bool multiplies(std::string_view format, const OIIO::ImageSpec& spec) {
+    return format == "webp" && spec.alpha_channel == spec.nchannels - 1 &&
+           spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
+/// Divides colours by the alpha of their pixels again, but where nothing is left of them.
+void divide_by_alpha(std::vector<float>& values, std::size_t channels) {
+    for (std::size_t pixel = 0; pixel + channels <= values.size(); pixel += channels) {
+        const float alpha = values[pixel + channels - 1];
+        if (!(alpha > 0)) continue;
+        for (std::size_t c = pixel; c + 1 < pixel + channels; ++c)
+            values[c] = std::min(1.0f, values[c] / alpha);
+    }
+}
+
 void read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, lightwalk::ImageRows& rows,
                std::string& error) {
     const int channels = std::min(spec.nchannels, 4);
@@ -42,6 +59,8 @@ void read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, lightwalk::
             if (error.empty()) error = "unknown error";
             return;
         }
+        if (multiplies(input.format_name(), spec))
+            divide_by_alpha(values, static_cast<std::size_t>(channels));
         rows.take(y, end - y, values.data());
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -68,12 +69,33 @@ bool begins_as_bmp(std::string_view bytes) {
            (compression == kPlain || compression == kBitFields);
 }
 
+/// Width times height of a WebP file, which OpenImageIO decodes before it says how large the
+/// picture is; nothing for other files, and for animations. Source: "WebP Container Specification",
+/// "WebP Lossless Bitstream Specification" (Google), RFC 6386, sec. 9.1.
+std::optional<std::size_t> webp_pixels(std::string_view bytes) {
+    constexpr std::uint32_t kLowBits = 0x3fff, kAnimated = 2, kLosslessMark = 0x2f;
+    if (bytes.size() < 30 || !bytes.starts_with("RIFF") || bytes.substr(8, 4) != "WEBP")
+        return std::nullopt;
+    const HeaderBytes header(bytes);
+    const std::string_view chunk = bytes.substr(12, 4);
+    if (chunk == "VP8 ")
+        return std::size_t{header.at(26, 2) & kLowBits} * (header.at(28, 2) & kLowBits);
+    if (chunk == "VP8L" && header.at(20, 1) == kLosslessMark) {
+        const std::uint32_t sizes = header.at(21, 4);
+        return std::size_t{(sizes & kLowBits) + 1} * ((sizes >> 14 & kLowBits) + 1);
+    }
+    if (chunk == "VP8X" && !(header.at(20, 1) & kAnimated))
+        return std::size_t{header.at(24, 3) + 1} * (header.at(27, 3) + 1);
+    return std::nullopt;
+}
+
 /// OpenImageIO's name; null for others.
 const char* format_of_bytes(std::string_view bytes) {
     for (const auto& [mark, format] : kMarks) {
         if (bytes.starts_with(mark)) return format;
     }
     if (begins_as_bmp(bytes)) return "bmp";
+    if (webp_pixels(bytes)) return "webp";
     return begins_as_tga(bytes) ? "targa" : nullptr;
 }
 
@@ -144,10 +166,20 @@ class SizeOfRows final : public ImageRows {
     double aspect = 0;
 };
 
+[[noreturn]] void refuse_size(const std::string& name) {
+    throw InputError({name, 0}, "an image of no pixels, or of more than a file of this size holds");
+}
+
+std::size_t most_pixels(std::string_view bytes) {
+    return std::min(kLeastMostPixels + kMostPixelsOfByte * bytes.size(), kMostPixels);
+}
+
 void decode_rows(std::string_view bytes, const std::string& name, ImageRows& rows) {
     const char* format = format_of_bytes(bytes);
     if (format == nullptr)
-        throw InputError({name, 0}, "neither a Radiance picture, nor PNG, JPEG, TIFF, TGA or BMP");
+        throw InputError({name, 0},
+                         "neither a Radiance picture, nor PNG, JPEG, TIFF, WebP, TGA or BMP");
+    if (webp_pixels(bytes).value_or(0) > most_pixels(bytes)) refuse_size(name);
     std::string error;
     const auto decode =
         reinterpret_cast<DecodeImage>(load_from_module(kImageModule, kDecodeImageSymbol, error));
@@ -166,12 +198,9 @@ bool is_image(std::string_view bytes) {
 }
 
 PictureData decode_image(std::string_view bytes, const std::string& name, ImageChannels channels) {
-    TableOfRows table(channels,
-                      std::min(kLeastMostPixels + kMostPixelsOfByte * bytes.size(), kMostPixels));
+    TableOfRows table(channels, most_pixels(bytes));
     decode_rows(bytes, name, table);
-    if (!table.fits())
-        throw InputError({name, 0},
-                         "an image of no pixels, or of more than a file of this size holds");
+    if (!table.fits()) refuse_size(name);
     return table.release();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Decodes images that are no Radiance pictures (PNG, JPEG, TIFF, TGA, BMP) by OpenImageIO, which is
-// loaded as a module when first needed; see image_encoder.h.
+// Decodes images that are no Radiance pictures (PNG, JPEG, TIFF, WebP, TGA, BMP) by OpenImageIO,
+// which is loaded as a module when first needed; see image_encoder.h.
 #include <string>
 #include <string_view>
 
@@ -15,7 +15,7 @@ enum class ImageChannels {
     numbers,  ///< what is stored, from 0 to 1
 };
 
-/// Whether these bytes begin as a PNG, JPEG, TIFF, TGA or BMP file does.
+/// Whether these bytes begin as a PNG, JPEG, TIFF, WebP, TGA or BMP file does.
 [[nodiscard]] bool is_image(std::string_view bytes);
 
 /// Decode an image to a table whose shorter side has length 1, as decode_picture does. Throws

@@ -42,6 +42,9 @@ class ObjLibrary {
         MtlPictures pictures{picture(material.map_kd, "map_Kd", name),
                              picture(material.map_d, "map_d", name)};
         if (pictures.opacity) pictures.opacity->file += kAlphaPart;
+        if (material.bumpy && !std::exchange(told_of_bumps_, true))
+            warnings_.warn("material \"" + name +
+                           "\": its map of heights or normals is left out, and so are others'");
         material.name = shown;
         return mtl_scene(material, pictures);
     }
@@ -66,6 +69,7 @@ class ObjLibrary {
     FileSource& files_;
     WarningSink& warnings_;
     std::map<std::string, MtlMaterial> materials_;
+    bool told_of_bumps_ = false;
 };
 
 /// The first face of each material.

@@ -50,6 +50,9 @@ class MtlReader {
             m.d = number(line, 1);
         }
         if (statement == "map_Kd") m.map_kd = file_of(without_blanks(line));
+        if (statement == "map_Bump" || statement == "map_bump" || statement == "bump" ||
+            statement == "norm")
+            m.bumpy = true;
         if (statement == "map_d") m.map_d = file_of(without_blanks(line));
     }
 

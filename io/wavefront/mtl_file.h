@@ -21,6 +21,7 @@ struct MtlMaterial {
     std::optional<int> illum;                 ///< model of illumination, from 0 to 10
     std::string map_kd;                       ///< picture of the diffuse reflectance
     std::string map_d;                        ///< picture of the opacity
+    bool bumpy = false;                       ///< has a map of heights or normals
 };
 
 /// The pictures of a material that are there.

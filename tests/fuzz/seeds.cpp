@@ -296,7 +296,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     static const std::vector<std::string> gltfs{gltf_seed().binary(), gltf_seed().json("a.bin")};
     if (target == read_gltf_file) return gltfs;
     static const std::vector<std::string> images{small_png(), small_tiff(), jpeg_seed(),
-                                                 small_tga(), small_bmp()};
+                                                 small_tga(), small_bmp(),  small_webp(),
+                                                 lossy_webp()};
     if (target == read_image) return images;
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;

@@ -81,7 +81,7 @@ double integral(const BsdfLobes& lobes, ProjectedDirection e) {
     for (int i = 0; i < kSide; ++i) {
         for (int k = 0; k < kSide; ++k) {
             const ProjectedDirection l = square_to_disk({(i + 0.5) / kSide, (k + 0.5) / kSide});
-            sum += static_cast<double>(brightness(lobes.value(lobes.look_up(e), l).f));
+            sum += static_cast<double>(brightness(lobes.value_for(lobes.look_up(e), l).f));
         }
     }
     return sum * kPi / (kSide * kSide);
@@ -99,7 +99,7 @@ void check_samples(const BsdfLobes& lobes, ProjectedDirection e) {
             const ProjectedDirection l =
                 square_to_disk({(i + 0.5) / (kCells * kPoints), (k + 0.5) / (kCells * kPoints)});
             counts.expected[static_cast<std::size_t>(i / kPoints * kCells + k / kPoints)] +=
-                static_cast<double>(brightness(lobes.value(lobes.look_up(e), l).f));
+                static_cast<double>(brightness(lobes.value_for(lobes.look_up(e), l).f));
         }
     }
     double sum = 0;
@@ -153,7 +153,8 @@ TEST_CASE("BSDF: transmission from one side alone is reciprocal, values and tota
                         &back = *bsdf.transmission(false).lobes;
         for (const ProjectedDirection& e : kDirections) {
             for (const ProjectedDirection& l : kDirections)
-                CHECK(front.value(front.look_up(e), l).f == back.value(back.look_up(l), e).f);
+                CHECK(front.value_for(front.look_up(e), l).f ==
+                      back.value_for(back.look_up(l), e).f);
             CHECK(back.total(back.look_up(e)) == doctest::Approx(integral(back, e)).epsilon(0.01));
             check_samples(back, e);
         }
@@ -164,8 +165,8 @@ TEST_CASE("BSDF: of a tree of rank 3 there are values in reverse, but no totals"
     const Bsdf bsdf = bsdf_of(BsdfPart::front_transmission, isotropic_tree());
     const BsdfLobes &front = *bsdf.transmission(true).lobes,
                     &back = *bsdf.transmission(false).lobes;
-    CHECK(front.value(front.look_up({0.3, 0.1}), {-0.2, 0.1}).f ==
-          back.value(back.look_up({-0.2, 0.1}), {0.3, 0.1}).f);
+    CHECK(front.value_for(front.look_up({0.3, 0.1}), {-0.2, 0.1}).f ==
+          back.value_for(back.look_up({-0.2, 0.1}), {0.3, 0.1}).f);
     CHECK(back.total(back.look_up({0.3, 0.1})) == 0);
 }
 
@@ -178,8 +179,8 @@ TEST_CASE("BSDF: a tree of rank 3 looks alike after a turn about its normal") {
     };
     for (const ProjectedDirection& e : kDirections) {
         for (const ProjectedDirection& l : kDirections)
-            CHECK(lobes.value(lobes.look_up(e), l).f ==
-                  lobes.value(lobes.look_up(turn(e)), turn(l)).f);
+            CHECK(lobes.value_for(lobes.look_up(e), l).f ==
+                  lobes.value_for(lobes.look_up(turn(e)), turn(l)).f);
     }
 }
 

@@ -33,19 +33,23 @@ inline SurfacePrimitive kept_primitive(PrimitiveType type, std::vector<double> r
 
 inline constexpr SurfaceTraits kOpaque{true, false, ShadowClass::blocks};
 inline constexpr SurfaceTraits kGlass{true, true, ShadowClass::needs_shading};
+inline constexpr SurfaceTraits kIllum{true, false, ShadowClass::clear_from_behind};
 inline constexpr SurfaceTraits kNoMaterial{false, false, ShadowClass::ignored};
 
-/// Traits belong to modifiers, so each number stands for three modifiers, one for each kind of
+/// Traits belong to modifiers, so each number stands for four modifiers, one for each kind of
 /// traits.
 inline ModifierId modifier_of(int number, const SurfaceTraits& traits) {
-    const int kind = !traits.has_material ? 0 : traits.transparent ? 1 : 2;
-    return number < 0 ? kVoid : ModifierId{3 * number + kind};
+    const int kind = !traits.has_material                              ? 0
+                     : traits.transparent                              ? 1
+                     : traits.shadow == ShadowClass::clear_from_behind ? 3
+                                                                       : 2;
+    return number < 0 ? kVoid : ModifierId{4 * number + kind};
 }
 /// The traits of all modifiers that modifier_of returns for numbers below 1000; void has none.
 inline ModifierTraits test_traits() {
     std::vector<SurfaceTraits> traits;
     for (int number = 0; number < 1000; ++number)
-        traits.insert(traits.end(), {kNoMaterial, kGlass, kOpaque});
+        traits.insert(traits.end(), {kNoMaterial, kGlass, kOpaque, kIllum});
     return {traits, kNoMaterial};
 }
 

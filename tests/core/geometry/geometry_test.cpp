@@ -353,6 +353,19 @@ TEST_CASE("an opaque surface blocks whatever glass stands before or behind it") 
     CHECK(invisible.build().visibility(kDown, kNoSurface) == Visibility::clear);
 }
 
+TEST_CASE("an illum without an alternate is not there for shadow rays that meet its back") {
+    TestModels scene;  // its front is above
+    scene.add(surface(PrimitiveType::polygon, square(2), 0, kIllum));
+    const RaySegment up{{0.1, 0.2, 0}, {0, 0, 1}, kHuge};
+    CHECK(scene.build().visibility(up, kNoSurface) == Visibility::clear);
+    CHECK(scene.build().visibility(kDown, kNoSurface) == Visibility::needs_shading);
+    TestModels pane = scene, wall = scene;
+    pane.add(surface(PrimitiveType::polygon, square(3), 0, kGlass));
+    CHECK(pane.build().visibility(up, kNoSurface) == Visibility::needs_shading);
+    wall.add(surface(PrimitiveType::polygon, square(3), 0, kOpaque));
+    CHECK(wall.build().visibility(up, kNoSurface) == Visibility::blocked);
+}
+
 TEST_CASE("one surface alone can be asked for") {
     TestModels scene;
     scene.add(surface(PrimitiveType::polygon, square(3), 4, kOpaque));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -102,13 +103,37 @@ TEST_CASE("images: TGA and BMP files, whose rows go upward and whose colours beg
     check_pixel(alpha.values[1], 0, 0, 0);
 }
 
+TEST_CASE("images: WebP files, whose alpha multiplies nothing either") {
+    for (const auto& [bytes, digits] :
+         {std::pair(test::small_webp(), .012), std::pair(test::lossy_webp(), .03)}) {
+        CHECK(is_image(bytes));
+        CHECK(image_aspect(bytes, "x") == 2);
+        const PictureData data = decode_image(bytes, "x", ImageChannels::numbers);
+        REQUIRE(data.values.size() == 32);
+        for (const Rgb& pixel : {data.values[0], data.values[31]}) {
+            CHECK(std::abs(static_cast<double>(pixel.r) - 250 / 255.0) < digits);
+            CHECK(std::abs(static_cast<double>(pixel.g) - 100 / 255.0) < digits);
+            CHECK(std::abs(static_cast<double>(pixel.b) - 20 / 255.0) < digits);
+        }
+        const PictureData alpha = decode_image(bytes, "x", ImageChannels::alpha);
+        check_pixel(alpha.values[5], 128 / 255.0, 128 / 255.0, 128 / 255.0);
+        CHECK(image_error(bytes.substr(0, bytes.size() - 8)).find("x: damaged webp image") == 0);
+    }
+}
+
 TEST_CASE("images: of few bytes no large picture is made") {
+    constexpr auto kRefusal = "x: an image of no pixels, or of more than a file of this size holds";
+    std::string webp = test::small_webp();
+    for (const std::size_t at : {21, 22, 23, 24}) webp[at] = at == 24 ? '\x0f' : '\xff';
+    CHECK(image_error(webp) == kRefusal);
+    std::string canvas = test::lossy_webp();
+    for (const std::size_t at : {25, 28}) canvas[at] = '\x7f';
+    CHECK(image_error(canvas) == kRefusal);
     for (const std::string& small : {test::small_tga(), test::small_bmp()}) {
         std::string large = small;
         const std::size_t width = large.starts_with("BM") ? 18 : 12;
         large[width + 1] = large[width + (large.starts_with("BM") ? 5 : 3)] = '\x7f';
-        CHECK(image_error(large) ==
-              "x: an image of no pixels, or of more than a file of this size holds");
+        CHECK(image_error(large) == kRefusal);
     }
 }
 
@@ -119,11 +144,14 @@ TEST_CASE("images: what OpenImageIO does not read safely is refused") {
     std::string palette = test::small_tga();
     palette[1] = palette[2] = 1;
     CHECK(!is_image(palette));
+    std::string animation = test::lossy_webp();
+    animation[20] = 2;
+    CHECK(!is_image(animation));
 }
 
 TEST_CASE("images: what is damaged is refused by its name") {
     CHECK(image_error("nothing") ==
-          "x: neither a Radiance picture, nor PNG, JPEG, TIFF, TGA or BMP");
+          "x: neither a Radiance picture, nor PNG, JPEG, TIFF, WebP, TGA or BMP");
     const std::string png = test::small_png();
     CHECK(image_error(png.substr(0, 30)).find("x: damaged png image") == 0);
     std::string flipped = png;

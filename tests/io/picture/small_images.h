@@ -49,4 +49,20 @@ inline std::string small_bmp() {
         "0b0000130b000000000000000000008000ff40ff000000");
 }
 
+/// WebP of 8 x 4 pixels, without loss: all 250 100 20, half transparent (128).
+inline std::string small_webp() {
+    return bytes_of_digits(
+        "524946461e000000574542505650384c110000002f07c000100750b2ea97a2808188e87f0000");
+}
+
+/// The same with loss, its alpha in a chunk of its own.
+inline std::string lossy_webp() {
+    return bytes_of_digits(
+        "524946466400000057454250565038580a00000010000000070000030000414c50480a000000010750c0880844"
+        "44"
+        "ff0356503820340000003002009d012a0800040000c01225a00274ba01f801fa0004680000fed8eefff44ce473"
+        "bd"
+        "dff44d7ffdbe102a5a4cffb764000000");
+}
+
 }  // namespace lightwalk::test

@@ -94,6 +94,24 @@ TEST_CASE("a glTF file's texture colours, and its alpha cuts") {
     }
 }
 
+TEST_CASE("a glTF file's texture may be WebP, by an extension that others may leave out") {
+    const test::TemporaryFolder folder;
+    SmallGltf gltf;
+    gltf.image = test::small_webp();
+    gltf.materials = diffuse("[1,1,1,1]", R"(,"baseColorTexture":{"index":0})");
+    std::string json = gltf.json();
+    const std::string plain = R"("textures":[{"source":0})";
+    const auto at = json.find(plain);
+    REQUIRE(at != std::string::npos);
+    json.replace(at, plain.size(),
+                 R"("textures":[{"extensions":{"EXT_texture_webp":{"source":0}}})");
+    json.insert(1, R"("extensionsRequired":["EXT_texture_webp"],)");
+    folder.write("x.glb", test::glb(json, gltf.buffer()));
+    folder.write("sky.rad", kWhiteSky);
+    FolderScene scene(folder, {"x.glb", "sky.rad"}, all_around());
+    CHECK(red(scene, .5, .5) == doctest::Approx(.956).epsilon(.02));  // 250 of 255 in sRGB
+}
+
 TEST_CASE("glTF: emission of few triangles is a light, of its luminance") {
     const test::TemporaryFolder folder;
     SmallGltf gltf;
@@ -147,6 +165,26 @@ TEST_CASE("what is wrong with a glTF file ends the reading, a missing picture do
     };
     CHECK(said("material \"m\": baseColorTexture is left out: "));
     CHECK_THROWS_AS(FolderScene(folder, {"gone.gltf"}), InputError);
+}
+
+TEST_CASE("maps of normals are left out, which is told once a file") {
+    const test::TemporaryFolder folder;
+    SmallGltf gltf;
+    gltf.image = test::small_png();
+    gltf.materials = diffuse("[1,1,1,1]");
+    gltf.materials.insert(1, R"("normalTexture":{"index":0},)");
+    folder.write("x.glb", gltf.binary());
+    folder.write("x.obj",
+                 "mtllib x.mtl\nv 2 0 0\nv 3 0 0\nv 3 0 1\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n");
+    folder.write("x.mtl", "newmtl a\nmap_Bump a.png\nnewmtl b\nnorm b.png\n");
+    const FolderScene scene(folder, {"x.glb", "x.obj"});
+    const auto count = [&](const char* text) {
+        return std::ranges::count_if(scene.warnings.messages, [&](const std::string& message) {
+            return message.find(text) != std::string::npos;
+        });
+    };
+    CHECK(count("x.glb: normal textures are left out") == 1);
+    CHECK(count("map of heights or normals is left out") == 1);
 }
 
 TEST_CASE("an .obj's texture may be a PNG file, and scenes may name one") {
