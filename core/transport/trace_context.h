@@ -16,6 +16,7 @@ namespace lightwalk {
 
 class ContributionSink;
 class Fibers;
+class GroupSums;
 class LightTransport;
 class ShadingBatch;
 struct CoefficientScratch;
@@ -126,6 +127,8 @@ struct TraceContext {
     TraceCounters counters;
     RayObserver* observer = nullptr;            ///< told of every ray; null: nobody watches
     ContributionSink* contributions = nullptr;  ///< told the terms of radiance; null: nobody asks
+    GroupSums* groups = nullptr;  ///< that sink, where it adds up what groups of emitters bring;
+                                  ///< else null. Rays must then be shaded one by one
     PathState path;
     FunctionScratch functions;
     Opaque<LightScratch> light{nullptr, nullptr};  ///< buffers of direct light; made when needed
@@ -133,6 +136,12 @@ struct TraceContext {
     Opaque<CoefficientScratch> coefficients{nullptr, nullptr};  ///< of lookups; made when needed
     BatchState batches;
     AmbientCollection ambient;
+
+    /// Whether coefficients are asked for, of which radiance must not decide: else what is tested
+    /// and sampled is what a picture needs.
+    [[nodiscard]] bool asks_coefficients() const {
+        return contributions != nullptr && groups == nullptr;
+    }
 };
 
 }  // namespace lightwalk
