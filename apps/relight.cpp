@@ -169,6 +169,7 @@ int run_relight(const std::vector<std::string>& line, Communicator* /*ranks*/) {
     if (command.output.empty() && isatty(STDOUT_FILENO) != 0)
         throw UsageError("standard output is a terminal: name the picture's file with -o");
     std::vector<LayersHeader> headers;
+    headers.reserve(paths.size());
     for (const std::string& path : paths) headers.push_back(open_layers(path).header);
     expect_groups(command.levels, group_places(headers, paths));
     const Picture picture = mixture(command, headers);

@@ -32,6 +32,10 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
         options_.record = [](const RayQuery&, const Ray& ray, const Hit& first,
                              std::string& bytes) { append_ray_answer(ray, first, bytes); };
     if (options_.light_groups) {
+        if (options_.reuse || options_.steered)
+            throw InputError("light groups are for pictures that are traced by themselves");
+        if (session_.ambient_store)
+            throw InputError("an ambient file holds no values of light groups");
         contexts_.sum_by(std::make_shared<const LightGroups>(
             find_light_groups(session_.scene(), options_.light, *options_.light_groups)));
     }

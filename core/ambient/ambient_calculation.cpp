@@ -73,15 +73,6 @@ Ray ray_to(const AmbientPoint& point) {
     return ray;
 }
 
-/// Of a hemisphere's light where the normal is turned towards `n`, by its gradient.
-float tilt_factor(const Hemisphere& h, const Vec3& n) {
-    if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions)
-        return 1;
-    const std::array<double, 2> rotation = rotation_gradient(h);
-    const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
-    return factor >= kLeastFactor ? static_cast<float>(factor) : 1;
-}
-
 /// The level at which a point asks, while this lives.
 class AtLevel {
   public:
@@ -128,7 +119,7 @@ class AmbientRays final : public HemisphereRays {
         const Geometry& geometry = tracer_.scene().geometry();
         hits_.clear();
         for (const Ray& ray : rays_) hits_.push_back(geometry.intersect(ray.segment()));
-        if (context_.groups && !context_.ambient.missing)
+        if (tells_groups())
             shade_by_groups(*context_.groups);
         else
             tracer_.shade_hits(rays_, hits_, context_);
@@ -140,7 +131,6 @@ class AmbientRays final : public HemisphereRays {
     }
 
     void taken(std::size_t answer, std::size_t cell, float kept, float share) override {
-        if (told_.empty()) return;
         const std::size_t groups = context_.groups->size();
         if (cells_.size() < (cell + 1) * groups) cells_.resize((cell + 1) * groups);
         for (std::size_t g = 0; g < groups; ++g) {
@@ -151,11 +141,13 @@ class AmbientRays final : public HemisphereRays {
 
     /// What each light group adds to the sum of the cells' values; empty: nobody asks.
     [[nodiscard]] std::vector<Rgb> groups() const {
-        if (!context_.groups) return {};
+        if (!tells_groups()) return {};
         std::vector<Rgb> sums(context_.groups->size());
         for (std::size_t i = 0; i < cells_.size(); ++i) sums[i % sums.size()] += cells_[i];
         return sums;
     }
+
+    [[nodiscard]] bool tells_groups() const { return context_.groups && !context_.ambient.missing; }
 
   private:
     /// How a ray's answer is made of what the groups bring is told ray by ray.
@@ -181,6 +173,15 @@ class AmbientRays final : public HemisphereRays {
     std::vector<Rgb> told_;   ///< by answer, then light group
     std::vector<Rgb> cells_;  ///< by cell, then light group
 };
+
+/// Of a hemisphere's light where the normal is turned towards `n`, by its gradient.
+float tilt_factor(const Hemisphere& h, const Vec3& n) {
+    if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions)
+        return 1;
+    const std::array<double, 2> rotation = rotation_gradient(h);
+    const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
+    return factor >= kLeastFactor ? static_cast<float>(factor) : 1;
+}
 
 }  // namespace
 
@@ -333,6 +334,7 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     // Cached values weigh their rays by the assumed reflectance alone, whatever the surface.
     const Rgb part = coef * share;
     AmbientRays rays(tracer_, ray, kind, cached ? coef : part, cached ? share : 1, request.context);
+    sampling.tells = rays.tells_groups();
     const RandomStream before = ray.random;
     RandomStream stream = cached ? stream_of(request.query, options.seed) : ray.random.child();
     if (cached) ray.random = stream.child();
@@ -438,6 +440,7 @@ std::optional<Rgb> AmbientCalculation::interpolated(const Request& request) cons
             sums);
         if (sum.weight <= kEpsilon) return std::nullopt;
         std::vector<Rgb> values;
+        values.reserve(sums.size());
         for (const auto& of_group : sums) values.push_back(mean(of_group, sum.weight));
         tell_groups(request, request.coef, values);
     }

@@ -130,13 +130,13 @@ class Sampler {
         if (sample.m == 0) {
             c.vertex = sample.direction * std::min(answer.distance, sampling_.farthest);
             c.value = answer.value;
-            rays_.taken(number, sample.cell, 0, 1);
+            if (sampling_.tells) rays_.taken(number, sample.cell, 0, 1);
             ++h_.succeeded;
         } else {
             const auto share = 1 / static_cast<float>(sample.m + 1);
             const float kept = static_cast<float>(sample.m) * share;
             c.value = c.value * kept + answer.value * share;
-            rays_.taken(number, sample.cell, kept, share);
+            if (sampling_.tells) rays_.taken(number, sample.cell, kept, share);
         }
         h_.sum += c.value;
     }

@@ -66,6 +66,7 @@ struct HemisphereSampling {
     int extra = 0;  ///< samples that go where neighbours differ; none where fewer than 4 divisions
     double share = 1;         ///< brightness of one sample's coefficient
     double farthest = kHuge;  ///< vertices are not farther than this [m]
+    bool tells = false;       ///< HemisphereRays::taken() is called
 };
 
 /// Sample the hemisphere about the unit vector `normal`. Map: Shirley & Chiu, "A Low Distortion Map

@@ -13,20 +13,17 @@ void GroupSums::add(const Rgb& coefficient, std::span<const Rgb> values) {
     }
 }
 
-GroupSums::Part::Part(GroupSums* sums, const Ray* root) : sums_(sums), root_before_(nullptr) {
-    if (sums == nullptr) return;
-    root_before_ = sums->set_root(root);
-    before_ = std::exchange(sums->sums_, std::vector<Rgb>(sums->size()));
+void GroupSums::Part::begin(const Ray* root) {
+    root_before_ = sums_->set_root(root);
+    before_ = std::exchange(sums_->sums_, std::vector<Rgb>(sums_->size()));
 }
 
-GroupSums::Part::~Part() {
-    if (sums_ == nullptr) return;
+void GroupSums::Part::end() {
     (void)sums_->set_root(root_before_);
     sums_->sums_ = std::move(before_);
 }
 
-void GroupSums::Part::keep() {
-    if (sums_ == nullptr) return;
+void GroupSums::Part::add_to_before() {
     for (std::size_t i = 0; i < before_.size(); ++i) before_[i] += sums_->sums_[i];
     sums_->clear();
 }

@@ -56,17 +56,28 @@ class GroupSums final : public ContributionSink {
         /// @param sums  null: nothing happens
         /// @param root  which ray's radiance the terms are parts of; it is an ancestor of those
         ///              that are traced meanwhile. The first form: the same as before
-        explicit Part(GroupSums* sums) : Part(sums, sums ? sums->root() : nullptr) {}
-        Part(GroupSums* sums, const Ray* root);
-        ~Part();
+        explicit Part(GroupSums* sums) : sums_(sums) {
+            if (sums) begin(sums->root());
+        }
+        Part(GroupSums* sums, const Ray* root) : sums_(sums) {
+            if (sums) begin(root);
+        }
+        ~Part() {
+            if (sums_) end();
+        }
         Part(const Part&) = delete;
         Part& operator=(const Part&) = delete;
         /// It belongs to what was told before.
-        void keep();
+        void keep() {
+            if (sums_) add_to_before();
+        }
 
       private:
+        void begin(const Ray* root);
+        void end();
+        void add_to_before();
         GroupSums* sums_;
-        const Ray* root_before_;
+        const Ray* root_before_ = nullptr;
         std::vector<Rgb> before_;
     };
 

@@ -127,8 +127,6 @@ struct TraceContext {
     TraceCounters counters;
     RayObserver* observer = nullptr;            ///< told of every ray; null: nobody watches
     ContributionSink* contributions = nullptr;  ///< told the terms of radiance; null: nobody asks
-    GroupSums* groups = nullptr;  ///< that sink, where it adds up what groups of emitters bring;
-                                  ///< else null. Rays must then be shaded one by one
     PathState path;
     FunctionScratch functions;
     Opaque<LightScratch> light{nullptr, nullptr};  ///< buffers of direct light; made when needed
@@ -136,6 +134,8 @@ struct TraceContext {
     Opaque<CoefficientScratch> coefficients{nullptr, nullptr};  ///< of lookups; made when needed
     BatchState batches;
     AmbientCollection ambient;
+    GroupSums* groups = nullptr;  ///< the sink of contributions, where it adds up what groups of
+                                  ///< emitters bring; else null. Rays are then shaded one by one
 
     /// Whether coefficients are asked for, of which radiance must not decide: else what is tested
     /// and sampled is what a picture needs.

@@ -26,10 +26,75 @@ constexpr std::string_view kLayerVariable = "LIGHT_GROUP";
 constexpr std::array<const char*, 3> kColors{"R", "G", "B"};
 constexpr int kMostChannels = 1024;
 /// Deflate makes a byte of up to 1032.
-constexpr std::size_t kMostValuesOfByte = 1024, kLeastMostValues = std::size_t{1} << 24;
+constexpr std::size_t kMostPixelsOfRgbeByte = 64, kMostValuesOfByte = 1024,
+                      kLeastMostValues = std::size_t{1} << 24;
 
 bool is_exr_file(std::string_view bytes) {
     return bytes.starts_with("\x76\x2f\x31\x01");
+}
+
+/// Walks over the head of an OpenEXR file, whose numbers have the low byte first. Behind the end
+/// everything is 0 or empty.
+class ExrHeader {
+  public:
+    explicit ExrHeader(std::string_view bytes) : rest_(bytes) {}
+    [[nodiscard]] std::string_view text() {  // up to a zero byte
+        const std::string_view taken = take(std::min(rest_.find('\0'), rest_.size()));
+        (void)take(1);
+        return taken;
+    }
+    [[nodiscard]] std::int32_t number() {
+        const std::string_view four = take(4);
+        std::uint32_t value = 0;
+        for (std::size_t i = four.size(); i-- > 0;)
+            value = value << 8 | static_cast<unsigned char>(four[i]);
+        return static_cast<std::int32_t>(value);
+    }
+    std::string_view take(std::size_t size) {
+        const std::string_view taken = rest_.substr(0, size);
+        rest_.remove_prefix(taken.size());
+        return taken;
+    }
+
+  private:
+    std::string_view rest_;
+};
+
+/// Whether no more memory is needed for a file's buffers than its size justifies, which OpenEXR
+/// allocates before it looks at what there is. Files of tiles and of several parts are none of
+/// ours. Source: "OpenEXR File Layout", openexr.com.
+bool is_sound_exr(std::string_view bytes) {
+    constexpr std::uint32_t kScanlines = 2, kLongNames = 0x400;
+    constexpr double kMostLinesTogether = 256;
+    ExrHeader header(bytes.substr(4));
+    const auto version = static_cast<std::uint32_t>(header.number());
+    if ((version & ~kLongNames) != kScanlines) return false;
+    double width = 0, height = 0, channels = 0;
+    while (true) {
+        const std::string_view name = header.text();
+        if (name.empty()) break;
+        const std::string_view type = header.text();
+        const std::int32_t size = header.number();
+        if (size < 0 || type == "preview") return false;
+        const std::string_view value = header.take(static_cast<std::size_t>(size));
+        if (value.size() != static_cast<std::size_t>(size)) return false;
+        ExrHeader inside(value);
+        if (name == "channels") {
+            for (; !inside.text().empty(); ++channels) {
+                (void)inside.take(8);
+                if (inside.number() != 1 || inside.number() != 1) return false;  // subsampled
+            }
+        } else if (name == "dataWindow" || name == "displayWindow") {
+            const double x0 = inside.number(), y0 = inside.number();
+            width = std::max(width, inside.number() - x0 + 1);
+            height = std::max(height, inside.number() - y0 + 1);
+        }
+    }
+    const double values = width * std::max(height, kMostLinesTogether) * channels;
+    if (width < 1 || height < 1 || channels < 1) return false;
+    // Each part of so many lines has an offset, a number and a size.
+    return height <= kMostLinesTogether / 16 * static_cast<double>(bytes.size()) &&
+           values <= static_cast<double>(kLeastMostValues + kMostValuesOfByte * bytes.size());
 }
 
 /// Where a value of an OpenEXR file belongs: a colour of a layer.
@@ -129,6 +194,10 @@ std::string stem_of(const std::string& path) {
 }
 
 void decode_exr(std::string_view bytes, const std::string& path, LayerRows& rows) {
+    if (!is_sound_exr(bytes))
+        throw InputError({path, 0},
+                         "damaged OpenEXR file, or one of tiles, parts or a preview, or of "
+                         "more pixels than it can hold");
     std::string error;
     const auto decode =
         reinterpret_cast<DecodeImage>(load_from_module(kImageModule, kDecodeImageSymbol, error));
@@ -148,6 +217,10 @@ LayersHeader read_radiance_header(std::string_view bytes, const std::string& pat
     const InfoHeader info = decode_header(bytes, path);
     std::string_view rest = bytes.substr(info.size);
     const PictureResolution size = take_resolution(rest, path);
+    const double most = static_cast<double>(kLeastMostValues) +
+                        static_cast<double>(kMostPixelsOfRgbeByte * bytes.size());
+    if (static_cast<double>(size.width) * size.height > most)
+        throw InputError({path, 0}, "a picture of more pixels than a file of this size holds");
     LayersHeader header{size.width, size.height, {stem_of(path)}, {}};
     for (const std::string& line : info.lines) {
         if (const auto name = header_variable(line, kLayerVariable))
