@@ -74,6 +74,20 @@ Daylight coefficients of sensors, points and normals, for the 145 patches of the
 
   lightwalk contrib -I -ab 3 -ad 4096 -f tregenza.cal -b tbin -bn Ntbins -o %s.dat -m sky room.rad < sensors.txt
 )"},
+    {"relight", "LAYERS... -o FILE  light groups, dimmed, as one picture", run_relight,
+     relight_option_table,
+     R"(Add up layers that `lightwalk render --light-group` wrote, each times its level: the picture of the scene as it
+would be with its light sources dimmed or coloured, without tracing a ray. Of pictures that are no layers each is one
+by its name without the ending.
+
+  lightwalk render --light-group auto -o layers.exr -vf hall.vf hall.rad
+  lightwalk relight layers.exr --group sun=0 --group lamps=.5,1,.9,.8 -o evening.hdr
+
+Layers in .exr files add up to the picture to within rounding; each .hdr has steps of 1/256 of its own. Levels are exact
+for what is rendered with -dt 0, and with -ab by -aa 0 -as 0 --ambient-lights 0 as well: else which shadows are tested, and where
+indirect light is sampled and cached, was chosen by the light as it was, which costs accuracy the more the mixture differs.
+)",
+     "", false},
     {"freeze", "SCENE... -o FILE   a scene in one file, for a quick start", run_freeze,
      freeze_option_table,
      R"(Write all that a run needs of a scene to one file: surfaces, materials, instances and meshes, and of the library the

@@ -22,16 +22,18 @@ int run_animate(const std::vector<std::string>& words, Communicator* ranks);
 int run_walk(const std::vector<std::string>& words, Communicator* ranks);
 int run_trace(const std::vector<std::string>& words, Communicator* ranks);
 int run_contrib(const std::vector<std::string>& words, Communicator* ranks);
+int run_relight(const std::vector<std::string>& words, Communicator* ranks);
 int run_freeze(const std::vector<std::string>& words, Communicator* ranks);
 int run_info(const std::vector<std::string>& words, Communicator* ranks);
 
 /// The commands in With::commands.
 inline constexpr unsigned kRender = 1, kAnimate = 2, kWalk = 4, kTrace = 8, kFreeze = 16,
-                          kInfo = 32, kContrib = 64;
+                          kInfo = 32, kContrib = 64, kRelight = 128;
 
 /// The options of each, with their defaults.
 [[nodiscard]] OptionTable freeze_option_table();
 [[nodiscard]] OptionTable info_option_table();
+[[nodiscard]] OptionTable relight_option_table();
 
 struct Command {
     const char* name;

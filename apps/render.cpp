@@ -37,6 +37,8 @@ class RenderRun final : CommandRun {
           command_(command),
           printer_(progress_options(), warnings()) {
         check_render_command(command_, files);
+        if (communicator != nullptr && command_.output.layers)
+            throw UsageError("option --light-group: by one process, without mpirun");
         if (command_.walk && speaks() && is_film(command_.output.picture))
             (void)film_encoder();  // before anything is drawn
         choose_spacing();
@@ -141,6 +143,11 @@ class RenderRun final : CommandRun {
         PixelOptions& pixels = options().pixels;
         if (pixels.spacing > kLargestSpacing) warnings().warn("-ps reduced to 16");
         pixels.spacing = std::clamp(pixels.spacing, 1, kLargestSpacing);
+        if (command_.output.layers && pixels.spacing > 1) {
+            if (command_.spacing_given)
+                warnings().warn("-ps ignored: with --light-group every pixel is traced");
+            pixels.spacing = 1;
+        }
         if (pixels.spacing == 1 || (!reuses() && pixels.samples <= 1)) return;
         if (command_.spacing_given)
             warnings().warn(reuses() ? "-ps ignored: every pixel that is not reused is traced"
@@ -159,7 +166,8 @@ class RenderRun final : CommandRun {
         for (const View& view : command_.walk
                                     ? walk_views(*command_.walk, command_.view, scene)
                                     : read_view_sequence(read_standard_input(), command_.view)) {
-            const bool is_there = !command_.walk && varies_by_frame(files) &&
+            const bool is_there = !command_.walk && !command_.output.layers &&
+                                  varies_by_frame(files) &&
                                   std::filesystem::exists(frame_name(files, frame));
             if (!is_there) wanted.push_back({view, before, frame});
             before = view;

@@ -1,13 +1,17 @@
 #include "apps/render_command.h"
 
 #include <filesystem>
+#include <optional>
+#include <sstream>
 #include <utility>
 
 #include "apps/commands.h"
+#include "core/light/find_light_groups.h"
 #include "core/model/transform_args.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_options.h"
 #include "io/picture/film.h"
+#include "io/picture/layers.h"
 
 namespace lightwalk {
 namespace {
@@ -112,6 +116,34 @@ Action channels(SeriesOutput& output, bool xyz) {
     }};
 }
 
+/// "auto", or a group by its patterns.
+CustomOption light_group(RenderCommand& c) {
+    return {[&c](OptionWords& words) {
+        const std::string word = words.text();
+        std::optional<std::vector<LightGroupPattern>>& groups =
+            c.common.request.options.light_groups;
+        const bool automatic = word == "auto";
+        if (groups && automatic != groups->empty())
+            throw UsageError("option --light-group: auto goes with no other groups");
+        if (!groups) groups.emplace();
+        c.output.layers = true;
+        if (automatic) return;
+        const std::size_t at = word.find('=');
+        if (at == std::string::npos)
+            refuse_argument("--light-group", "auto or NAME=PATTERN", '"' + word + '"');
+        LightGroupPattern group{word.substr(0, at), {}};
+        std::istringstream patterns(word.substr(at + 1));
+        for (std::string pattern; std::getline(patterns, pattern, ',');)
+            if (!pattern.empty()) group.patterns.push_back(pattern);
+        groups->push_back(std::move(group));
+        try {
+            check_group_names(*groups);
+        } catch (const InputError& error) {
+            throw UsageError("option --light-group: " + std::string(error.what()));
+        }
+    }};
+}
+
 std::vector<OptionRow> output_rows(RenderCommand& c) {
     SeriesOutput& output = c.output;
     return {
@@ -127,6 +159,15 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
          "first one (--exposure EV: "
          "fixed). FILE.mp4: a film, by the program ffmpeg where it is installed",
          With{.commands = kAnimate}},
+        {"--light-group auto|NAME=PATTERN,...", light_group(c),
+         "a layer for each group of light sources: those whose modifiers' names match a pattern "
+         "(* ? [...]), the first that does; what is left is \"rest\", with -av. Repeatable. auto: "
+         "the sun, the sky, and each other modifier. With -o %s.hdr a picture each, with -o "
+         "FILE.exr "
+         "all in one, beside the whole picture; lightwalk relight adds them up. As without, but "
+         "with "
+         "-ps 1",
+         With{.commands = kRender}},
         {"-z FILE", &output.depth,
          "distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing "
          "there",
@@ -178,9 +219,24 @@ std::vector<OptionRow> refused_rows() {
     return rows;
 }
 
+/// Options that do not go with --light-group.
+void check_layers(const RenderCommand& command) {
+    if (command.output.picture.empty())
+        throw UsageError(
+            "option --light-group: name the layers' files with -o: -o layer_%s.hdr, or one of all: "
+            "-o layers.exr");
+    check_layers_name(command.output.picture);
+    if (!command.checkpoint.empty())
+        throw UsageError("option --checkpoint: layers (--light-group) are not kept in checkpoints");
+    if (!command.common.settings.ambient_file.empty())
+        throw UsageError("option -af: an ambient file holds no values of light groups");
+}
+
 void check_outputs(const RenderCommand& command) {
     const SeriesOutput& output = command.output;
-    const std::string first = frame_name(output.picture, 1);
+    if (output.layers) check_layers(command);
+    const std::string first =
+        frame_name(output.layers ? layer_file_name(output.picture, "layer") : output.picture, 1);
     const bool film = command.walk && is_film(first);
     if (!first.empty() && !film) check_picture_name(first);  // before any work is done
     if (output.xyz && !output.picture.empty() && !is_radiance_picture(first))

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/transport/light_groups.h"
 #include "parallel/waiting_points.h"
 
 namespace lightwalk {
@@ -134,9 +135,14 @@ std::vector<RoundValue> AmbientRounds::compute(const std::vector<AmbientPoint>& 
     mine.values.resize(chosen.size());
     const auto make = [&](std::size_t task, int worker) {
         if (!exchange_.does(task)) return;
-        RecordCollector collector(contexts_[worker]);
-        mine.values[task].record = calculation_.record_at(chosen[task], contexts_[worker]);
-        mine.values[task].new_records = collector.take();
+        TraceContext& context = contexts_[worker];
+        RecordCollector collector(context);
+        const GroupSums::Part apart(context.groups, nullptr);
+        RoundValue& value = mine.values[task];
+        value.record = calculation_.record_at(chosen[task], context);
+        value.new_records = collector.take();
+        if (context.groups)
+            value.groups.assign(context.groups->sums().begin(), context.groups->sums().end());
     };
     executor_.for_each(chosen.size(), make, stop_);
     std::vector<RoundShare> all = gather(std::move(mine));
@@ -163,17 +169,20 @@ void AmbientRounds::store(const std::vector<AmbientPoint>& chosen,
     for (std::size_t i = 0; i < values.size(); ++i) {
         for (const NewAmbientRecord& find : values[i].new_records) {
             ++counts_.at(static_cast<std::size_t>(find.point.query.level)).new_records;
-            if (!calculation_.is_served(find.point)) store(find.record);
+            if (!calculation_.is_served(find.point)) store(find.record, find.groups);
         }
         if (!values[i].record) continue;
         if (calculation_.is_served(chosen[i])) ++counts.needless;
-        store(*values[i].record);
+        store(*values[i].record, values[i].groups);
     }
     cache_.freeze(true);
 }
 
-void AmbientRounds::store(const AmbientRecord& record) {
-    cache_.insert(record);
+void AmbientRounds::store(const AmbientRecord& record, std::span<const Rgb> groups) {
+    if (groups.empty())
+        cache_.insert(record);
+    else
+        cache_.insert_with_groups(record, groups);
     guess_.add(record);
 }
 

@@ -66,7 +66,7 @@ class AmbientRounds {
     void prepare(const std::vector<AmbientPoint>& chosen);
     [[nodiscard]] std::vector<RoundValue> compute(const std::vector<AmbientPoint>& chosen);
     void store(const std::vector<AmbientPoint>& chosen, const std::vector<RoundValue>& values);
-    void store(const AmbientRecord& record);
+    void store(const AmbientRecord& record, std::span<const Rgb> groups);
 
     const Tracer& tracer_;
     PublishedCache& cache_;

@@ -37,6 +37,16 @@ class BlockArena {
             make_block(static_cast<std::size_t>(block));
         return static_cast<std::uint32_t>(i);
     }
+    /// Value i, of an arena whose indices are those of another one: none are added. Values are made
+    /// with their block.
+    [[nodiscard]] Value& at(std::uint32_t i) {
+        const std::size_t block = i >> kBlockBits;
+        if (block >= places_.load(std::memory_order_acquire) ||
+            directory_.load(std::memory_order_acquire)[block].load(std::memory_order_acquire) ==
+                nullptr)
+            make_block(block);
+        return (*this)[i];
+    }
     [[nodiscard]] std::uint64_t size() const { return used_.load(std::memory_order_relaxed); }
     /// Bytes of all blocks and directories, without the arena object.
     [[nodiscard]] std::size_t memory_bytes() const {

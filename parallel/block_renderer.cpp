@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/transport/light_groups.h"
 #include "core/view/refine.h"
 
 namespace lightwalk {
@@ -35,6 +36,8 @@ bool BlockRenderer::render(const Block& block, int worker, BlockPixels& pixels) 
     pixels.block = block;
     pixels.values.assign(block.pixels(), PixelValue{});
     pixels.hits.assign(options_.hits ? block.pixels() : 0, PixelHit{});
+    const std::size_t groups = contexts_[worker].groups ? contexts_[worker].groups->size() : 0;
+    pixels.groups.assign(block.pixels() * groups, {});
     PixelTracer trace(tracer_, rays_, contexts_[worker], stop_);
     if (options_.pixels.spacing > 1)
         refine(trace, pixels);
@@ -60,8 +63,11 @@ void BlockRenderer::trace_all(PixelTracer& trace, BlockPixels& pixels) const {
             trace({places.data(), count}, {values.data(), count},
                   {hits.data(), options_.hits ? count : 0});
             for (std::size_t i = 0; i < count; ++i) {
-                pixels.values[pixels.index(places[i])] = values[i];
-                if (options_.hits) pixels.hits[pixels.index(places[i])] = hits[i];
+                const std::size_t at = pixels.index(places[i]);
+                pixels.values[at] = values[i];
+                if (options_.hits) pixels.hits[at] = hits[i];
+                const std::span<const Rgb> groups = trace.groups(i);
+                std::copy(groups.begin(), groups.end(), pixels.groups.data() + at * groups.size());
             }
         }
     }
@@ -99,8 +105,15 @@ void BlockRenderer::refine(PixelTracer& trace, BlockPixels& pixels) const {
 
 void BlockRenderer::draw_small_sources(int worker, BlockPixels& pixels) const {
     small_sources_->draw(pixels.block, contexts_[worker], [&](const SourcePixel& source) {
-        PixelValue& value = pixels.values[pixels.index({source.x, source.y})];
-        blend_source(source, value.radiance, options_.use_distances ? &value.distance : nullptr);
+        const std::size_t at = pixels.index({source.x, source.y});
+        PixelValue& value = pixels.values[at];
+        const SourceBlend blend = blend_source(source, value.radiance,
+                                               options_.use_distances ? &value.distance : nullptr);
+        const GroupSums* groups = contexts_[worker].groups;
+        for (std::size_t g = 0; groups && g < groups->size(); ++g) {
+            Rgb& of_group = pixels.groups[at * groups->size() + g];
+            of_group = of_group * blend.pixel + groups->sums()[g] * blend.source;
+        }
     });
 }
 

@@ -20,7 +20,8 @@ namespace lightwalk {
 struct BlockPixels {
     Block block;
     std::vector<PixelValue> values;
-    std::vector<PixelHit> hits;  ///< empty unless asked for
+    std::vector<PixelHit> hits;    ///< empty unless asked for
+    std::vector<Rgb> groups = {};  ///< by pixel, then light group; empty unless asked for
 
     [[nodiscard]] std::size_t index(const PixelPlace& place) const { return block.index(place); }
 };

@@ -1,5 +1,6 @@
 #include "parallel/concurrent_cache.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -22,10 +23,15 @@ std::uint32_t ConcurrentCache::children_of(Node& node) {
                : children;
 }
 
-void ConcurrentCache::insert(const AmbientRecord& record) {
+void ConcurrentCache::insert_with_groups(const AmbientRecord& record, std::span<const Rgb> groups) {
     const std::uint32_t place = records_.add();
     DecodedRecord& decoded = records_[place];
     decoded = DecodedRecord(record);
+    if (!groups.empty()) {
+        std::unique_ptr<Rgb[]>& kept = groups_.at(place);
+        kept = std::make_unique<Rgb[]>(groups.size());
+        std::copy(groups.begin(), groups.end(), kept.get());
+    }
     const auto [low, high] = reach_of(decoded, limits_);
     CachePath cube{limits_.origin, limits_.size};
     Node* at = &families_[0].child[0];
@@ -59,11 +65,20 @@ AmbientLogMean ConcurrentCache::log_mean() const {
 struct ConcurrentCache::Search {
     const AmbientQuery& query;
     LeakTest leaks;
-    double angle;  ///< largest between normals
+    double angle;                             ///< largest between normals
+    std::span<std::array<double, 3>> groups;  ///< sums of what each adds; empty: not asked for
 };
 
 AmbientSum ConcurrentCache::lookup(const AmbientQuery& query, LeakTest leaks) const {
-    const Search search{query, leaks, largest_angle(limits_.accuracy, query.weight, true)};
+    return sum_all({query, leaks, largest_angle(limits_.accuracy, query.weight, true), {}});
+}
+
+AmbientSum ConcurrentCache::lookup_groups(const AmbientQuery& query, LeakTest leaks,
+                                          std::span<std::array<double, 3>> groups) const {
+    return sum_all({query, leaks, largest_angle(limits_.accuracy, query.weight, true), groups});
+}
+
+AmbientSum ConcurrentCache::sum_all(const Search& search) const {
     AmbientSum sum;
     sum_node(families_[0].child[0], {limits_.origin, limits_.size}, search, sum);
     return sum;
@@ -118,8 +133,27 @@ void ConcurrentCache::sum_records(std::uint32_t first, const Search& search,
     const AmbientQuery& query = search.query;
     for (std::uint32_t i = first; i != kNone; i = records_[i].next) {
         const DecodedRecord& record = records_[i];
-        if (record.serves(query.level, query.weight))
+        if (!record.serves(query.level, query.weight)) continue;
+        if (search.groups.empty())
             add_record(record, query, limits_, search.angle, search.leaks, sum);
+        else
+            add_groups(i, search, sum);
+    }
+}
+
+/// Of each group what add_record() adds of the record's value.
+void ConcurrentCache::add_groups(std::uint32_t number, const Search& search,
+                                 AmbientSum& sum) const {
+    const DecodedRecord& record = records_[number];
+    const RecordUse use = use_of(record, search.query, limits_, search.angle, search.leaks);
+    if (use.weight <= 0) return;
+    sum.weight += use.weight;
+    for (std::size_t k = 0; k < 3; ++k)
+        sum.sum[k] += use.weight * use.factor * static_cast<double>(record.value[k]);
+    const Rgb* values = groups_[number].get();
+    for (std::size_t g = 0; g < search.groups.size(); ++g) {
+        for (std::size_t k = 0; k < 3; ++k)
+            search.groups[g][k] += use.weight * use.factor * static_cast<double>(values[g][k]);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "core/ambient/ambient_cache.h"
 #include "parallel/block_arena.h"
@@ -20,7 +21,10 @@ class ConcurrentCache final : public AmbientCache {
     explicit ConcurrentCache(const AmbientLimits& limits);
     [[nodiscard]] const AmbientLimits& limits() const override { return limits_; }
     [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override;
-    void insert(const AmbientRecord& record) override;
+    void insert(const AmbientRecord& record) override { insert_with_groups(record, {}); }
+    [[nodiscard]] AmbientSum lookup_groups(const AmbientQuery& query, LeakTest leaks,
+                                           std::span<std::array<double, 3>> groups) const override;
+    void insert_with_groups(const AmbientRecord& record, std::span<const Rgb> groups) override;
     [[nodiscard]] AmbientLogMean log_mean() const override;
     [[nodiscard]] AmbientClaim claim(const AmbientQuery& query) override {
         return claims_.claim(query);
@@ -29,8 +33,8 @@ class ConcurrentCache final : public AmbientCache {
     [[nodiscard]] std::size_t size() const { return records_.size(); }
     /// Bytes of everything that is allocated.
     [[nodiscard]] std::size_t memory_bytes() const {
-        return sizeof(*this) + records_.memory_bytes() + families_.memory_bytes() +
-               claims_.memory_bytes();
+        return sizeof(*this) + records_.memory_bytes() + groups_.memory_bytes() +
+               families_.memory_bytes() + claims_.memory_bytes();
     }
 
   private:
@@ -53,13 +57,16 @@ class ConcurrentCache final : public AmbientCache {
     template <class Visit>
     static void for_reaching(const Family& family, const CachePath& parent, const Vec3& p,
                              Visit visit);
+    [[nodiscard]] AmbientSum sum_all(const Search& search) const;
     void sum_node(const Node& node, const CachePath& cube, const Search& search,
                   AmbientSum& sum) const;
     void sum_records(std::uint32_t first, const Search& search, AmbientSum& sum) const;
+    void add_groups(std::uint32_t number, const Search& search, AmbientSum& sum) const;
 
     AmbientLimits limits_;
     BlockArena<Family, 4> families_;  ///< the first child of the first is the root
     BlockArena<DecodedRecord, 6> records_;
+    BlockArena<std::unique_ptr<Rgb[]>, 6> groups_;  ///< of each record, where groups are kept
     std::array<Shard, kShards> shards_;
     ClaimTable claims_;
 };

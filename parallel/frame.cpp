@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <mutex>
 
+#include "core/transport/light_groups.h"
+
 namespace lightwalk {
 namespace {
 
@@ -59,7 +61,7 @@ void resize_by_all(std::vector<T>& values, std::size_t count, Executor& executor
     values.resize(count);
 }
 
-Frame black_frame(const FrameOptions& options, Executor& executor) {
+Frame black_frame(const FrameOptions& options, std::size_t groups, Executor& executor) {
     const PixelRectangle area = options.area();
     Frame frame;
     frame.width = area.width();
@@ -67,6 +69,8 @@ Frame black_frame(const FrameOptions& options, Executor& executor) {
     resize_by_all(frame.radiance, area.pixels(), executor);
     resize_by_all(frame.distance, area.pixels(), executor);
     if (options.hits) resize_by_all(frame.hits, area.pixels(), executor);
+    frame.groups.resize(groups);
+    for (std::vector<Rgb>& group : frame.groups) resize_by_all(group, area.pixels(), executor);
     return frame;
 }
 
@@ -82,6 +86,8 @@ void store(const BlockPixels& pixels, const PixelRectangle& area, Frame& frame) 
             frame.radiance[to] = pixels.values[from].radiance;
             frame.distance[to] = pixels.values[from].distance;
             if (!frame.hits.empty()) frame.hits[to] = pixels.hits[from];
+            for (std::size_t g = 0; g < frame.groups.size(); ++g)
+                frame.groups[g][to] = pixels.groups[from * frame.groups.size() + g];
         }
     }
 }
@@ -125,7 +131,8 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     const PixelRectangle area = options.area();
     assert(area.x0 >= 0 && area.x1 <= options.whole().x1);
     assert(area.y0 >= 0 && area.y1 <= options.whole().y1);
-    Frame frame = black_frame(options, executor);
+    const LightGroups* const groups = contexts.light_groups();
+    Frame frame = black_frame(options, groups ? groups->size() : 0, executor);
     contexts.reset_counters();
     const BlockRenderer renderer(tracer, camera, options, contexts, stop);
     const int side = block_side(area.width(), area.height(), executor.concurrency(),

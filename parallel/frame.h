@@ -23,7 +23,9 @@ struct Frame {
     std::vector<Rgb> radiance;  ///< [W/(m² sr)]
     std::vector<float>
         distance;  ///< along the pixel's (first) ray, 1e10 for nothing, 0 where there is no ray [m]
-    std::vector<PixelHit> hits;  ///< empty unless asked for
+    std::vector<PixelHit> hits;            ///< empty unless asked for
+    std::vector<std::vector<Rgb>> groups;  ///< of the radiance, what each light group adds; empty
+                                           ///< unless the contexts have them
     RayCounters rays;
     AmbientCounters ambient;
     bool complete = false;  ///< false: stopped early; then some blocks are black

@@ -4,6 +4,7 @@ namespace lightwalk {
 
 void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                              std::span<PixelHit> hits) {
+    if (context_.groups) groups_.assign(places.size() * context_.groups->size(), {});
     trace_sample(0, places, values, hits);
     if (pixel_rays_.samples() == 1) return;
     more_.resize(places.size());
@@ -16,6 +17,19 @@ void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<Pixel
     const float share = 1 / static_cast<float>(pixel_rays_.samples());
     for (PixelValue& value : values) value.radiance *= share;
     for (PixelHit& hit : hits) hit.mirrored *= share;
+    for (Rgb& value : groups_) value *= share;
+}
+
+/// Ray by ray, so that it is known whose light is told of.
+void PixelTracer::shade_by_groups() {
+    GroupSums& sums = *context_.groups;
+    for (std::size_t k = 0; k < rays_.size(); ++k) {
+        sums.clear();
+        tracer_.shade_hits({&rays_[k], 1}, {&hits_[k], 1}, context_);
+        Rgb* to = &groups_[targets_[k] * sums.size()];
+        for (const Rgb& value : sums.sums()) *to++ += value;
+    }
+    sums.clear();
 }
 
 void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
@@ -40,7 +54,10 @@ void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,
     hits_.resize(rays_.size());
     tracer_.scene().geometry().intersect(segments_, hits_);
     if (stop_.requested()) return;
-    tracer_.shade_hits(rays_, hits_, context_);
+    if (context_.groups)
+        shade_by_groups();
+    else
+        tracer_.shade_hits(rays_, hits_, context_);
     for (std::size_t k = 0; k < rays_.size(); ++k) {
         const Ray& ray = rays_[k];
         values[targets_[k]] = {ray.value, static_cast<float>(ray.effective_distance())};

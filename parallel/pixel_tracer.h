@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/trace/tracer.h"
+#include "core/transport/light_groups.h"
 #include "core/view/pixel_rays.h"
 #include "core/view/pixels.h"
 #include "parallel/stop_flag.h"
@@ -28,7 +29,14 @@ class PixelTracer {
     void operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                     std::span<PixelHit> hits = {});
 
+    /// Of pixel i of the last call, what each light group adds; empty: not asked for.
+    [[nodiscard]] std::span<const Rgb> groups(std::size_t i) const {
+        const std::size_t count = groups_.empty() ? 0 : context_.groups->size();
+        return std::span(groups_).subspan(i * count, count);
+    }
+
   private:
+    void shade_by_groups();
     void trace_sample(int sample, std::span<const PixelPlace> places, std::span<PixelValue> values,
                       std::span<PixelHit> hits);
 
@@ -40,6 +48,7 @@ class PixelTracer {
     std::vector<RaySegment> segments_;
     std::vector<Hit> hits_;
     std::vector<std::size_t> targets_;  ///< indices into places
+    std::vector<Rgb> groups_;           ///< by place, then light group
     std::vector<PixelValue> more_;      ///< values of one further sample
     std::vector<PixelHit> more_hits_;
 };

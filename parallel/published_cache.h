@@ -32,6 +32,15 @@ class PublishedCache final : public AmbientCache {
         cache_.insert(record);
         for (AmbientListener* listener : listeners_) listener->stored(record);
     }
+    [[nodiscard]] AmbientSum lookup_groups(const AmbientQuery& query, LeakTest leaks,
+                                           std::span<std::array<double, 3>> groups) const override {
+        return cache_.lookup_groups(query, leaks, groups);
+    }
+    void insert_with_groups(const AmbientRecord& record, std::span<const Rgb> groups) override {
+        if (frozen_) return;
+        cache_.insert_with_groups(record, groups);
+        for (AmbientListener* listener : listeners_) listener->stored(record);
+    }
     /// Take over a value that a listener has from elsewhere, also while frozen: all other listeners
     /// are told of it.
     void take_over(const AmbientRecord& record, const AmbientListener& from) {

@@ -15,6 +15,7 @@ namespace lightwalk {
 struct RoundValue {
     std::vector<NewAmbientRecord> new_records;
     std::optional<AmbientRecord> record;  ///< none where it cannot be stored
+    std::vector<Rgb> groups = {};  ///< of its value, what each light group adds; empty: not asked
 };
 
 /// What a process tells the others at the end of a step, or no values or no points.
@@ -35,11 +36,11 @@ void visit_fields(Wire& wire, AmbientPoint& p) {
 }
 template <class Wire>
 void visit_fields(Wire& wire, NewAmbientRecord& found) {
-    wire(found.point, found.record);
+    wire(found.point, found.record, found.groups);
 }
 template <class Wire>
 void visit_fields(Wire& wire, RoundValue& value) {
-    wire(value.new_records, value.record);
+    wire(value.new_records, value.record, value.groups);
 }
 template <class Wire>
 void visit_fields(Wire& wire, RoundShare& share) {

@@ -2,9 +2,11 @@
 // One TraceContext for each worker of an executor.
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/trace/tracer.h"
+#include "core/transport/light_groups.h"
 #include "parallel/fibers/context_fibers.h"
 
 namespace lightwalk {
@@ -14,16 +16,25 @@ namespace lightwalk {
 class WorkerContexts {
   public:
     WorkerContexts(const Tracer& tracer, WarningSink& warnings, int workers)
-        : tracer_(tracer), warnings_(warnings), contexts_(static_cast<std::size_t>(workers)) {}
+        : tracer_(tracer),
+          warnings_(warnings),
+          contexts_(static_cast<std::size_t>(workers)),
+          sums_(static_cast<std::size_t>(workers)) {}
 
     [[nodiscard]] TraceContext& operator[](int worker) {
         std::unique_ptr<TraceContext>& context = contexts_[static_cast<std::size_t>(worker)];
         if (!context) {
             context = std::make_unique<TraceContext>(tracer_, warnings_);
             context->batches.make_fibers = make_context_fibers;
+            if (groups_) listen(static_cast<std::size_t>(worker), *context);
         }
         return *context;
     }
+
+    /// Sum the light of rays by groups from now on. Before the first context is requested.
+    void sum_by(std::shared_ptr<const LightGroups> groups) { groups_ = std::move(groups); }
+    /// Null: it is not.
+    [[nodiscard]] const LightGroups* light_groups() const { return groups_.get(); }
 
     [[nodiscard]] int size() const { return static_cast<int>(contexts_.size()); }
 
@@ -52,9 +63,18 @@ class WorkerContexts {
     }
 
   private:
+    /// Rays are shaded one by one then, so that it is known whose light is told of.
+    void listen(std::size_t worker, TraceContext& context) {
+        sums_[worker] = std::make_unique<GroupSums>(groups_);
+        context.contributions = context.groups = sums_[worker].get();
+        context.batches.make_fibers = nullptr;
+    }
+
     const Tracer& tracer_;
     WarningSink& warnings_;
     std::vector<std::unique_ptr<TraceContext>> contexts_;
+    std::shared_ptr<const LightGroups> groups_;
+    std::vector<std::unique_ptr<GroupSums>> sums_;  ///< one a context, where there are groups
 };
 
 }  // namespace lightwalk

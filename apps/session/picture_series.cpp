@@ -11,6 +11,7 @@
 #include "apps/session/stopwatch.h"
 #include "io/options/frame_name.h"
 #include "io/options/view_text.h"
+#include "io/picture/layers.h"
 
 namespace lightwalk {
 namespace {
@@ -116,12 +117,23 @@ void PictureSeries::write(RenderedPicture& rendered, const PictureHeader& header
         write_depth(frame_name(output_.depth, number), picture.width, picture.height,
                     rendered.distance);
     }
-    if (output_.picture.empty())
+    if (output_.layers)
+        write_layers_of(picture, rendered, header, number);
+    else if (output_.picture.empty())
         output_.bytes(encode_hdr(picture, header));
     else if (output_.film_rate)
         add_to_film(picture);
     else
         write_picture(frame_name(output_.picture, number), picture, header, tone);
+}
+
+void PictureSeries::write_layers_of(const Picture& whole, const RenderedPicture& rendered,
+                                    const PictureHeader& header, int number) const {
+    std::vector<PictureLayer> layers;
+    for (const RenderedLayer& layer : rendered.layers)
+        layers.push_back({layer.name, layer.radiance});
+    write_layers(output_.picture, whole, layers, header,
+                 [&](const std::string& pattern) { return frame_name(pattern, number); });
 }
 
 void PictureSeries::add_to_film(const Picture& picture) {

@@ -31,8 +31,9 @@ struct SeriesOutput {
     std::function<void(const std::string& bytes)> bytes;  ///< takes a Radiance picture
     std::vector<std::string> history;                     ///< first lines of the headers
     std::optional<std::array<double, 8>> primaries;       ///< what the header says of the channels
-    bool xyz = false;                                     ///< pictures hold CIE XYZ, not RGB
-    ToneMapping tone;                                     ///< of pictures for screens
+    bool layers = false;              ///< pictures have them: see io/picture/layers.h for `picture`
+    bool xyz = false;                 ///< pictures hold CIE XYZ, not RGB
+    ToneMapping tone;                 ///< of pictures for screens
     bool keep_exposure = false;       ///< all are exposed as the first one is: else a walk flickers
     std::optional<double> film_rate;  ///< `picture` is a film of so many frames a second
 };
@@ -84,6 +85,8 @@ class PictureSeries {
                               Renderer& renderer);
     [[nodiscard]] PictureHeader header(const WantedPicture& wanted, double pixel_aspect) const;
     void write(RenderedPicture& rendered, const PictureHeader& header, int number);
+    void write_layers_of(const Picture& whole, const RenderedPicture& rendered,
+                         const PictureHeader& header, int number) const;
     void add_to_film(const Picture& picture);
     void enter(SeriesStage stage) const;
 

@@ -7,12 +7,14 @@
 
 #include "apps/session/picture_order.h"
 #include "apps/session/rank_frames.h"
+#include "core/error.h"
 
 namespace lightwalk {
 
 RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
                          RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
+    if (options_.light_groups) throw InputError("light groups are for one process, without ranks");
     if (options_.reuse) light_.emplace(session_.tracer(), warnings_, executor_->concurrency());
     if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
 }

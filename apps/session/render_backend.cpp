@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/light/find_light_groups.h"
 #include "core/trace/trace_rays.h"
 #include "core/transport/ray.h"
 
@@ -30,6 +31,14 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
     if (!options_.record)
         options_.record = [](const RayQuery&, const Ray& ray, const Hit& first,
                              std::string& bytes) { append_ray_answer(ray, first, bytes); };
+    if (options_.light_groups) {
+        if (options_.reuse || options_.steered)
+            throw InputError("light groups are for pictures that are traced by themselves");
+        if (session_.ambient_store)
+            throw InputError("an ambient file holds no values of light groups");
+        contexts_.sum_by(std::make_shared<const LightGroups>(
+            find_light_groups(session_.scene(), options_.light, *options_.light_groups)));
+    }
     for (int worker = 0; options_.make_tally && worker < contexts_.size(); ++worker) {
         tallies_.push_back(options_.make_tally(session_.tracer()));
         contexts_[worker].contributions = tallies_.back().get();
@@ -48,7 +57,7 @@ FrameOptions RenderBackend::frame_options(int width, int height) const {
     options.pixels = options_.pixels;
     options.seed = options_.light.seed;
     options.use_distances = options_.use_distances;
-    if (options_.steered) options.pixels.spacing = 1;
+    if (options_.steered || options_.light_groups) options.pixels.spacing = 1;
     return options;
 }
 

@@ -52,6 +52,8 @@ class RenderBackend {
 
     [[nodiscard]] const RendererOptions& options() const { return options_; }
     [[nodiscard]] const SceneSession& session() const { return session_; }
+    /// Null: pictures have no layers.
+    [[nodiscard]] const LightGroups* light_groups() const { return contexts_.light_groups(); }
     /// Of pictures of a size; a walk that is steered traces every pixel.
     [[nodiscard]] FrameOptions frame_options(int width, int height) const;
     /// Requested: ends what is under way.

@@ -69,8 +69,15 @@ struct Renderer::Impl {
         if (!task.picture) {
             outcome.bytes = backend->finish(task.rays);
         } else if (std::optional<Frame> frame = backend->finish(*task.picture)) {
-            outcome.picture = {frame->width, frame->height, std::move(frame->radiance),
-                               std::move(frame->distance), frame->rays.total()};
+            outcome.picture = {frame->width,
+                               frame->height,
+                               std::move(frame->radiance),
+                               std::move(frame->distance),
+                               frame->rays.total(),
+                               {}};
+            for (std::size_t g = 0; g < frame->groups.size(); ++g)
+                outcome.picture->layers.push_back(
+                    {backend->light_groups()->names[g], std::move(frame->groups[g])});
         }
     }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Where ambient values are kept: the interface that serial and concurrent caches share.
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/ambient/ambient_record.h"
 
@@ -32,6 +34,20 @@ class AmbientCache {
     /// @param leaks  called for records that lie behind something near
     [[nodiscard]] virtual AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const = 0;
     virtual void insert(const AmbientRecord& record) = 0;
+
+    // A cache that keeps, beside each value, what every light group adds to it:
+
+    /// The same sum; to `groups`, one a group, the same sums of what the group adds are added.
+    [[nodiscard]] virtual AmbientSum lookup_groups(
+        const AmbientQuery& query, LeakTest leaks,
+        std::span<std::array<double, 3>> /*groups*/) const {
+        return lookup(query, leaks);
+    }
+    /// @param groups  add up to the record's value
+    virtual void insert_with_groups(const AmbientRecord& record, std::span<const Rgb> /*groups*/) {
+        insert(record);
+    }
+
     /// Whether insert() keeps records; else the cache stays as it is.
     [[nodiscard]] virtual bool takes_values() const { return true; }
     [[nodiscard]] virtual AmbientLogMean log_mean() const = 0;

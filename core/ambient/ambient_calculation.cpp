@@ -9,6 +9,7 @@
 #include "core/ambient/derivatives.h"
 #include "core/math/direction_code.h"
 #include "core/transport/contribution.h"
+#include "core/transport/light_groups.h"
 
 namespace lightwalk {
 namespace {
@@ -70,7 +71,10 @@ class AmbientRays final : public HemisphereRays {
         const Geometry& geometry = tracer_.scene().geometry();
         hits_.clear();
         for (const Ray& ray : rays_) hits_.push_back(geometry.intersect(ray.segment()));
-        tracer_.shade_hits(rays_, hits_, context_);
+        if (tells_groups())
+            shade_by_groups(*context_.groups);
+        else
+            tracer_.shade_hits(rays_, hits_, context_);
         answers_.clear();
         for (const Ray& ray : rays_)
             answers_.push_back({ray.value * ray.coef, ray.effective_distance()});
@@ -78,7 +82,37 @@ class AmbientRays final : public HemisphereRays {
         return answers_;
     }
 
+    void taken(std::size_t answer, std::size_t cell, float kept, float share) override {
+        const std::size_t groups = context_.groups->size();
+        if (cells_.size() < (cell + 1) * groups) cells_.resize((cell + 1) * groups);
+        for (std::size_t g = 0; g < groups; ++g) {
+            Rgb& value = cells_[cell * groups + g];
+            value = value * kept + told_[answer * groups + g] * share;
+        }
+    }
+
+    /// What each light group adds to the sum of the cells' values; empty: nobody asks.
+    [[nodiscard]] std::vector<Rgb> groups() const {
+        if (!tells_groups()) return {};
+        std::vector<Rgb> sums(context_.groups->size());
+        for (std::size_t i = 0; i < cells_.size(); ++i) sums[i % sums.size()] += cells_[i];
+        return sums;
+    }
+
+    [[nodiscard]] bool tells_groups() const { return context_.groups && !context_.ambient.missing; }
+
   private:
+    /// How a ray's answer is made of what the groups bring is told ray by ray.
+    void shade_by_groups(GroupSums& sums) {
+        const GroupSums::Part apart(&sums, &parent_);
+        told_.clear();
+        for (std::size_t i = 0; i < rays_.size(); ++i) {
+            sums.clear();
+            tracer_.shade_hits({&rays_[i], 1}, {&hits_[i], 1}, context_);
+            told_.insert(told_.end(), sums.sums().begin(), sums.sums().end());
+        }
+    }
+
     const LightTransport& tracer_;
     Ray& parent_;
     RayKind kind_;
@@ -88,7 +122,18 @@ class AmbientRays final : public HemisphereRays {
     std::vector<Ray> rays_;
     std::vector<Hit> hits_;
     std::vector<HemisphereAnswer> answers_;
+    std::vector<Rgb> told_;   ///< by answer, then light group
+    std::vector<Rgb> cells_;  ///< by cell, then light group
 };
+
+/// Of a hemisphere's light where the normal is turned towards `n`, by its gradient.
+float tilt_factor(const Hemisphere& h, const Vec3& n) {
+    if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions)
+        return 1;
+    const std::array<double, 2> rotation = rotation_gradient(h);
+    const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
+    return factor >= kLeastFactor ? static_cast<float>(factor) : 1;
+}
 
 }  // namespace
 
@@ -138,14 +183,14 @@ Rgb AmbientCalculation::told_constant(const Ray& ray, const Rgb& coef,
                                       TraceContext& context) const {
     const Rgb value = constant(coef);
     if (context.contributions)
-        tell_constant(ray, path_throughput(ray) * coef, constant({1, 1, 1}),
-                      *context.contributions);
+        tell_constant(ray, path_throughput(ray, context.contributions->root()) * coef,
+                      constant({1, 1, 1}), *context.contributions);
     return value;
 }
 
-/// Cached values are sums of the light of many emitters.
+/// Cached values are sums of the light of many emitters, or of groups of them.
 bool AmbientCalculation::uses_cache(const TraceContext& context) const {
-    return cache_ && tracer_.options().ambient_accuracy > kEpsilon && !context.contributions;
+    return cache_ && tracer_.options().ambient_accuracy > kEpsilon && !context.asks_coefficients();
 }
 
 Rgb AmbientCalculation::add(Ray& ray, const Rgb& coef, const Vec3& normal,
@@ -195,7 +240,7 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     Ray& ray = request.ray;
     HemisphereSampling sampling;
     sampling.divisions = divisions(weight, cached);
-    if (request.context.ambient.missing == nullptr && request.context.contributions == nullptr) {
+    if (request.context.ambient.missing == nullptr && !request.context.asks_coefficients()) {
         sampling.extra =
             static_cast<int>(std::min(options.ambient_super_samples * weight + 0.5, 1e6));
     }
@@ -206,12 +251,14 @@ Hemisphere AmbientCalculation::sample(const Request& request, const Rgb& coef, d
     // Cached values weigh their rays by the assumed reflectance alone, whatever the surface.
     const Rgb part = coef * share;
     AmbientRays rays(tracer_, ray, kind, cached ? coef : part, cached ? share : 1, request.context);
+    sampling.tells = rays.tells_groups();
     const RandomStream before = ray.random;
     RandomStream stream = cached ? stream_of(request.query, options.seed) : ray.random.child();
     if (cached) ray.random = stream.child();
     ++request.context.path.ambient_level;
     if (request.context.ambient.missing == nullptr) ++request.context.counters.ambient.computed;
     Hemisphere hemisphere = sample_hemisphere(request.query.normal, sampling, stream, rays);
+    hemisphere.groups = rays.groups();
     --request.context.path.ambient_level;
     if (cached) ray.random = before;
     if (!hemisphere.complete() && request.context.ambient.missing == nullptr)
@@ -235,13 +282,18 @@ Rgb AmbientCalculation::without_cache(const Request& request) const {
     }
     const Hemisphere h = sample(request, request.coef, std::min(weight, most), false);
     if (h.succeeded == 0) return none();
-    if (request.context.contributions) return h.sum;
-    const Vec3& n = request.query.shading_normal;
-    if (std::abs(dot(n, h.normal)) >= kAligned || !h.complete() || h.divisions < kFewestDivisions)
-        return h.sum;
-    const std::array<double, 2> rotation = rotation_gradient(h);
-    const double factor = 1 + dot(cross(h.normal, n), h.u * rotation[0] + h.v * rotation[1]);
-    return factor >= kLeastFactor ? h.sum * static_cast<float>(factor) : h.sum;
+    if (request.context.asks_coefficients()) return h.sum;
+    const float factor = tilt_factor(h, request.query.shading_normal);
+    tell_groups(request, Rgb::grey(factor), h.groups);
+    return h.sum * factor;
+}
+
+/// What each light group adds to the light at a point, times `coef`, but for that of the path.
+void AmbientCalculation::tell_groups(const Request& request, const Rgb& coef,
+                                     std::span<const Rgb> values) {
+    GroupSums* sums = request.context.groups;
+    if (!sums || request.ray.aimed) return;
+    sums->add(path_throughput(request.ray, sums->root()) * coef, values);
 }
 
 /// A hemisphere of one division. Most are, once paths have branched: no memory is asked for.
@@ -250,6 +302,7 @@ Rgb AmbientCalculation::by_one_ray(const Request& request) const {
     const bool counts = context.ambient.missing == nullptr;
     const RandomStream stream = request.ray.random.child();
     if (counts) ++context.counters.ambient.computed;
+    GroupSums::Part told(context.groups);  // nothing where the ray sees nothing
     Ray ray;
     bool seen = tracer_.spawn(ray, request.far_side ? kAmbientThrough : kAmbientSame, request.ray,
                               &request.coef);
@@ -261,7 +314,10 @@ Rgb AmbientCalculation::by_one_ray(const Request& request) const {
         --context.path.ambient_level;
         seen = ray.effective_distance() > kEpsilon;
     }
-    if (seen) return ray.value * ray.coef;
+    if (seen) {
+        told.keep();
+        return ray.value * ray.coef;
+    }
     if (counts) ++context.counters.ambient.incomplete;
     return told_constant(request.ray, request.coef, context);
 }
@@ -272,14 +328,7 @@ AmbientSum AmbientCalculation::known(const Request& request) const {
 }
 
 Rgb AmbientCalculation::with_cache(const Request& request) const {
-    AmbientCounters& counters = request.context.counters.ambient;
-    const auto interpolated = [&](const AmbientSum& sum) {
-        ++counters.interpolated;
-        Rgb value;
-        for (std::size_t k = 0; k < 3; ++k) value[k] = static_cast<float>(sum.sum[k] / sum.weight);
-        return request.coef * value;
-    };
-    if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
+    if (const std::optional<Rgb> value = interpolated(request)) return *value;
     if (MissingAmbient* missing = request.context.ambient.missing) {
         if (can_stand_alone(request.ray))
             missing->points.push_back(point_of(request));
@@ -289,32 +338,67 @@ Rgb AmbientCalculation::with_cache(const Request& request) const {
     }
     const Claimed claimed(*cache_, request.query);
     if (claimed.waited()) {
-        ++counters.waits;
-        if (const AmbientSum sum = known(request); sum.weight > kEpsilon) return interpolated(sum);
+        ++request.context.counters.ambient.waits;
+        if (const std::optional<Rgb> value = interpolated(request)) return *value;
     }
     return new_value(request);
 }
 
-Rgb AmbientCalculation::new_value(const Request& request) const {
-    const std::optional<NewValue> made = make_value(request);
-    if (!made) return constant(request.coef);
-    if (!made->record) return request.coef * made->value;
-    store(request, *made->record);
-    const AmbientQuery& query = request.query;
-    if (dot(query.normal, query.shading_normal) >= kAligned) return request.coef * made->value;
-    const double factor = extrapolated(DecodedRecord(*made->record), {}, query.shading_normal);
-    return request.coef * made->value * static_cast<float>(factor);
+/// From the cache's values; nothing where none serves.
+std::optional<Rgb> AmbientCalculation::interpolated(const Request& request) const {
+    const auto mean = [](const std::array<double, 3>& sum, double weight) {
+        Rgb value;
+        for (std::size_t k = 0; k < 3; ++k) value[k] = static_cast<float>(sum[k] / weight);
+        return value;
+    };
+    AmbientSum sum;
+    if (!request.context.groups) {
+        sum = known(request);
+        if (sum.weight <= kEpsilon) return std::nullopt;
+    } else {
+        std::vector<std::array<double, 3>> sums(request.context.groups->size());
+        sum = cache_->lookup_groups(
+            request.query, [&](const Vec3& target) { return is_blocked(request.ray, target); },
+            sums);
+        if (sum.weight <= kEpsilon) return std::nullopt;
+        std::vector<Rgb> values;
+        values.reserve(sums.size());
+        for (const auto& of_group : sums) values.push_back(mean(of_group, sum.weight));
+        tell_groups(request, request.coef, values);
+    }
+    ++request.context.counters.ambient.interpolated;
+    return request.coef * mean(sum.sum, sum.weight);
 }
 
-void AmbientCalculation::store(const Request& request, const AmbientRecord& record) const {
+Rgb AmbientCalculation::new_value(const Request& request) const {
+    const std::optional<NewValue> made = make_value(request);
+    if (!made) return told_constant(request.ray, request.coef, request.context);
+    float factor = 1;
+    if (made->record) {
+        store(request, *made);
+        const AmbientQuery& query = request.query;
+        if (dot(query.normal, query.shading_normal) < kAligned)
+            factor = static_cast<float>(
+                extrapolated(DecodedRecord(*made->record), {}, query.shading_normal));
+    }
+    tell_groups(request, request.coef * factor, made->groups);
+    return request.coef * made->value * factor;
+}
+
+void AmbientCalculation::store(const Request& request, const NewValue& made) const {
     TraceContext& context = request.context;
+    const AmbientRecord& record = *made.record;
     if (context.ambient.new_records != nullptr) {
         if (can_stand_alone(request.ray))
-            context.ambient.new_records->new_records.push_back({point_of(request), record});
+            context.ambient.new_records->new_records.push_back(
+                {point_of(request), record, made.groups});
         return;
     }
     if (known(request).weight > kEpsilon) ++context.counters.ambient.duplicates;
-    cache_->insert(record);
+    if (made.groups.empty())
+        cache_->insert(record);
+    else
+        cache_->insert_with_groups(record, made.groups);
 }
 
 /// What an evaluation weighs: it decides on the number of samples.
@@ -329,7 +413,8 @@ std::optional<AmbientCalculation::NewValue> AmbientCalculation::make_value(
     const double weight = evaluation_weight(query);
     const Hemisphere h = sample(request, Rgb::grey(kReflectance), weight, true);
     if (h.succeeded == 0) return std::nullopt;
-    NewValue made{h.sum * static_cast<float>(1 / kReflectance), std::nullopt};
+    NewValue made{h.sum * static_cast<float>(1 / kReflectance), std::nullopt, h.groups};
+    for (Rgb& value : made.groups) value *= static_cast<float>(1 / kReflectance);
     if (!h.complete()) return made;
     const AmbientLimits& limits = cache_->limits();
     const AmbientDerivatives d =
@@ -362,7 +447,9 @@ std::optional<AmbientRecord> AmbientCalculation::record_at(const AmbientPoint& p
     const AtLevel at_level(context, point.query.level);
     const std::optional<NewValue> made =
         make_value({ray, Rgb::grey(kReflectance), point.query, point.far_side, context});
-    return made ? made->record : std::nullopt;
+    if (!made) return std::nullopt;
+    if (context.groups) context.groups->add({1, 1, 1}, made->groups);
+    return made->record;
 }
 
 void AmbientCalculation::prefetch(const AmbientPoint& point, TraceContext& context) const {

@@ -4,6 +4,7 @@
 // 1988.
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/ambient/ambient_cache.h"
@@ -56,6 +57,7 @@ class AmbientCalculation {
     struct NewValue {
         Rgb value;
         std::optional<AmbientRecord> record;  ///< nothing: it cannot be stored
+        std::vector<Rgb> groups;  ///< of the value, what each light group adds; empty: not asked
     };
     [[nodiscard]] bool takes_part(const Ray& ray) const;
     [[nodiscard]] Rgb constant(const Rgb& coef) const;
@@ -68,10 +70,12 @@ class AmbientCalculation {
     [[nodiscard]] Rgb by_one_ray(const Request& request) const;
     [[nodiscard]] AmbientSum known(const Request& request) const;
     [[nodiscard]] Rgb with_cache(const Request& request) const;
+    [[nodiscard]] std::optional<Rgb> interpolated(const Request& request) const;
+    static void tell_groups(const Request& request, const Rgb& coef, std::span<const Rgb> values);
     [[nodiscard]] Rgb new_value(const Request& request) const;
     /// Nothing where no ray could start.
     [[nodiscard]] std::optional<NewValue> make_value(const Request& request) const;
-    void store(const Request& request, const AmbientRecord& record) const;
+    void store(const Request& request, const NewValue& made) const;
     [[nodiscard]] static double evaluation_weight(const AmbientQuery& query);
     [[nodiscard]] Hemisphere sample(const Request& request, const Rgb& coef, double weight,
                                     bool cached) const;

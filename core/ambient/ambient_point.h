@@ -35,6 +35,7 @@ struct MissingAmbient {
 struct NewAmbientRecord {
     AmbientPoint point;
     AmbientRecord record;
+    std::vector<Rgb> groups = {};  ///< of its value, what each light group adds; empty: not asked
 };
 
 /// Takes values that are computed on the way, in their order. Where a context has one, they are not

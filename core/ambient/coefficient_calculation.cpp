@@ -43,7 +43,8 @@ std::optional<Rgb> CoefficientCalculation::known(const AmbientRequest& request) 
     cache_.find(request.query, shares);
     if (!shares.empty()) {
         ++context.counters.ambient.interpolated;
-        const Rgb coefficient = path_throughput(request.ray) * request.coef;
+        const Rgb coefficient =
+            path_throughput(request.ray, context.contributions->root()) * request.coef;
         Rgb value;
         for (const RecordShare& share : shares) {
             const auto part = static_cast<float>(share.weight);

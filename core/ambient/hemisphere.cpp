@@ -117,22 +117,26 @@ class Sampler {
     void finish() {
         if (pending_.empty()) return;
         const std::span<const HemisphereAnswer> answers = rays_.trace();
-        for (std::size_t k = 0; k < pending_.size(); ++k) take(pending_[k], answers[k]);
+        for (std::size_t k = 0; k < pending_.size(); ++k) take(k, answers[k]);
         pending_.clear();
     }
 
-    void take(const Sample& sample, const HemisphereAnswer& answer) {
+    void take(std::size_t number, const HemisphereAnswer& answer) {
         if (answer.distance <= kEpsilon) return;
+        const Sample& sample = pending_[number];
         HemisphereCell& c = h_.cells[sample.cell];
         c.nearness = std::max(c.nearness, 1 / answer.distance);
         h_.sum -= c.value;
         if (sample.m == 0) {
             c.vertex = sample.direction * std::min(answer.distance, sampling_.farthest);
             c.value = answer.value;
+            if (sampling_.tells) rays_.taken(number, sample.cell, 0, 1);
             ++h_.succeeded;
         } else {
             const auto share = 1 / static_cast<float>(sample.m + 1);
-            c.value = c.value * (static_cast<float>(sample.m) * share) + answer.value * share;
+            const float kept = static_cast<float>(sample.m) * share;
+            c.value = c.value * kept + answer.value * share;
+            if (sampling_.tells) rays_.taken(number, sample.cell, kept, share);
         }
         h_.sum += c.value;
     }

@@ -28,6 +28,10 @@ class HemisphereRays {
     /// The answers to all that were started since the last call, in that order; valid until the
     /// next call.
     virtual std::span<const HemisphereAnswer> trace() = 0;
+    /// Part of an answer of the last trace(), by its number, in a cell's value: the cell keeps
+    /// `kept` of what it had.
+    virtual void taken(std::size_t /*answer*/, std::size_t /*cell*/, float /*kept*/,
+                       float /*share*/) {}
 };
 
 /// A cell of the hemisphere.
@@ -44,7 +48,8 @@ struct Hemisphere {
     int divisions = 0;
     std::vector<HemisphereCell> cells;
     Rgb sum;  ///< sum of the cells' values: E / π times the coefficient, E indirect irradiance
-    int succeeded = 0;  ///< cells with a sample
+    int succeeded = 0;        ///< cells with a sample
+    std::vector<Rgb> groups;  ///< of the sum, what each light group adds; empty: not asked for
 
     [[nodiscard]] const HemisphereCell& cell(int i, int j) const {
         return cells[static_cast<std::size_t>(i) * static_cast<std::size_t>(divisions) +
@@ -61,6 +66,7 @@ struct HemisphereSampling {
     int extra = 0;  ///< samples that go where neighbours differ; none where fewer than 4 divisions
     double share = 1;         ///< brightness of one sample's coefficient
     double farthest = kHuge;  ///< vertices are not farther than this [m]
+    bool tells = false;       ///< HemisphereRays::taken() is called
 };
 
 /// Sample the hemisphere about the unit vector `normal`. Map: Shirley & Chiu, "A Low Distortion Map

@@ -5,6 +5,7 @@
 
 #include "core/light/direct_calculation.h"
 #include "core/transport/contribution.h"
+#include "core/transport/light_groups.h"
 
 namespace lightwalk {
 namespace {
@@ -69,7 +70,7 @@ void DirectCalculation::run(std::span<const DirectRequest> requests) {
 void DirectCalculation::plan(ShadingPoint& point) {
     const RenderOptions& options = tracer_.options();
     bool all =
-        options.shadow_threshold <= 0 || point.count <= kFirstBlock || context_.contributions;
+        options.shadow_threshold <= 0 || point.count <= kFirstBlock || context_.asks_coefficients();
     for (std::size_t i = 0; i < point.count && !all && point.count <= kFewPatterned; ++i)
         all = ranked(point, i).state == CandidateState::unknown;
     point.adaptive = !all;
@@ -144,7 +145,7 @@ void DirectCalculation::sum_tested(ShadingPoint& point) {
 /// of what they met.
 void DirectCalculation::tell_tested(const ShadingPoint& point, ContributionSink& sink) const {
     if (point.ray->aimed) return;
-    const Rgb throughput = path_throughput(*point.ray);
+    const Rgb throughput = path_throughput(*point.ray, sink.root());
     for (std::size_t i = point.tested; i < point.block_end; ++i) {
         const LightCandidate& candidate = ranked(point, i);
         if (candidate.needs_shading || candidate.state != CandidateState::lit) continue;
@@ -153,7 +154,7 @@ void DirectCalculation::tell_tested(const ShadingPoint& point, ContributionSink&
         const Vec3 position =
             distant ? point.position : point.position + candidate.direction * candidate.distance;
         const Rgb left = transmittance(point.ray->medium, candidate.distance, true);
-        tell({tracer_.scene().surface(source.object).modifier(), candidate.direction, position,
+        tell({emitter_of(source), candidate.direction, position,
               throughput * candidate.coefficient * left, throughput * candidate.contribution},
              sink);
     }
@@ -164,9 +165,31 @@ void DirectCalculation::add_untested(ShadingPoint& point) {
     const auto factor = static_cast<float>(point.tally.factor());
     for (std::size_t i = point.tested; i < point.count; ++i) {
         const LightCandidate& candidate = ranked(point, i);
-        point.ray->value +=
+        const Rgb value =
             candidate.contribution * std::min(1.0f, factor * lights_[candidate.source].hit_rate);
+        point.ray->value += value;
+        if (context_.groups) tell_guess(*point.ray, candidate, value, *context_.groups);
     }
+}
+
+/// Light that is assumed to arrive: as much of a source's as of those that were tested.
+void DirectCalculation::tell_guess(const Ray& ray, const LightCandidate& candidate,
+                                   const Rgb& value, ContributionSink& sink) const {
+    if (ray.aimed) return;
+    const Rgb throughput = path_throughput(ray, sink.root());
+    tell({emitter_of(lights_[candidate.source]),
+          candidate.direction,
+          {},
+          throughput,
+          throughput * value},
+         sink);
+}
+
+/// The modifier of the surface that emits, also where others redirect its light.
+ModifierId DirectCalculation::emitter_of(const LightSource& source) const {
+    const LightSource* real = &source;
+    while (real->is_virtual()) real = &lights_[real->parent];
+    return tracer_.scene().surface(real->object).modifier();
 }
 
 void LightSources::add_direct(std::span<const DirectRequest> requests,

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "core/light/direct_calculation.h"
+#include "core/transport/light_groups.h"
 
 namespace lightwalk {
 namespace {
@@ -82,7 +83,7 @@ bool DirectCalculation::mark_needs_shading(LightCandidate& candidate) const {
     const LightSource& source = lights_[candidate.source];
     // What is known of a virtual source is what it brings, not by which coefficient.
     candidate.needs_shading = needs_tracing(source, point_of(candidate)) ||
-                              (context_.contributions && source.is_virtual());
+                              (context_.asks_coefficients() && source.is_virtual());
     return candidate.needs_shading;
 }
 
@@ -149,6 +150,7 @@ void DirectCalculation::trace_shadow(LightCandidate& candidate) {
     shadow.direction = candidate.direction;
     shadow.coef = candidate.coefficient;
     shadow.target = candidate.source;
+    GroupSums::Part told(context_.groups);  // nothing where the light counts as none
     tracer_.trace(shadow, context_);
     if (!shadow.hit.exists()) {  // at the aft clipping plane: what lies beyond does not shadow
         candidate.needs_shading = false;
@@ -156,6 +158,7 @@ void DirectCalculation::trace_shadow(LightCandidate& candidate) {
     } else if (static_cast<double>(mean(shadow.value)) > kEpsilon) {
         candidate.state = CandidateState::lit;
         candidate.contribution = candidate.coefficient * shadow.value;
+        told.keep();
     } else {
         set_dark(candidate);
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/transport/light_groups.h"
+
 namespace lightwalk {
 namespace {
 
@@ -21,16 +23,17 @@ bool shows(const Rgb& pixel, const Rgb& source) {
 
 }  // namespace
 
-void blend_source(const SourcePixel& source, Rgb& pixel, float* distance) {
+SourceBlend blend_source(const SourcePixel& source, Rgb& pixel, float* distance) {
     const float w = source.coverage;
     const bool nearer =
         distance && source.distance < kClearlyNearer * static_cast<double>(*distance);
     if (nearer) *distance = static_cast<float>(source.distance);
     if (!nearer && shows(pixel, source.radiance)) {
         pixel *= w;
-    } else {
-        pixel = pixel * (1 - w) + source.radiance * w;
+        return {w, 0};
     }
+    pixel = pixel * (1 - w) + source.radiance * w;
+    return {1 - w, w};
 }
 
 SmallSources::SmallSources(const LightTransport& tracer, const Camera& camera, int width,
@@ -131,6 +134,7 @@ void SmallSources::draw_pixel(const Outline& outline, int x, int y, TraceContext
     ray.history = kShadow;
     ray.target = outline.source;
     ++context.counters.rays.shadow;
+    if (context.groups) context.groups->clear();
     tracer_.trace(ray, context);
     if (static_cast<double>(max_component(ray.value)) <= kEpsilon) return;
     pixel({x, y, static_cast<float>(coverage), ray.value, ray.unreflected_path_length});

@@ -20,7 +20,11 @@ struct SourcePixel {
 /// Blend a source into its pixel. Where the pixel's own ray met the source already only the
 /// coverage counts; with distances (null: none), a source that is clearly nearer than what the
 /// pixel shows sets the distance. Source: behaviour of Radiance's rpict.
-void blend_source(const SourcePixel& source, Rgb& pixel, float* distance);
+/// @return  factors of the pixel before and of the source's radiance in the new one
+struct SourceBlend {
+    float pixel = 1, source = 0;
+};
+SourceBlend blend_source(const SourcePixel& source, Rgb& pixel, float* distance);
 
 /// The light sources that a picture has to draw because the rays of its pixels may miss them. They
 /// are selected as rpict does it: whole inside the picture, facing the eye, no illums, narrower
@@ -37,7 +41,8 @@ class SmallSources {
 
     /// Trace the sources' pixels inside a rectangle; `pixel` gets them source by source, in the
     /// order in which they have to be blended. What a pixel gets does not depend on the rectangle.
-    /// As in rpict the topmost row of the picture gets nothing.
+    /// As in rpict the topmost row of the picture gets nothing. Meanwhile context.groups holds what
+    /// the groups of emitters bring.
     void draw(const PixelRectangle& area, TraceContext& context,
               FunctionRef<void(const SourcePixel&)> pixel) const;
 

@@ -247,7 +247,8 @@ void Tracer::apply_medium(Ray& ray, TraceContext& context) const {
     if (shadow || max_component(medium.albedo) <= static_cast<float>(kEpsilon)) return;
     ray.value += medium.albedo * options().ambient_value * (Rgb{1, 1, 1} - left);
     if (context.contributions) {
-        const Rgb coefficient = path_coefficient(ray) * medium.albedo * (Rgb{1, 1, 1} - left);
+        const Rgb coefficient = path_coefficient(ray, context.contributions->root()) *
+                                medium.albedo * (Rgb{1, 1, 1} - left);
         tell_constant(ray, coefficient, options().ambient_value, *context.contributions);
     }
     lights_->add_in_scatter(ray, context);

@@ -27,15 +27,15 @@ Rgb transmittance(const Medium& medium, double distance, bool shadow) {
     return left;
 }
 
-Rgb path_coefficient(const Ray& ray) {
+Rgb path_coefficient(const Ray& ray, const Ray* root) {
     Rgb product = ray.coef;
-    for (const Ray* at = ray.parent; at != nullptr; at = at->parent)
+    for (const Ray* at = ray.parent; at != root && at != nullptr; at = at->parent)
         product *= at->coef * transmittance(at->medium, at->hit.t, at->in(kShadow));
     return product;
 }
 
-Rgb path_throughput(const Ray& ray) {
-    return path_coefficient(ray) * transmittance(ray.medium, ray.hit.t, ray.in(kShadow));
+Rgb path_throughput(const Ray& ray, const Ray* root) {
+    return path_coefficient(ray, root) * transmittance(ray.medium, ray.hit.t, ray.in(kShadow));
 }
 
 void tell(const Contribution& term, ContributionSink& sink) {
@@ -44,7 +44,7 @@ void tell(const Contribution& term, ContributionSink& sink) {
 
 void tell_emission(const Ray& ray, ContributionSink& sink) {
     if (ray.aimed) return;
-    const Rgb coefficient = path_throughput(ray);
+    const Rgb coefficient = path_throughput(ray, sink.root());
     tell({ray.hit.modifier, ray.direction, ray.hit.position, coefficient, coefficient * ray.value},
          sink);
 }

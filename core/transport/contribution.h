@@ -2,6 +2,7 @@
 // The terms of a ray's radiance: all light that reaches the eye is a sum over emitters of a
 // coefficient, which the way of the light decides, times what the emitter sends.
 #include <cstdint>
+#include <utility>
 
 #include "core/math/rgb.h"
 #include "core/math/vec3.h"
@@ -23,8 +24,9 @@ struct Contribution {
 /// Is told the terms of the radiance of rays, in no particular order. Their values add up to that
 /// of the primary rays, to rounding, but for samples that are left out once their light is known:
 /// shadow rays that bring less than kEpsilon. Belongs to one thread's TraceContext.
-/// While somebody listens all light sources are tested for shadows (-dt 0), and indirect light is
-/// neither interpolated (but see add_record) nor extrapolated nor sampled where it differs most
+/// While somebody listens, other than for groups of emitters (GroupSums), all light sources are
+/// tested for shadows (-dt 0), and indirect light is neither interpolated (but see add_record) nor
+/// extrapolated nor sampled where it differs most
 /// (-aa 0 -as 0, no gradients): these decide by radiance what a coefficient would be.
 class ContributionSink {
   public:
@@ -33,6 +35,15 @@ class ContributionSink {
     /// In place of terms: a record of the cache of coefficients, where the tracer uses one.
     /// @param coefficient  factor of the record's value in the radiance of the primary ray
     virtual void add_record(std::uint32_t /*record*/, const Rgb& /*coefficient*/) {}
+
+    /// The ray whose radiance the terms are parts of, an ancestor of those that tell; null: the
+    /// primary ray. Its own medium and coefficient are not in theirs.
+    [[nodiscard]] const Ray* root() const { return root_; }
+    /// @return  the one before
+    const Ray* set_root(const Ray* root) { return std::exchange(root_, root); }
+
+  private:
+    const Ray* root_ = nullptr;
 };
 
 /// What a medium leaves of the radiance along `distance`; direct light loses only what is absorbed.
@@ -40,11 +51,11 @@ class ContributionSink {
 [[nodiscard]] Rgb transmittance(const Medium& medium, double distance, bool shadow);
 
 /// Factor of the radiance that arrives at the near end of what `ray` has met, in that of the
-/// primary ray: the coefficients and media of its path, its own included. The hits of the path must
-/// be set.
-[[nodiscard]] Rgb path_throughput(const Ray& ray);
+/// primary ray, or of another root (ContributionSink::root): the coefficients and media of its
+/// path, its own included. The hits of the path must be set.
+[[nodiscard]] Rgb path_throughput(const Ray& ray, const Ray* root = nullptr);
 /// The same without the medium of the ray's own segment.
-[[nodiscard]] Rgb path_coefficient(const Ray& ray);
+[[nodiscard]] Rgb path_coefficient(const Ray& ray, const Ray* root = nullptr);
 
 /// Tell that `ray` meets an emitter, which sends ray.value. A ray that only asks a light source for
 /// its radiance (Ray::aimed) brings nothing.

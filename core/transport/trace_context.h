@@ -16,6 +16,7 @@ namespace lightwalk {
 
 class ContributionSink;
 class Fibers;
+class GroupSums;
 class LightTransport;
 class ShadingBatch;
 struct CoefficientScratch;
@@ -133,6 +134,14 @@ struct TraceContext {
     Opaque<CoefficientScratch> coefficients{nullptr, nullptr};  ///< of lookups; made when needed
     BatchState batches;
     AmbientCollection ambient;
+    GroupSums* groups = nullptr;  ///< the sink of contributions, where it adds up what groups of
+                                  ///< emitters bring; else null. Rays are then shaded one by one
+
+    /// Whether coefficients are asked for, of which radiance must not decide: else what is tested
+    /// and sampled is what a picture needs.
+    [[nodiscard]] bool asks_coefficients() const {
+        return contributions != nullptr && groups == nullptr;
+    }
 };
 
 }  // namespace lightwalk

@@ -33,12 +33,13 @@ void divide_by_alpha(std::vector<float>& values, std::size_t channels) {
 
 void read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, lightwalk::ImageRows& rows,
                std::string& error) {
-    const int channels = std::min(spec.nchannels, 4);
+    const int channels = std::min(spec.nchannels, rows.most_channels());
     const bool is_float = spec.format.is_floating_point();
     if (spec.depth > 1 || channels < 1) {
         error = "not a flat image";
         return;
     }
+    rows.named(spec.channelnames, std::string(spec.get_string_attribute("ImageDescription")));
     if (!rows.begin(spec.width, spec.height, channels, is_float)) return;
     const bool tiled = spec.tile_width > 0;
     const int step = tiled ? spec.tile_height
@@ -71,6 +72,7 @@ extern "C" void lightwalk_decode_image(std::string_view bytes, const char* forma
                                        lightwalk::ImageRows& rows, std::string& error) {
     try {
         OIIO::attribute("threads", 1);  // they would outlive the image
+        OIIO::attribute("exr_threads", -1);
         OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
         if (!input) {

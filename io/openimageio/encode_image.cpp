@@ -2,6 +2,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <array>
 
 #include "io/picture/image_encoder.h"
@@ -28,7 +29,24 @@ OIIO::ImageSpec describe(const lightwalk::ImageRequest& request) {
     if (*request.date != '\0')
         spec.attribute("DateTime", std::string(request.date));  // else it writes its own
     spec.attribute("comments", std::string(request.history));
+    if (!request.names.empty()) spec.channelnames = request.names;
     return spec;
+}
+
+bool write_pixels(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec,
+                  const lightwalk::ImageRequest& request) {
+    if (!request.row) return output.write_image(spec.format, request.pixels);
+    constexpr int kRows = 64;  // OpenEXR compresses some together
+    const auto size =
+        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> values(size * kRows);
+    for (int y = 0; y < spec.height; y += kRows) {
+        const int end = std::min(y + kRows, spec.height);
+        for (int i = y; i < end; ++i)
+            request.row(i, values.data() + size * static_cast<std::size_t>(i - y));
+        if (!output.write_scanlines(y, end, 0, OIIO::TypeFloat, values.data())) return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -46,7 +64,7 @@ extern "C" void lightwalk_encode_image(const lightwalk::ImageRequest& request,
     OIIO::attribute("exr_threads", -1);
     const OIIO::ImageSpec spec = describe(request);
     const bool written = output->set_ioproxy(&memory) && output->open(request.format, spec) &&
-                         output->write_image(spec.format, request.pixels) && output->close();
+                         write_pixels(*output, spec, request) && output->close();
     if (!written) error = output->geterror();
     if (!written && error.empty()) error = "unknown error";
 }

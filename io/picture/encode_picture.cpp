@@ -14,6 +14,17 @@ namespace {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
+std::string encode_with_header(ImageRequest request, const PictureHeader& header) {
+    std::string history, date;
+    for (const std::string& line : header.lines) {
+        history += line + '\n';
+        if (const auto taken = header_variable(line, "CAPDATE")) date = *taken;
+    }
+    request.history = history.c_str();
+    request.date = date.c_str();
+    return encode_image(request);
+}
+
 std::string encode_display_image(ImageRequest request, const Picture& picture,
                                  const DisplayTone& tone) {
     assert(picture.pixels.size() == pixel_count(picture.width, picture.height));
@@ -28,19 +39,26 @@ std::string encode_display_image(ImageRequest request, const Picture& picture,
 
 std::string encode_exr(const Picture& picture, const PictureHeader& header) {
     assert(picture.pixels.size() == pixel_count(picture.width, picture.height));
-    std::string history, date;
-    for (const std::string& line : header.lines) {
-        history += line + '\n';
-        if (const auto taken = header_variable(line, "CAPDATE")) date = *taken;
-    }
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    return encode_image({.format = "openexr",
-                         .width = picture.width,
-                         .height = picture.height,
-                         .is_float = true,
-                         .pixels = picture.pixels.data(),
-                         .history = history.c_str(),
-                         .date = date.c_str()});
+    return encode_with_header({.format = "openexr",
+                               .width = picture.width,
+                               .height = picture.height,
+                               .is_float = true,
+                               .pixels = picture.pixels.data()},
+                              header);
+}
+
+std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
+                       const std::function<void(int y, float* values)>& row,
+                       const PictureHeader& header) {
+    return encode_with_header({.format = "openexr",
+                               .width = width,
+                               .height = height,
+                               .channels = static_cast<int>(channels.size()),
+                               .is_float = true,
+                               .names = channels,
+                               .row = row},
+                              header);
 }
 
 std::string encode_exr(int width, int height, const std::vector<float>& depth) {

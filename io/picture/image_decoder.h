@@ -3,6 +3,7 @@
 // which is loaded as a module when first needed; see image_encoder.h.
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/model/resources.h"
 
@@ -31,7 +32,11 @@ enum class ImageChannels {
 class ImageRows {
   public:
     virtual ~ImageRows() = default;
-    /// @param channels  of each pixel, 1 to 4
+    [[nodiscard]] virtual int most_channels() const { return 4; }
+    /// Comes first: the names of all channels, and the comment that the file holds.
+    virtual void named(const std::vector<std::string>& /*channels*/,
+                       const std::string& /*comments*/) {}
+    /// @param channels  of each pixel, at least 1; those behind the most are left out
     /// @return  whether the pixels are wanted
     virtual bool begin(int width, int height, int channels, bool is_float) = 0;
     /// Rows from y on, each of width * channels values; integers are divided by the largest.

@@ -42,6 +42,8 @@ void write_picture(const std::string& path, const Picture& picture, const Pictur
 void check_picture_name(const std::string& path);
 /// Whether write_picture writes a Radiance picture for this name.
 [[nodiscard]] bool is_radiance_picture(const std::string& path);
+/// Whether write_picture writes an OpenEXR file for this name.
+[[nodiscard]] bool is_exr_picture(const std::string& path);
 /// Write depths: for a `path` that ends in .exr as one float channel Z, otherwise as raw native
 /// floats, row by row from the top.
 void write_depth(const std::string& path, int width, int height, const std::vector<float>& depth);

@@ -83,6 +83,10 @@ bool is_radiance_picture(const std::string& path) {
     return format_of(path) == PictureFormat::radiance;
 }
 
+bool is_exr_picture(const std::string& path) {
+    return format_of(path) == PictureFormat::exr;
+}
+
 void write_picture(const std::string& path, const Picture& picture, const PictureHeader& header,
                    const ToneMapping& tone) {
     const PictureFormat format = known_format_of(path);

@@ -166,5 +166,9 @@ TEST_CASE("mutated glTF files are read or refused") {
 TEST_CASE("mutated images are read or refused") {
     endure(kFuzzTargets[13]);
 }
+TEST_CASE("mutated files of layers are read or refused") {
+    endure(kFuzzTargets[14]);
+    endure(kFuzzTargets[14], overwrite);
+}
 
 }  // namespace lightwalk::test

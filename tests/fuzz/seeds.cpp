@@ -6,6 +6,7 @@
 #include "core/bsdf/bsdf.h"
 #include "io/bsdf/bsdf_file.h"
 #include "io/formats/decode.h"
+#include "io/picture/encode_picture.h"
 #include "io/picture/image_encoder.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
@@ -264,6 +265,14 @@ std::string frozen_scene() {
     return frozen_scene_bytes(scene, library, manifest);
 }
 
+/// An OpenEXR file of two layers of 5 x 4 pixels.
+std::string small_layers() {
+    const auto row = [](int y, float* values) {
+        for (int i = 0; i < 5 * 6; ++i) values[i] = static_cast<float>(i % 6 + y);
+    };
+    return encode_exr(5, 4, {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}, row, {{"LIGHT_GROUP= c"}});
+}
+
 }  // namespace
 
 std::span<const std::string> seeds_of(FuzzTarget target) {
@@ -299,6 +308,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
                                                  small_tga(), small_bmp(),  small_webp(),
                                                  lossy_webp()};
     if (target == read_image) return images;
+    static const std::vector<std::string> layers{small_layers()};
+    if (target == read_layers) return layers;
     if (target == read_frozen || target == read_resealed) return frozen;
     return data;
 }

@@ -21,6 +21,7 @@
 #include "io/photometry/ies_file.h"
 #include "io/photometry/lamp_table.h"
 #include "io/picture/image_decoder.h"
+#include "io/picture/layers.h"
 #include "io/picture/picture.h"
 #include "io/picture/picture_data.h"
 #include "io/rad/rad_options.h"
@@ -230,6 +231,16 @@ bool read_image(std::string_view bytes) {
         for (const auto channels :
              {ImageChannels::color, ImageChannels::alpha, ImageChannels::numbers})
             (void)interpolate(decode_image(bytes, "mutant.png", channels), 0.4, 0.7);
+    });
+}
+
+bool read_layers(std::string_view bytes) {
+    return accepts([&] {
+        const LayersHeader header = read_layers_header(bytes, "mutant.exr");
+        Picture sum{header.width, header.height, {}};
+        sum.pixels.resize(static_cast<std::size_t>(header.width) *
+                          static_cast<std::size_t>(header.height));
+        add_layers(bytes, "mutant.exr", std::vector<Rgb>(header.names.size(), {1, 1, 1}), sum);
     });
 }
 

@@ -26,6 +26,7 @@ bool read_luminaire(std::string_view bytes);      ///< photometric data, a table
 bool read_wavefront(std::string_view bytes);      ///< an object file as a mesh, a material file
 bool read_gltf_file(std::string_view bytes);      ///< a glTF file: meshes, materials, lights
 bool read_image(std::string_view bytes);          ///< PNG, JPEG, TIFF
+bool read_layers(std::string_view bytes);         ///< layers of an OpenEXR file
 
 /// Valid inputs for each target; generated, so that the tests need no files.
 [[nodiscard]] std::span<const std::string> seeds_of(FuzzTarget target);
@@ -39,6 +40,6 @@ inline constexpr NamedTarget kFuzzTargets[] = {
     {"picture", read_picture},  {"data", read_data_file},      {"request", read_walk_request},
     {"frozen", read_frozen},    {"resealed", read_resealed},   {"bsdf", read_bsdf_file},
     {"rad", read_rad_file},     {"luminaire", read_luminaire}, {"wavefront", read_wavefront},
-    {"gltf", read_gltf_file},   {"image", read_image}};
+    {"gltf", read_gltf_file},   {"image", read_image},         {"layers", read_layers}};
 
 }  // namespace lightwalk::test

@@ -8,12 +8,19 @@
 
 namespace lightwalk {
 
+/// What a group of emitters adds to a picture.
+struct RenderedLayer {
+    std::string name;
+    std::vector<Rgb> radiance;  ///< as the picture's [W/(m² sr)]
+};
+
 /// A picture of radiance, rows from the top, left to right.
 struct RenderedPicture {
-    int width = 0, height = 0;    ///< [pixels]
-    std::vector<Rgb> radiance;    ///< width * height [W/(m² sr)]
-    std::vector<float> distance;  ///< along the pixels' rays; 1e10: nothing, 0: no ray [m]
-    std::uint64_t rays = 0;       ///< of all kinds that were traced for it, by this process
+    int width = 0, height = 0;          ///< [pixels]
+    std::vector<Rgb> radiance;          ///< width * height [W/(m² sr)]
+    std::vector<float> distance;        ///< along the pixels' rays; 1e10: nothing, 0: no ray [m]
+    std::uint64_t rays = 0;             ///< of all kinds that were traced for it, by this process
+    std::vector<RenderedLayer> layers;  ///< with light groups: they add up to the radiance
 };
 
 /// Write by extension: .hdr .pic (Radiance), .exr, .png, .jpg (exposed automatically, sRGB). The

@@ -16,6 +16,7 @@
 
 #include "apps/session/lightwalk/picture.h"
 #include "apps/session/lightwalk/scene.h"
+#include "core/light/light_group_pattern.h"
 #include "core/math/function_ref.h"
 #include "core/trace/ray_query.h"
 #include "core/transport/options.h"
@@ -92,6 +93,10 @@ struct RendererOptions {
     /// With tallies: what hemispheres see of indirect light is interpolated between records of
     /// coefficients. By one process.
     bool keep_coefficients = false;
+    /// Pictures are made of layers, one for each group of emitters: these, or where the list is
+    /// empty the usual ones (core/light/find_light_groups.h). By one process, every pixel traced.
+    /// Nothing: there are no layers.
+    std::optional<std::vector<LightGroupPattern>> light_groups;
     bool long_rays = false;  ///< rays of lists take long: they are dealt out one by one
     RayListOptions rays;     ///< what ray lists ask for
 };

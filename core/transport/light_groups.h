@@ -1,0 +1,89 @@
+#pragma once
+// Light by groups of emitters: as radiance is a sum over emitters, so is what each group of them
+// brings, and any mixture of dimmed groups is a weighted sum.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/transport/contribution.h"
+
+namespace lightwalk {
+
+inline constexpr std::size_t kMostLightGroups = 64;
+/// The name of the group for all that belongs to no other, the constant -av among it.
+inline constexpr const char* kRestGroup = "rest";
+
+/// Sets of modifiers that emit light; each belongs to one.
+struct LightGroups {
+    std::vector<std::string> names;
+    std::vector<std::uint8_t> of_modifier;  ///< group, by modifier
+    std::uint8_t of_constant = 0;           ///< group of constant light
+    [[nodiscard]] std::size_t size() const { return names.size(); }
+    [[nodiscard]] std::size_t group_of(ModifierId modifier) const {
+        return modifier == kVoid ? of_constant
+                                 : of_modifier[static_cast<std::size_t>(index(modifier))];
+    }
+};
+
+/// Adds up the terms of radiance by group. The plain picture's decisions are kept: what is tested,
+/// sampled and cached depends on the light of all groups together.
+class GroupSums final : public ContributionSink {
+  public:
+    explicit GroupSums(std::shared_ptr<const LightGroups> groups)
+        : groups_(std::move(groups)), sums_(groups_->size()) {}
+
+    [[nodiscard]] const LightGroups& groups() const { return *groups_; }
+    [[nodiscard]] std::size_t size() const { return sums_.size(); }
+    void add(const Contribution& term) override {
+        sums_[groups_->group_of(term.modifier)] += term.value;
+    }
+    /// The light of all groups times a coefficient; nothing where that is not finite.
+    /// @param values  one a group, or none
+    void add(const Rgb& coefficient, std::span<const Rgb> values);
+
+    /// What was told since the last clear() [W/(m² sr)], one a group.
+    [[nodiscard]] std::span<const Rgb> sums() const { return sums_; }
+    void clear() { std::fill(sums_.begin(), sums_.end(), Rgb{}); }
+
+    /// While it lives, what is told is summed apart.
+    class Part {
+      public:
+        /// @param sums  null: nothing happens
+        /// @param root  which ray's radiance the terms are parts of; it is an ancestor of those
+        ///              that are traced meanwhile. The first form: the same as before
+        explicit Part(GroupSums* sums) : sums_(sums) {
+            if (sums) begin(sums->root());
+        }
+        Part(GroupSums* sums, const Ray* root) : sums_(sums) {
+            if (sums) begin(root);
+        }
+        ~Part() {
+            if (sums_) end();
+        }
+        Part(const Part&) = delete;
+        Part& operator=(const Part&) = delete;
+        /// It belongs to what was told before.
+        void keep() {
+            if (sums_) add_to_before();
+        }
+
+      private:
+        void begin(const Ray* root);
+        void end();
+        void add_to_before();
+        GroupSums* sums_;
+        const Ray* root_before_ = nullptr;
+        std::vector<Rgb> before_;
+    };
+
+  private:
+    std::shared_ptr<const LightGroups> groups_;
+    std::vector<Rgb> sums_;
+};
+
+}  // namespace lightwalk
