@@ -44,12 +44,27 @@ class EmittingModifiers {
     std::vector<char> known_;
 };
 
-/// Of a modifier that emits: its usual group.
+/// A modifier that emits.
 struct GroupMember {
     ModifierId modifier = kVoid;
-    std::string name;
-    std::string usual;
+    std::string own;    ///< its name
+    std::string name;   ///< what it is called by
+    std::string usual;  ///< its usual group
 };
+
+/// The name of what lies below textures and patterns: generators of smooth surfaces put some of
+/// names of their own on top (gensurf -s), the same one for all.
+const std::string& name_of(const Scene& scene, ModifierId modifier) {
+    ModifierId at = modifier;
+    for (std::size_t i = 0; i < scene.modifier_count(); ++i) {  // there may be circles
+        const ModifierRecord& record = scene.modifier(at);
+        const PrimitiveKind kind = kind_of(record.type);
+        if (kind != PrimitiveKind::texture && !is_pattern(kind)) return record.name;
+        if (record.next == kVoid) break;
+        at = record.next;
+    }
+    return scene.modifier(modifier).name;
+}
 
 bool is_glow(const Scene& scene, ModifierId modifier) {
     const std::optional<ModifierId> material = scene.material_of(modifier);
@@ -68,8 +83,10 @@ std::vector<GroupMember> members_of(const Scene& scene) {
         const ModifierId modifier = surface.modifier();
         if (!emits(modifier)) continue;
         const auto [place, is_new] = places.try_emplace(index(modifier), emitters.size());
-        const std::string& name = scene.modifier(modifier).name;
-        if (is_new) emitters.push_back({modifier, name, name});
+        if (is_new) {
+            const std::string& name = name_of(scene, modifier);
+            emitters.push_back({modifier, scene.modifier(modifier).name, name, name});
+        }
         if (surface.type() != PrimitiveType::source) continue;
         const Shape shape = surface.shape();
         const auto* at_infinity = std::get_if<SourceShape>(&shape);
@@ -100,9 +117,10 @@ std::string fit_name(std::string name) {
     return name == kRestGroup ? name + "_light" : name;
 }
 
-bool matches(const LightGroupPattern& group, const std::string& name) {
+bool matches(const LightGroupPattern& group, const GroupMember& emitter) {
     return std::ranges::any_of(group.patterns, [&](const std::string& pattern) {
-        return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+        return fnmatch(pattern.c_str(), emitter.name.c_str(), 0) == 0 ||
+               fnmatch(pattern.c_str(), emitter.own.c_str(), 0) == 0;
     });
 }
 
@@ -161,7 +179,7 @@ LightGroups find_light_groups(const Scene& scene, const RenderOptions& light,
             continue;
         }
         const auto first = std::ranges::find_if(
-            wanted, [&](const LightGroupPattern& one) { return matches(one, emitter.name); });
+            wanted, [&](const LightGroupPattern& one) { return matches(one, emitter); });
         if (first == wanted.end()) {
             rest = true;
             continue;

@@ -14,6 +14,7 @@ namespace lightwalk {
 void check_group_names(const std::vector<LightGroupPattern>& wanted);
 
 /// The modifiers that are named by surfaces which emit light, or may (mixtures of lights).
+/// Textures and patterns are called by what they modify, and by their own names as well.
 /// A modifier belongs to the first group that matches it, else to kRestGroup, which is there where
 /// something belongs to it: also the constant -av.
 /// @param wanted  empty: the usual groups: "sun" (sources at infinity of type light, less than 10

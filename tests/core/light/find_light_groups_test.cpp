@@ -31,6 +31,10 @@ void mixfunc half 4 ember paint .5 . 0 0
 half sphere coal 0 0 4 3 0 1 .1
 void illum window 1 void 0 3 2 2 2
 window polygon w 0 0 12 -3 2 .5 -1 2 .5 -1 2 2 -3 2 2
+half texfunc smooth 4 0 0 0 . 0 0
+smooth sphere spark 0 0 4 3 1 1 .1
+lamp_1 brightfunc ribbed 2 1 . 0 0
+ribbed sphere l3 0 0 4 2 0 3 .2
 void light unused 0 0 3 1 1 1
 )";
 
@@ -62,6 +66,8 @@ TEST_CASE("the usual light groups are the sun, the sky with the ground, and each
     CHECK(group_of("solar", {}) == "sun");
     CHECK(group_of("sky_glow", {}) == "sky");
     CHECK(group_of("ground_glow", {}) == "sky");
+    CHECK(group_of("smooth", {}) == "half");
+    CHECK(group_of("ribbed", {}) == "lamp_1");
 }
 
 TEST_CASE("a modifier belongs to the first light group that names it, else to the rest") {
@@ -71,6 +77,8 @@ TEST_CASE("a modifier belongs to the first light group that names it, else to th
     CHECK(group_of("lamp_2", wanted) == "all");
     CHECK(group_of("window", wanted) == "all");
     CHECK(group_of("half", wanted) == "rest");
+    CHECK(group_of("ribbed", wanted) == "one");
+    CHECK(group_of("ribbed", {{"one", {"rib*"}}}) == "one");
     CHECK(group_of("solar", wanted) == "rest");
     CHECK(found({{"every", {"*"}}}).names == Names{"every"});
 }
