@@ -30,7 +30,8 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     } else {
         region.project(executor);
         if (!exchange.exchange_points(region, stop)) return false;
-        region.answer(caster, executor, stop, checking_deadline(order.budget));
+        region.answer(caster, executor, stop, checking_deadline(order.budget, unknown_));
+        unknown_ = region.unknown();
         if (stop.requested()) return false;
         exchange.send_used(region);
     }

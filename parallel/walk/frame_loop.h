@@ -74,6 +74,7 @@ class FrameLoop {
     std::optional<CloudRegion> region_;
     int width_ = 0, height_ = 0;                   ///< of the picture that the region is a part of
     double infer_seconds_ = 0, keep_seconds_ = 0;  ///< of the last frame [s]
+    double unknown_ = 1;                           ///< share of its pixels that no point answered
 };
 
 }  // namespace lightwalk

@@ -17,10 +17,11 @@ std::chrono::steady_clock::time_point deadline_of(double seconds) {
            std::chrono::duration_cast<UncachedPixelTracer::Clock::duration>(span);
 }
 
-std::chrono::steady_clock::time_point checking_deadline(double budget) {
-    constexpr double kMostShare = 0.25;
-    return budget > 0 ? deadline_of(kMostShare * budget)
-                      : std::chrono::steady_clock::time_point::max();
+std::chrono::steady_clock::time_point checking_deadline(double budget, double unknown) {
+    constexpr double kCalm = 0.4, kBusy = 0.25;  // shares of the budget
+    constexpr double kMuchUnknown = 0.3;
+    const double share = std::lerp(kCalm, kBusy, std::min(unknown / kMuchUnknown, 1.0));
+    return budget > 0 ? deadline_of(share * budget) : std::chrono::steady_clock::time_point::max();
 }
 
 std::chrono::steady_clock::time_point inferring_deadline(double budget) {

@@ -17,7 +17,11 @@ namespace lightwalk {
 [[nodiscard]] std::chrono::steady_clock::time_point deadline_of(double seconds);
 
 /// When looking at the pixels has to end in a frame that has a budget and looks from now on.
-[[nodiscard]] std::chrono::steady_clock::time_point checking_deadline(double budget);
+/// @param unknown  share of the pixels that no point answered in the frame before: where much comes
+///                 into view it has to be traced; else the time is better spent on what points
+///                 show, as some shine through what is in front of them
+[[nodiscard]] std::chrono::steady_clock::time_point checking_deadline(double budget,
+                                                                      double unknown);
 
 /// When pixels that were not traced are no longer looked at, in a frame of a budget that begins to
 /// do so now. Without them it would show colours of other surfaces there.
