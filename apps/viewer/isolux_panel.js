@@ -5,13 +5,13 @@ import { statistics, trace_command } from "./isolux.js";
 import { notice } from "./notices.js";
 import { colour_text, palette_colour } from "./scale.js";
 import { label_place, path_of, strokes_of } from "./strokes.js";
-import { quantity, round_number } from "./words.js";
+import { quantity, rough, round_number } from "./words.js";
 
 const kAgain = 500; // least time between two requests that repeat one [ms]
 const kHint = "Contours of illuminance on a plane, and how uniform it is.";
 const kHighest = 1e6; // of planes above the floor [m]
 
-const ratio = (x) => (Number.isFinite(x) ? x.toFixed(2) : "–");
+const ratio = (x) => (x >= 0.1 ? x.toFixed(2) : rough(x));
 
 export class IsoluxPanel {
     /**
@@ -162,14 +162,17 @@ export class IsoluxPanel {
         const size = [innerWidth, innerHeight];
         const sight = this.on_.sight();
         const hidden = (place) => sight !== null && sight.hides(place);
+        const taken = [];
         return this.contours_.flatMap(({ level, share, lines }) => {
             const strokes = lines.flatMap((line) => strokes_of(view, line, size, hidden));
             if (strokes.length === 0) return [];
+            const at = label_place(strokes, size, taken);
+            if (at) taken.push(at);
             return {
                 d: path_of(strokes),
                 colour: colour_text(palette_colour(0.1 + 0.85 * share)),
                 words: `${round_number(level)} lx`,
-                at: label_place(strokes, size),
+                at,
                 outdated: this.outdated !== "",
             };
         });

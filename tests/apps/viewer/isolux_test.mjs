@@ -232,8 +232,16 @@ test("a label stands on the longest stroke, where it is long enough", () => {
             [100, 50],
             [200, 50],
         ];
-    assert.deepEqual(label_place([short, long], kScreen), [100, 50]);
-    assert.equal(label_place([short], kScreen), null);
+    assert.deepEqual(label_place([short, long], kScreen, []), [100, 50]);
+    assert.deepEqual(label_place([short, long], kScreen, [[90, 45]]), [10, 50]);
+    assert.equal(
+        label_place([short, long], kScreen, [
+            [60, 45],
+            [180, 55],
+        ]),
+        null,
+    );
+    assert.equal(label_place([short], kScreen, []), null);
     assert.equal(path_of([short, long]), "M10.0 10.0L40.0 10.0M10.0 50.0L100.0 50.0L200.0 50.0");
 });
 
