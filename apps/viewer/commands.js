@@ -241,6 +241,9 @@ function listen_for_buttons(commands) {
     };
     for (const [id, act] of Object.entries(buttons))
         by_id(id).addEventListener("click", () => act());
+    by_id("isolux-height").addEventListener("keydown", (event) => {
+        if (event.key === "Enter") isolux.above_floor();
+    });
     by_id("views-file").addEventListener("change", (event) => {
         if (event.target.files[0]) commands.open_views(event.target.files[0]);
         event.target.value = "";

@@ -41,7 +41,7 @@ export const isolux_steps = (prank, npm) => ({
         await page.click("#isolux-floor");
         await page.waitForSelector("text=The height must be a number");
         await page.fill("#isolux-height", "0,75");
-        await page.click("#isolux-floor");
+        await page.keyboard.press("Enter");
         await until(page, () =>
             document.querySelector("#isolux-text").textContent.includes("Coarse"),
         );
