@@ -1,5 +1,6 @@
 // The camera of now: draws what the eye sees at each refresh of the screen from the frames that have come.
 import { Reprojection } from "./reprojection.js";
+import { Sight } from "./sight.js";
 import { can_warp, is_picture_of } from "./warp.js";
 
 export class Camera {
@@ -14,6 +15,7 @@ export class Camera {
         this.picture_ = picture;
         this.view_ = null; // of the newest frame; null: it cannot be drawn from elsewhere
         this.depth_ = null;
+        this.sight_ = null; // of the newest frame, once somebody asks
         this.kept_ = true; // whether the newest frame is in the graphics memory
         this.reprojection_ = wanted ? started(canvas) : null;
         this.refines = this.available && (refine || !this.reprojection_.in_software); ///< see Reprojection.keep()
@@ -32,6 +34,13 @@ export class Camera {
         return this.view_ !== null && !this.reprojection_.lost;
     }
 
+    /** What the newest frame hides; null where its depth is not known. */
+    get sight() {
+        if (this.view_ === null) return null;
+        const { width, height } = this.picture_;
+        return (this.sight_ ??= new Sight(this.depth_, this.view_, width, height));
+    }
+
     /**
      * A frame is on the picture.
      * @param view   that it shows; null: not known
@@ -40,6 +49,7 @@ export class Camera {
     take(view, depth) {
         if (!this.available) return;
         if (depth !== undefined) this.depth_ = depth;
+        this.sight_ = null;
         const before = this.view_;
         this.view_ = this.depth_ && can_warp(view) ? view : null;
         if (this.view_ === null) return;

@@ -5,7 +5,7 @@ import { by_id } from "./dom.js";
 import { levelled, view_at_pick } from "./go_there.js";
 import { toggle_full_screen } from "./full_screen.js";
 import { notice } from "./notices.js";
-import { close_panel, toggle_help, toggle_panel, toggle_status } from "./panels.js";
+import { close_panel, is_open, toggle_help, toggle_panel, toggle_status } from "./panels.js";
 import { download, download_text, file_name, full_picture, picture_blob } from "./save.js";
 import { film_command } from "./path.js";
 import { listen_for_shortcuts } from "./shortcuts.js";
@@ -121,6 +121,13 @@ class Commands {
         if (wanted) notice("Drag over the area");
     }
 
+    /** Read the light at x, y (0..1 from the left and the bottom), or choose the surface there for isolux. */
+    point(x, y) {
+        if (!this.isolux.choosing) return this.measuring.pick_at(x, y);
+        this.isolux.choose_at(x, y);
+        if (!is_open("measure")) toggle_panel("measure");
+    }
+
     ask_glare() {
         if (!this.session.view) return;
         this.glare.view = this.present_view();
@@ -181,9 +188,22 @@ class Commands {
         download_text(measurement_table(probes, areas, settings), this.name_("csv"));
     }
 
-    /** Cancel one thing: the choice of an area, else the reading, else the open panel, else the display of glare. */
+    write_isolux() {
+        const time = new Date().toISOString().replace(/\.\d+/, "");
+        const settings = { scene: this.scene(), time };
+        download_text(this.isolux.table(settings), this.name_("isolux.csv"));
+    }
+
+    write_points() {
+        const name = this.name_("pts");
+        download_text(this.isolux.points(), name);
+        this.isolux.tell_command(name, this.scene());
+    }
+
+    /** Cancel one thing: the choice of an area or a surface, else the reading, else the open panel, else the display of glare. */
     escape() {
         if (this.area_wanted) this.want_area(false);
+        else if (this.isolux.choosing) this.isolux.choose(false);
         else if (!this.measuring.reading.close() && !close_panel()) this.glare.clear();
         this.picture.focus({ preventScroll: true });
     }
@@ -191,7 +211,7 @@ class Commands {
 
 /** What each button does, by its element id. */
 function listen_for_buttons(commands) {
-    const { measuring, glare } = commands;
+    const { measuring, isolux, glare } = commands;
     const buttons = {
         "save-view": () => commands.save_view(true),
         "go-home": () => commands.go(commands.home()),
@@ -205,6 +225,11 @@ function listen_for_buttons(commands) {
         "write-table": () => commands.write_table(),
         "write-table-too": () => commands.write_table(),
         "clear-table": () => measuring.measurements.clear(),
+        "isolux-surface": () => isolux.choose(!isolux.choosing),
+        "isolux-floor": () => isolux.above_floor(),
+        "write-isolux": () => commands.write_isolux(),
+        "write-points": () => commands.write_points(),
+        "clear-isolux": () => isolux.clear(),
         "write-png": () => commands.write_png(),
         "write-hdr": () => commands.write_hdr(),
         "ask-glare": () => commands.ask_glare(),
@@ -216,6 +241,9 @@ function listen_for_buttons(commands) {
     };
     for (const [id, act] of Object.entries(buttons))
         by_id(id).addEventListener("click", () => act());
+    by_id("isolux-height").addEventListener("keydown", (event) => {
+        if (event.key === "Enter") isolux.above_floor();
+    });
     by_id("views-file").addEventListener("change", (event) => {
         if (event.target.files[0]) commands.open_views(event.target.files[0]);
         event.target.value = "";
@@ -225,7 +253,7 @@ function listen_for_buttons(commands) {
 function keys_of(commands) {
     const { light, views, measuring } = commands;
     const drive = (act) => () => commands.session.driving && act();
-    const middle = () => measuring.pick_at(0.5, 0.5);
+    const middle = () => commands.point(0.5, 0.5);
     const keys = {
         "?": toggle_help,
         h: () => commands.go(commands.home()),
@@ -239,6 +267,7 @@ function keys_of(commands) {
         o: () => commands.path.toggle_play(),
         p: () => measuring.reading.pin(),
         r: () => commands.want_area(!commands.area_wanted),
+        c: () => commands.isolux.choose(!commands.isolux.choosing),
         f: drive(() => light.toggle_false()),
         x: drive(() => light.toggle_auto()),
         "-": drive(() => light.step_exposure(-1)),

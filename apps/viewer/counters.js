@@ -12,6 +12,7 @@ export function make_counters(session, navigator, camera, decoder) {
         last_mean: null,
         last_glare: null,
         last_probes: null,
+        last_isolux: null,
         state: {}, ///< the server's newest `state` message
         errors: [],
         scene: "",

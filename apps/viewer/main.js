@@ -5,6 +5,7 @@ import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
 import { Glare } from "./glare.js";
 import { Input } from "./input.js";
+import { IsoluxPanel } from "./isolux_panel.js";
 import { show_legend } from "./legend.js";
 import { LightPanel } from "./light_panel.js";
 import { Measuring } from "./measuring.js";
@@ -55,6 +56,7 @@ const session = new Session(session_id(), camera.available, screen, {
     probes: (message) => measuring.probes(message),
     role: (message) => roles.update(message),
     loading: ({ text, share }) => {
+        isolux.outdate("the scene is read again");
         show_failures([]);
         cover(text || "Reading the scene…", share);
     },
@@ -64,6 +66,10 @@ const session = new Session(session_id(), camera.available, screen, {
         glare.answer(message);
     },
     plan: (message) => plan.answer(message),
+    isolux: (message) => {
+        counters.last_isolux = message;
+        isolux.answer(message);
+    },
     state: server_state,
     view: (message) => {
         session.watch(message);
@@ -73,7 +79,7 @@ const session = new Session(session_id(), camera.available, screen, {
         if (!session.driving) take_display(message);
     },
     refused: ({ text, id, view }) => {
-        if (id !== undefined && plan.refused(id)) return;
+        if (id !== undefined && (plan.refused(id) || isolux.refused(id))) return;
         if (view !== undefined) view_refused();
         counters.errors.push(text);
         notice(text, true);
@@ -85,6 +91,14 @@ const overlay = new Overlay(by_id("overlay"));
 const measuring = new Measuring(session, counters, redraw);
 const { measurements, reading } = measuring;
 const glare = new Glare({ changed: redraw });
+const isolux = new IsoluxPanel({
+    ask: (question) => session.ask("isolux", question),
+    pick: (x, y, then) => measuring.point_at(x, y, then),
+    eye: present_eye,
+    ready: () => welcomed && counters.ready,
+    sight: () => camera.sight,
+    changed: redraw,
+});
 const light = new LightPanel({
     display: (display) => {
         display_number = (display_number + 1) & 255;
@@ -123,6 +137,7 @@ const commands = start_commands({
     views,
     path,
     measuring,
+    isolux,
     glare,
     picture,
     painted: () => (draw_camera() ? by_id("camera") : picture),
@@ -133,7 +148,7 @@ const address = new AddressBar(session, navigator, (view) => commands.go(view, f
 commands.chosen = () => address.choose();
 new Input(picture, navigator, new StickMark(by_id("stick")), {
     double_click: (x, y) => commands.go_to_point(x / innerWidth, 1 - y / innerHeight),
-    click: (x, y) => measuring.pick_at(x / innerWidth, 1 - y / innerHeight),
+    click: (x, y) => commands.point(x / innerWidth, 1 - y / innerHeight),
     area_begin: (x, y) => measuring.area_begin(x, y),
     area_move: (x, y) => measuring.area_move(x, y),
     area_end: (x, y, meant) => {
@@ -168,6 +183,7 @@ function redraw() {
         reading: reading.pick,
         drag: measuring.drag,
         sources: glare.sources,
+        contours: isolux.marks(session.shown),
     });
     reading.follow(session.shown);
     under.show();
@@ -200,6 +216,7 @@ function open_scene(name) {
     document.title = `${short} – Lightwalk`;
     views.restore(scene_item(name, "views", []));
     path.restore(scene_item(name, "path", []));
+    isolux.clear();
     measuring.open_scene(name);
 }
 
@@ -254,6 +271,7 @@ function lost(reason, wait) {
     welcomed = false;
     roles.lost();
     plan.forget();
+    isolux.outdate("the connection is lost");
     counters.ready = false;
     const words =
         reason ||
@@ -370,6 +388,7 @@ function refresh() {
     if (draw_camera()) session.latency.shown(session.view_id, now);
     if (drew || camera.draws) redraw();
     if (welcomed && counters.ready) plan.refresh(now);
+    isolux.refresh(now);
 }
 
 start_panels();

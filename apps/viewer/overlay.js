@@ -12,11 +12,15 @@ export class Overlay {
      * Draw all marks for the view that the screen shows.
      * @param view   nothing when it is not known: then only marks that are given in the picture's plane are drawn
      * @param marks  {probes, areas, reading, drag, sources}: see measurements.js, reading.js;
-     *     drag: [x0, y0, x1, y1] in CSS pixels; sources: of glare, outlines in shares of the picture
+     *     drag: [x0, y0, x1, y1] in CSS pixels; sources: of glare, outlines in shares of the picture;
+     *     contours: as IsoluxPanel.marks() returns them
      */
-    draw(view, { probes, areas, reading, drag, sources }) {
+    draw(view, { probes, areas, reading, drag, sources, contours }) {
         this.pixels_ = (x, y) => [x * innerWidth, (1 - y) * innerHeight];
         const shapes = sources.flatMap((source) => this.source_(source));
+        // Labels lie over all lines.
+        shapes.push(...contours.flatMap((contour) => this.contour_(contour)));
+        shapes.push(...contours.flatMap((contour) => this.level_(contour)));
         if (view) {
             for (const area of areas)
                 if (same_picture(area.view, view)) shapes.push(...this.area_(area));
@@ -63,6 +67,17 @@ export class Overlay {
         // The label is above the box, or inside where it would leave the window.
         const line = y > 24 ? y - 9 : y + 14;
         return words ? [box, shape("text", { x: x + 2, y: line }, words)] : [box];
+    }
+
+    contour_({ d, colour, outdated }) {
+        const line = { d, class: outdated ? "contour outdated" : "contour", stroke: colour };
+        return [shape("path", { d, class: "halo thin" }), shape("path", line)];
+    }
+
+    level_({ words, at }) {
+        if (!at) return [];
+        const place = { x: at[0], y: at[1], "text-anchor": "middle" };
+        return [shape("text", { ...place, "dominant-baseline": "central" }, words)];
     }
 
     source_({ outline, luminance }) {

@@ -26,7 +26,7 @@ export function path_problem(keys) {
 }
 
 /** A file's name as a shell takes it. */
-function quoted(name) {
+export function quoted(name) {
     if (/^[\w./+:@%][\w./+:@%-]*$/.test(name)) return name;
     return `'${name.replaceAll("'", "'\\''")}'`;
 }

@@ -77,6 +77,12 @@ function area_row(area) {
     };
 }
 
+/** A table (CSV): its columns' names, and the rows, objects of these names. */
+export function table_text(columns, rows) {
+    const lines = rows.map((row) => columns.map((name) => cell(row[name])).join(","));
+    return [columns.join(","), ...lines].join("\r\n") + "\r\n";
+}
+
 /**
  * The table of all pins and means.
  * @param settings  {scene, ambient}: repeated in every row
@@ -84,9 +90,8 @@ function area_row(area) {
  */
 export function measurement_table(probes, areas, settings) {
     const rows = [...probes.map(probe_row), ...areas.map(area_row)];
-    const lines = rows.map((row) => {
-        const full = { ...row, ...settings };
-        return kColumns.map((name) => cell(full[name])).join(",");
-    });
-    return [kColumns.join(","), ...lines].join("\r\n") + "\r\n";
+    return table_text(
+        kColumns,
+        rows.map((row) => ({ ...row, ...settings })),
+    );
 }

@@ -105,19 +105,26 @@ function on_image(type, right, upward, forward) {
     }
 }
 
+/** A function that does what locate() does, for many points of one view. */
+export function locator(view) {
+    const { forward, right, upward } = axes_of(view);
+    const across = extent_of(view.type, view.horizontal, false),
+        along = extent_of(view.type, view.vertical, true);
+    return (point) => {
+        const d = subtract(point, view.position);
+        const image = on_image(view.type, dot(d, right), dot(d, upward), dot(d, forward));
+        const x = image.x / across + 0.5 - (view.shift || 0);
+        const y = image.y / along + 0.5 - (view.lift || 0);
+        const visible = image.in_front && x > 0 && x < 1 && y > 0 && y < 1;
+        return { x, y, distance: length(d), visible };
+    };
+}
+
 /**
  * Where a point appears: x, y in 0..1 from the left and the bottom of the picture, its distance
  * from the eye [m], and whether it lies within the picture (whether something hides it is not known here).
  */
-export function locate(view, point) {
-    const { forward, right, upward } = axes_of(view);
-    const d = subtract(point, view.position);
-    const image = on_image(view.type, dot(d, right), dot(d, upward), dot(d, forward));
-    const x = image.x / extent_of(view.type, view.horizontal, false) + 0.5 - (view.shift || 0);
-    const y = image.y / extent_of(view.type, view.vertical, true) + 0.5 - (view.lift || 0);
-    const visible = image.in_front && x > 0 && x < 1 && y > 0 && y < 1;
-    return { x, y, distance: length(d), visible };
-}
+export const locate = (view, point) => locator(view)(point);
 
 /** How far a drag across the whole width of the picture turns the eye [rad]. */
 export function angle_across(view) {

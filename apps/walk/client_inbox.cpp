@@ -129,6 +129,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           [&](const PlanRequest& plan) {
                               ask({client, plan});
                           },
+                          [&](const IsoluxRequest& isolux) {
+                              ask({client, isolux});
+                          },
                           [&](const TakeRequest&) {
                               change_roles(client, driver_lock_.acquire(client),
                                            "somebody else drives");

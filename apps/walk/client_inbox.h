@@ -26,7 +26,7 @@ struct WalkWish {
 /// What one client asks.
 struct WalkQuestion {
     ClientId client;
-    std::variant<PickRequest, MeanRequest, GlareRequest, PlanRequest> ask;
+    std::variant<PickRequest, MeanRequest, GlareRequest, PlanRequest, IsoluxRequest> ask;
     [[nodiscard]] std::uint32_t id() const {
         return std::visit([](const auto& request) { return request.id; }, ask);
     }

@@ -60,6 +60,7 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       live_(frames, options_.edge_samples),
       answers_(session.tracer(), warnings),
       glare_(session.tracer(), executor, warnings),
+      isolux_(session.tracer(), executor, warnings),
       survey_(session.scene(), session.tracer().options().back_faces_visible),
       task_runner_(executor),
       eye_height_(eye_height_of(session.scene(), home)) {}
@@ -78,12 +79,14 @@ void RenderLoop::step(const StopFlag& stop) {
     if (shows && hurries) note_pace(begin);
     report(now);
     draw_plan();
+    if (!hurries) measure_planes(stop);
     if (!wish_.probes.empty() && !hurries && now - measured_at_ >= kProbeInterval) measure_probes();
 }
 
 std::chrono::milliseconds RenderLoop::patience() const {
     if (!wish_.view) return kIdle;
-    if (has_work() || !plan_questions_.empty()) return std::chrono::milliseconds(0);
+    if (has_work() || !plan_questions_.empty() || isolux_.is_asked())
+        return std::chrono::milliseconds(0);
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
         std::min(screen_.next_chance(), Clock::now() + kIdle) - Clock::now());
     return std::max(left, std::chrono::milliseconds(1));
@@ -131,6 +134,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     if (!view_ || live_.picture().radiance.empty())
         return client_inbox_.refuse(inbox, "there is no picture yet");
     for (const WalkQuestion& question : inbox.questions) reply(question);
+    for (const ClientId client : inbox.left) isolux_.forget(client);
     for (const WebReply& file : inbox.saves) save(file);
 }
 
@@ -257,6 +261,9 @@ void RenderLoop::reply(const WalkQuestion& question) {
                    [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); },
                    [&](const PlanRequest& plan) {
                        plan_questions_.insert_or_assign(question.client, plan.id);
+                   },
+                   [&](const IsoluxRequest& isolux) {
+                       isolux_.ask(question.client, isolux, eye_height_);
                    }},
         question.ask);
 }
@@ -271,6 +278,12 @@ void RenderLoop::draw_plan() {
         reply.id = id;
         client_inbox_.tell(client, walk_text(reply));
     }
+}
+
+/// Beside pictures that become better; while the eye moves all time is for its frames.
+void RenderLoop::measure_planes(const StopFlag& stop) {
+    constexpr double kBesidePictures = 0.04;  // [s]
+    isolux_.step(has_work() ? kBesidePictures : kAtRest, stop, client_inbox_);
 }
 
 void RenderLoop::save(const WebReply& reply) {

@@ -11,6 +11,7 @@
 #include "apps/walk/client_inbox.h"
 #include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
+#include "apps/walk/walk_isolux.h"
 #include "apps/walk/walk_screen.h"
 #include "core/cloud/moving_size.h"
 #include "core/plan/floor_plan.h"
@@ -61,6 +62,7 @@ class RenderLoop {
     void save(const WebReply& reply);
     void measure_probes();
     void draw_plan();
+    void measure_planes(const StopFlag& stop);
     void draw(const StopFlag& stop);
     void note_size(Size size, double budget);
     void show(Clock::time_point now);
@@ -86,6 +88,7 @@ class RenderLoop {
     LiveWalk live_;
     WalkAnswers answers_;
     WalkGlare glare_;
+    WalkIsolux isolux_;
     PlanSurvey survey_;
     ExecutorTaskRunner task_runner_;
     std::map<ClientId, std::uint32_t> plan_questions_;  ///< the newest of each

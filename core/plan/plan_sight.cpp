@@ -41,6 +41,18 @@ void PlanSight::follow(const Vec3& from, const Vec3& along, double length, doubl
     }
 }
 
+Hit PlanSight::first(const Vec3& from, const Vec3& along, double length) const {
+    Hit hit;
+    double passed = 0;
+    for (int k = 0; k <= kMostUnseen; ++k) {
+        hit = scene_.geometry().intersect({from + passed * along, along, length - passed});
+        if (!hit.exists()) break;
+        hit.t = passed += hit.t;
+        if (look_of(hit) != PlanLook::absent) break;
+    }
+    return hit;
+}
+
 void PlanSight::look_down(std::span<const Vec3> places, std::span<Hit> hits) const {
     std::vector<RaySegment> rays;
     rays.reserve(places.size());

@@ -1,5 +1,5 @@
 #pragma once
-// What the rays of a plan meet: surfaces that the eye sees.
+// What the rays of a plan, or of a grid of measuring points, meet: surfaces that the eye sees.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +36,10 @@ class PlanSight {
     /// @param along  unit
     void follow(const Vec3& from, const Vec3& along, double length, double apart,
                 FunctionRef<void(const PlanCrossing&)> take) const;
+    /// The first thing that can be seen along a line; exists() is false where nothing is within
+    /// `length`.
+    /// @param along  unit
+    [[nodiscard]] Hit first(const Vec3& from, const Vec3& along, double length) const;
     /// The first thing that can be seen straight below each of some places; hits[i].exists() is
     /// false where there is nothing.
     void look_down(std::span<const Vec3> places, std::span<Hit> hits) const;

@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -199,6 +200,23 @@ std::string walk_text(const PlanReply& reply) {
                     {"cell", reply.cell},
                     {"z", reply.z},
                     {"cells", reply.cells}});
+}
+
+std::string walk_text(const IsoluxReply& reply) {
+    Json object{{"type", "isolux"}, {"id", reply.id}, {"done", reply.done}};
+    object["columns"] = reply.columns;
+    object["rows"] = reply.rows;
+    if (reply.columns == 0) return text_of(object);
+    object["origin"] = to_json(reply.origin);
+    object["across"] = to_json(reply.across);
+    object["along"] = to_json(reply.along);
+    object["normal"] = to_json(reply.normal);
+    std::string bytes;
+    for (const float value : reply.values)
+        for (unsigned shift = 0; shift < 32; shift += 8)
+            bytes += static_cast<char>(std::bit_cast<std::uint32_t>(value) >> shift & 255);
+    object["values"] = base64(bytes);
+    return text_of(object);
 }
 
 std::string walk_text(const StateReply& reply) {

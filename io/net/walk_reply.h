@@ -92,6 +92,15 @@ struct PlanReply {
     double z = 0;                 ///< of the section [m]
     std::string cells;            ///< see plan_reply
 };
+struct IsoluxReply {
+    std::uint32_t id = 0;
+    double done = 0;                 ///< progress, 0 to 1
+    int columns = 0, rows = 0;       ///< 0: no values yet, or where it is done no such plane
+    Vec3 origin = {};                ///< the first point [m]
+    Vec3 across = {}, along = {};    ///< to the next point of a row, and to the next row [m]
+    Vec3 normal = {};                ///< unit, on the side where light is measured
+    std::vector<float> values = {};  ///< by rows [lx]; not finite: the point does not count
+};
 /// The answer but for its number: the plan's cells as bytes, in a zlib stream (RFC 1950), in
 /// base64. Throws std::bad_alloc where zlib finds no memory.
 [[nodiscard]] PlanReply plan_reply(const FloorPlan& plan);
@@ -136,6 +145,7 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const ProbesReply& reply);
 [[nodiscard]] std::string walk_text(const GlareReply& reply);
 [[nodiscard]] std::string walk_text(const PlanReply& reply);
+[[nodiscard]] std::string walk_text(const IsoluxReply& reply);
 [[nodiscard]] std::string walk_text(const StateReply& reply);
 [[nodiscard]] std::string walk_text(const ViewReply& reply);
 [[nodiscard]] std::string walk_text(const DisplayReply& reply);

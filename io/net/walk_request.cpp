@@ -207,14 +207,30 @@ MeanRequest read_rectangle(const Json& object) {
     return request;
 }
 
+/// A unit vector.
+Vec3 read_normal(const Json& object) {
+    const Vec3 normal = vector(object, "normal");
+    if (!(length(normal) > kShortestNormal)) refuse("normal", "a direction");
+    return normalize(normal);
+}
+
 ProbesRequest read_probes(const Json& object) {
     ProbesRequest request;
     for (const Json& probe : list(object, "probes", 0, kMostProbes)) {
-        ProbePlace place{identity(probe, "id"), vector(probe, "position"), vector(probe, "normal")};
-        if (!(length(place.normal) > kShortestNormal)) refuse("normal", "a direction");
-        place.normal = normalize(place.normal);
-        request.probes.push_back(place);
+        request.probes.push_back(
+            {identity(probe, "id"), vector(probe, "position"), read_normal(probe)});
     }
+    return request;
+}
+
+IsoluxRequest read_isolux(const Json& object) {
+    IsoluxRequest request{identity(object, "id"), vector(object, "position"), std::nullopt, 0};
+    if (!object.contains("height"))
+        request.normal = read_normal(object);
+    else if (object.contains("normal"))
+        refuse("height", "no normal beside it");
+    else
+        request.height = number(object, 0, kFarthest, "height");
     return request;
 }
 
@@ -247,6 +263,7 @@ WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit) {
     if (type == "probes") return read_probes(object);
     if (type == "glare") return GlareRequest{identity(object, "id")};
     if (type == "plan") return PlanRequest{identity(object, "id")};
+    if (type == "isolux") return read_isolux(object);
     if (type == "take") return TakeRequest{};
     if (type == "hand") return HandRequest{identity(object, "to")};
     throw InputError("unknown type of message \"" + type.substr(0, 32) + "\"");

@@ -76,6 +76,13 @@ struct GlareRequest {
 struct PlanRequest {
     std::uint32_t id = 0;
 };
+/// `isolux`: the illuminances on a plane.
+struct IsoluxRequest {
+    std::uint32_t id = 0;
+    Vec3 position;               ///< on a surface, or of an eye [m]
+    std::optional<Vec3> normal;  ///< unit, of that surface; nothing: a level plane below the eye
+    double height = 0;           ///< of that plane above the floor, not negative [m]
+};
 /// `take`: a watcher asks to drive.
 struct TakeRequest {};
 /// `hand`: the driver makes another client the driver.
@@ -83,9 +90,10 @@ struct HandRequest {
     std::uint32_t to = 0;  ///< a client's number
 };
 
-using WalkRequest = std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest,
-                                 SettingsRequest, PickRequest, MeanRequest, ProbesRequest,
-                                 GlareRequest, PlanRequest, TakeRequest, HandRequest>;
+using WalkRequest =
+    std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
+                 PickRequest, MeanRequest, ProbesRequest, GlareRequest, PlanRequest, IsoluxRequest,
+                 TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {

@@ -42,7 +42,19 @@ def page(node, program, npm, pictures):
         # The panel glows with 2 W/(m2 sr), and is the middle of the picture's right half.
         status = subprocess.run([node, VIEWER / "walk_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
                                  "--luminance", "358", "--at", "0.67,0.52"]).returncode
-        return status or animate(program, server.scene, pathlib.Path(pictures) / "path.vf")
+        files = pathlib.Path(pictures)
+        return status or animate(program, server.scene, files / "path.vf") or isolux(program, server.scene, files)
+
+
+def isolux(program, scene, files):
+    """Trace the points that the page has saved, and compare with its table."""
+    told = [float(line.split(",")[3]) for line in (files / "isolux.csv").read_text().splitlines()[1:]]
+    options = "-h -I -dt .05 -dc .5 -ds .25 -dr 1"  # the walk's
+    traced = subprocess.run([program, "trace", *options.split(), scene], input=(files / "isolux.pts").read_text(), capture_output=True, text=True, check=True).stdout
+    lux = [179 * (0.265 * r + 0.670 * g + 0.065 * b) for r, g, b in (map(float, line.split()) for line in traced.splitlines())]
+    print(f"isolux: the page's table has {len(told)} illuminances, their mean is {sum(told) / len(told):.2f} lx; traced {sum(lux) / len(lux):.2f} lx")
+    near = len(told) == len(lux) and all(abs(a - b) < 1e-3 * max(lux) for a, b in zip(told, lux))
+    return 0 if near and max(lux) > 0 else 1
 
 
 def animate(program, scene, path):

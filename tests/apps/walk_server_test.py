@@ -3,7 +3,7 @@
 
     walk_server_test.py PROGRAM [rest|light|roles|mended|rad_file|returning|slow|abuse|ranks ...]
 """
-import base64, os, pathlib, random, shutil, signal, socket, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
+import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "perf"))
@@ -151,6 +151,29 @@ def light(program):
         client.socket.send({"type": "glare", "id": client.ident})
         glare = client.told("glare", id=client.ident, done=1)
         assert 0 <= glare["dgp"] <= 1, glare
+        isolux_as_traced(program, server, client)
+
+
+def isolux_as_traced(program, server, client):
+    """The illuminances on a level plane are those that `trace -I` computes at its points."""
+    client.ident += 1
+    client.socket.send({"type": "isolux", "id": client.ident, "position": [0, -4, 1.5], "height": 0.75})
+    grid = client.told("isolux", id=client.ident, done=1)
+    columns, rows = grid["columns"], grid["rows"]
+    assert 30 <= columns <= 35 and rows == 48 and grid["normal"] == [0, 0, 1], grid
+    values = struct.unpack(f"<{columns * rows}f", base64.b64decode(grid["values"]))
+    place = lambda k: [o + k % columns * a + k // columns * b for o, a, b in zip(grid["origin"], grid["across"], grid["along"])]  # noqa: E731
+    points = {k: place(k) for k, lux in enumerate(values) if lux == lux}
+    for k in range(columns * rows):  # what is over the floor counts, but for what is within the ball
+        x, y, _ = place(k)
+        assert (k in points) == (abs(x) < 4 and abs(y) < 6 and math.dist(place(k), (-1, 2, 0.7)) > 0.7), place(k)
+    sensors = "".join(f"{x} {y} {z} 0 0 1\n" for x, y, z in points.values())
+    options = "-dt .05 -dc .5 -ds .25 -dr 1"  # those that walk has, as rpict, and trace has not, as rtrace
+    traced = subprocess.run([program, "trace", "-h", "-I", *options.split(), server.scene], input=sensors, capture_output=True, text=True, check=True).stdout
+    lux = [179 * (0.265106 * r + 0.670106 * g + 0.064788 * b) for r, g, b in (map(float, line.split()) for line in traced.splitlines())]
+    mean = sum(lux) / len(lux)
+    worst = max(abs(values[k] - wanted) for k, wanted in zip(points, lux))
+    assert worst < 1e-4 * mean, (worst, mean)
 
 
 def roles(program):
@@ -290,6 +313,9 @@ def ranks(program):
     with Server(program, ["--variant", "ranks"], launcher=[*mpirun, "3"]) as server:
         client = Client(server.port)
         client.enter()
+        client.ident += 1
+        client.socket.send({"type": "isolux", "id": client.ident, "position": VIEW["position"], "height": 0.75})
+        assert client.told("isolux", id=client.ident, done=1)["columns"] > 0
         children = pathlib.Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children").read_text().split()
         os.kill(int(children[-1]), signal.SIGKILL)
         try:

@@ -120,6 +120,7 @@ const std::string kDisplayRequest =
 const std::string kProbesRequest =
     R"({"type":"probes","probes":[{"id":1,"position":[1,2,3],"normal":[0,0,2]},)"
     R"({"id":2,"position":[-1,0,0],"normal":[1,0,0]}]})";
+const std::string kIsoluxRequest = R"({"type":"isolux","id":7,"position":[1,2,0.5],"height":0.75})";
 
 /// Big-endian integer of n bytes.
 std::string integer(std::int64_t value, int n) {
@@ -287,7 +288,8 @@ std::span<const std::string> seeds_of(FuzzTarget target) {
     if (target == read_scene_text) return scenes;
     if (target == read_octree) return octrees;
     if (target == read_function_file) return functions;
-    static const std::vector<std::string> requests{kViewRequest, kDisplayRequest, kProbesRequest};
+    static const std::vector<std::string> requests{kViewRequest, kDisplayRequest, kProbesRequest,
+                                                   kIsoluxRequest};
     static const std::vector<std::string> bsdfs{
         matrix_text("1 2 3\n.4,.5,.6\n7 8 9"), matrix_text("1 2 3 4 5 6 7 8 9", "Rows"),
         tree_text("{ {1} {2} {3} {4} {.5} {6} {7} { 1 2 3 4 5 6 7 8 } }"),

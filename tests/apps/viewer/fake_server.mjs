@@ -20,6 +20,7 @@ import {
     strip_piece,
 } from "./fake_frames.mjs";
 import { plan_message } from "./fake_plan.mjs";
+import { isolux_messages } from "./fake_isolux.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
 
 const { values: args } = parseArgs({
@@ -76,7 +77,8 @@ let probes = [];
 let failing = false,
     dumb = false, // no frames
     guest = null, // a client that is not there
-    plans = 0; // how many were asked for
+    plans = 0, // how many were asked for
+    brightness = 1; // of the planes that are asked about: a scene that is read again is twice as bright
 let wish = null,
     version = 0; // what is to be drawn, and how often it has changed
 const clients = new Map(); // socket -> {id, drawn, strip, busy, frame, session}
@@ -161,6 +163,17 @@ function answer(socket, message) {
         plan: () => {
             ++plans;
             tell(socket, planned(message));
+        },
+        isolux: () => {
+            if (!wish)
+                return tell(socket, {
+                    type: "refused",
+                    text: "there is no picture yet",
+                    id: message.id,
+                });
+            isolux_messages(message, brightness).forEach((part, k) =>
+                setTimeout(() => tell(socket, part), 250 * k),
+            );
         },
         take: () =>
             driver === null
@@ -315,6 +328,7 @@ const pranks = {
         ),
     reload: () => {
         failing = false;
+        brightness *= 2;
         tell_all({ type: "loading", text: "Reading room.rad again", share: 0.4 });
         setTimeout(() => tell_all({ type: "loaded", views: kViews, eye_height: kEyeHeight }), 300);
     },

@@ -5,8 +5,8 @@
 //
 // Loads, waits for the first picture, turns, walks, clicks a surface of known luminance L [cd/m2] at
 // X,Y (0..1 from the left and the bottom, seen from view N of the scene) and reads it within 2 %,
-// switches false colour, saves a view, reloads and returns to it, records a path to path.vf, and opens the plan. A screenshot of each
-// step, and the path, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
+// switches false colour, saves a view, reloads and returns to it, records a path to path.vf, opens the plan, and saves the isolux of the floor as isolux.csv and
+// isolux.pts. A screenshot of each step, and these files, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -232,6 +232,29 @@ const steps = {
         });
         assert.ok(inks > 1, "the plan is empty");
         assert.match(await page.getAttribute("#plan", "aria-label"), /^The eye is .* facing /);
+    },
+
+    async "isolux on the floor, and their files"(page) {
+        await page.focus("#picture");
+        await page.keyboard.press("h");
+        await page.waitForTimeout(200);
+        await settled(page);
+        await page.keyboard.press("m");
+        await page.click("#isolux-surface");
+        await page.mouse.click(0.3 * width, 0.85 * height);
+        await page.waitForFunction(() => window.lightwalk.last_isolux?.done === 1, null, {
+            timeout: kPatience,
+        });
+        await page.waitForSelector("#overlay .contour", { state: "attached" });
+        assert.match(await page.textContent("#isolux-text"), /Final\.$/);
+        assert.match(await page.textContent("#isolux-figures"), /Mean[\d. \u202f]+ lx/);
+        for (const [button, name] of [
+            ["#write-isolux", "isolux.csv"],
+            ["#write-points", "isolux.pts"],
+        ]) {
+            const [file] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+            await file.saveAs(path.join(args.pictures, name));
+        }
     },
 };
 

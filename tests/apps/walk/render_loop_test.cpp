@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -192,6 +193,78 @@ TEST_CASE(
     CHECK((flags & 4) != 0);  // the picture was done, and still is
     ask(kDriver, 5);
     CHECK(steps_until(kDriver, 5) == 1);
+}
+
+TEST_CASE(
+    "render loop: illuminances of planes are measured beside the frames, for each client the "
+    "newest one") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    const auto ask = [&](ClientId client, int id, const std::string& plane) {
+        walk.inbox.message(client, R"({"type":"isolux","id":)" + std::to_string(id) +
+                                       R"(,"position":[0,-4,1.5],)" + plane + "}");
+    };
+    const std::string level = R"("height":0.75)", in_air = R"("normal":[0,0,1])";
+    const auto told = [&](ClientId client, int id) {
+        std::vector<nlohmann::json> messages;
+        for (const std::string& text : walk.clients.texts[client]) {
+            const auto message = nlohmann::json::parse(text);
+            if (message["type"] == "isolux" && message["id"] == id) messages.push_back(message);
+        }
+        return messages;
+    };
+    const auto steps_until_done = [&](ClientId client, int id) {
+        for (int i = 1; i < 1000; ++i) {
+            walk.loop->step(walk.stop);
+            const auto messages = told(client, id);
+            if (!messages.empty() && messages.back()["done"] == 1) return i;
+        }
+        FAIL("no isolux comes");
+        return 0;
+    };
+    ask(kWatcher, 1, level);
+    walk.loop->step(walk.stop);
+    CHECK(walk.clients.got(kWatcher, "refused", "there is no picture yet"));
+    walk.inbox.message(kDriver, view_message(1, 0.25));
+    walk.rest();
+    for (int id = 2; id < 50; ++id) ask(kWatcher, id, level);
+    ask(kDriver, 60, in_air);
+    ask(kWatcher, 61, level);
+    CHECK(steps_until_done(kWatcher, 61) > 3);  // a part of it beside each frame
+    CHECK_FALSE(walk.clients.got(kWatcher, "isolux", "\"id\":49,"));
+    const auto messages = told(kWatcher, 61);
+    CHECK(messages.back()["columns"].get<int>() >= 31);
+    CHECK(messages.back()["rows"] == 48);
+    const auto nothing = told(kDriver, 60);
+    REQUIRE(nothing.size() == 1);
+    CHECK(nothing.back()["columns"] == 0);
+    // Who has left is not answered.
+    ask(kWatcher, 70, level);
+    walk.inbox.closed(kWatcher);
+    for (int i = 0; i < 5; ++i) walk.loop->step(walk.stop);
+    CHECK(told(kWatcher, 70).empty());
+}
+
+TEST_CASE("render loop: while the eye moves all time is for its frames") {
+    const LoadedScene scene(room());
+    Walk walk(scene);
+    walk.inbox.message(kDriver, view_message(1, 0));
+    walk.rest();
+    walk.inbox.message(kDriver, R"({"type":"isolux","id":5,"position":[0,-4,1.5],"height":0.75})");
+    for (int i = 0; i < 20; ++i) {
+        std::string view = view_message(2 + i, 0.01 * i);
+        view.replace(view.find("\"moving\":false"), 14, "\"moving\":true");
+        walk.inbox.message(kDriver, view);
+        walk.loop->step(walk.stop);
+        walk.acknowledge(kDriver);
+    }
+    CHECK_FALSE(walk.clients.got(kDriver, "isolux"));
+    walk.inbox.message(kDriver, view_message(40, 0.3));
+    for (int i = 0; i < 100 && !walk.clients.got(kDriver, "isolux", "\"columns\":3"); ++i) {
+        walk.loop->step(walk.stop);
+        walk.acknowledge(kDriver);
+    }
+    CHECK(walk.clients.got(kDriver, "isolux", "\"columns\":3"));
 }
 
 TEST_CASE("render loop: a view that moves is shown at once, and the eye walks on the ground") {

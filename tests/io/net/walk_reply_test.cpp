@@ -134,6 +134,27 @@ TEST_CASE("walk reply: a plan's cells come back from base64 and zlib") {
     }
 }
 
+TEST_CASE("walk reply: illuminances come back from base64, also those that are none") {
+    IsoluxReply reply{3, 0.5, 2, 1, {1, 2, 0.75}, {0.5, 0, 0}, {0, 0.25, 0}, {0, 0, 1}};
+    reply.values = {123.25f, std::numeric_limits<float>::quiet_NaN()};
+    const json told = json::parse(walk_text(reply));
+    CHECK(told["type"] == "isolux");
+    CHECK(told["id"] == 3);
+    CHECK(told["done"] == 0.5);
+    CHECK(told["columns"] == 2);
+    CHECK(told["rows"] == 1);
+    CHECK(told["origin"] == json({1, 2, 0.75}));
+    CHECK(told["across"] == json({0.5, 0, 0}));
+    CHECK(told["along"] == json({0, 0.25, 0}));
+    CHECK(told["normal"] == json({0, 0, 1}));
+    const std::string bytes = from_base64(told["values"].get<std::string>());
+    REQUIRE(bytes.size() == 8);
+    CHECK(bytes.substr(0, 4) == std::string("\0\x80\xf6\x42", 4));  // IEEE 754, lowest byte first
+    CHECK((bytes[7] & 0x7f) == 0x7f);
+    CHECK(json::parse(walk_text(IsoluxReply{4, 1})) ==
+          json::parse(R"({"type": "isolux", "id": 4, "done": 1.0, "columns": 0, "rows": 0})"));
+}
+
 TEST_CASE("walk reply: names that are no UTF-8 and numbers that are none are still JSON") {
     PickedReply reply;
     reply.material = "wei\xdf \"quoted\"\n";

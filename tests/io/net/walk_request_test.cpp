@@ -37,10 +37,12 @@ const std::vector<std::string> kSound{
     R"({"type":"pick","id":3,"x":0.25,"y":1,"view":{"type":"v","position":[1,2,1.6],)"
     R"("direction":[0,1,0],"up":[0,0,1],"horizontal":60,"vertical":40.5}})",
     R"({"type":"plan","id":6})",
+    R"({"type":"isolux","id":7,"position":[1,2,0.5],"normal":[0,0,4]})",
+    R"({"type":"isolux","id":8,"position":[1,2,1.6],"height":0.75})",
 };
 
 /// Fields of these messages that need not be there.
-const std::map<std::size_t, std::string> kMayBeMissing{{11, "depth"}, {12, "view"}};
+const std::map<std::size_t, std::string> kMayBeMissing{{11, "depth"}, {12, "view"}, {15, "height"}};
 
 json sound(std::size_t k) {
     return json::parse(kSound[k]);
@@ -193,6 +195,27 @@ TEST_CASE("walk request: numbers beyond their range are refused, also where none
     CHECK(read<ProbesRequest>(
               {{"type", "probes"}, {"probes", std::vector<json>(64, sound(7)["probes"][0])}})
               .probes.size() == 64);
+}
+
+TEST_CASE("walk request: a plane is that of a surface, or lies above the floor") {
+    const auto surface = read<IsoluxRequest>(sound(14));
+    CHECK(surface.id == 7);
+    CHECK(surface.position == Vec3{1, 2, 0.5});
+    CHECK(surface.normal == Vec3{0, 0, 1});
+    const auto level = read<IsoluxRequest>(sound(15));
+    CHECK_FALSE(level.normal);
+    CHECK(level.height == 0.75);
+    CHECK(refusal(14, "/normal", {0, 0, 0}) == "\"normal\": expected a direction");
+    CHECK(refusal(14, "/normal", {0, 0, 1e30}) != "accepted");
+    CHECK(refusal(14, "/position/2", 1e10) != "accepted");
+    CHECK(refusal(14, "/height", 1) == "\"height\": expected no normal beside it");
+    for (const json& wrong : std::vector<json>{-0.001, 1e10, "1", true, nullptr}) {
+        CAPTURE(wrong.dump());
+        CHECK(refusal(15, "/height", wrong) != "accepted");
+    }
+    json none = sound(15);
+    none.erase("height");
+    CHECK(refusal(none.dump()) == "\"normal\" is missing");
 }
 
 TEST_CASE("walk request: words that are none of the known are refused") {
