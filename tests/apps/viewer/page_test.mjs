@@ -29,6 +29,7 @@ import {
     value,
 } from "./page_helpers.mjs";
 import { camera_steps } from "./page_camera.mjs";
+import { lamp_steps } from "./page_lamps.mjs";
 import { place_steps } from "./page_places.mjs";
 
 const { values: args } = parseArgs({
@@ -76,6 +77,7 @@ const steps = {
     ...camera_steps(),
     ...place_steps(address),
     ...colour_steps(address, prank),
+    ...lamp_steps(address),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);
