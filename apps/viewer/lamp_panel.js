@@ -14,6 +14,8 @@ export class LampPanel {
         this.on_ = on;
         this.lamps = []; ///< [{name, on, percent, kelvin}]
         this.presets = []; ///< [{name, lamps}]
+        this.touched = false; ///< whether this page has changed a lamp; else they are as the server says
+        this.told_ = []; // levels of the newest message
         this.waiting_ = false; // for the screen's next refresh, to send the newest state
         by_id("lamps-reset").addEventListener("click", () =>
             this.set_(this.lamps.map(({ name }) => as_built(name))),
@@ -31,10 +33,11 @@ export class LampPanel {
     /** The scene has these light groups; lamps of the same names stay as they are. */
     open(names = []) {
         const before = this.lamps;
-        this.lamps = names.map((name) =>
-            sound_lamp(name, before.find((lamp) => lamp.name === name) ?? {}),
-        );
-        for (const id of ["lamps-hint"]) by_id(id).hidden = names.length > 0;
+        const own = this.touched && this.on_.may_drive();
+        this.lamps = own
+            ? names.map((name) => sound_lamp(name, before.find((lamp) => lamp.name === name) ?? {}))
+            : lamps_of(names, this.told_);
+        by_id("lamps-hint").hidden = names.length > 0;
         by_id("lamps-tools").hidden = names.length === 0;
         this.show_();
     }
@@ -47,8 +50,9 @@ export class LampPanel {
         this.show_presets_("");
     }
 
-    /** Take what the driver has set; nothing is sent. */
+    /** Take what the driver has set, or this page before it was loaded anew; nothing is sent. */
     take({ levels }) {
+        this.told_ = levels ?? [];
         this.lamps = lamps_of(
             this.lamps.map(({ name }) => name),
             levels,
@@ -56,9 +60,9 @@ export class LampPanel {
         this.show_();
     }
 
-    /** Say the server how the lamps are. */
+    /** Say the server how the lamps are, if that is for this page to say. */
     tell() {
-        if (this.lamps.length > 0) this.on_.lights(lights_message(this.lamps));
+        if (this.touched && this.lamps.length > 0) this.on_.lights(lights_message(this.lamps));
     }
 
     /** Whether the page drives: who watches sees the dimmers, and cannot move them. */
@@ -78,6 +82,7 @@ export class LampPanel {
 
     /** One message a refresh of the screen at most. */
     send_() {
+        this.touched = true;
         this.on_.changed();
         if (this.waiting_) return;
         this.waiting_ = true;

@@ -74,7 +74,7 @@ const session = new Session(session_id(), camera.available, screen, {
         if (!session.driving) take_display(message);
     },
     lights: (message) => {
-        if (!session.driving) lamps.take(message);
+        if (!session.driving || !lamps.touched) lamps.take(message);
     },
     refused: ({ text, id, view }) => {
         if (id !== undefined && plan.refused(id)) return;

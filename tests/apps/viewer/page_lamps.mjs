@@ -33,6 +33,7 @@ async function set_lamps(page) {
 
 export const lamp_steps = (address) => ({
     async "lamps are dimmed by pointer, keys and numbers, and coloured"(page) {
+        await page.waitForSelector("#dock [data-panel=lamps]"); // once the scene is loaded
         await page.focus("#picture");
         await page.keyboard.press("u");
         await page.waitForSelector("#panel-lamps:not([hidden])");
@@ -65,6 +66,14 @@ export const lamp_steps = (address) => ({
         await page.reload();
         await until(page, () => window.lightwalk?.frames > 0 && window.lightwalk.driving);
         await open_lamps(page);
+        await page.fill(lamp(2, ".percent"), "70");
+        await page.press(lamp(2, ".percent"), "Enter");
+        await until_told(address, ([one]) => one?.name === "sky" && one.level === 0.7);
+        await page.reload(); // what was dimmed stays so
+        await until(page, () => window.lightwalk?.frames > 0 && window.lightwalk.driving);
+        await open_lamps(page);
+        assert.equal(await page.inputValue(lamp(2, ".percent")), "70");
+        assert.equal((await told(address))[0].level, 0.7);
         await page.selectOption("#lamps-preset", "evening");
         await until_told(address, (all) => all.length === 2 && all[1].level === 1.5);
         const { bytes } = await saved_text(page, "#write-lamps");
