@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/light/find_light_groups.h"
+#include "parallel/concurrent_cache.h"
 #include "parallel/walk/live_walk.h"
 #include "tests/test_scene.h"
 
@@ -46,11 +47,11 @@ sky source up 0 0 4 0 0 1 360
 )";
 }
 
-RenderOptions light_options(int bounces) {
+RenderOptions light_options(int bounces, double accuracy = 0) {
     RenderOptions options;
     options.shadow_threshold = 0;  // no light is left out because others outshine it
     options.ambient_bounces = bounces;
-    options.ambient_accuracy = 0;
+    options.ambient_accuracy = accuracy;
     options.ambient_divisions = 16;
     options.ambient_super_samples = 0;
     return options;
@@ -66,14 +67,17 @@ View dim_view(double turned) {
 }
 
 struct DimmedWalk {
-    DimmedWalk(const Rgb& lamp, const Rgb& sky, int bounces, bool dimmable = true)
+    DimmedWalk(const Rgb& lamp, const Rgb& sky, int bounces, bool dimmable = true,
+               double accuracy = 0)
         : room(room_with(lamp, sky)),
           direct(room.scene, light_options(0), room.warnings),
-          full(room.scene, light_options(bounces), room.warnings),
-          executor(make_executor(ExecutorKind::threads, 2)),
+          full(room.scene, light_options(bounces, accuracy), room.warnings),
+          cache(ambient_limits({-6, -6, -1}, 12, 0.2, 64)),
+          executor(make_executor(ExecutorKind::threads, accuracy > 0 ? 1 : 2)),
           frames(direct, bounces > 0 ? &full : nullptr, cloud(), options(), *executor,
                  room.warnings),
           live(frames, 1) {
+        if (accuracy > 0) full.use_ambient_cache(&cache);
         if (!dimmable) return;
         groups = std::make_shared<const LightGroups>(
             find_light_groups(room.scene, light_options(bounces), {}));
@@ -117,6 +121,7 @@ struct DimmedWalk {
 
     TestScene room;
     Tracer direct, full;
+    ConcurrentCache cache;
     std::shared_ptr<const LightGroups> groups;
     std::unique_ptr<Executor> executor;
     StopFlag stop;
@@ -165,6 +170,23 @@ TEST_CASE("dimmers: a view at rest is that of the scene whose sources are scaled
         REQUIRE(walk.live.mix({}));
         CHECK(share_apart(walk.live.picture().radiance, nominal, 1e-6f) == 0);
     }
+}
+
+TEST_CASE("dimmers: what the cache of indirect light keeps is mixed as well") {
+    // Halves are exact: a scene of half the light has the same records at the same places.
+    const Rgb half{0.5f, 0.5f, 0.5f};
+    DimmedWalk walk(kAll, kAll, 1, true, 0.2), scaled(half, half, 1, false, 0.2);
+    const std::vector<Rgb> nominal = walk.rest(0, WalkAmbient::rest).radiance;
+    REQUIRE(walk.live.mix(walk.mixture(half, half)));
+    const std::vector<Rgb> halved = walk.live.picture().radiance;
+    CHECK(share_apart(halved, scaled.rest(0, WalkAmbient::rest).radiance, 1e-5f) == 0);
+    // And each group has its own part.
+    std::vector<Rgb> sum(nominal.size());
+    for (const auto& [lamp, sky] : {std::array{kAll, kNone}, std::array{kNone, kAll}}) {
+        REQUIRE(walk.live.mix(walk.mixture(lamp, sky)));
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += walk.live.picture().radiance[i];
+    }
+    CHECK(share_apart(sum, nominal, 1e-5f) == 0);
 }
 
 TEST_CASE("dimmers: points of before show the mixture in the frames of another view") {
