@@ -126,7 +126,7 @@ CustomOption light_group(RenderCommand& c) {
         if (groups && automatic != groups->empty())
             throw UsageError("option --light-group: auto goes with no other groups");
         if (!groups) groups.emplace();
-        c.output.layers = true;
+        c.output.layers = !c.serve;
         if (automatic) return;
         const std::size_t at = word.find('=');
         if (at == std::string::npos)
@@ -168,6 +168,11 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
          "with "
          "-ps 1",
          With{.commands = kRender}},
+        {"--light-group auto|NAME=PATTERN,...", light_group(c),
+         "dimmers in the page, one for each group of light sources: those whose modifiers' names "
+         "match a pattern (* ? [...]), the first that does; what is left is \"rest\", with -av. "
+         "Repeatable. auto: the sun, the sky, and each other modifier. By one process, without -af",
+         With{.commands = kWalk}},
         {"-z FILE", &output.depth,
          "distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing "
          "there",
@@ -263,6 +268,9 @@ void check_animate(const RenderCommand& command) {
 /// Options of `lightwalk walk` that do not go together.
 void check_walk(const RenderCommand& command) {
     const PixelOptions& pixels = command.common.request.options.pixels;
+    if (command.common.request.options.light_groups &&
+        !command.common.settings.ambient_file.empty())
+        throw UsageError("option -af: an ambient file holds no values of light groups");
     if (!command.walk->reuse)
         throw UsageError(
             "option --reuse: a walk in a browser cannot do without: off is for animate");

@@ -4,7 +4,10 @@ namespace lightwalk {
 
 void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<PixelValue> values,
                              std::span<PixelHit> hits) {
-    if (context_.groups) groups_.assign(places.size() * context_.groups->size(), {});
+    if (context_.groups) {
+        groups_.assign(places.size() * context_.groups->size(), {});
+        mirrored_groups_.assign(groups_.size(), {});
+    }
     trace_sample(0, places, values, hits);
     if (pixel_rays_.samples() == 1) return;
     more_.resize(places.size());
@@ -18,6 +21,7 @@ void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<Pixel
     for (PixelValue& value : values) value.radiance *= share;
     for (PixelHit& hit : hits) hit.mirrored *= share;
     for (Rgb& value : groups_) value *= share;
+    for (Rgb& value : mirrored_groups_) value *= share;
 }
 
 /// Ray by ray, so that it is known whose light is told of.
@@ -28,6 +32,9 @@ void PixelTracer::shade_by_groups() {
         tracer_.shade_hits({&rays_[k], 1}, {&hits_[k], 1}, context_);
         Rgb* to = &groups_[targets_[k] * sums.size()];
         for (const Rgb& value : sums.sums()) *to++ += value;
+        if (!(brightness(rays_[k].mirrored) > 0)) continue;
+        to = &mirrored_groups_[targets_[k] * sums.size()];
+        for (const Rgb& value : sums.reflected()) *to++ += value;
     }
     sums.clear();
 }

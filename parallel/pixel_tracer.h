@@ -35,6 +35,13 @@ class PixelTracer {
         return std::span(groups_).subspan(i * count, count);
     }
 
+    /// The same of what comes by mirror-like reflection (PixelHit::mirrored); zeros where it is not
+    /// known what each adds to that.
+    [[nodiscard]] std::span<const Rgb> mirrored_groups(std::size_t i) const {
+        const std::size_t count = groups_.empty() ? 0 : context_.groups->size();
+        return std::span(mirrored_groups_).subspan(i * count, count);
+    }
+
   private:
     void shade_by_groups();
     void trace_sample(int sample, std::span<const PixelPlace> places, std::span<PixelValue> values,
@@ -49,6 +56,7 @@ class PixelTracer {
     std::vector<Hit> hits_;
     std::vector<std::size_t> targets_;  ///< indices into places
     std::vector<Rgb> groups_;           ///< by place, then light group
+    std::vector<Rgb> mirrored_groups_;  ///< the same
     std::vector<PixelValue> more_;      ///< values of one further sample
     std::vector<PixelHit> more_hits_;
 };

@@ -35,6 +35,9 @@ class WorkerContexts {
     void sum_by(std::shared_ptr<const LightGroups> groups) { groups_ = std::move(groups); }
     /// Null: it is not.
     [[nodiscard]] const LightGroups* light_groups() const { return groups_.get(); }
+    [[nodiscard]] const std::shared_ptr<const LightGroups>& shared_groups() const {
+        return groups_;
+    }
 
     [[nodiscard]] int size() const { return static_cast<int>(contexts_.size()); }
 

@@ -64,6 +64,7 @@ LiveFrames& LocalBackend::frames() {
     const Tracer* const indirect = direct_ ? &session_.tracer() : nullptr;
     frames_ = std::make_unique<LocalFrames>(tracer, indirect, *options_.reuse, frame_options(0, 0),
                                             *executor_, warnings_);
+    if (contexts_.light_groups() != nullptr) frames_->keep_groups(contexts_.shared_groups());
     return *frames_;
 }
 

@@ -63,7 +63,8 @@ TracedValues RankFrames::trace(const View& view, const ProgressiveWork& work, do
     lead_->set_budget(seconds);
     std::optional<AssembledFrame> traced =
         drawn(lead_->trace_order(work, payload(view, true)), stop);
-    return traced ? std::move(traced->refined) : TracedValues(work.places.size());
+    if (traced) return std::move(traced->refined);
+    return std::vector<std::optional<PixelValue>>(work.places.size());
 }
 
 }  // namespace lightwalk

@@ -32,7 +32,7 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
         options_.record = [](const RayQuery&, const Ray& ray, const Hit& first,
                              std::string& bytes) { append_ray_answer(ray, first, bytes); };
     if (options_.light_groups) {
-        if (options_.reuse || options_.steered)
+        if (options_.reuse && !options_.steered)
             throw InputError("light groups are for pictures that are traced by themselves");
         if (session_.ambient_store)
             throw InputError("an ambient file holds no values of light groups");

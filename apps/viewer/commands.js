@@ -6,7 +6,14 @@ import { levelled, view_at_pick } from "./go_there.js";
 import { toggle_full_screen } from "./full_screen.js";
 import { notice } from "./notices.js";
 import { close_panel, is_open, toggle_help, toggle_panel, toggle_status } from "./panels.js";
-import { download, download_text, file_name, full_picture, picture_blob } from "./save.js";
+import {
+    download,
+    download_text,
+    file_name,
+    full_picture,
+    picture_blob,
+    server_file,
+} from "./save.js";
 import { film_command } from "./path.js";
 import { listen_for_shortcuts } from "./shortcuts.js";
 import { measurement_table } from "./table.js";
@@ -110,6 +117,26 @@ class Commands {
             this.go(views[0]);
         } catch (error) {
             notice(`${file.name}: ${error.message}`, true);
+        }
+    }
+
+    // Lamps
+
+    /** Glare is another one in other light: it is asked for again once the dimmers rest. */
+    follow_lamps() {
+        if (this.glare.id === 0) return;
+        clearTimeout(this.glare_again_);
+        this.glare_again_ = setTimeout(() => this.glare.id && this.ask_glare(), 300);
+    }
+
+    async write_lamps() {
+        try {
+            const { driving } = this.session;
+            if (driving) this.lamps.tell();
+            const text = await server_file("lights.rad", token_query(location.href));
+            download(text, this.name_("lights.rad"));
+        } catch (error) {
+            notice(`No file of lamps: ${error.message}`, true);
         }
     }
 
@@ -230,6 +257,7 @@ function listen_for_buttons(commands) {
         "write-isolux": () => commands.write_isolux(),
         "write-points": () => commands.write_points(),
         "clear-isolux": () => isolux.clear(),
+        "write-lamps": () => commands.write_lamps(),
         "write-png": () => commands.write_png(),
         "write-hdr": () => commands.write_hdr(),
         "ask-glare": () => commands.ask_glare(),
@@ -251,7 +279,7 @@ function listen_for_buttons(commands) {
 }
 
 function keys_of(commands) {
-    const { light, views, measuring } = commands;
+    const { lamps, light, views, measuring } = commands;
     const drive = (act) => () => commands.session.driving && act();
     const middle = () => commands.point(0.5, 0.5);
     const keys = {
@@ -278,6 +306,7 @@ function keys_of(commands) {
         v: () => toggle_panel("views"),
         m: () => toggle_panel("measure"),
         n: () => toggle_panel("plan"),
+        u: () => lamps.lamps.length > 0 && toggle_panel("lamps"),
         i: toggle_status,
         Enter: middle,
         " ": middle,

@@ -7,12 +7,13 @@ import { Glare } from "./glare.js";
 import { Input } from "./input.js";
 import { IsoluxPanel } from "./isolux_panel.js";
 import { show_legend } from "./legend.js";
+import { LampPanel } from "./lamp_panel.js";
 import { LightPanel } from "./light_panel.js";
 import { Measuring } from "./measuring.js";
 import { Navigator } from "./navigator.js";
 import { cover, notice, show_failures, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
-import { is_open, start_panels } from "./panels.js";
+import { close_panel, is_open, start_panels } from "./panels.js";
 import { PathPanel } from "./path_panel.js";
 import { PlanPanel } from "./plan_panel.js";
 import { Roles } from "./roles.js";
@@ -78,6 +79,9 @@ const session = new Session(session_id(), camera.available, screen, {
     display: (message) => {
         if (!session.driving) take_display(message);
     },
+    lights: (message) => {
+        if (!session.driving || !lamps.touched) lamps.take(message);
+    },
     refused: ({ text, id, view }) => {
         if (id !== undefined && (plan.refused(id) || isolux.refused(id))) return;
         if (view !== undefined) view_refused();
@@ -107,6 +111,15 @@ const light = new LightPanel({
         show_legend(display);
     },
     settings: (settings) => session.send({ type: "settings", ...settings }),
+});
+const lamps = new LampPanel({
+    lights: (message) => session.send(message),
+    kept: (presets) => keep_scene_item(scene, "lamps", presets),
+    may_drive: () => session.driving,
+    changed: () => {
+        counters.lamps = lamps.lamps;
+        commands.follow_lamps();
+    },
 });
 const roles = new Roles({
     take: () => session.send({ type: "take" }),
@@ -139,6 +152,7 @@ const commands = start_commands({
     measuring,
     isolux,
     glare,
+    lamps,
     picture,
     painted: () => (draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
@@ -217,6 +231,7 @@ function open_scene(name) {
     views.restore(scene_item(name, "views", []));
     path.restore(scene_item(name, "path", []));
     isolux.clear();
+    lamps.restore(scene_item(name, "lamps", []));
     measuring.open_scene(name);
 }
 
@@ -235,6 +250,7 @@ function say_all() {
     if (!session.driving) return;
     tell_display();
     session.send({ type: "settings", ...light.settings });
+    lamps.tell();
     measuring.tell_probes();
     navigator.touch();
 }
@@ -245,6 +261,7 @@ function scene_loaded(message) {
     show_failures([]);
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
+    open_lamps(message.lights ?? []);
     plan.forget();
     cover("Drawing the first picture…");
     if (!navigator.view && views.scene_views.length > 0) {
@@ -253,6 +270,14 @@ function scene_loaded(message) {
     }
     navigator.touch();
     measuring.tell_probes();
+}
+
+/** The scene's light groups; what was dimmed of them before stays so. */
+function open_lamps(names) {
+    document.querySelector("#dock [data-panel=lamps]").hidden = names.length === 0;
+    if (names.length === 0 && is_open("lamps")) close_panel();
+    lamps.open(names);
+    if (session.driving) lamps.tell();
 }
 
 /** The eye returns to where the newest frame was seen from, lest the same view is sent again. */
@@ -281,6 +306,7 @@ function lost(reason, wait) {
 
 function role_changed(driving) {
     session.drive(driving);
+    lamps.drive();
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();

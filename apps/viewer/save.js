@@ -69,9 +69,12 @@ function captioned(canvas, caption, zoom) {
     return source;
 }
 
-/** Save the server's picture of the present view in full quality (.hdr); throws Error when it has none. */
-export async function full_picture(query) {
-    const answer = await fetch(`save/picture.hdr${query}`, { cache: "no-store" });
+/** The server's picture of the present view in full quality (.hdr); throws Error when it has none. */
+export const full_picture = (query) => server_file("picture.hdr", query);
+
+/** A file that the server makes of the walk's state; throws Error when it does not. */
+export async function server_file(name, query) {
+    const answer = await fetch(`save/${name}${query}`, { cache: "no-store" });
     if (!answer.ok) throw new Error((await answer.text()).slice(0, 200) || `${answer.status}`);
     return answer.blob();
 }

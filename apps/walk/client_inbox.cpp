@@ -55,8 +55,9 @@ void ClientInbox::tell_watchers(const std::string& text) {
 }
 
 void ClientInbox::refuse(const InboxContents& contents, const std::string& why) {
-    for (const WebReply& reply : contents.saves)
-        reply({503, "text/plain; charset=utf-8", why + '\n', {}});
+    for (const std::vector<WebReply>* waiting : {&contents.saves, &contents.light_saves})
+        for (const WebReply& reply : *waiting)
+            reply({503, "text/plain; charset=utf-8", why + '\n', {}});
     for (const WalkQuestion& question : contents.questions)
         tell(question.client, walk_text(RefusedReply{why, question.id()}));
 }
@@ -108,6 +109,11 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           [&](const SettingsRequest& settings) {
                               if (drives) wish.settings = settings;
                           },
+                          [&](const LightsRequest& lights) {
+                              if (!drives) return;
+                              wish.lights = lights;
+                              send_to_others(client, walk_text(LightsReply{lights}));
+                          },
                           [&](const ProbesRequest& pins) {
                               if (!drives) return;
                               wish.probes = pins.probes;
@@ -154,12 +160,13 @@ void ClientInbox::closed(ClientId client) {
 }
 
 void ClientInbox::save(const std::string& path, WebReply reply) {
-    if (path != "/save/picture.hdr") {
+    const bool lights = path == "/save/lights.rad";
+    if (!lights && path != "/save/picture.hdr") {
         reply({404, "text/plain; charset=utf-8", "there is no such file\n", {}});
         return;
     }
     const std::lock_guard lock(mutex_);
-    inbox_.saves.push_back(std::move(reply));
+    (lights ? inbox_.light_saves : inbox_.saves).push_back(std::move(reply));
     has_news_ = true;
     news_.notify_one();
 }
@@ -174,6 +181,8 @@ void ClientInbox::greet(ClientId client, const HelloRequest& request) {
     if (const std::optional<View> view = driver_lock_.place(client)) welcome.view = view;
     sender_->send_text(client, walk_text(welcome));
     if (!stage_.empty()) sender_->send_text(client, stage_);
+    if (!inbox_.wish.lights.levels.empty())
+        sender_->send_text(client, walk_text(LightsReply{inbox_.wish.lights}));
     announce_roles();
     inbox_.joined.push_back(client);
     if (request.depth) inbox_.want_depth.push_back(client);

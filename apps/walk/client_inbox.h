@@ -20,6 +20,7 @@ struct WalkWish {
     std::optional<ViewRequest> view;  ///< nothing: nobody has asked yet
     DisplayRequest display;
     SettingsRequest settings;
+    LightsRequest lights;
     std::vector<ProbePlace> probes;
 };
 
@@ -48,6 +49,7 @@ struct InboxContents {
     std::vector<ClientId> joined, left;
     std::vector<ClientId> want_depth, want_luminance;  ///< of those who joined
     std::vector<WebReply> saves;                       ///< who waits for the picture as a file
+    std::vector<WebReply> light_saves;                 ///< the same, for the dimmed modifiers
 };
 
 /// Answers by itself who drives, and greets; everything else waits in the inbox.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/session/run_header.h"
+#include "apps/walk/dimmed_lights.h"
 #include "core/math/overloaded.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
@@ -57,9 +58,10 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       screen_(screen),
       threads_(executor.concurrency()),
       has_indirect_(frames.has_indirect()),
+      groups_(frames.light_groups()),
       live_(frames, options_.edge_samples),
-      answers_(session.tracer(), warnings),
-      glare_(session.tracer(), executor, warnings),
+      answers_(session.tracer(), warnings, groups_),
+      glare_(session.tracer(), executor, warnings, groups_),
       isolux_(session.tracer(), executor, warnings),
       survey_(session.scene(), session.tracer().options().back_faces_visible),
       task_runner_(executor),
@@ -72,7 +74,8 @@ void RenderLoop::step(const StopFlag& stop) {
     draw(stop);
     const Clock::time_point now = Clock::now();
     const bool hurries = live_.picture().phase == WalkPhase::moving;
-    const bool shows = drawn_ && (hurries || now - shown_at_ >= progressive_interval(now));
+    const bool shows =
+        drawn_ && (hurries || dimmed_ || now - shown_at_ >= progressive_interval(now));
     if (shows) show(now);
     screen_.acked(client_inbox_.pop_acks());  // of meanwhile: they tell who may be sent a frame
     screen_.send(client_inbox_, Clock::now());
@@ -92,7 +95,13 @@ std::chrono::milliseconds RenderLoop::patience() const {
     return std::max(left, std::chrono::milliseconds(1));
 }
 
+/// A hand is on a dimmer: what is known is mixed anew, and what is better comes later.
+bool RenderLoop::is_dimming() const {
+    return Clock::now() - dimmed_at_ < kHeld;
+}
+
 bool RenderLoop::has_work() const {
+    if (drawn_ && is_dimming() && !glare_.is_asked()) return dimmed_;
     if (!drawn_ || live_.picture().phase != WalkPhase::done || glare_.is_asked()) return true;
     const Size size = size_now();
     return live_.picture().width != size.width || live_.picture().height != size.height;
@@ -116,6 +125,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         moved_ = now;
     }
     const bool other_light = inbox.wish.settings != wish_.settings;
+    const bool dims = inbox.wish.lights != wish_.lights;
     const bool moved =
         inbox.wish.view && (!wish_.view || !same_picture(*inbox.wish.view, *wish_.view));
     if (inbox.wish.view && wish_.view && inbox.wish.view->id != wish_.view->id) shown_ = false;
@@ -130,12 +140,31 @@ void RenderLoop::answer(const InboxContents& inbox) {
         moved_ = now;
     }
     if (moved || other_light) drawn_ = false;
+    if (dims && groups_) dim();
     if (inbox.new_probes) measured_at_ = {};
     if (!view_ || live_.picture().radiance.empty())
         return client_inbox_.refuse(inbox, "there is no picture yet");
     for (const WalkQuestion& question : inbox.questions) reply(question);
     for (const ClientId client : inbox.left) isolux_.forget(client);
     for (const WebReply& file : inbox.saves) save(file);
+    for (const WebReply& file : inbox.light_saves) save_lights(file);
+}
+
+/// Pictures and numbers of the dimmers' new state, without a ray where all of it is known.
+void RenderLoop::dim() {
+    const LightMixture mixture = mixture_of(wish_.lights, *groups_);
+    if (!live_.mix(mixture)) drawn_ = false;
+    answers_.mix(mixture);
+    glare_.mix(mixture);
+    dimmed_ = true;
+    shown_ = false;
+    moved_ = dimmed_at_ = Clock::now();
+    ProbesReply reply;
+    for (const ProbePlace& probe : wish_.probes)
+        if (const std::optional<ProbeValue> value = answers_.mixed(probe))
+            reply.probes.push_back(*value);
+    reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
+    if (!reply.probes.empty()) client_inbox_.tell_all(walk_text(reply));
 }
 
 View RenderLoop::on_the_ground(const ViewRequest& request) const {
@@ -159,7 +188,7 @@ RenderLoop::Clock::duration RenderLoop::progressive_interval(Clock::time_point n
 double RenderLoop::budget() const {
     constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3;
     const bool whole_sketch = sketches_ > 0 && small_sketches_ == 0;
-    if (!wish_.view->moving) return whole_sketch ? kWholeSketch : kAtRest;
+    if (!wish_.view->moving && !is_dimming()) return whole_sketch ? kWholeSketch : kAtRest;
     const double seconds =
         moving_size_.periods(wish_.view->width, wish_.view->height) / options_.rate;
     return std::max({seconds - aside_seconds_, kLeastShare * seconds, kShortest});
@@ -172,7 +201,7 @@ void RenderLoop::draw(const StopFlag& stop) {
     moving_size_.limit(wish_.view->width, wish_.view->height, screen_.most_moving_pixels());
     const double budget = this->budget();
     if (glare_.is_asked() && drawn_) return glare_.step(budget, stop, client_inbox_);
-    if (!has_work()) return;
+    if (!has_work() || (drawn_ && is_dimming())) return;
     const WalkAmbient ambient = has_indirect_ ? wish_.settings.ambient : WalkAmbient::off;
     const Size size = size_now();
     if (small_sketches_ > 0 || sketches_ > 0) live_.look_anew();
@@ -214,6 +243,7 @@ void RenderLoop::show(Clock::time_point now) {
     if (told_ != told) client_inbox_.tell_watchers(walk_text(told));
     told_ = told;
     shown_ = true;
+    dimmed_ = false;
     shown_at_ = now;
     ++pace_.frames;
 }
@@ -293,6 +323,14 @@ void RenderLoop::save(const WebReply& reply) {
     const LivePicture& shown = live_.picture();
     reply({200, "image/vnd.radiance",
            encode_hdr({shown.width, shown.height, shown.radiance}, header), "picture.hdr"});
+}
+
+void RenderLoop::save_lights(const WebReply& reply) const {
+    if (!groups_)
+        return reply({404, "text/plain; charset=utf-8", "no lights may be dimmed here\n", {}});
+    reply({200, "text/plain; charset=utf-8",
+           scaled_lights(session_.compiled().model(), *groups_, mixture_of(wish_.lights, *groups_)),
+           "lights.rad"});
 }
 
 void RenderLoop::measure_probes() {

@@ -58,6 +58,9 @@ class RenderLoop {
     };
 
     void answer(const InboxContents& inbox);
+    void dim();
+    [[nodiscard]] bool is_dimming() const;
+    void save_lights(const WebReply& reply) const;
     void reply(const WalkQuestion& question);
     void save(const WebReply& reply);
     void measure_probes();
@@ -85,6 +88,7 @@ class RenderLoop {
     WalkScreen& screen_;
     int threads_;
     bool has_indirect_;
+    std::shared_ptr<const LightGroups> groups_;  ///< that may be dimmed; null: none
     LiveWalk live_;
     WalkAnswers answers_;
     WalkGlare glare_;
@@ -100,7 +104,8 @@ class RenderLoop {
     bool drawn_ = false;                     ///< the picture is of view_, as wished
     bool shown_ = false;                     ///< as it is, with the display that is wished
     int small_sketches_ = 0, sketches_ = 0;  ///< of a new place, at most: small ones, whole ones
-    Clock::time_point moved_, shown_at_, measured_at_;
+    Clock::time_point moved_, shown_at_, measured_at_, dimmed_at_;
+    bool dimmed_ = false;  ///< since a picture was shown
     MovingSize moving_size_;
     double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late
     Pace pace_;

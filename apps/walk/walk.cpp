@@ -248,6 +248,8 @@ class WalkRun final : CommandRun {
                         session, home, renderer.backend().frames(), *page.executor, warnings(),
                         page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
+        if (const auto& groups = renderer.backend().frames().light_groups())
+            loaded.lights = groups->names;
         page.inbox.announce(walk_text(loaded));
         auto looked = std::chrono::steady_clock::now();
         while (page.goes_on()) {

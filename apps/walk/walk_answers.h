@@ -1,6 +1,13 @@
 #pragma once
 // What a walk tells of the light where somebody points.
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "core/trace/tracer.h"
+#include "core/transport/light_groups.h"
 #include "core/view/view.h"
 #include "io/net/walk_reply.h"
 #include "io/net/walk_request.h"
@@ -12,8 +19,12 @@ namespace lightwalk {
 class WalkAnswers {
   public:
     /// All must outlive this.
-    WalkAnswers(const Tracer& tracer, WarningSink& warnings)
-        : tracer_(tracer), context_(tracer, warnings) {}
+    /// @param groups  of emitters that may be dimmed; null: none
+    WalkAnswers(const Tracer& tracer, WarningSink& warnings,
+                std::shared_ptr<const LightGroups> groups = nullptr);
+
+    /// Of the light groups in what follows.
+    void mix(LightMixture mixture) { mixture_ = std::move(mixture); }
 
     /// What is seen at a place of a view, and how much light falls on it, from the side that is
     /// seen.
@@ -24,14 +35,36 @@ class WalkAnswers {
     [[nodiscard]] static MeanReply mean(const MeanRequest& request, const LivePicture& picture);
     /// Light at a pin; its luminance as seen from the eye.
     [[nodiscard]] ProbeValue measure(const ProbePlace& probe, const Vec3& eye);
+    /// What it was measured as last, in the mixture of now: nothing is traced. Nothing where it was
+    /// not measured.
+    [[nodiscard]] std::optional<ProbeValue> mixed(const ProbePlace& probe) const;
 
   private:
-    [[nodiscard]] Ray look(const Vec3& origin, const Vec3& direction, double limit, int sample);
-    /// [lx]
-    [[nodiscard]] double illuminance(const Vec3& point, const Vec3& normal);
+    /// A radiance or an irradiance.
+    struct Light {
+        Rgb whole;
+        std::vector<Rgb> groups;  ///< what each light group adds; empty: not kept
+        void scale(float factor) {
+            whole *= factor;
+            for (Rgb& value : groups) value *= factor;
+        }
+    };
+    struct Measured {
+        Vec3 position, normal;
+        Light falling, seen;
+    };
+    void look(const Vec3& origin, const Vec3& direction, double limit, int sample, Light& sum);
+    /// Irradiance.
+    [[nodiscard]] Light falling(const Vec3& point, const Vec3& normal);
+    void add(const Rgb& value, Light& sum) const;
+    /// [cd/m²] or [lx]
+    [[nodiscard]] double shown(const Light& light) const;
 
     const Tracer& tracer_;
     TraceContext context_;
+    std::unique_ptr<GroupSums> sums_;  ///< null: no light groups
+    LightMixture mixture_;
+    std::map<std::uint32_t, Measured> measured_;  ///< by the pin's id
 };
 
 /// Height of the eye above what is below it; nothing where nothing is below [m].

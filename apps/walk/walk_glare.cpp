@@ -39,7 +39,14 @@ void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& vi
     told_ = 0;
     picture_.emplace(kFieldSide, kFieldSide, 1);
     constexpr std::size_t kPixels = std::size_t{kFieldSide} * kFieldSide;
-    picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels));
+    const LightGroups* groups = contexts_.light_groups();
+    picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels),
+                    std::vector<Rgb>(groups != nullptr ? kPixels * groups->size() : 0));
+}
+
+void WalkGlare::mix(const LightMixture& mixture) {
+    mixture_ = mixture;
+    if (picture_) picture_->mix(mixture);
 }
 
 void WalkGlare::forget(ClientInbox& client_inbox) {
@@ -53,7 +60,7 @@ void WalkGlare::step(double budget, const StopFlag& stop, ClientInbox& client_in
     const Camera field(field_of(view_));
     const auto trace = [&](const ProgressiveWork& work) {
         return trace_pixels(tracer_, contexts_, field, picture_options(), work, budget, executor_,
-                            stop);
+                            stop, mixture_);
     };
     if (picture_->step(trace)) {
         if (picture_->share() < told_ + kToldEach) return;

@@ -1,6 +1,7 @@
 #pragma once
 // Whether what somebody sees glares: a picture of all that lies before the eye, drawn bit by bit,
 // and what it says.
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,10 +16,16 @@ namespace lightwalk {
 class WalkGlare {
   public:
     /// All must outlive this.
-    WalkGlare(const Tracer& tracer, Executor& executor, WarningSink& warnings)
+    /// @param groups  of emitters that may be dimmed; null: none
+    WalkGlare(const Tracer& tracer, Executor& executor, WarningSink& warnings,
+              const std::shared_ptr<const LightGroups>& groups = nullptr)
         : tracer_(tracer),
           executor_(executor),
-          contexts_(tracer, warnings, executor.concurrency()) {}
+          contexts_(tracer, warnings, executor.concurrency()) {
+        if (groups) contexts_.sum_by(groups);
+    }
+    /// Of the light groups in what follows, and in what is drawn already.
+    void mix(const LightMixture& mixture);
 
     /// Somebody asks about a view. What others ask about the same one is answered with it.
     void ask(ClientId client, const GlareRequest& request, const View& view);
@@ -40,6 +47,7 @@ class WalkGlare {
     const Tracer& tracer_;
     Executor& executor_;
     WorkerContexts contexts_;
+    LightMixture mixture_;
     std::vector<Asked> asked_;
     View view_;
     std::optional<ProgressiveLight> picture_;

@@ -37,6 +37,7 @@ struct CloudOptions {
                              ///< that of the frame before
     int samples = ProgressivePicture::kMostSamples;  ///< rays that edges get then
     std::uint64_t seed = 0;                          ///< of the audit's choice
+    std::size_t light_groups = 0;  ///< whose light points keep, to be mixed anew; 0: none
 
     /// Most points of a picture's cloud.
     [[nodiscard]] std::size_t most_points(int width, int height) const {

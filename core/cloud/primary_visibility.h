@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/cloud/point.h"
+#include "core/transport/light_groups.h"
 #include "core/view/pixels.h"
 
 namespace lightwalk {
@@ -46,6 +47,13 @@ struct TracedPixel {
     float distance = 0;  ///< along the ray [m]
 };
 
+/// Of traced pixels, what each light group adds; by pixel, then group.
+struct PixelGroups {
+    std::span<const Rgb> whole;     ///< of TracedPixel::radiance; empty: not asked for
+    std::span<const Rgb> mirrored;  ///< of TracedPixel::mirrored; zeros where it is not known
+    const LightMixture* mixture = nullptr;  ///< that is shown; null where there are no groups
+};
+
 /// How pixels are probed.
 struct ProbeOptions {
     bool patterns = false;  ///< whether patterns are asked for, which may take longer than all else
@@ -67,6 +75,8 @@ class PixelCaster {
     /// equally distributed
     virtual void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels,
                        int sample, int worker) = 0;
+    /// Of the pixels that the worker traced last.
+    [[nodiscard]] virtual PixelGroups groups(int /*worker*/) const { return {}; }
 };
 
 /// The points that a traced pixel leaves: at most two.

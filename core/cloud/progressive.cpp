@@ -19,10 +19,18 @@ bool is_step(const Rgb& a, const Rgb& b) {
 }  // namespace
 
 void ProgressivePicture::begin(std::span<const Rgb> radiance, std::span<const float> distance,
-                               std::span<const PixelOrigin> origins) {
+                               std::span<const PixelOrigin> origins, std::span<const Rgb> groups) {
     radiance_.assign(radiance.begin(), radiance.end());
     distance_.assign(distance.begin(), distance.end());
     origins_.assign(origins.begin(), origins.end());
+    groups_.assign(groups.begin(), groups.end());
+    with_groups_ = groups.empty() ? 0 : radiance.size();
+}
+
+void ProgressivePicture::mix(const LightMixture& mixture) {
+    const std::size_t count = groups_.size() / radiance_.size();
+    for (std::size_t i = 0; i < radiance_.size(); ++i)
+        radiance_[i] = mixture.sum(std::span(groups_).subspan(i * count, count));
 }
 
 ProgressiveWork ProgressivePicture::next(std::size_t most) const {
@@ -119,11 +127,19 @@ ProgressiveWork ProgressivePicture::steep(std::size_t most) const {
 }
 
 void ProgressivePicture::record(const ProgressiveWork& work,
-                                std::span<const std::optional<PixelValue>> traced) {
+                                std::span<const std::optional<PixelValue>> traced,
+                                std::span<const Rgb> groups) {
+    const std::size_t count = traced.empty() ? 0 : groups.size() / traced.size();
+    if (groups_.empty()) groups_.resize(radiance_.size() * count);
     for (std::size_t i = 0; i < traced.size(); ++i) {
         if (!traced[i]) continue;
         const std::size_t pixel = at(work.places[i].x, work.places[i].y);
         const auto before = static_cast<float>(work.sample);
+        for (std::size_t g = 0; g < count; ++g) {
+            Rgb& of_group = groups_[pixel * count + g];
+            of_group = (before * of_group + groups[i * count + g]) * (1 / (before + 1));
+        }
+        if (count > 0 && work.sample == 0) ++with_groups_;
         const Rgb& radiance = traced[i]->radiance;
         radiance_[pixel] = work.sample == 0
                                ? radiance

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/math/rgb.h"
+#include "core/transport/light_groups.h"
 #include "core/view/pixels.h"
 
 namespace lightwalk {
@@ -41,6 +43,16 @@ struct ProgressiveWork {
     std::vector<PixelPlace> places;
 };
 
+/// Values of pixels.
+struct TracedValues {
+    TracedValues(std::vector<std::optional<PixelValue>> its_values = {},
+                 std::vector<Rgb> its_groups = {})
+        : values(std::move(its_values)), groups(std::move(its_groups)) {}
+    std::vector<std::optional<PixelValue>> values;  ///< none: there was no time
+    /// What each light group adds to a pixel, by pixel, then group; empty: they are not kept.
+    std::vector<Rgb> groups;
+};
+
 /// The picture of a view that stands still, with the origin of each pixel.
 class ProgressivePicture {
   public:
@@ -52,8 +64,9 @@ class ProgressivePicture {
         : width_(width), height_(height), most_samples_(samples) {}
 
     /// Start to refine a new picture, given row by row.
+    /// @param groups  what each light group adds to its pixels; empty: it is not known
     void begin(std::span<const Rgb> radiance, std::span<const float> distance,
-               std::span<const PixelOrigin> origins);
+               std::span<const PixelOrigin> origins, std::span<const Rgb> groups = {});
 
     /// The next pixels to trace, at most `most`: first interpolated ones (coarse grids first), then
     /// guessed ones, then reused ones (oldest points first), then further rays, one at a time, for
@@ -70,7 +83,18 @@ class ProgressivePicture {
     [[nodiscard]] std::vector<Rgb> picture() const;
 
     /// Record the values of the pixels of `work`; none: there was no time for it.
-    void record(const ProgressiveWork& work, std::span<const std::optional<PixelValue>> traced);
+    /// @param groups  see TracedValues
+    void record(const ProgressiveWork& work, std::span<const std::optional<PixelValue>> traced,
+                std::span<const Rgb> groups = {});
+
+    /// Whether it is known of all pixels what each light group adds to them.
+    [[nodiscard]] bool knows_groups() const {
+        return !groups_.empty() && with_groups_ >= radiance_.size();
+    }
+    /// Show another mixture of the light groups. Only where it knows_groups().
+    void mix(const LightMixture& mixture);
+    /// By pixel, then group.
+    [[nodiscard]] std::span<const Rgb> groups() const { return groups_; }
 
     [[nodiscard]] std::span<const Rgb> radiance() const { return radiance_; }
     /// Along the pixels' first rays [m].
@@ -90,6 +114,8 @@ class ProgressivePicture {
     std::vector<Rgb> radiance_;
     std::vector<float> distance_;
     std::vector<PixelOrigin> origins_;
+    std::vector<Rgb> groups_;      ///< by pixel, then group; empty: not kept
+    std::size_t with_groups_ = 0;  ///< pixels of which these are known
 };
 
 }  // namespace lightwalk

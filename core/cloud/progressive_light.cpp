@@ -17,8 +17,10 @@ constexpr float kFarWeight = 0.01f;  // of its light; not 0, lest there be none 
 
 }  // namespace
 
-void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const float> distance) {
+void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const float> distance,
+                             std::span<const Rgb> groups) {
     before_.assign(radiance.begin(), radiance.end());
+    groups_before_.assign(groups.begin(), groups.end());
     left_.assign(kGridLevels, 0);
     std::vector<PixelOrigin> origins(radiance.size());
     for (int y = 0; y < height_; ++y) {
@@ -28,11 +30,19 @@ void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const floa
             ++left_[static_cast<std::size_t>(level)];
         }
     }
-    work_.begin(radiance, distance, origins);
+    work_.begin(radiance, distance, origins, groups);
     chosen_ = {};
     overture_ = true;
     for (int y = 0; y < height_; y += kOvertureSpacing)
         for (int x = 0; x < width_; x += kOvertureSpacing) chosen_.places.push_back({x, y});
+}
+
+void ProgressiveLight::mix(const LightMixture& mixture) {
+    if (!work_.knows_groups()) return;
+    const std::size_t count = groups_before_.size() / before_.size();
+    for (std::size_t i = 0; i < before_.size(); ++i)
+        before_[i] = mixture.sum(std::span(groups_before_).subspan(i * count, count));
+    work_.mix(mixture);
 }
 
 bool ProgressiveLight::step(Trace trace) {
@@ -43,8 +53,9 @@ bool ProgressiveLight::step(Trace trace) {
     if (chosen_.places.empty()) return false;
     const ProgressiveWork work = std::move(chosen_);
     chosen_ = {work.sample, {}};
-    const std::vector<std::optional<PixelValue>> values = trace(work);
-    if (!overture_) work_.record(work, values);
+    const TracedValues traced = trace(work);
+    const std::vector<std::optional<PixelValue>>& values = traced.values;
+    if (!overture_) work_.record(work, values, traced.groups);
     for (std::size_t i = 0; i < work.places.size(); ++i) {
         const PixelPlace& place = work.places[i];
         if (!values[i])

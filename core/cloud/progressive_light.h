@@ -30,14 +30,19 @@ std::vector<Value> turned_rows(std::span<const Value> rows, int width) {
 class ProgressiveLight {
   public:
     /// Traces pixels; nothing for those that there was no time for.
-    using Trace = FunctionRef<std::vector<std::optional<PixelValue>>(const ProgressiveWork& work)>;
+    using Trace = FunctionRef<TracedValues(const ProgressiveWork& work)>;
 
     /// @param samples   rays that a pixel at an edge gets in the end, at least 1
     ProgressiveLight(int width, int height, int samples)
         : width_(width), height_(height), work_(width, height, samples) {}
 
     /// @param radiance, distance  row by row from the bottom
-    void begin(std::span<const Rgb> radiance, std::span<const float> distance);
+    /// @param groups  what each light group adds to the pixels; empty: they are not kept
+    void begin(std::span<const Rgb> radiance, std::span<const float> distance,
+               std::span<const Rgb> groups = {});
+
+    /// Show another mixture of the light groups, where these are kept.
+    void mix(const LightMixture& mixture);
 
     /// Trace more pixels. The coarsest grids are traced twice: what the tracer stores of indirect
     /// light, to interpolate it, is sparse and rough until then, and would show as dots.
@@ -64,9 +69,10 @@ class ProgressiveLight {
     int width_, height_;
     ProgressivePicture work_;
     std::vector<Rgb> before_;
-    bool overture_ = true;           ///< no pixel counts yet, see step()
-    std::vector<std::size_t> left_;  ///< pixels to trace, by level of the grid
-    ProgressiveWork chosen_;         ///< of them those that come next
+    std::vector<Rgb> groups_before_;  ///< by pixel, then group
+    bool overture_ = true;            ///< no pixel counts yet, see step()
+    std::vector<std::size_t> left_;   ///< pixels to trace, by level of the grid
+    ProgressiveWork chosen_;          ///< of them those that come next
 };
 
 }  // namespace lightwalk

@@ -12,6 +12,10 @@ constexpr std::size_t kMostAwakeAPixel = 2;
 
 constexpr int kHalo = 1;  ///< pixels around the region whose points may answer its own
 
+bool has_room(const CloudPoint& point, const AgeLimit& room, std::uint64_t frame) {
+    return point.age < room.age || (point.age == room.age && lot(point, frame) >= room.share);
+}
+
 }  // namespace
 
 RegionPoints::RegionPoints(const PixelRectangle& area, int width, int height)
@@ -20,11 +24,39 @@ RegionPoints::RegionPoints(const PixelRectangle& area, int width, int height)
 void RegionPoints::begin(const Camera& camera) {
     projector_.emplace(camera, width_, height_);
     fresh_.clear();
+    fresh_groups_.clear();
+}
+
+void RegionPoints::mix(const LightMixture& mixture, const TaskRunner& task_runner) {
+    if (mixture == mixture_) return;
+    mixture_ = mixture;
+    for_each_part(task_runner, points_.size(),
+                  [&](std::size_t, std::size_t first, std::size_t last) { mix_from(first, last); });
+}
+
+/// Points first ... last - 1.
+void RegionPoints::mix_from(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last && group_count_ > 0; ++i)
+        points_[i].radiance =
+            mixture_.sum(std::span(groups_).subspan(i * group_count_, group_count_));
+}
+
+/// Of two points the second one has what the first one has not.
+void RegionPoints::leave_groups(std::size_t points, std::span<const Rgb> groups,
+                                std::span<const Rgb> ahead) {
+    group_count_ = groups.size();
+    if (points == 1) fresh_groups_.insert(fresh_groups_.end(), groups.begin(), groups.end());
+    if (points < 2) return;
+    fresh_groups_.insert(fresh_groups_.end(), ahead.begin(), ahead.end());
+    for (std::size_t g = 0; g < groups.size(); ++g) fresh_groups_.push_back(groups[g] - ahead[g]);
 }
 
 void RegionPoints::project(const TaskRunner& task_runner) {
-    if (projector_->is_perspective())
-        asleep_.wake(*projector_, kMostAwakeAPixel * area_.pixels(), points_);
+    if (projector_->is_perspective()) {
+        const std::size_t awake = points_.size();
+        asleep_.wake(*projector_, kMostAwakeAPixel * area_.pixels(), points_, groups_);
+        mix_from(awake, points_.size());
+    }
     places_.resize(points_.size());
     used_.assign(points_.size(), 0);
     for_each_part(task_runner, grids_.ahead.size(),
@@ -117,12 +149,15 @@ AgeCounts RegionPoints::age(const CloudLife& life, const TaskRunner& task_runner
 /// @param parts  numbers of points
 void RegionPoints::put_to_sleep(std::span<const std::vector<std::uint32_t>> parts) {
     std::vector<CloudPoint> tired;
+    std::vector<Rgb> groups;
     for (const std::vector<std::uint32_t>& part : parts)
         for (const std::uint32_t i : part) {
             tired.push_back(points_[i]);
             points_[i].kind = PointKind::gone;
+            const auto own = std::span(groups_).subspan(i * group_count_, group_count_);
+            groups.insert(groups.end(), own.begin(), own.end());
         }
-    asleep_.add(tired);
+    asleep_.add(tired, groups);
 }
 
 AgeCounts RegionPoints::rest() {
@@ -133,12 +168,31 @@ AgeCounts RegionPoints::rest() {
     return counts;
 }
 
+void RegionPoints::replace(std::size_t to, std::span<const CloudPoint> others,
+                           std::span<const Rgb> groups, std::size_t from) {
+    points_[to] = others[from];
+    if (group_count_ > 0)
+        std::ranges::copy(groups.subspan(from * group_count_, group_count_),
+                          groups_.begin() + static_cast<std::ptrdiff_t>(to * group_count_));
+}
+
+void RegionPoints::drop_old_fresh(const AgeLimit& room, std::uint64_t frame) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < fresh_.size(); ++i) {
+        if (!has_room(fresh_[i], room, frame)) continue;
+        fresh_[kept] = fresh_[i];
+        for (std::size_t g = 0; g < group_count_; ++g)
+            fresh_groups_[kept * group_count_ + g] = fresh_groups_[i * group_count_ + g];
+        ++kept;
+    }
+    fresh_.resize(kept);
+    fresh_groups_.resize(kept * group_count_);
+}
+
 /// New points take the places of those that go, and then the last ones do.
 void RegionPoints::keep(const AgeLimit& room, std::uint64_t frame, const TaskRunner& task_runner) {
-    const auto stays = [&](const CloudPoint& point) {
-        return point.age < room.age || (point.age == room.age && lot(point, frame) >= room.share);
-    };
-    if (room.age == 0) std::erase_if(fresh_, [&](const CloudPoint& p) { return !stays(p); });
+    const auto stays = [&](const CloudPoint& point) { return has_room(point, room, frame); };
+    if (room.age == 0) drop_old_fresh(room, frame);
     std::vector<std::vector<std::uint32_t>> going(part_count(points_.size()));
     for_each_part(task_runner, points_.size(),
                   [&](std::size_t part, std::size_t first, std::size_t last) {
@@ -150,13 +204,18 @@ void RegionPoints::keep(const AgeLimit& room, std::uint64_t frame, const TaskRun
     for (const std::vector<std::uint32_t>& part : going)
         gaps.insert(gaps.end(), part.begin(), part.end());
     const std::size_t filled = std::min(gaps.size(), fresh_.size());
-    for (std::size_t i = 0; i < filled; ++i) points_[gaps[i]] = fresh_[i];
+    for (std::size_t i = 0; i < filled; ++i) replace(gaps[i], fresh_, fresh_groups_, i);
     std::size_t end = points_.size(), last_gap = gaps.size();
     for (std::size_t i = filled; i < last_gap; ++i) {
         while (last_gap > i && gaps[last_gap - 1] == end - 1) --last_gap, --end;
-        if (i < last_gap) points_[gaps[i]] = points_[--end];
+        if (i < last_gap) replace(gaps[i], points_, groups_, --end);
     }
     points_.resize(end);
+    groups_.resize(end * group_count_);
+    groups_.insert(groups_.end(),
+                   fresh_groups_.begin() + static_cast<std::ptrdiff_t>(filled * group_count_),
+                   fresh_groups_.end());
+    fresh_groups_.clear();
     points_.insert(points_.end(), fresh_.begin() + static_cast<std::ptrdiff_t>(filled),
                    fresh_.end());
     fresh_.clear();

@@ -38,7 +38,12 @@ class RegionPoints {
     void adopt(RegionPoints&& other) {
         points_ = std::move(other.points_);
         asleep_ = std::move(other.asleep_);
+        group_count_ = other.group_count_;
+        groups_ = std::move(other.groups_);
+        mixture_ = std::move(other.mixture_);
     }
+    /// Show another mixture of the light groups from now on, of which points keep the light.
+    void mix(const LightMixture& mixture, const TaskRunner& task_runner);
     /// A new frame. The camera must outlive it.
     void begin(const Camera& camera);
     /// Find the places of all points, after those have woken that the picture may show.
@@ -73,9 +78,13 @@ class RegionPoints {
     void mark_used(const UsedPixels& used);
 
     /// Points that a traced pixel leaves for the next frame.
-    void leave(const PixelPoints& left) {
+    /// @param groups  what each light group adds to the pixel; empty: they are not kept
+    /// @param ahead   the same of the first of two points
+    void leave(const PixelPoints& left, std::span<const Rgb> groups = {},
+               std::span<const Rgb> ahead = {}) {
         fresh_.insert(fresh_.end(), left.points.begin(),
                       left.points.begin() + static_cast<std::ptrdiff_t>(left.count));
+        if (!groups.empty()) leave_groups(left.count, groups, ahead);
     }
     /// Points grow older, and fall asleep. The ages of all that may be kept, new ones included.
     [[nodiscard]] AgeCounts age(const CloudLife& life, const TaskRunner& task_runner);
@@ -95,6 +104,12 @@ class RegionPoints {
   private:
     [[nodiscard]] PixelRectangle inside_of_area() const;
     void put_to_sleep(std::span<const std::vector<std::uint32_t>> parts);
+    void leave_groups(std::size_t points, std::span<const Rgb> groups, std::span<const Rgb> ahead);
+    void mix_from(std::size_t first, std::size_t last);
+    void drop_old_fresh(const AgeLimit& room, std::uint64_t frame);
+    /// Point `to` becomes what point `from` of others is.
+    void replace(std::size_t to, std::span<const CloudPoint> others, std::span<const Rgb> groups,
+                 std::size_t from);
 
     PixelRectangle area_;
     int width_, height_;
@@ -105,6 +120,10 @@ class RegionPoints {
     std::vector<std::uint8_t> used_;  ///< by point
     std::vector<PointFate> fates_;    ///< by point
     std::vector<CloudPoint> fresh_;   ///< that this frame leaves
+    // Where light groups are kept: what each adds to a point, by point, then group.
+    std::size_t group_count_ = 0;
+    std::vector<Rgb> groups_, fresh_groups_;
+    LightMixture mixture_;  ///< of them in the points' radiance
     SleepingPoints asleep_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace lightwalk {
@@ -55,39 +56,47 @@ bool is_far(const CloudPoint& point) {
                      std::abs(point.position[2])}) > kFar;
 }
 
-void sort_by_place(std::span<CloudPoint> points) {
-    const PlaceCode code(bounds_of(points));
+/// @param some  numbers of points
+void sort_by_place(std::span<const CloudPoint> points, std::span<std::uint32_t> some) {
+    Bounds box;
+    for (const std::uint32_t i : some) box.extend(points[i].place());
+    const PlaceCode code(box);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
-    order.reserve(points.size());
-    for (const CloudPoint& point : points)
-        order.emplace_back(code(point.place()), static_cast<std::uint32_t>(order.size()));
+    order.reserve(some.size());
+    for (const std::uint32_t i : some) order.emplace_back(code(points[i].place()), i);
     std::ranges::sort(order);
-    std::vector<CloudPoint> sorted;
-    sorted.reserve(points.size());
-    for (const auto& [place, index] : order) sorted.push_back(points[index]);
-    std::ranges::copy(sorted, points.begin());
+    std::ranges::transform(order, some.begin(), [](const auto& one) { return one.second; });
 }
 
 }  // namespace
 
-void SleepingPoints::add(std::vector<CloudPoint>& points) {
+void SleepingPoints::add(std::span<const CloudPoint> points, std::span<const Rgb> groups) {
+    const std::size_t count = points.empty() ? 0 : groups.size() / points.size();
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0U);
     // The background is so far away that beside it all else would have one code.
-    const auto far = std::partition(points.begin(), points.end(),
-                                    [](const CloudPoint& point) { return !is_far(point); });
-    for (const std::span<CloudPoint> some :
-         {std::span(points.begin(), far), std::span(far, points.end())}) {
+    const auto far = std::stable_partition(order.begin(), order.end(),
+                                           [&](std::uint32_t i) { return !is_far(points[i]); });
+    for (const std::span<std::uint32_t> some :
+         {std::span(order.begin(), far), std::span(far, order.end())}) {
         if (some.empty()) continue;
-        sort_by_place(some);
+        sort_by_place(points, some);
         for (std::size_t first = 0; first < some.size(); first += kGroup) {
-            const auto part = some.subspan(first, std::min(kGroup, some.size() - first));
-            groups_.push_back({bounds_of(part), {part.begin(), part.end()}});
+            Group& group = groups_.emplace_back();
+            for (const std::uint32_t i :
+                 some.subspan(first, std::min(kGroup, some.size() - first))) {
+                group.points.push_back(points[i]);
+                const auto own = groups.subspan(i * count, count);
+                group.groups.insert(group.groups.end(), own.begin(), own.end());
+            }
+            group.box = bounds_of(group.points);
         }
     }
     size_ += points.size();
 }
 
 void SleepingPoints::wake(const PointProjector& projector, std::size_t most,
-                          std::vector<CloudPoint>& awake) {
+                          std::vector<CloudPoint>& awake, std::vector<Rgb>& groups) {
     constexpr std::uint8_t kNotJustShown = 1;
     bool any = false;
     for (auto group = groups_.rbegin(); group != groups_.rend() && awake.size() < most; ++group) {
@@ -96,6 +105,7 @@ void SleepingPoints::wake(const PointProjector& projector, std::size_t most,
             point.age = kNotJustShown;
             awake.push_back(point);
         }
+        groups.insert(groups.end(), group->groups.begin(), group->groups.end());
         size_ -= group->points.size();
         group->points.clear();
         any = true;

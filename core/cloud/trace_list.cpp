@@ -15,7 +15,37 @@ float relative_error(const Rgb& value, const Rgb& truth) {
     return std::abs(is - should) / std::max(should, 1e-9f);
 }
 
+/// Whether what the groups add makes up a radiance.
+bool add_up(std::span<const Rgb> groups, const Rgb& radiance) {
+    constexpr float kRounding = 1e-3f;
+    Rgb left = radiance;
+    for (const Rgb& value : groups) left -= value;
+    return std::max(max_component(left), -min_component(left)) <=
+           kRounding * max_component(radiance);
+}
+
 }  // namespace
+
+void mix_pixel(const TracedPixel& traced, const PixelGroups& groups, std::size_t pixel,
+               std::span<Rgb> ahead, TracedPixelResult& result) {
+    const std::size_t count = ahead.size();
+    const LightMixture& mixture = *groups.mixture;
+    const std::span<const Rgb> whole = groups.whole.subspan(pixel * count, count);
+    const std::span<const Rgb> mirrored = groups.mirrored.subspan(pixel * count, count);
+    const Rgb traced_radiance = result.value.radiance;
+    result.value.radiance = mixture(traced_radiance, whole);
+    if (result.points.count == 1) result.points.points[0].radiance = result.value.radiance;
+    if (result.points.count < 2) return;
+    if (!add_up(mirrored, traced.mirrored)) {
+        result.points.count = 0;
+        return;
+    }
+    for (std::size_t g = 0; g < count; ++g) ahead[g] = whole[g] - mirrored[g];
+    for (const auto& [point, values] :
+         {std::pair{&result.points.points[0], std::span<const Rgb>(ahead)},
+          std::pair{&result.points.points[1], mirrored}})
+        point->radiance = mixture(point->radiance, values);
+}
 
 void TraceList::begin() {
     finest_ = next_finest_grid();
@@ -42,6 +72,11 @@ void TraceList::expect() {
     done_.assign(uncached_.size(), 0);
     pair_radiance_.resize(noise_pairs_.size());
     pair_done_.assign(noise_pairs_.size(), 0);
+    const std::size_t values = uncached_.size() * options_.light_groups;
+    if (groups_.size() < values) {
+        groups_.resize(values);
+        ahead_.resize(values);
+    }
 }
 
 void TraceList::gather(std::span<BlockUncachedPixels> blocks, std::uint64_t frame,
@@ -91,11 +126,15 @@ std::vector<PixelPlace> TraceList::places() const {
     return places;
 }
 
-void TraceList::record(std::size_t first, std::span<const TracedPixelResult> traced) {
+void TraceList::record(std::size_t first, std::span<const TracedPixelResult> traced,
+                       std::span<const Rgb> groups, std::span<const Rgb> ahead) {
     if (first < uncached_.size()) {
         const auto at = static_cast<std::ptrdiff_t>(first);
         std::copy(traced.begin(), traced.end(), traced_.begin() + at);
         std::fill_n(done_.begin() + at, traced.size(), std::uint8_t{1});
+        const auto values = static_cast<std::ptrdiff_t>(first * options_.light_groups);
+        std::ranges::copy(groups, groups_.begin() + values);
+        std::ranges::copy(ahead, ahead_.begin() + values);
         return;
     }
     std::size_t pair = first - uncached_.size();
@@ -150,8 +189,11 @@ void TraceList::show(CloudFrame& frame, bool passing) {
 }
 
 void TraceList::leave_points(RegionPoints& points) const {
+    const std::size_t count = options_.light_groups;
     for (std::size_t i = 0; i < uncached_.size(); ++i)
-        if (done_[i] != 0) points.leave(traced_[i].points);
+        if (done_[i] != 0)
+            points.leave(traced_[i].points, std::span(groups_).subspan(i * count, count),
+                         std::span(ahead_).subspan(i * count, count));
 }
 
 }  // namespace lightwalk

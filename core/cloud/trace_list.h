@@ -26,6 +26,23 @@ struct TracedPixelResult {
     PixelPoints points;
 };
 
+/// Pixels that were traced, while they are handed over.
+struct TracedPixels {
+    std::span<const TracedPixelResult> results;
+    /// Where light groups are kept, what each adds to a pixel, and to the first one of its two
+    /// points; by pixel, then group. Empty: they are not.
+    std::span<const Rgb> groups = {}, ahead = {};
+    operator std::span<const TracedPixelResult>() const { return results; }  // for who keeps none
+};
+
+/// The same mixture in a traced pixel's value and in its points. Where it is not known how much of
+/// it is of a mirror's image and how much of what lies ahead, no points are left.
+/// @param groups  of several pixels
+/// @param pixel   which of them this is
+/// @param ahead   place for what each group adds to the first of two points
+void mix_pixel(const TracedPixel& traced, const PixelGroups& groups, std::size_t pixel,
+               std::span<Rgb> ahead, TracedPixelResult& result);
+
 /// Where time is short the worst cause comes first, among equals coarse grids; else all are alike.
 [[nodiscard]] inline std::size_t trace_rank(const UncachedPixel& pixel, bool time_is_short) {
     if (!time_is_short) return 0;
@@ -78,9 +95,15 @@ class TraceList {
 
     /// `first` ... of the places are traced, either pixels or noise pairs. Called by many threads
     /// at once, for different ones.
-    void record(std::size_t first, std::span<const TracedPixelResult> traced);
+    /// @param groups, ahead  see TracedPixels
+    void record(std::size_t first, std::span<const TracedPixelResult> traced,
+                std::span<const Rgb> groups = {}, std::span<const Rgb> ahead = {});
     /// The values of the pixels, in their order; none: there was no time.
     [[nodiscard]] std::vector<std::optional<PixelValue>> values() const;
+    /// What each light group adds to them, by pixel, then group; empty: they are not kept.
+    [[nodiscard]] std::span<const Rgb> groups() const {
+        return std::span(groups_).first(uncached_.size() * options_.light_groups);
+    }
 
     /// Put what was traced into the frame, and into its report. What was not, but is known all the
     /// same, is inferred.
@@ -99,6 +122,7 @@ class TraceList {
     std::vector<UncachedPixel> uncached_;
     std::vector<TracedPixelResult> traced_;   ///< each of them
     std::vector<std::uint8_t> done_;          ///< not 0 where one was traced in time
+    std::vector<Rgb> groups_, ahead_;         ///< see TracedPixels
     std::vector<std::uint32_t> noise_pairs_;  ///< indices of them
     std::vector<Rgb> pair_radiance_;
     std::vector<std::uint8_t> pair_done_;

@@ -9,6 +9,7 @@
 #include "core/light/light_scratch.h"
 #include "core/light/light_sources.h"
 #include "core/transport/contribution.h"
+#include "core/transport/light_groups.h"
 #include "core/virtual_source/virtual_sources.h"
 
 namespace lightwalk {
@@ -108,8 +109,18 @@ void Tracer::trace(Ray& ray, TraceContext& context) const {
     if (context.path.nesting.rays >= kMaxDepth) return;
     if (ray.aimed)
         shade_target(ray, context);
+    else if (context.groups && ray.kind == kReflected && !ray.parent->parent)
+        trace_apart(ray, *context.groups, context);
     else
         shade_hit(ray, scene().geometry().intersect(ray.segment()), context);
+}
+
+/// What a primary ray's mirror shows is a part of it that is known by itself (Ray::mirrored).
+void Tracer::trace_apart(Ray& ray, GroupSums& groups, TraceContext& context) const {
+    GroupSums::Part told(&groups);
+    shade_hit(ray, scene().geometry().intersect(ray.segment()), context);
+    groups.note_reflected();
+    told.keep();
 }
 
 /// Evaluate a ray for which nothing but its target exists.

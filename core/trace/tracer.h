@@ -51,6 +51,7 @@ class Tracer final : public LightTransport {
                     const Vec3* front = nullptr) const override;
 
   private:
+    void trace_apart(Ray& ray, GroupSums& groups, TraceContext& context) const;
     void shade_target(Ray& ray, TraceContext& context) const;
     void shade_background(Ray& ray, TraceContext& context) const;
     void apply_medium(Ray& ray, TraceContext& context) const;

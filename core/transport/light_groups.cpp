@@ -25,7 +25,7 @@ void GroupSums::Part::end() {
 
 void GroupSums::Part::add_to_before() {
     for (std::size_t i = 0; i < before_.size(); ++i) before_[i] += sums_->sums_[i];
-    sums_->clear();
+    std::fill(sums_->sums_.begin(), sums_->sums_.end(), Rgb{});
 }
 
 }  // namespace lightwalk

@@ -30,6 +30,25 @@ struct LightGroups {
     }
 };
 
+/// How much of each group's light is shown: dimmers.
+struct LightMixture {
+    std::vector<Rgb> levels;  ///< factors, one a group; empty: the light as it is
+    /// The mixed light.
+    /// @param whole   all groups together
+    /// @param groups  one value a group
+    [[nodiscard]] Rgb operator()(const Rgb& whole, std::span<const Rgb> groups) const {
+        return levels.empty() ? whole : sum(groups);
+    }
+    /// The same where the whole is not known.
+    [[nodiscard]] Rgb sum(std::span<const Rgb> groups) const {
+        Rgb mixed;
+        for (std::size_t g = 0; g < groups.size(); ++g)
+            mixed += levels.empty() ? groups[g] : levels[g] * groups[g];
+        return mixed;
+    }
+    friend bool operator==(const LightMixture&, const LightMixture&) = default;
+};
+
 /// Adds up the terms of radiance by group. The plain picture's decisions are kept: what is tested,
 /// sampled and cached depends on the light of all groups together.
 class GroupSums final : public ContributionSink {
@@ -48,7 +67,16 @@ class GroupSums final : public ContributionSink {
 
     /// What was told since the last clear() [W/(m² sr)], one a group.
     [[nodiscard]] std::span<const Rgb> sums() const { return sums_; }
-    void clear() { std::fill(sums_.begin(), sums_.end(), Rgb{}); }
+    void clear() {
+        std::fill(sums_.begin(), sums_.end(), Rgb{});
+        reflected_.clear();
+    }
+
+    /// What the last reflected ray that a primary ray has sent out brings to it, one a group;
+    /// empty: none since the last clear().
+    [[nodiscard]] std::span<const Rgb> reflected() const { return reflected_; }
+    /// All that was told of this Part is of such a ray.
+    void note_reflected() { reflected_ = sums_; }
 
     /// While it lives, what is told is summed apart.
     class Part {
@@ -84,6 +112,7 @@ class GroupSums final : public ContributionSink {
   private:
     std::shared_ptr<const LightGroups> groups_;
     std::vector<Rgb> sums_;
+    std::vector<Rgb> reflected_;
 };
 
 }  // namespace lightwalk

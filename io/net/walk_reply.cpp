@@ -123,8 +123,19 @@ std::string walk_text(const FailedReply& reply) {
 }
 
 std::string walk_text(const LoadedReply& reply) {
-    return text_of(
-        {{"type", "loaded"}, {"views", to_json(reply.views)}, {"eye_height", reply.eye_height}});
+    Json object{
+        {"type", "loaded"}, {"views", to_json(reply.views)}, {"eye_height", reply.eye_height}};
+    if (!reply.lights.empty()) object["lights"] = reply.lights;
+    return text_of(object);
+}
+
+std::string walk_text(const LightsReply& reply) {
+    Json levels = Json::array();
+    for (const LightLevel& light : reply.lights.levels)
+        levels.push_back({{"name", light.name},
+                          {"level", light.level},
+                          {"rgb", {light.color.r, light.color.g, light.color.b}}});
+    return text_of({{"type", "lights"}, {"levels", levels}});
 }
 
 std::string walk_text(const RoleReply& reply) {

@@ -42,7 +42,12 @@ struct FailedReply {
 };
 struct LoadedReply {
     std::vector<NamedView> views;
-    double eye_height = 1.6;  ///< [m]
+    double eye_height = 1.6;          ///< [m]
+    std::vector<std::string> lights;  ///< names of the light groups that may be dimmed; empty: none
+};
+/// `lights`: to watchers and newcomers, what the driver has set.
+struct LightsReply {
+    LightsRequest lights;
 };
 struct RoleReply {
     bool driver = false;
@@ -139,6 +144,7 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const LoadingReply& reply);
 [[nodiscard]] std::string walk_text(const FailedReply& reply);
 [[nodiscard]] std::string walk_text(const LoadedReply& reply);
+[[nodiscard]] std::string walk_text(const LightsReply& reply);
 [[nodiscard]] std::string walk_text(const RoleReply& reply);
 [[nodiscard]] std::string walk_text(const PickedReply& reply);
 [[nodiscard]] std::string walk_text(const MeanReply& reply);

@@ -189,6 +189,24 @@ SettingsRequest read_settings(const Json& object) {
     refuse("ambient", "\"rest\", \"always\" or \"off\"");
 }
 
+LightsRequest read_lights(const Json& object) {
+    constexpr double kMostLevel = 100;
+    constexpr std::size_t kLongestName = 256;
+    LightsRequest request;
+    for (const Json& one : list(object, "levels", 0, kMostLightLevels)) {
+        LightLevel light{words(one, "name"), number(one, 0, kMostLevel, "level"), {}};
+        if (light.name.size() > kLongestName) refuse("name", "at most 256 bytes");
+        const Json& rgb = list(one, "rgb", 3, 3);
+        for (std::size_t k = 0; k < 3; ++k)
+            light.color[k] = static_cast<float>(number(rgb[k], "rgb", 0, kMostLevel));
+        if (std::ranges::find(request.levels, light.name, &LightLevel::name) !=
+            request.levels.end())
+            refuse("levels", "each name once");
+        request.levels.push_back(std::move(light));
+    }
+    return request;
+}
+
 PickRequest read_pick(const Json& object) {
     PickRequest request{identity(object, "id"), number(object, 0, 1, "x"),
                         number(object, 0, 1, "y"), std::nullopt};
@@ -258,6 +276,7 @@ WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit) {
     if (type == "ack") return AckRequest{identity(object, "frame")};
     if (type == "display") return read_display(object);
     if (type == "settings") return read_settings(object);
+    if (type == "lights") return read_lights(object);
     if (type == "pick") return read_pick(object);
     if (type == "rectangle") return read_rectangle(object);
     if (type == "probes") return read_probes(object);

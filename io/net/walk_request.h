@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/math/rgb.h"
 #include "core/view/view.h"
 #include "core/view/walk_state.h"
 #include "io/picture/display.h"
@@ -18,6 +19,7 @@ inline constexpr std::size_t kLargestWalkRequest =
     std::size_t{64} * 1024;                    ///< size of a message [bytes]
 inline constexpr int kLargestWalkSize = 4096;  ///< width and height of a picture [pixels]
 inline constexpr std::size_t kMostProbes = 64;
+inline constexpr std::size_t kMostLightLevels = 64;
 
 struct HelloRequest {
     std::string session;     ///< 16 to 64 hex digits
@@ -47,6 +49,18 @@ struct DisplayRequest {
 struct SettingsRequest {
     WalkAmbient ambient = WalkAmbient::rest;
     friend bool operator==(const SettingsRequest&, const SettingsRequest&) = default;
+};
+/// How much of a light group's light is shown.
+struct LightLevel {
+    std::string name;    ///< of the group, at most 256 bytes
+    double level = 1;    ///< 0 (off) to 100; 1: as the scene has it
+    Rgb color{1, 1, 1};  ///< factor of its colour, each 0 to 100
+    friend bool operator==(const LightLevel&, const LightLevel&) = default;
+};
+/// `lights`: all dimmers; groups that are not named are as the scene has them.
+struct LightsRequest {
+    std::vector<LightLevel> levels;  ///< at most kMostLightLevels; names are unique
+    friend bool operator==(const LightsRequest&, const LightsRequest&) = default;
 };
 /// `pick`: the light at a point of a picture, in the image coordinates of Camera, 0 to 1.
 struct PickRequest {
@@ -92,7 +106,8 @@ struct HandRequest {
 
 using WalkRequest =
     std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
-                 PickRequest, MeanRequest, ProbesRequest, GlareRequest, PlanRequest, IsoluxRequest,
+                 LightsRequest, PickRequest, MeanRequest, ProbesRequest, GlareRequest, PlanRequest,
+                 IsoluxRequest,
                  TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].

@@ -13,9 +13,20 @@ const CloudFrame& CloudFrames::draw(const Camera& camera, PixelCaster& caster, E
     }
     CloudRegion& region = *loop_.region();
     std::vector<std::optional<PixelValue>> refined;
-    if (order.rests) refined = region.to_trace().values();
-    lead_.complete(region.frame(), refined, executor);
+    std::span<const Rgb> groups;
+    if (order.rests) {
+        refined = region.to_trace().values();
+        groups = region.to_trace().groups();
+    }
+    lead_.complete(region.frame(), refined, executor, groups);
     return region.frame();
+}
+
+const ProgressivePicture* CloudFrames::mix(const LightMixture& mixture) {
+    loop_.mix(mixture);
+    if (lead_.mix(mixture)) return lead_.progressive();
+    lead_.abandon();
+    return nullptr;
 }
 
 const ProgressivePicture* CloudFrames::progressive() {

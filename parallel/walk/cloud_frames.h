@@ -36,6 +36,10 @@ class CloudFrames {
     void resize(int width, int height) { lead_.resize(width, height); }
     /// Time for each of the next frames; 0: none is too long [s].
     void forget_view() { lead_.abandon(); }
+    /// Of the light groups in the next frames.
+    /// @return  the last frame in this mixture, where it is known of all its pixels and may be
+    ///          refined; nothing: the next frame is one of a new view
+    [[nodiscard]] const ProgressivePicture* mix(const LightMixture& mixture);
     void set_budget(double seconds) { lead_.set_budget(seconds); }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
     void set_refine(double share) { lead_.set_refine(share); }

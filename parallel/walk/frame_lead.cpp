@@ -74,11 +74,17 @@ void FrameLead::begin_progressive(const CloudFrame& last, std::span<const PixelO
     begun_ = true;
 }
 
+bool FrameLead::mix(const LightMixture& mixture) {
+    if (progressive() == nullptr || !progressive_.knows_groups()) return false;
+    progressive_.mix(mixture);
+    return true;
+}
+
 void FrameLead::complete(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined,
-                         Executor& executor) {
+                         Executor& executor, std::span<const Rgb> groups) {
     empty_ = frame.report.points == 0;
     if (rests_) {
-        refine(frame, refined);
+        refine(frame, refined, groups);
     } else {
         error_controller_.record(frame.report.audit_errors, frame.report.audit_floors);
         // Pixels that there was no time for, from what lies around them.
@@ -92,8 +98,9 @@ void FrameLead::complete(CloudFrame& frame, std::span<const std::optional<PixelV
 }
 
 /// Put what was traced into the picture of a resting view.
-void FrameLead::refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined) {
-    progressive_.record(work_, refined);
+void FrameLead::refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined,
+                       std::span<const Rgb> groups) {
+    progressive_.record(work_, refined, groups);
     const std::span<const float> distance = progressive_.distance();
     frame.radiance = progressive_.picture();
     frame.distance.assign(distance.begin(), distance.end());

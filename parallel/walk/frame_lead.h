@@ -28,8 +28,9 @@ class FrameLead {
     /// The frame that was ordered is drawn: fills its gaps, or puts what was refined into the
     /// picture of the resting view.
     /// @param refined  values of the order's refined pixels; none: there was no time
+    /// @param groups  see TracedValues
     void complete(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined,
-                  Executor& executor);
+                  Executor& executor, std::span<const Rgb> groups = {});
     /// It was not drawn, as somebody stopped it.
     void abandon() { view_.reset(); }
 
@@ -44,6 +45,8 @@ class FrameLead {
     [[nodiscard]] const ProgressivePicture* progressive() const {
         return view_ && begun_ ? &progressive_ : nullptr;
     }
+    /// Show another mixture of the light groups in it. False: it is not known of all its pixels.
+    [[nodiscard]] bool mix(const LightMixture& mixture);
     /// An order of the last frame's view that draws nothing: parts say where pixels come from.
     [[nodiscard]] FrameOrder origins_order(std::string payload) const;
     /// Pixels of the last frame's view that are no part of the frames, and leave no points.
@@ -57,7 +60,8 @@ class FrameLead {
 
   private:
     [[nodiscard]] FrameOrder new_order(std::string payload) const;
-    void refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined);
+    void refine(CloudFrame& frame, std::span<const std::optional<PixelValue>> refined,
+                std::span<const Rgb> groups);
 
     int width_, height_;
     CloudOptions options_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "parallel/executor_task_runner.h"
 #include "parallel/sub_images.h"
 #include "parallel/walk/step_timer.h"
 
@@ -22,7 +23,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     const Clock::time_point deadline =
         order.budget > 0 ? deadline_of(order.budget - infer_seconds_ - keep_seconds_)
                          : Clock::time_point::max();
-    begin(order, camera);
+    begin(order, camera, executor);
     CloudRegion& region = *region_;
     CloudReport& report = region.frame().report;
     if (order.rests) {
@@ -57,7 +58,7 @@ bool FrameLoop::draw(const FrameOrder& order, const Camera& camera, PixelCaster&
     return true;
 }
 
-void FrameLoop::begin(const FrameOrder& order, const Camera& camera) {
+void FrameLoop::begin(const FrameOrder& order, const Camera& camera, Executor& executor) {
     constexpr int kMostPixels = 1 << 16;  // in a row or column
     if (order.width < 1 || order.width > kMostPixels || order.height < 1 ||
         order.height > kMostPixels)
@@ -72,6 +73,7 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera) {
         region_.emplace(parts[index_], width_, height_, options_);
         if (before && !order.rules.empty) region_->points().adopt(std::move(before->points()));
     }
+    region_->points().mix(mixture_, ExecutorTaskRunner(executor));
     region_->begin(camera, order.rules);
 }
 
@@ -91,8 +93,9 @@ bool NoFrameExchange::trace(CloudRegion& region, const UncachedPixelTracer& trac
     const std::size_t own = places.size() - to_trace.noise_pairs();
     const auto trace = [&](std::size_t begin, std::size_t count, int by_sample) {
         tracer.trace(std::span(places).subspan(begin, count), by_sample, executor, stop,
-                     [&](std::size_t first, std::span<const TracedPixelResult> traced) {
-                         to_trace.record(begin + first, traced);
+                     [&](std::size_t first, const TracedPixels& traced) {
+                         to_trace.record(begin + first, traced.results, traced.groups,
+                                         traced.ahead);
                      });
     };
     trace(0, own, sample);

@@ -17,10 +17,15 @@ constexpr std::size_t kPixelsALiveTask = 16;
 
 TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts, const Camera& camera,
                           const FrameOptions& options, const ProgressiveWork& work, double seconds,
-                          Executor& executor, const StopFlag& stop) {
+                          Executor& executor, const StopFlag& stop, const LightMixture& mixture) {
     const PixelRays rays = rays_of_sample(camera, options, work.sample);
     const UncachedPixelTracer::Clock::time_point deadline = deadline_of(seconds);
-    TracedValues values(work.places.size());
+    TracedValues traced(std::vector<std::optional<PixelValue>>(work.places.size()));
+    const std::size_t groups = contexts.light_groups() ? contexts.light_groups()->size() : 0;
+    traced.groups.resize(work.places.size() * groups);
+    const auto mix = [&](const Rgb& whole, std::span<const Rgb> of_groups) {
+        return groups > 0 ? mixture(whole, of_groups) : whole;
+    };
     contexts.reset_counters();
     executor.for_each(
         (work.places.size() + kPixelsALiveTask - 1) / kPixelsALiveTask,
@@ -32,10 +37,16 @@ TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts, const 
             PixelTracer trace(tracer, rays, contexts[worker], stop);
             trace(std::span(work.places).subspan(first, count), {part.data(), count});
             if (stop.requested()) return;
-            std::copy_n(part.begin(), count, values.begin() + static_cast<std::ptrdiff_t>(first));
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::span<const Rgb> of_groups = trace.groups(i);
+                part[i].radiance = mix(part[i].radiance, of_groups);
+                traced.values[first + i] = part[i];
+                std::ranges::copy(of_groups, traced.groups.begin() +
+                                                 static_cast<std::ptrdiff_t>((first + i) * groups));
+            }
         },
         stop);
-    return values;
+    return traced;
 }
 
 Frame turned_over(const CloudFrame& drawn, Executor& executor) {
@@ -61,13 +72,16 @@ Frame turned_over(const CloudFrame& drawn, Executor& executor) {
 }
 
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
-                        Executor& executor, WorkerContexts& contexts, Frame& frame) {
+                        Executor& executor, WorkerContexts& contexts, Frame& frame,
+                        const LightMixture& mixture) {
     if (options.pixels.samples > 1) return;
     const SmallSources sources(tracer, camera, options.width, options.height, 1);
     if (sources.empty()) return;
     const std::vector<Block> blocks = make_blocks(options.whole(), 64);
     executor.for_each(blocks.size(), [&](std::size_t i, int worker) {
-        sources.draw(blocks[i], contexts[worker], [&](const SourcePixel& source) {
+        sources.draw(blocks[i], contexts[worker], [&](SourcePixel source) {
+            if (const GroupSums* sums = contexts[worker].groups)
+                source.radiance = mixture(source.radiance, sums->sums());
             const std::size_t at = static_cast<std::size_t>(frame.height - 1 - source.y) *
                                        static_cast<std::size_t>(frame.width) +
                                    static_cast<std::size_t>(source.x);
@@ -101,13 +115,25 @@ void LiveFrames::resize(int width, int height) {
     resized();
 }
 
-void LiveFrames::add_small_sources(const View& view, Frame& frame) {
-    draw_small_sources(indirect_->tracer, Camera(view), options_, executor_, indirect_->contexts,
-                       frame);
+void LiveFrames::add_small_sources(const View& view, Frame& frame, bool indirect) {
+    WalkLight& light = indirect ? *indirect_ : *walking_;
+    draw_small_sources(light.tracer, Camera(view), options_, executor_, light.contexts, frame,
+                       mixture_);
+}
+
+void LiveFrames::keep_groups(const std::shared_ptr<const LightGroups>& groups) {
+    direct_->contexts.sum_by(groups);
+    if (indirect_) indirect_->contexts.sum_by(groups);
+    cloud_.light_groups = groups->size();
 }
 
 void LocalFrames::start(std::uint64_t first) {
     frames_ = std::make_unique<CloudFrames>(options_.width, options_.height, cloud_, first);
+    (void)mixed();
+}
+
+const ProgressivePicture* LocalFrames::mixed() {
+    return frames_ ? frames_->mix(mixture_) : nullptr;
 }
 
 WalkFrame LocalFrames::draw(const View& view, double budget, double refine, const StopFlag& stop) {
@@ -116,12 +142,12 @@ WalkFrame LocalFrames::draw(const View& view, double budget, double refine, cons
     WorkerContexts& contexts = walking_->contexts;
     contexts.reset_counters();
     SceneCaster caster(walking_->tracer, walking_->visibility, Camera(view), options_, contexts,
-                       stop, use_of_frame(budget, frames_->refines(view)));
+                       stop, use_of_frame(budget, frames_->refines(view)), &mixture_);
     const CloudFrame& drawn = frames_->draw(caster.camera(), caster, executor_, stop);
     WalkFrame result{turned_over(drawn, executor_), drawn.report};
     if (drawn.complete)
         draw_small_sources(walking_->tracer, caster.camera(), options_, executor_, contexts,
-                           result.frame);
+                           result.frame, mixture_);
     result.frame.rays = contexts.rays();
     result.frame.ambient = contexts.ambient();
     result.frame.complete = drawn.complete && !stop.requested();
@@ -132,7 +158,7 @@ WalkFrame LocalFrames::draw(const View& view, double budget, double refine, cons
 TracedValues LocalFrames::trace(const View& view, const ProgressiveWork& work, double seconds,
                                 const StopFlag& stop) {
     TracedValues values = trace_pixels(indirect_->tracer, indirect_->contexts, Camera(view),
-                                       options_, work, seconds, executor_, stop);
+                                       options_, work, seconds, executor_, stop, mixture_);
     rays_ = indirect_->contexts.rays().total();
     return values;
 }

@@ -24,9 +24,6 @@ struct WalkFrame {
     CloudReport report;
 };
 
-/// Values of pixels in their order; none: there was no time.
-using TracedValues = std::vector<std::optional<PixelValue>>;
-
 /// A tracer of a scene, and what goes with it.
 struct WalkLight {
     WalkLight(const Tracer& its_tracer, WarningSink& warnings, int workers)
@@ -47,6 +44,21 @@ class LiveFrames {
     virtual ~LiveFrames() = default;
     LiveFrames(const LiveFrames&) = delete;
     LiveFrames& operator=(const LiveFrames&) = delete;
+
+    /// Keep by groups of emitters what they bring, so that they may be dimmed: points and pixels at
+    /// rest are then mixed anew, and nothing is traced. Before begin(); by one process.
+    void keep_groups(const std::shared_ptr<const LightGroups>& groups);
+    /// Null: they are not kept.
+    [[nodiscard]] const std::shared_ptr<const LightGroups>& light_groups() const {
+        return direct_->contexts.shared_groups();
+    }
+    /// Of the light groups from here on.
+    /// @return  the last frame in this mixture, without small light sources, where all its pixels
+    ///          are traced; null: the next frame is drawn as one of a new view
+    [[nodiscard]] const ProgressivePicture* mix(LightMixture mixture) {
+        mixture_ = std::move(mixture);
+        return mixed();
+    }
 
     /// Whether there is indirect light to be traced.
     [[nodiscard]] bool has_indirect() const { return indirect_ != nullptr; }
@@ -80,11 +92,14 @@ class LiveFrames {
     [[nodiscard]] virtual TracedValues trace(const View& view, const ProgressiveWork& work,
                                              double seconds, const StopFlag& stop) = 0;
     /// See draw_small_sources(); by all light there is.
-    void add_small_sources(const View& view, Frame& frame);
+    /// @param indirect  false: by the light of the frames
+    void add_small_sources(const View& view, Frame& frame, bool indirect = true);
     /// That the last frame took, or the last pixels.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
   protected:
+    /// See mix().
+    [[nodiscard]] virtual const ProgressivePicture* mixed() { return nullptr; }
     /// The frames that begin() has announced.
     virtual void start(std::uint64_t first) = 0;
     /// The frames that follow are of the size in options_.
@@ -95,16 +110,19 @@ class LiveFrames {
     Executor& executor_;
     std::unique_ptr<WalkLight> direct_, indirect_;  ///< indirect_: knows both, or is null
     WalkLight* walking_ = nullptr;                  ///< of the frames
+    LightMixture mixture_;                          ///< of the light groups
     std::uint64_t rays_ = 0;
 };
 
 /// Pixels of a picture by the threads of an executor; see LiveFrames::trace.
 /// @param options   of the picture: one sample a pixel, no window
 /// @param contexts  made for `tracer`, one for each worker; their counters start from zero
+/// @param mixture   of their light groups, where they have some
 [[nodiscard]] TracedValues trace_pixels(const Tracer& tracer, WorkerContexts& contexts,
                                         const Camera& camera, const FrameOptions& options,
                                         const ProgressiveWork& work, double seconds,
-                                        Executor& executor, const StopFlag& stop);
+                                        Executor& executor, const StopFlag& stop,
+                                        const LightMixture& mixture = {});
 
 /// The picture of a drawn frame, with its rows from the top.
 [[nodiscard]] Frame turned_over(const CloudFrame& drawn, Executor& executor);
@@ -112,7 +130,8 @@ class LiveFrames {
 /// Draw light sources that are too small for the pixel grid into a frame, with their coverage: they
 /// are no part of the points, for they cover more or less of a pixel from frame to frame.
 void draw_small_sources(const Tracer& tracer, const Camera& camera, const FrameOptions& options,
-                        Executor& executor, WorkerContexts& contexts, Frame& frame);
+                        Executor& executor, WorkerContexts& contexts, Frame& frame,
+                        const LightMixture& mixture = {});
 
 /// Frames by the threads of this process.
 class LocalFrames final : public LiveFrames {
@@ -130,6 +149,8 @@ class LocalFrames final : public LiveFrames {
   private:
     void start(std::uint64_t first) override;
     void resized() override { frames_->resize(options_.width, options_.height); }
+
+    [[nodiscard]] const ProgressivePicture* mixed() override;
 
     std::unique_ptr<CloudFrames> frames_;
 };

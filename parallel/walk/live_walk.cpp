@@ -51,8 +51,11 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
     const bool adds_light = use_ == WalkAmbient::rest && frames_.has_indirect();
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
         progressive_ = std::make_unique<ProgressiveLight>(width, height, samples_);
-        progressive_->begin(turned_rows(std::span<const Rgb>(picture_.radiance), width),
-                            turned_rows(std::span<const float>(picture_.distance), width));
+        if (picture->knows_groups())
+            progressive_->begin(picture->radiance(), picture->distance(), picture->groups());
+        else
+            progressive_->begin(turned_rows(std::span<const Rgb>(picture_.radiance), width),
+                                turned_rows(std::span<const float>(picture_.distance), width));
         return add_light(budget, stop);
     }
     if (picture != nullptr && !picture->finished()) return draw(view, true, budget, stop);
@@ -85,17 +88,39 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     return true;
 }
 
-bool LiveWalk::add_light(double budget, const StopFlag& stop) {
-    const bool worked = progressive_->step(
-        [&](const ProgressiveWork& work) { return frames_.trace(*view_, work, budget, stop); });
+/// Rows from the bottom, without small light sources.
+void LiveWalk::take(std::span<const Rgb> radiance, std::span<const float> distance, bool indirect) {
     Frame frame;
     frame.width = width_;
     frame.height = height_;
-    frame.radiance = turned_rows(std::span<const Rgb>(progressive_->picture()), width_);
-    frame.distance = turned_rows(progressive_->distance(), width_);
-    frames_.add_small_sources(*view_, frame);
+    frame.radiance = turned_rows(radiance, width_);
+    frame.distance = turned_rows(distance, width_);
+    frames_.add_small_sources(*view_, frame, indirect);
     picture_.radiance = std::move(frame.radiance);
     picture_.distance = std::move(frame.distance);
+}
+
+bool LiveWalk::mix(const LightMixture& mixture) {
+    const ProgressivePicture* direct = frames_.mix(mixture);
+    if (progressive_ && view_) {
+        progressive_->mix(mixture);
+        take(progressive_->picture(), progressive_->distance(), true);
+        picture_.phase = std::min(picture_.phase, WalkPhase::refining);
+        return true;
+    }
+    if (direct == nullptr || !view_) {
+        view_.reset();
+        return false;
+    }
+    take(direct->radiance(), direct->distance(), false);
+    picture_.phase = std::min(picture_.phase, WalkPhase::refining);
+    return true;
+}
+
+bool LiveWalk::add_light(double budget, const StopFlag& stop) {
+    const bool worked = progressive_->step(
+        [&](const ProgressiveWork& work) { return frames_.trace(*view_, work, budget, stop); });
+    take(progressive_->picture(), progressive_->distance(), true);
     picture_.rays = worked ? frames_.rays() : 0;
     picture_.share = progressive_->share();
     picture_.phase = !worked              ? WalkPhase::done

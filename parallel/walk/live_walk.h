@@ -35,6 +35,10 @@ class LiveWalk {
     /// Throws what the tracers throw. False: stopped; the picture is the one before.
     [[nodiscard]] bool next(const View& view, int width, int height, WalkAmbient use, double budget,
                             const StopFlag& stop);
+    /// Show another mixture of the light groups (LiveFrames::keep_groups) from now on.
+    /// @return  whether picture() is the last one in this mixture. Else it is still as it was, and
+    ///          next() makes a new one, which may be guessed in part
+    [[nodiscard]] bool mix(const LightMixture& mixture);
     /// The next picture is one of a new view, also where its view is not: more of it is known now.
     void look_anew();
     /// The last one; empty before the first.
@@ -45,6 +49,7 @@ class LiveWalk {
     void resize(int width, int height);
     [[nodiscard]] bool draw(const View& view, bool rests, double budget, const StopFlag& stop);
     [[nodiscard]] bool add_light(double budget, const StopFlag& stop);
+    void take(std::span<const Rgb> radiance, std::span<const float> distance, bool indirect);
 
     LiveFrames& frames_;
     int samples_;

@@ -26,7 +26,8 @@ FrameOptions with_rays(FrameOptions options, bool passing) {
 
 SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility,
                          const Camera& camera, const FrameOptions& options,
-                         WorkerContexts& contexts, const StopFlag& stop, FrameUse use)
+                         WorkerContexts& contexts, const StopFlag& stop, FrameUse use,
+                         const LightMixture* mixture)
     : tracer_(tracer),
       probe_(visibility),
       camera_(camera),
@@ -35,6 +36,7 @@ SceneCaster::SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility
       contexts_(contexts),
       stop_(stop),
       steered_(use != FrameUse::picture),
+      mixture_(contexts.light_groups() != nullptr ? mixture : nullptr),
       scratch_(static_cast<std::size_t>(contexts.size())) {}
 
 void SceneCaster::probe(std::span<const PixelPlace> places, const ProbeOptions& options,
@@ -146,6 +148,19 @@ void SceneCaster::trace(std::span<const PixelPlace> places, std::span<TracedPixe
                      s.values[i].distance};
         if (steered_) pixels[i].distance = distance_of(pixels[i]);
     }
+    s.groups.clear();
+    s.mirrored_groups.clear();
+    for (std::size_t i = 0; mixture_ != nullptr && i < places.size(); ++i) {
+        const std::span<const Rgb> whole = trace_pixels.groups(i);
+        const std::span<const Rgb> mirrored = trace_pixels.mirrored_groups(i);
+        s.groups.insert(s.groups.end(), whole.begin(), whole.end());
+        s.mirrored_groups.insert(s.mirrored_groups.end(), mirrored.begin(), mirrored.end());
+    }
+}
+
+PixelGroups SceneCaster::groups(int worker) const {
+    const Scratch& s = scratch_[static_cast<std::size_t>(worker)];
+    return {s.groups, s.mirrored_groups, mixture_};
 }
 
 }  // namespace lightwalk

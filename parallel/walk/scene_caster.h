@@ -40,9 +40,10 @@ enum class FrameUse {
 class SceneCaster final : public PixelCaster {
   public:
     /// All but the camera must outlive this.
+    /// @param mixture  of the contexts' light groups, where they have some
     SceneCaster(const Tracer& tracer, const VisibilityProbe& visibility, const Camera& camera,
                 const FrameOptions& options, WorkerContexts& contexts, const StopFlag& stop,
-                FrameUse use = FrameUse::picture);
+                FrameUse use = FrameUse::picture, const LightMixture* mixture = nullptr);
     SceneCaster(const SceneCaster&) = delete;
     SceneCaster& operator=(const SceneCaster&) = delete;
 
@@ -51,6 +52,7 @@ class SceneCaster final : public PixelCaster {
                std::span<PixelVisibility> visibility, int worker) override;
     void trace(std::span<const PixelPlace> places, std::span<TracedPixel> pixels, int sample,
                int worker) override;
+    [[nodiscard]] PixelGroups groups(int worker) const override;
     [[nodiscard]] const Camera& camera() const { return camera_; }
     /// Rays that its contexts have traced so far, for this frame and those before.
     [[nodiscard]] std::uint64_t traced() const { return contexts_.rays().total(); }
@@ -66,6 +68,7 @@ class SceneCaster final : public PixelCaster {
         std::vector<PixelVisibility> visibility;
         std::vector<PixelValue> values;
         std::vector<PixelHit> pixel_hits;
+        std::vector<Rgb> groups, mirrored_groups;  ///< by pixel, then light group
     };
 
     /// The rays of pixels: of perspective views that nothing blurs, which is faster, and of all.
@@ -89,6 +92,7 @@ class SceneCaster final : public PixelCaster {
     WorkerContexts& contexts_;
     const StopFlag& stop_;
     bool steered_;  ///< not FrameUse::picture
+    const LightMixture* mixture_;
     std::vector<Scratch> scratch_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace lightwalk {
 namespace {
@@ -39,14 +40,22 @@ void UncachedPixelTracer::trace_part(std::span<const PixelPlace> places, int sam
                                      bool at_once, Take take) const {
     std::array<TracedPixel, kPixelsARun> traced;
     std::array<TracedPixelResult, kPixelsARun> uncached;
+    std::vector<Rgb> ahead;  // of light groups
     for (std::size_t first = 0; first < places.size(); first += kPixelsARun) {
         if ((first > 0 || !at_once) && is_late()) return;
         const std::size_t count = std::min(kPixelsARun, places.size() - first);
         caster_.trace(places.subspan(first, count), {traced.data(), count}, sample, worker);
-        for (std::size_t i = 0; i < count; ++i)
+        const PixelGroups groups = caster_.groups(worker);
+        const std::size_t light_groups = groups.whole.size() / count;
+        ahead.resize(groups.whole.size());
+        for (std::size_t i = 0; i < count; ++i) {
             uncached[i] = {{traced[i].radiance, traced[i].distance},
                            points_of(traced[i], tolerance_)};
-        take(first, {uncached.data(), count});
+            if (light_groups > 0)
+                mix_pixel(traced[i], groups, i,
+                          std::span(ahead).subspan(i * light_groups, light_groups), uncached[i]);
+        }
+        take(first, {{uncached.data(), count}, groups.whole, ahead});
     }
 }
 
@@ -56,11 +65,10 @@ void UncachedPixelTracer::trace(std::span<const PixelPlace> places, int sample, 
                       [&](std::size_t task, int worker) {
                           const std::size_t begin = task * kPixelsARun;
                           const std::size_t count = std::min(kPixelsARun, places.size() - begin);
-                          trace_part(
-                              places.subspan(begin, count), sample, worker, task == 0,
-                              [&](std::size_t first, std::span<const TracedPixelResult> traced) {
-                                  take(begin + first, traced);
-                              });
+                          trace_part(places.subspan(begin, count), sample, worker, task == 0,
+                                     [&](std::size_t first, const TracedPixels& traced) {
+                                         take(begin + first, traced);
+                                     });
                       },
                       stop);
 }

@@ -37,7 +37,7 @@ class UncachedPixelTracer {
   public:
     using Clock = std::chrono::steady_clock;
     /// Gets pixels `first` ... that were traced; called by many threads.
-    using Take = FunctionRef<void(std::size_t first, std::span<const TracedPixelResult> traced)>;
+    using Take = FunctionRef<void(std::size_t first, const TracedPixels& traced)>;
 
     /// @param tolerance  see points_of
     /// The caster must outlive this.

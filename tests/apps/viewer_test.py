@@ -8,7 +8,7 @@
 fake: the page against a server that draws a room without a renderer, and misbehaves when it is told to. NPM is a folder with node_modules;
 PICTURES gets a screenshot of each step, or of those that fail. Exit status 77: what is needed is not there.
 """
-import pathlib, shutil, subprocess, sys, tempfile
+import json, pathlib, re, shutil, subprocess, sys, tempfile
 
 from walk_server_test import Server
 
@@ -38,12 +38,13 @@ def fake(node, npm, pictures):
 def page(node, program, npm, pictures):
     if lacking(npm, "playwright-core"):
         return 77
-    with Server(program) as server:
+    with Server(program, ["--light-group", "auto"]) as server:
         # The panel glows with 2 W/(m2 sr), and is the middle of the picture's right half.
         status = subprocess.run([node, VIEWER / "walk_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures,
                                  "--luminance", "358", "--at", "0.67,0.52"]).returncode
         files = pathlib.Path(pictures)
-        return status or animate(program, server.scene, files / "path.vf") or isolux(program, server.scene, files)
+        return (status or dimmed(program, server.scene, files) or animate(program, server.scene, files / "path.vf") or
+                isolux(program, server.scene, files))
 
 
 def isolux(program, scene, files):
@@ -55,6 +56,23 @@ def isolux(program, scene, files):
     print(f"isolux: the page's table has {len(told)} illuminances, their mean is {sum(told) / len(told):.2f} lx; traced {sum(lux) / len(lux):.2f} lx")
     near = len(told) == len(lux) and all(abs(a - b) < 1e-3 * max(lux) for a, b in zip(told, lux))
     return 0 if near and max(lux) > 0 else 1
+
+
+
+def dimmed(program, scene, files):
+    """Whether the page has read under its dimmers what `lightwalk trace` finds in the scene with the lamps that the page has saved."""
+    lamps = (files / "lights.rad").read_text()
+    names = set(re.findall(r"^void (?:light|glow)\s+(\S+)", lamps, re.MULTILINE))
+    rest = [line for line in scene.read_text().splitlines() if line.split()[2:3] == [] or line.split()[2] not in names or line.split()[0] != "void"]
+    read = json.loads((files / "dimmed.json").read_text())
+    ray = " ".join(map(str, read["position"] + read["normal"]))
+    with tempfile.TemporaryDirectory() as folder:
+        scaled = pathlib.Path(folder) / "scaled.rad"
+        scaled.write_text(lamps + "\n".join(rest) + "\n")
+        traced = subprocess.run([program, "trace", "-h", "-I", scaled], input=ray + "\n", text=True, stdout=subprocess.PIPE, check=True).stdout
+    lux = 179 * sum(float(value) * weight for value, weight in zip(traced.split(), (0.265106, 0.670106, 0.064788)))
+    print(f"dimmed: the page has read {read['illuminance']:.2f} lx, trace finds {lux:.2f} lx; lamps: {', '.join(sorted(names))}")
+    return 0 if names and abs(read["illuminance"] / lux - 1) < 0.01 else 1
 
 
 def animate(program, scene, path):

@@ -64,6 +64,13 @@ const kViews = [
     { name: "west wall", view: view_at([2.4, -1, kEyeHeight], [-1, 0.05, -0.08]) },
 ];
 
+const kLoaded = {
+    type: "loaded",
+    views: kViews,
+    eye_height: kEyeHeight,
+    lights: ["sun", "sky", "desk lamp"],
+};
+
 // The walk --------------------------------------------------------------------------------------
 
 let display = {
@@ -73,6 +80,7 @@ let display = {
     scale: { low: 1, high: 10000, log: true },
 };
 let settings = { ambient: "rest" };
+let lights = { type: "lights", levels: [] };
 let probes = [];
 let failing = false,
     dumb = false, // no frames
@@ -120,7 +128,10 @@ function greet(socket, client, session) {
     if (failing) return tell(socket, failing);
     for (const [k, text] of ["Reading room.rad", "Building the tree"].entries())
         tell(socket, { type: "loading", text, share: k / 2 });
-    setTimeout(() => tell(socket, { type: "loaded", views: kViews, eye_height: kEyeHeight }), 60);
+    setTimeout(() => {
+        tell(socket, kLoaded);
+        tell(socket, lights);
+    }, 60);
 }
 
 /** Walking keeps the eye above the floor; the page takes the height over. */
@@ -149,6 +160,11 @@ function answer(socket, message) {
             for (const other of clients.keys()) if (other !== socket) tell(other, message);
         },
         settings: () => driving && (settings = message),
+        lights: () => {
+            if (!driving) return;
+            lights = message;
+            for (const other of clients.keys()) if (other !== socket) tell(other, message);
+        },
         pick: () => tell(socket, picked(message)),
         rectangle: () => tell(socket, mean(message)),
         probes: () =>
@@ -330,7 +346,7 @@ const pranks = {
         failing = false;
         brightness *= 2;
         tell_all({ type: "loading", text: "Reading room.rad again", share: 0.4 });
-        setTimeout(() => tell_all({ type: "loaded", views: kViews, eye_height: kEyeHeight }), 300);
+        setTimeout(() => tell_all(kLoaded), 300);
     },
     drop: () => [...clients.keys()].forEach((socket) => socket.terminate()),
     dumb: () => (dumb = true),
@@ -353,6 +369,8 @@ async function serve(request, response) {
             () => response.end("#?RADIANCE\nVIEW= -vtv\nFORMAT=32-bit_rle_rgbe\n\n"),
             200,
         );
+    if (pathname === "/save/lights.rad" || pathname === "/lights")
+        return response.end(JSON.stringify(lights.levels));
     const name = pathname === "/" ? "index.html" : /^\/page\/([\w.-]+)$/.exec(pathname)?.[1];
     try {
         const body = await readFile(path.join(kPage, name));

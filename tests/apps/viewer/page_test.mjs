@@ -30,6 +30,7 @@ import {
 } from "./page_helpers.mjs";
 import { camera_steps } from "./page_camera.mjs";
 import { isolux_steps } from "./page_isolux.mjs";
+import { lamp_steps } from "./page_lamps.mjs";
 import { place_steps } from "./page_places.mjs";
 
 const { values: args } = parseArgs({
@@ -78,6 +79,7 @@ const steps = {
     ...place_steps(address),
     ...colour_steps(address, prank),
     ...isolux_steps(prank, args.npm),
+    ...lamp_steps(address),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);

@@ -5,10 +5,11 @@
 //
 // Loads, waits for the first picture, turns, walks, clicks a surface of known luminance L [cd/m2] at
 // X,Y (0..1 from the left and the bottom, seen from view N of the scene) and reads it within 2 %,
-// switches false colour, saves a view, reloads and returns to it, records a path to path.vf, opens the plan, and saves the isolux of the floor as isolux.csv and
-// isolux.pts. A screenshot of each step, and these files, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
+// switches false colour, saves a view, reloads and returns to it, records a path to path.vf, opens the plan, saves the isolux of the floor as isolux.csv and
+// isolux.pts, and where the walk has light groups dims them: what it reads then goes to dimmed.json, beside lights.rad. A screenshot of each
+// step, and these files, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
 import assert from "node:assert/strict";
-import { mkdir } from "node:fs/promises";
+import { mkdir, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { parseArgs } from "node:util";
@@ -255,6 +256,39 @@ const steps = {
             const [file] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
             await file.saveAs(path.join(args.pictures, name));
         }
+    },
+
+    async "dim a lamp, and read what is left of it"(page) {
+        if (await page.isHidden("#dock [data-panel=lamps]")) return console.log("no light groups");
+        await page.focus("#picture");
+        await page.keyboard.press("u");
+        await page.waitForSelector("#lamps .lamp");
+        const [x, y] = args.at.split(",").map(Number);
+        const read = async () => {
+            await page.evaluate(() => (window.lightwalk.last_pick = null));
+            await page.mouse.click(x * width, (1 - y) * height);
+            await page.waitForFunction(() => window.lightwalk.last_pick, null, { timeout: 10000 });
+            return (await counters(page, "last_pick")).last_pick;
+        };
+        await page.focus("#picture");
+        await page.keyboard.press(args.view);
+        await page.waitForTimeout(300);
+        await settled(page);
+        const before = await read();
+        for (const row of await page.locator("#lamps .lamp").all()) {
+            await row.locator(".percent").fill("40");
+            await row.locator(".percent").press("Enter");
+        }
+        await page.locator("#lamps .lamp .kelvin").last().fill("3000");
+        await page.waitForTimeout(500);
+        const after = await read();
+        assert.ok(after.illuminance < 0.7 * before.illuminance);
+        const [file] = await Promise.all([
+            page.waitForEvent("download"),
+            page.click("#write-lamps"),
+        ]);
+        await file.saveAs(path.join(args.pictures, "lights.rad"));
+        await writeFile(path.join(args.pictures, "dimmed.json"), JSON.stringify(after));
     },
 };
 

@@ -28,8 +28,9 @@ lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
 )";
 constexpr ClientId kDriver{1}, kWatcher{2};
 
-RendererOptions options_of(bool steered) {
+RendererOptions options_of(bool steered, bool groups = false) {
     RendererOptions options;
+    if (groups) options.light_groups.emplace();
     options.threads = 2;
     options.steered = steered;
     options.pixels.spacing = 1;
@@ -39,15 +40,16 @@ RendererOptions options_of(bool steered) {
     return options;
 }
 
-SceneSource room() {
+SceneSource room(const std::string& text = kRoom) {
     SceneSource source;
-    source.bytes = kRoom;
+    source.bytes = text;
     return source;
 }
 
 /// A walk without a server: two pages that are one step away.
 struct Walk {
-    explicit Walk(const LoadedScene& scene, double rate = 30) : renderer(scene, options_of(true)) {
+    explicit Walk(const LoadedScene& scene, double rate = 30, bool groups = false)
+        : renderer(scene, options_of(true, groups)) {
         inbox.attach(clients);
         for (const ClientId client : {kDriver, kWatcher})
             inbox.message(client,
@@ -75,9 +77,9 @@ struct Walk {
                                   std::to_string(frame_number(*clients.frames[client].back())) +
                                   "}");
     }
-    [[nodiscard]] std::string saved() {
+    [[nodiscard]] std::string saved(const std::string& name = "picture.hdr") {
         std::string bytes;
-        inbox.save("/save/picture.hdr", WebReply([&](WebAnswer answer) { bytes = answer.bytes; }));
+        inbox.save("/save/" + name, WebReply([&](WebAnswer answer) { bytes = answer.bytes; }));
         loop->step(stop);
         return bytes;
     }
@@ -329,4 +331,52 @@ TEST_CASE("render loop: a place that is new is drawn small first, one nearby is 
     CHECK(first_width(1, 0) < 320);
     CHECK(first_width(2, 0.1) == 320);
     CHECK(first_width(3, 3) < 320);
+}
+
+TEST_CASE(
+    "render loop: dimmers change pictures, pins and files at once, and only the driver's do") {
+    std::string scaled_text = kRoom;
+    const std::string lamp = "light lamp 0 0 3 40 40 40";
+    scaled_text.replace(scaled_text.find(lamp), lamp.size(), "light lamp 0 0 3 20 10 20");
+    const LoadedScene scene(room()), scaled_scene(room(scaled_text));
+    Walk walk(scene, 30, true), scaled(scaled_scene);
+    const std::string pins =
+        R"({"type":"probes","probes":[{"id":3,"position":[0,0,0],"normal":[0,0,1]}]})";
+    for (Walk* one : {&walk, &scaled}) {
+        one->inbox.message(kDriver, view_message(1, 0.25));
+        one->inbox.message(kDriver, pins);
+        one->rest();
+        one->loop->step(one->stop);
+    }
+    const auto lights = [](double level) {
+        return R"({"type":"lights","levels":[{"name":"lamp","level":)" + std::to_string(level) +
+               R"(,"rgb":[1,0.5,1]},{"name":"gone","level":0,"rgb":[1,1,1]}]})";
+    };
+    const std::string nominal = walk.saved();
+    walk.inbox.message(kWatcher, lights(0.1));
+    CHECK(walk.saved() == nominal);
+    const std::size_t frames = walk.clients.frames_of(kDriver);
+    walk.clients.texts.clear();
+    walk.inbox.message(kDriver, lights(0.5));
+    walk.loop->step(walk.stop);  // one step: what is known is mixed anew
+    CHECK(walk.clients.frames_of(kDriver) == frames + 1);
+    CHECK(walk.clients.got(kWatcher, "lights", "\"level\":0.5"));
+    CHECK_FALSE(walk.clients.got(kDriver, "lights"));
+    CHECK(walk.clients.got(kDriver, "probes", "\"id\":3"));
+    const Picture dimmed = read_hdr(walk.saved(), "dimmed");
+    const Picture expected = read_hdr(scaled.saved(), "expected");
+    REQUIRE(dimmed.pixels.size() == expected.pixels.size());
+    constexpr float kStep = 1.0f / 128;  // of RGBE
+    for (std::size_t i = 0; i < dimmed.pixels.size(); ++i) {
+        const Rgb off = dimmed.pixels[i] - expected.pixels[i];
+        REQUIRE(std::max(max_component(off), -min_component(off)) <=
+                kStep * max_component(expected.pixels[i]));
+    }
+    const std::string file = walk.saved("lights.rad");
+    CHECK(file.find("void light lamp") != std::string::npos);
+    CHECK(file.find("20 10 20") != std::string::npos);
+    CHECK(scaled.saved("lights.rad").find("may be dimmed") != std::string::npos);
+    walk.inbox.message(kWatcher, R"({"type":"take"})");
+    walk.inbox.message(ClientId{9}, hello("0123456789abcdef99"));
+    CHECK(walk.clients.got(ClientId{9}, "lights", "\"level\":0.5"));
 }

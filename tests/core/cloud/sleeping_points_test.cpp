@@ -45,12 +45,13 @@ void sort(std::vector<CloudPoint>& points) {
 TEST_CASE("sleeping points: all that a view shows wake, others by the way only, and none is lost") {
     const std::vector<CloudPoint> all = points_around(40'000);
     std::vector<CloudPoint> tired = all, awake;
+    std::vector<Rgb> none;
     SleepingPoints sleeping;
     sleeping.add(tired);
     CHECK(sleeping.size() == all.size());
     const Camera camera(looking({1, 0.4, 0.2}, {0.5, -1, 0}));
     const PointProjector projector(camera, kSleepWidth, kSleepHeight);
-    sleeping.wake(projector, all.size(), awake);
+    sleeping.wake(projector, all.size(), awake, none);
     std::size_t shown = 0, shown_awake = 0;
     for (const CloudPoint& point : all) shown += projector(point.place()).distance > 0 ? 1 : 0;
     for (const CloudPoint& point : awake)
@@ -65,7 +66,8 @@ TEST_CASE("sleeping points: all that a view shows wake, others by the way only, 
     for (const Vec3& direction : {Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}})
         for (const double up : {-2.0, 0.0, 2.0}) {
             const Camera other(looking(direction + Vec3{0, 0, up}));
-            sleeping.wake(PointProjector(other, kSleepWidth, kSleepHeight), all.size(), awake);
+            sleeping.wake(PointProjector(other, kSleepWidth, kSleepHeight), all.size(), awake,
+                          none);
         }
     std::vector<CloudPoint> found = awake, wanted = all;
     for (CloudPoint& point : found) point.age = 0;
@@ -79,6 +81,7 @@ TEST_CASE("sleeping points: all that a view shows wake, others by the way only, 
 TEST_CASE("sleeping points: for want of room those go that have slept longest") {
     SleepingPoints sleeping;
     std::vector<CloudPoint> first(1000), second(1000), awake;
+    std::vector<Rgb> none;
     for (CloudPoint& point : first) point.position = {3, 0, 0};
     for (CloudPoint& point : second) point.position = {3, 0.1f, 0};
     sleeping.add(first);
@@ -86,7 +89,7 @@ TEST_CASE("sleeping points: for want of room those go that have slept longest") 
     const Camera camera(looking({1, 0, 0}));
     const PointProjector projector(camera, kSleepWidth, kSleepHeight);
     // Those that fell asleep last wake first.
-    sleeping.wake(projector, 100, awake);
+    sleeping.wake(projector, 100, awake, none);
     CHECK(awake.size() >= 100);
     CHECK(awake.size() < 300);
     CHECK(std::ranges::all_of(awake, [](const CloudPoint& p) { return p.position[1] > 0; }));
@@ -95,7 +98,7 @@ TEST_CASE("sleeping points: for want of room those go that have slept longest") 
     sleeping.limit(1000);
     CHECK(sleeping.size() <= 1000);
     CHECK(sleeping.size() > 800);  // whole groups go
-    sleeping.wake(projector, 1000, awake);
+    sleeping.wake(projector, 1000, awake, none);
     CHECK(std::ranges::all_of(awake, [](const CloudPoint& p) { return p.position[1] > 0; }));
     sleeping.limit(0);
     CHECK(sleeping.size() == 0);
@@ -126,4 +129,28 @@ TEST_CASE("region points: who looks away and back finds the points again, where 
         (void)frame(there);
         CHECK(points.all().size() == (kAwakeFrames > 0 ? all : 0));
     }
+}
+
+TEST_CASE("sleeping points: what light groups add to a point falls asleep and wakes with it") {
+    constexpr std::size_t kGroups = 2;
+    std::vector<CloudPoint> points = points_around(3000);
+    std::vector<Rgb> groups;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        points[i].surface = i;
+        for (std::size_t g = 0; g < kGroups; ++g)
+            groups.emplace_back(static_cast<float>(i), static_cast<float>(g), 0.0f);
+    }
+    SleepingPoints sleeping;
+    sleeping.add(points, groups);
+    std::vector<CloudPoint> awake;
+    std::vector<Rgb> of_awake;
+    const Camera camera(looking({1, 0, 0}));
+    sleeping.wake(PointProjector(camera, kSleepWidth, kSleepHeight), points.size(), awake,
+                  of_awake);
+    REQUIRE(!awake.empty());
+    REQUIRE(of_awake.size() == kGroups * awake.size());
+    for (std::size_t i = 0; i < awake.size(); ++i)
+        for (std::size_t g = 0; g < kGroups; ++g)
+            REQUIRE(of_awake[kGroups * i + g] ==
+                    Rgb(static_cast<float>(awake[i].surface), static_cast<float>(g), 0));
 }

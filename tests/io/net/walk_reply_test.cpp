@@ -80,7 +80,13 @@ TEST_CASE("walk reply: each is the text that the format has for it") {
     same(walk_text(FailedReply{{"a.rad:1: x", "b"}}),
          R"({"type": "failed", "messages": ["a.rad:1: x", "b"]})");
     same(walk_text(FailedReply{}), R"({"type": "failed", "messages": []})");
-    same(walk_text(LoadedReply{{}, 1.5}), R"({"type": "loaded", "views": [], "eye_height": 1.5})");
+    same(walk_text(LoadedReply{{}, 1.5, {}}),
+         R"({"type": "loaded", "views": [], "eye_height": 1.5})");
+    same(walk_text(LoadedReply{{}, 1.5, {"sun", "desk"}}),
+         R"({"type": "loaded", "views": [], "eye_height": 1.5, "lights": ["sun", "desk"]})");
+    same(walk_text(LightsReply{{{{"desk", 0.5, {1, 0.5f, 0.25f}}}}}),
+         R"({"type": "lights", "levels": [{"name": "desk", "level": 0.5,
+             "rgb": [1.0, 0.5, 0.25]}]})");
     same(walk_text(RoleReply{true, 4, {4, 5}}),
          R"({"type": "role", "driver": true, "driver_id": 4, "clients": [4, 5]})");
     same(walk_text(RoleReply{}),

@@ -218,6 +218,37 @@ TEST_CASE("walk request: a plane is that of a surface, or lies above the floor")
     CHECK(refusal(none.dump()) == "\"normal\" is missing");
 }
 
+TEST_CASE("walk request: dimmers are read, and refused where they are beyond what can be shown") {
+    const json lamp{{"name", "desk"}, {"level", 1.5}, {"rgb", {1, 0.5, 0.25}}};
+    const json message{{"type", "lights"}, {"levels", {lamp}}};
+    CHECK(read<LightsRequest>(message).levels ==
+          std::vector<LightLevel>{{"desk", 1.5, {1, 0.5f, 0.25f}}});
+    CHECK(read<LightsRequest>({{"type", "lights"}, {"levels", json::array()}}).levels.empty());
+    const auto refused = [&](const char* pointer, const json& value) {
+        json wrong = message;
+        wrong[json::json_pointer(pointer)] = value;
+        return refusal(wrong.dump()) != "accepted";
+    };
+    for (const json& value : std::vector<json>{-0.1, 101, 1e30, nullptr, "1", json::array()}) {
+        CAPTURE(value.dump());
+        CHECK(refused("/levels/0/level", value));
+        CHECK(refused("/levels/0/rgb/1", value));
+        CHECK(refused("/levels/0/rgb", value));
+        CHECK(refused("/levels/0", value));
+        CHECK(refused("/levels", json::array({lamp, value})));
+    }
+    CHECK(refused("/levels/0/name", 7));
+    CHECK(refused("/levels/0/name", std::string(257, 'x')));
+    CHECK(refused("/levels", json::array({lamp, lamp})));
+    json many = json::array();
+    for (std::size_t i = 0; i <= kMostLightLevels; ++i) {
+        many.push_back(lamp);
+        many.back()["name"] = std::to_string(i);
+    }
+    CHECK(refused("/levels", many));
+    CHECK(refused("/levels", json::object()));
+}
+
 TEST_CASE("walk request: words that are none of the known are refused") {
     CHECK(refusal(0, "/session", "0123456789abcde") == "\"session\": expected 16 to 64 hex digits");
     CHECK(refusal(0, "/session", "0123456789abcdeg") != "accepted");
