@@ -124,9 +124,11 @@ class Commands {
 
     /** Glare is another one in other light: it is asked for again once the dimmers rest. */
     follow_lamps() {
-        if (this.glare.id === 0) return;
-        clearTimeout(this.glare_again_);
-        this.glare_again_ = setTimeout(() => this.glare.id && this.ask_glare(), 300);
+        clearTimeout(this.lamps_rest_);
+        this.lamps_rest_ = setTimeout(() => {
+            if (this.glare.id !== 0) this.ask_glare();
+            this.isolux.outdate("a lamp is dimmed");
+        }, 300);
     }
 
     async write_lamps() {

@@ -80,7 +80,9 @@ const session = new Session(session_id(), camera.available, screen, {
         if (!session.driving) take_display(message);
     },
     lights: (message) => {
-        if (!session.driving || !lamps.touched) lamps.take(message);
+        if (session.driving && lamps.touched) return;
+        lamps.take(message);
+        commands.follow_lamps();
     },
     refused: ({ text, id, view }) => {
         if (id !== undefined && (plan.refused(id) || isolux.refused(id))) return;

@@ -62,7 +62,7 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       live_(frames, options_.edge_samples),
       answers_(session.tracer(), warnings, groups_),
       glare_(session.tracer(), executor, warnings, groups_),
-      isolux_(session.tracer(), executor, warnings),
+      isolux_(session.tracer(), executor, warnings, groups_),
       survey_(session.scene(), session.tracer().options().back_faces_visible),
       task_runner_(executor),
       eye_height_(eye_height_of(session.scene(), home)) {}
@@ -156,6 +156,7 @@ void RenderLoop::dim() {
     if (!live_.mix(mixture)) drawn_ = false;
     answers_.mix(mixture);
     glare_.mix(mixture);
+    isolux_.mix(mixture);
     dimmed_ = true;
     shown_ = false;
     moved_ = dimmed_at_ = Clock::now();

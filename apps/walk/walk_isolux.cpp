@@ -36,6 +36,14 @@ void WalkIsolux::ask(ClientId client, const IsoluxRequest& request, double unit)
                                                   sight_, unit, request.position, request.height)});
 }
 
+void WalkIsolux::mix(const LightMixture& mixture) {
+    mixture_ = mixture;
+    for (auto& [client, question] : questions_) {
+        if (question.light) question.light->begin_anew();
+        question.stride = 0;
+    }
+}
+
 void WalkIsolux::step(double seconds, const StopFlag& stop, ClientInbox& client_inbox) {
     if (questions_.empty()) return;
     auto next = questions_.upper_bound(turn_);
@@ -54,7 +62,7 @@ bool WalkIsolux::go_on(Question& question, ClientId client, double seconds, cons
         }
         question.light.emplace(question.survey.grid());
     }
-    const bool more = question.light->step(tracer_, contexts_, seconds, executor_, stop);
+    const bool more = question.light->step(tracer_, contexts_, seconds, executor_, stop, mixture_);
     const Clock::time_point now = Clock::now();
     const bool finer = question.light->stride() != question.stride;
     if (!more || finer || now - question.told >= kToldEvery) {

@@ -2,6 +2,7 @@
 // Illuminances on planes that somebody asks about: measured beside the frames, coarse to fine.
 #include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "apps/walk/client_inbox.h"
@@ -16,18 +17,25 @@ namespace lightwalk {
 class WalkIsolux {
   public:
     /// All must outlive this.
-    WalkIsolux(const Tracer& tracer, Executor& executor, WarningSink& warnings)
+    /// @param groups  of emitters that may be dimmed; null: none
+    WalkIsolux(const Tracer& tracer, Executor& executor, WarningSink& warnings,
+               const std::shared_ptr<const LightGroups>& groups = nullptr)
         : tracer_(tracer),
           executor_(executor),
           task_runner_(executor),
           sight_(tracer.scene(), tracer.options().back_faces_visible),
-          contexts_(tracer, warnings, executor.concurrency()) {}
+          contexts_(tracer, warnings, executor.concurrency()) {
+        if (groups) contexts_.sum_by(groups);
+    }
 
     /// In place of what this client has asked before.
     /// @param unit  the eye's height above the floor [m]
     void ask(ClientId client, const IsoluxRequest& request, double unit);
     /// Nobody waits for an answer to this client any more.
     void forget(ClientId client) { questions_.erase(client); }
+
+    /// Of the light groups in what follows: what is not finished is begun anew.
+    void mix(const LightMixture& mixture);
 
     [[nodiscard]] bool is_asked() const { return !questions_.empty(); }
     /// Measure for so long, for one client after the other, and tell what is new [s].
@@ -51,6 +59,7 @@ class WalkIsolux {
     ExecutorTaskRunner task_runner_;
     PlanSight sight_;
     WorkerContexts contexts_;
+    LightMixture mixture_;
     std::map<ClientId, Question> questions_;
     ClientId turn_{};  ///< of the client that was answered last
 };

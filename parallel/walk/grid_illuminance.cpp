@@ -31,7 +31,7 @@ GridIlluminance::GridIlluminance(MeasuringGrid grid) : grid_(std::move(grid)) {
 }
 
 bool GridIlluminance::step(const Tracer& tracer, WorkerContexts& contexts, double seconds,
-                           Executor& executor, const StopFlag& stop) {
+                           Executor& executor, const StopFlag& stop, const LightMixture& mixture) {
     using Clock = std::chrono::steady_clock;
     const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                              std::chrono::duration<double>(seconds));
@@ -43,7 +43,7 @@ bool GridIlluminance::step(const Tracer& tracer, WorkerContexts& contexts, doubl
         executor.for_each(
             values.size(),
             [&](std::size_t task, int worker) {
-                measure(order_[next_ + task], tracer, contexts[worker], values[task]);
+                measure(order_[next_ + task], tracer, contexts[worker], mixture, values[task]);
             },
             stop);
         if (stop.requested()) return true;
@@ -58,14 +58,22 @@ bool GridIlluminance::step(const Tracer& tracer, WorkerContexts& contexts, doubl
     return passes_ < kSamples;
 }
 
+void GridIlluminance::begin_anew() {
+    next_ = 0;
+    passes_ = 0;
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+}
+
 void GridIlluminance::measure(std::size_t point, const Tracer& tracer, TraceContext& context,
-                              float& out) const {
+                              const LightMixture& mixture, float& out) const {
     const auto width = static_cast<std::size_t>(grid_.columns);
     const auto x = static_cast<std::uint32_t>(point % width);
     const auto y = static_cast<std::uint32_t>(point / width);
     const auto random = RandomStream::of_pixel(1, x, y, static_cast<std::uint32_t>(passes_));
     const Vec3 place = grid_.point(static_cast<int>(x), static_cast<int>(y));
-    out = kEfficacy * brightness(tracer.irradiance(place, grid_.normal, random, context).value);
+    if (context.groups) context.groups->clear();
+    const Rgb whole = tracer.irradiance(place, grid_.normal, random, context).value;
+    out = kEfficacy * brightness(context.groups ? mixture(whole, context.groups->sums()) : whole);
 }
 
 double GridIlluminance::share() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/plan/measuring_grid.h"
+#include "core/transport/light_groups.h"
 #include "parallel/executor.h"
 #include "parallel/stop_flag.h"
 #include "parallel/worker_contexts.h"
@@ -22,8 +23,12 @@ class GridIlluminance {
 
     /// Measure for so long, some points at least [s]. Throws what the tracer throws. Where `stop`
     /// is requested what was begun is begun anew by the next step. False: all is done.
+    /// @param mixture  of the light groups by which the contexts sum
     [[nodiscard]] bool step(const Tracer& tracer, WorkerContexts& contexts, double seconds,
-                            Executor& executor, const StopFlag& stop);
+                            Executor& executor, const StopFlag& stop,
+                            const LightMixture& mixture = {});
+    /// Forget what was measured: the light is another one.
+    void begin_anew();
 
     [[nodiscard]] const MeasuringGrid& grid() const { return grid_; }
     /// Share of the sensor rays that are traced, 0 ... 1.
@@ -35,7 +40,8 @@ class GridIlluminance {
     [[nodiscard]] std::vector<float> values() const;
 
   private:
-    void measure(std::size_t point, const Tracer& tracer, TraceContext& context, float& out) const;
+    void measure(std::size_t point, const Tracer& tracer, TraceContext& context,
+                 const LightMixture& mixture, float& out) const;
 
     MeasuringGrid grid_;
     std::vector<std::uint32_t> order_;   ///< points that count, coarse to fine
