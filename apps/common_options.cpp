@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/interrupt.h"
+#include "core/model/transform_args.h"
 #include "parallel/executor.h"
 
 namespace lightwalk {
@@ -115,6 +116,16 @@ std::vector<OptionRow> common_option_rows(CommonOptions& o) {
                  {"--help", answered, "this text"},
                  {"--version", answered, "the version of Lightwalk"}});
     return rows;
+}
+
+CustomOption exposure_option(ToneMapping& tone) {
+    const auto take = [&tone](OptionWords& words) {
+        const std::string word = words.text();
+        tone.automatic = word == "auto";
+        if (!tone.automatic && !parse_real(word, tone.ev))
+            refuse_argument("--exposure", "auto or a number of stops (EV)", '"' + word + '"');
+    };
+    return {take, [&tone] { return tone.automatic ? "auto" : std::to_string(tone.ev); }};
 }
 
 void read_command_line(OptionWords words, const OptionTable& table, CommonOptions& options) {

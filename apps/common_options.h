@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "io/options/option_words.h"
 #include "io/options/render_options.h"
+#include "io/picture/tone.h"
 
 namespace lightwalk {
 
@@ -38,6 +39,9 @@ struct CommonOptions {
 /// The rows of the options that all commands share, and of those on ranks. `options` must outlive
 /// the rows.
 [[nodiscard]] std::vector<OptionRow> common_option_rows(CommonOptions& options);
+
+/// --exposure auto|EV, of pictures for the screen. `tone` must outlive it.
+[[nodiscard]] CustomOption exposure_option(ToneMapping& tone);
 
 /// Read a command line: options of the table, and names of scene files, which `options` collects
 /// with the line's history. Stops behind -defaults. Throws UsageError for a word that is no option

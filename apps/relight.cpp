@@ -57,16 +57,6 @@ CustomOption level_option(RelightCommand& c) {
     }};
 }
 
-CustomOption stops(ToneMapping& tone) {
-    const auto take = [&tone](OptionWords& words) {
-        const std::string word = words.text();
-        tone.automatic = word == "auto";
-        if (!tone.automatic && !parse_real(word, tone.ev))
-            refuse_argument("--exposure", "auto or a number of stops (EV)", '"' + word + '"');
-    };
-    return {take, [&tone] { return tone.automatic ? "auto" : std::to_string(tone.ev); }};
-}
-
 OptionTable relight_table(RelightCommand& c) {
     const Action answered{[] {}};  // by main, wherever they stand
     const std::vector<OptionRow> own{
@@ -78,7 +68,7 @@ OptionTable relight_table(RelightCommand& c) {
         {"-o FILE", &c.output,
          ".hdr .pic: Radiance picture; .exr: float; .png .jpg: for the screen. Without -o a "
          "Radiance picture goes to standard output"},
-        {"--exposure auto|EV", stops(c.tone),
+        {"--exposure auto|EV", exposure_option(c.tone),
          "for .png and .jpg: average brightness, or a fixed number of stops"},
         {"Help", SectionTitle{}},
         {"--help", answered, "this text"},

@@ -90,16 +90,6 @@ std::vector<OptionRow> pixel_rows(RenderCommand& c) {
          With{.least = 0}}};
 }
 
-CustomOption exposure(ToneMapping& tone) {
-    const auto take = [&tone](OptionWords& words) {
-        const std::string word = words.text();
-        tone.automatic = word == "auto";
-        if (!tone.automatic && !parse_real(word, tone.ev))
-            refuse_argument("--exposure", "auto or a number of stops (EV)", '"' + word + '"');
-    };
-    return {take, [&tone] { return tone.automatic ? "auto" : std::to_string(tone.ev); }};
-}
-
 CustomOption primaries(SeriesOutput& output) {
     return {[&output](OptionWords& words) {
         output.xyz = false;
@@ -183,7 +173,7 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
         {"-pc RX RY GX GY BX BY WX WY", primaries(output),
          "CIE chromaticities of the channels and of white, as a Radiance picture's header has "
          "them"},
-        {"--exposure auto|EV", exposure(output.tone),
+        {"--exposure auto|EV", exposure_option(output.tone),
          "for .png and .jpg: average brightness, or a fixed number of stops"},
         {"--tone CURVE",
          choice(output.tone.curve,

@@ -92,13 +92,6 @@ void store(const BlockPixels& pixels, const PixelRectangle& area, Frame& frame) 
     }
 }
 
-/// Of blocks. A coarse picture, which fills the ambient cache, may have as few pixels as four usual
-/// blocks, each of which takes long: threads would wait for the last one.
-int smallest_side(const FrameOptions& options, const Executor& executor,
-                  const BlockRenderer& renderer) {
-    return options.step > 1 && executor.concurrency() > 1 ? 1 : renderer.alignment();
-}
-
 /// Copies blocks known from a checkpoint into the frame; returns the blocks left to render.
 std::vector<Block> take_known(CheckpointSink& checkpoint, const std::vector<Block>& wanted,
                               int alignment, const PixelRectangle& area, Frame& frame) {
@@ -135,8 +128,8 @@ Frame render_frame(const Tracer& tracer, const Camera& camera, const FrameOption
     Frame frame = black_frame(options, groups ? groups->size() : 0, executor);
     contexts.reset_counters();
     const BlockRenderer renderer(tracer, camera, options, contexts, stop);
-    const int side = block_side(area.width(), area.height(), executor.concurrency(),
-                                smallest_side(options, executor, renderer));
+    const int side =
+        block_side(area.width(), area.height(), executor.concurrency(), renderer.alignment());
     std::vector<Block> blocks = make_blocks(area, side);
     if (checkpoint != nullptr)
         blocks = take_known(*checkpoint, blocks, renderer.alignment(), area, frame);
