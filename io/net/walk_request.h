@@ -107,8 +107,7 @@ struct HandRequest {
 using WalkRequest =
     std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
                  LightsRequest, PickRequest, MeanRequest, ProbesRequest, GlareRequest, PlanRequest,
-                 IsoluxRequest,
-                 TakeRequest, HandRequest>;
+                 IsoluxRequest, TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {
