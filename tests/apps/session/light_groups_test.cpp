@@ -156,8 +156,8 @@ TEST_CASE("the layers of light groups add up to the picture, which is that witho
     SUBCASE("hemispheres of each pixel, sampled where they differ") {
         options.light.ambient_bounces = 2;
         options.light.ambient_accuracy = 0;
-        options.light.ambient_divisions = 64;
-        options.light.ambient_super_samples = 64;
+        options.light.ambient_divisions = 16;
+        options.light.ambient_super_samples = 16;
     }
     SUBCASE("cached, sampled where they differ") {
         options.light.ambient_bounces = 2;
