@@ -36,7 +36,7 @@ from walk.slow_link import SlowLink  # noqa: E402
 from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
 
 SETTLE = 6  # before moving: the first picture [s]
-MOST_REST = 120  # until all pixels are traced [s]
+MOST_REST = 60  # until all pixels are traced [s]
 
 
 def as_message(view, ident, size, moving=True):
