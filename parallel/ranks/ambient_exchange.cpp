@@ -2,7 +2,7 @@
 
 namespace lightwalk {
 
-void AmbientMaster::handle(int from, AmbientValues offer, Outbox& out) {
+void AmbientMaster::handle(int from, const AmbientValues& offer, Outbox& out) {
     std::size_t& told = told_[from];
     AmbientValues news{{}, AmbientValues::Direction::news};
     for (std::size_t i = told; i < size(); ++i) {

@@ -19,7 +19,7 @@ class AmbientMaster {
   public:
     explicit AmbientMaster(int self) : self_(self) {}
     /// An offer comes in, news go out.
-    void handle(int from, AmbientValues offer, Outbox& out);
+    void handle(int from, const AmbientValues& offer, Outbox& out);
     /// The scene that the values are of is done with: forgets them.
     void clear();
     [[nodiscard]] std::size_t size() const { return known_.records.size(); }

@@ -22,9 +22,9 @@ AmbientValues news_of(std::size_t count) {
     return {std::vector<AmbientRecord>(count), AmbientValues::Direction::news};
 }
 
-AmbientValues answer_of(AmbientMaster& master, int rank, AmbientValues values) {
+AmbientValues answer_of(AmbientMaster& master, int rank, const AmbientValues& values) {
     Outbox out;
-    master.handle(rank, std::move(values), out);
+    master.handle(rank, values, out);
     REQUIRE(out.messages.size() == 1);
     CHECK(out.messages.front().to == rank);
     const auto& answer = std::get<AmbientValues>(out.messages.front().message);
