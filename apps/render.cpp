@@ -37,8 +37,6 @@ class RenderRun final : CommandRun {
           command_(command),
           printer_(progress_options(), warnings()) {
         check_render_command(command_, files);
-        if (communicator != nullptr && command_.output.layers)
-            throw UsageError("option --light-group: by one process, without mpirun");
         if (command_.walk && speaks() && is_film(command_.output.picture))
             (void)film_encoder();  // before anything is drawn
         choose_spacing();

@@ -161,7 +161,7 @@ std::vector<OptionRow> output_rows(RenderCommand& c) {
         {"--light-group auto|NAME=PATTERN,...", light_group(c),
          "dimmers in the page, one for each group of light sources: those whose modifiers' names "
          "match a pattern (* ? [...]), the first that does; what is left is \"rest\", with -av. "
-         "Repeatable. auto: the sun, the sky, and each other modifier. By one process, without -af",
+         "Repeatable. auto: the sun, the sky, and each other modifier. Without -af",
          With{.commands = kWalk}},
         {"-z FILE", &output.depth,
          "distances along the pixels' rays [m]: raw floats from the top, or .exr; 1e10: nothing "

@@ -24,19 +24,15 @@ void PixelTracer::operator()(std::span<const PixelPlace> places, std::span<Pixel
     for (Rgb& value : mirrored_groups_) value *= share;
 }
 
-/// Ray by ray, so that it is known whose light is told of.
 void PixelTracer::shade_by_groups() {
     GroupSums& sums = *context_.groups;
-    for (std::size_t k = 0; k < rays_.size(); ++k) {
-        sums.clear();
-        tracer_.shade_hits({&rays_[k], 1}, {&hits_[k], 1}, context_);
+    tracer_.shade_hits(rays_, hits_, context_, [&](std::size_t k) {
         Rgb* to = &groups_[targets_[k] * sums.size()];
         for (const Rgb& value : sums.sums()) *to++ += value;
-        if (!(brightness(rays_[k].mirrored) > 0)) continue;
+        if (!(brightness(rays_[k].mirrored) > 0)) return;
         to = &mirrored_groups_[targets_[k] * sums.size()];
         for (const Rgb& value : sums.reflected()) *to++ += value;
-    }
-    sums.clear();
+    });
 }
 
 void PixelTracer::trace_sample(int sample, std::span<const PixelPlace> places,

@@ -27,11 +27,7 @@ class PublishedCache final : public AmbientCache {
     [[nodiscard]] AmbientSum lookup(const AmbientQuery& query, LeakTest leaks) const override {
         return cache_.lookup(query, leaks);
     }
-    void insert(const AmbientRecord& record) override {
-        if (frozen_) return;
-        cache_.insert(record);
-        for (AmbientListener* listener : listeners_) listener->stored(record);
-    }
+    void insert(const AmbientRecord& record) override { insert_with_groups(record, {}); }
     [[nodiscard]] AmbientSum lookup_groups(const AmbientQuery& query, LeakTest leaks,
                                            std::span<std::array<double, 3>> groups) const override {
         return cache_.lookup_groups(query, leaks, groups);
@@ -39,14 +35,15 @@ class PublishedCache final : public AmbientCache {
     void insert_with_groups(const AmbientRecord& record, std::span<const Rgb> groups) override {
         if (frozen_) return;
         cache_.insert_with_groups(record, groups);
-        for (AmbientListener* listener : listeners_) listener->stored(record);
+        for (AmbientListener* listener : listeners_) listener->stored(record, groups);
     }
     /// Take over a value that a listener has from elsewhere, also while frozen: all other listeners
     /// are told of it.
-    void take_over(const AmbientRecord& record, const AmbientListener& from) {
-        cache_.insert(record);
+    void take_over(const AmbientRecord& record, std::span<const Rgb> groups,
+                   const AmbientListener& from) {
+        cache_.insert_with_groups(record, groups);
         for (AmbientListener* listener : listeners_)
-            if (listener != &from) listener->stored(record);
+            if (listener != &from) listener->stored(record, groups);
     }
     [[nodiscard]] bool takes_values() const override { return !frozen_; }
     [[nodiscard]] AmbientLogMean log_mean() const override { return cache_.log_mean(); }

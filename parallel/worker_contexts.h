@@ -66,11 +66,9 @@ class WorkerContexts {
     }
 
   private:
-    /// Rays are shaded one by one then, so that it is known whose light is told of.
     void listen(std::size_t worker, TraceContext& context) {
         sums_[worker] = std::make_unique<GroupSums>(groups_);
         context.contributions = context.groups = sums_[worker].get();
-        context.batches.make_fibers = nullptr;
     }
 
     const Tracer& tracer_;

@@ -16,6 +16,9 @@ frames as they come; else one that draws the camera from them, and is sent depth
   width       of the frames, mean share of what was asked for: moving frames are smaller where time is short [%]
   Mbit/s      of frames
 
+Where the scene has dimmers (--options "--light-group auto") a third line, `dim`: the view rests, all its pixels are traced, and one after the
+other the dimmers are drawn to and fro, sixty levels a second. The latency is from sending a level to the next frame.
+
 With --rate the client is behind a link that carries so many Mbit/s, and with --delay behind a round trip of so many ms. What waits on
 the way, in a queue of the server's or of the link's, comes on top of the delay in `latency`.
 
@@ -33,6 +36,7 @@ from walk.slow_link import SlowLink  # noqa: E402
 from walk.websocket import Closed, Frame, WebSocket  # noqa: E402
 
 SETTLE = 6  # before moving: the first picture [s]
+MOST_REST = 60  # until all pixels are traced [s]
 
 
 def as_message(view, ident, size, moving=True):
@@ -83,7 +87,7 @@ class Server:
 class Client:
     def __init__(self, port, size, plain):
         self.port, self.socket, self.size = port, WebSocket("127.0.0.1", port), size
-        self.ident = 0
+        self.ident, self.finished = 0, False
         self.forget()
         self.loaded = None
         # Beside what is sent: a message takes its time on a slow link, and whoever waits for its end says no view meanwhile.
@@ -130,15 +134,21 @@ class Client:
         frame = Frame(message)
         self.socket.send({"type": "ack", "frame": frame.number})
         self.frames += 1
+        self.finished = frame.finished
         self.bytes += frame.bytes
         self.width += frame.width
         now = time.monotonic()
-        for ident in [ident for ident in self.sent if ident <= frame.view]:
+        for ident in [ident for ident in self.sent if ident <= frame.view or self.dims]:
             self.latency.append(now - self.sent.pop(ident))
 
     def forget(self):
         self.sent, self.frames, self.latency, self.bytes, self.reuse, self.width = {}, 0, [], 0, [], 0
-        self.inferred, self.guessed = [], []
+        self.inferred, self.guessed, self.dims = [], [], False
+
+    def dim(self, name, level):
+        self.ident += 1
+        self.sent[self.ident], self.dims = time.monotonic(), True
+        self.socket.send({"type": "lights", "levels": [{"name": name, "level": level, "rgb": [1, 1, 1]}]})
 
 
 def port_behind(port, args):
@@ -162,7 +172,27 @@ def measure(client, view, walk, seconds):
     while (now := time.monotonic()) < start + seconds:
         client.look(WALKS[walk](view, now - start))
         client.listen(now + 1 / 60)
-    took = time.monotonic() - start
+    return figures(client, time.monotonic() - start)
+
+
+def measure_dimming(client, view, seconds):
+    """Frames of a view at rest while its lights change."""
+    client.look(view, moving=False)
+    client.finished = False
+    end = time.monotonic() + MOST_REST
+    while not client.finished and time.monotonic() < end:
+        client.listen(time.monotonic() + 0.1)
+    client.forget()
+    names = client.loaded["lights"]
+    start = time.monotonic()
+    while (now := time.monotonic()) < start + seconds:
+        t = now - start
+        client.dim(names[int(t) % len(names)], abs(1 - 2 * (t % 1)))
+        client.listen(now + 1 / 60)
+    return figures(client, time.monotonic() - start)
+
+
+def figures(client, took):
     waits = sorted(client.latency) or [math.inf]
     return {"fps": client.frames / took, "latency ms": 1000 * waits[len(waits) // 2],
             "95 % ms": 1000 * waits[int(0.95 * (len(waits) - 1))],
@@ -212,9 +242,10 @@ def main():
                 # Eyes are as high as a person's, whatever the scene's unit is.
                 view = {**page_view(views.parse(words)), "pace": client.loaded["eye_height"] / 1.6}
                 view["vertical"] = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
-                for walk in WALKS:
-                    row = {"view": place.name, "size": f"{size[0]}x{size[1]}", "walk": walk, **measure(client, view, walk, args.seconds)}
-                    if args.abuse:
+                for walk in [*WALKS, *(["dim"] if client.loaded.get("lights") else [])]:
+                    found = measure(client, view, walk, args.seconds) if walk in WALKS else measure_dimming(client, view, args.seconds)
+                    row = {"view": place.name, "size": f"{size[0]}x{size[1]}", "walk": walk, **found}
+                    if args.abuse and walk in WALKS:
                         row.update(measure_abused(client, view, walk, args.seconds, row["fps"]))
                     if not rows:
                         print("\t".join(row))

@@ -14,9 +14,11 @@ namespace lightwalk {
 RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
                          RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
-    if (options_.light_groups) throw InputError("light groups are for one process, without ranks");
     if (options_.reuse) light_.emplace(session_.tracer(), warnings_, executor_->concurrency());
     if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
+    for (std::optional<WalkLight>* light : {&light_, &direct_light_})
+        if (*light && contexts_.light_groups() != nullptr)
+            (*light)->contexts.sum_by(contexts_.shared_groups());
 }
 
 void RankBackend::share_values() {
@@ -139,6 +141,7 @@ LiveFrames& RankBackend::frames() {
         [this](FrameOrder order, const StopFlag& stop) { return draw(std::move(order), stop); },
         direct_ ? *direct_ : session_.tracer(), direct_ ? &session_.tracer() : nullptr,
         *options_.reuse, frame_options(0, 0), *own_executor_, warnings_);
+    if (contexts_.light_groups() != nullptr) frames_->keep_groups(contexts_.shared_groups());
     return *frames_;
 }
 

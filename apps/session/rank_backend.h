@@ -64,6 +64,7 @@ class RankBackend final : public RenderBackend {
     RankLink& link_;
     TraceCounters prepass_counters_;
     std::optional<WalkLight> light_, direct_light_;  ///< of a walk's frames
+    LightMixture mixture_;                           ///< of the frame that is drawn
 
     // On rank 0.
     std::deque<Job> jobs_;  ///< oldest first

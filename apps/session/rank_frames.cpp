@@ -9,6 +9,14 @@ namespace lightwalk {
 void RankFrames::start(std::uint64_t first) {
     lead_.emplace(options_.width, options_.height, cloud_, first);
     last_.reset();
+    (void)mixed();
+}
+
+const ProgressivePicture* RankFrames::mixed() {
+    if (!lead_) return nullptr;
+    if (lead_->mix(mixture_)) return lead_->progressive();
+    lead_->abandon();
+    return nullptr;
 }
 
 void RankFrames::resized() {
@@ -37,13 +45,14 @@ WalkFrame RankFrames::draw(const View& view, double budget, double refine, const
         drawn(lead_->order(view, payload(view, walking_ == indirect_.get())), stop);
     WalkFrame result;
     if (!made) return result;
-    lead_->complete(made->frame, made->refined, executor_);
+    lead_->complete(made->frame, made->refined, executor_, made->refined_groups);
     last_ = Last{view, std::move(made->frame)};
     result.frame = turned_over(last_->frame, executor_);
     result.report = last_->frame.report;
     WorkerContexts& contexts = walking_->contexts;
     contexts.reset_counters();
-    draw_small_sources(walking_->tracer, Camera(view), options_, executor_, contexts, result.frame);
+    draw_small_sources(walking_->tracer, Camera(view), options_, executor_, contexts, result.frame,
+                       mixture_);
     result.frame.rays = contexts.rays();
     result.frame.complete = true;
     return result;
@@ -63,7 +72,7 @@ TracedValues RankFrames::trace(const View& view, const ProgressiveWork& work, do
     lead_->set_budget(seconds);
     std::optional<AssembledFrame> traced =
         drawn(lead_->trace_order(work, payload(view, true)), stop);
-    if (traced) return std::move(traced->refined);
+    if (traced) return {std::move(traced->refined), std::move(traced->refined_groups)};
     return std::vector<std::optional<PixelValue>>(work.places.size());
 }
 

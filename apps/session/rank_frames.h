@@ -31,6 +31,7 @@ class RankFrames final : public LiveFrames {
   private:
     void start(std::uint64_t first) override;
     void resized() override;
+    [[nodiscard]] const ProgressivePicture* mixed() override;
     [[nodiscard]] std::string payload(const View& view, bool indirect) const;
     [[nodiscard]] std::optional<AssembledFrame> drawn(FrameOrder order, const StopFlag& stop);
 

@@ -22,10 +22,14 @@ struct OrderedPicture {
 
 void RankBackend::trace() {
     if (!link_.traces()) return link_.inbox().wait_for_end(stop());
-    if (options_.reuse)
+    if (options_.reuse) {
+        CloudOptions cloud = *options_.reuse;
+        if (contexts_.light_groups() != nullptr)
+            cloud.light_groups = contexts_.light_groups()->size();
         return draw_frames(
-            link_, *options_.reuse, [this](const FrameOrder& order) { return make_rays(order); },
-            *executor_, stop());
+            link_, cloud, [this](const FrameOrder& order) { return make_rays(order); }, *executor_,
+            stop());
+    }
     trace_work(link_,
                {[this](const PictureJob& job) { return make_renderer(job); },
                 [this](const RayChunk& chunk, int worker) { return answer_chunk(chunk, worker); }},
@@ -66,9 +70,10 @@ std::unique_ptr<SceneCaster> RankBackend::make_rays(const FrameOrder& order) {
     const auto picture = wire::decode<PictureOrder>(order.payload);
     const bool direct = direct_light_ && !picture.indirect;
     WalkLight& light = direct ? *direct_light_ : *light_;
+    mixture_ = order.mixture;
     auto rays = std::make_unique<SceneCaster>(light.tracer, light.visibility, Camera(picture.view),
                                               options, light.contexts, stop(),
-                                              use_of_frame(order.budget, order.rests));
+                                              use_of_frame(order.budget, order.rests), &mixture_);
     const CachePrepass how = direct || options_.steered ? CachePrepass::none : prepass();
     const bool deterministic = how == CachePrepass::deterministic;
     if (how == CachePrepass::none || (!order.rules.empty && !deterministic)) return rays;
@@ -85,6 +90,7 @@ std::unique_ptr<SceneCaster> RankBackend::make_rays(const FrameOrder& order) {
 void RankBackend::fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
                              Executor& executor) {
     WorkerContexts contexts(session_.tracer(), warnings_, executor.concurrency());
+    if (contexts_.light_groups() != nullptr) contexts.sum_by(contexts_.shared_groups());
     const CachePrepassResult filled = fill_ambient_cache(
         session_.tracer(), camera, options, how, *session_.freezable, executor, contexts, stop(),
         [](const FrameProgress&) {},

@@ -105,12 +105,11 @@ class AmbientRays final : public HemisphereRays {
     /// How a ray's answer is made of what the groups bring is told ray by ray.
     void shade_by_groups(GroupSums& sums) {
         const GroupSums::Part apart(&sums, &parent_);
-        told_.clear();
-        for (std::size_t i = 0; i < rays_.size(); ++i) {
-            sums.clear();
-            tracer_.shade_hits({&rays_[i], 1}, {&hits_[i], 1}, context_);
-            told_.insert(told_.end(), sums.sums().begin(), sums.sums().end());
-        }
+        told_.resize(rays_.size() * sums.size());
+        tracer_.shade_hits(rays_, hits_, context_, [&](std::size_t i) {
+            std::ranges::copy(sums.sums(),
+                              told_.begin() + static_cast<std::ptrdiff_t>(i * sums.size()));
+        });
     }
 
     const LightTransport& tracer_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/transport/light_groups.h"
+
 namespace lightwalk {
 namespace {
 
@@ -28,6 +30,7 @@ void ShadingBatch::run(std::size_t count, FunctionRef<void(std::size_t)> body, C
     nesting_ = context.path.nesting;
     level_ = context.path.ambient_level;
     around_ = context.batches.current;
+    account_ = context.groups ? context.groups->account() : nullptr;
     for (std::size_t first = 0; first < count; first += tasks_.size())
         run_part(first, std::min(tasks_.size(), count - first), body, calculate, context);
 }
@@ -49,6 +52,7 @@ void ShadingBatch::run_part(std::size_t first, std::size_t count,
         const BatchScope batch_scope(context, this);
         running_ = i;
         context.path.nesting = tasks_[i].nesting;
+        const GroupSums::Turned turned(context.groups, tasks_[i].account);
         bool done = enter();
         while (!done && tasks_[i].outside) {
             go_outside(tasks_[i], context);
@@ -61,7 +65,7 @@ void ShadingBatch::run_part(std::size_t first, std::size_t count,
     waiting_.clear();
     std::size_t begun = 0;
     for (; begun < count && fibers_->prepare(begun); ++begun) {
-        tasks_[begun] = {nullptr, nullptr, nesting_, nullptr};
+        tasks_[begun] = {nullptr, nullptr, nesting_, account_, nullptr};
         run_on(begun, [&] { return fibers_->start(begun, work_ref); });
     }
     while (!waiting_.empty()) {
@@ -106,6 +110,7 @@ void ShadingBatch::go_outside(ShadingTask& task, TraceContext& context) {
 void ShadingBatch::leave(TraceContext& context) {
     const std::size_t own = running_;
     tasks_[own].nesting = context.path.nesting;
+    if (context.groups) tasks_[own].account = context.groups->account();
     fibers_->wait();
     if (tasks_[own].failed) std::rethrow_exception(std::exchange(tasks_[own].failed, nullptr));
 }

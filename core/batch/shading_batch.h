@@ -58,7 +58,8 @@ class ShadingBatch {
         const DirectRequest* request = nullptr;        ///< direct light that it waits for
         const FunctionRef<void()>* outside = nullptr;  ///< work for outside() that it waits for
         Nesting nesting;                               ///< of the context, while it waits
-        std::exception_ptr failed;  ///< thrown by what it waits for; at the end, by its body
+        GroupAccount* account = nullptr;  ///< of what groups of emitters bring, while it waits
+        std::exception_ptr failed;        ///< thrown by what it waits for; at the end, by its body
     };
     void run_part(std::size_t first, std::size_t count, FunctionRef<void(std::size_t)> body,
                   Calculate calculate, TraceContext& context);
@@ -67,9 +68,10 @@ class ShadingBatch {
     void calculate_all(Calculate calculate, TraceContext& context);
 
     BatchWaits waits_ = BatchWaits::anywhere;
-    int level_ = 0;                   ///< ambient level of the bodies
-    Nesting nesting_{};               ///< outside of the bodies
-    ShadingBatch* around_ = nullptr;  ///< the batch whose fiber runs this one
+    int level_ = 0;                    ///< ambient level of the bodies
+    Nesting nesting_{};                ///< outside of the bodies
+    GroupAccount* account_ = nullptr;  ///< the same; null: nobody asks for groups
+    ShadingBatch* around_ = nullptr;   ///< the batch whose fiber runs this one
     std::unique_ptr<Fibers> fibers_;
     std::vector<ShadingTask> tasks_;
     std::size_t running_ = 0;

@@ -37,8 +37,7 @@ void RegionPoints::mix(const LightMixture& mixture, const TaskRunner& task_runne
 /// Points first ... last - 1.
 void RegionPoints::mix_from(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && group_count_ > 0; ++i)
-        points_[i].radiance =
-            mixture_.sum(std::span(groups_).subspan(i * group_count_, group_count_));
+        points_[i].radiance = mixture_.sum(groups_of(i));
 }
 
 /// Of two points the second one has what the first one has not.
@@ -80,9 +79,11 @@ PixelRectangle RegionPoints::inside_of_area() const {
     return inner;
 }
 
-void RegionPoints::add(std::span<const CloudPoint> points) {
+void RegionPoints::add(std::span<const CloudPoint> points, std::span<const Rgb> groups) {
     const std::size_t first = points_.size();
     points_.insert(points_.end(), points.begin(), points.end());
+    if (!groups.empty()) group_count_ = groups.size() / points.size();
+    groups_.insert(groups_.end(), groups.begin(), groups.end());
     places_.resize(points_.size());
     used_.resize(points_.size());
     project_points(*projector_, points_, first, points_.size(), grids_, places_);
@@ -154,7 +155,7 @@ void RegionPoints::put_to_sleep(std::span<const std::vector<std::uint32_t>> part
         for (const std::uint32_t i : part) {
             tired.push_back(points_[i]);
             points_[i].kind = PointKind::gone;
-            const auto own = std::span(groups_).subspan(i * group_count_, group_count_);
+            const std::span<const Rgb> own = groups_of(i);
             groups.insert(groups.end(), own.begin(), own.end());
         }
     asleep_.add(tired, groups);

@@ -49,18 +49,19 @@ class RegionPoints {
     /// Find the places of all points, after those have woken that the picture may show.
     void project(const TaskRunner& task_runner);
     /// Points that the picture shows outside the region, or at its edge: others need them. Calls
-    /// take(point, pixel).
+    /// take(point, pixel, what each light group adds to it).
     template <class Take>
     void leaving(Take take) const {
         const PixelRectangle inner = inside_of_area();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             if (!(places_[i].distance > 0)) continue;
             const PixelPlace place = pixel_of(places_[i], width_, height_);
-            if (!inner.contains(place)) take(points_[i], place);
+            if (!inner.contains(place)) take(points_[i], place, groups_of(i));
         }
     }
     /// Points of other regions that lie in this one, or a pixel beside it.
-    void add(std::span<const CloudPoint> points);
+    /// @param groups  what each light group adds to them, by point, then group; empty: not kept
+    void add(std::span<const CloudPoint> points, std::span<const Rgb> groups = {});
 
     /// Finds points for pixels of the region; valid until points are added.
     [[nodiscard]] PointFinder finder(const ReuseRules& rules) const {
@@ -103,6 +104,9 @@ class RegionPoints {
 
   private:
     [[nodiscard]] PixelRectangle inside_of_area() const;
+    [[nodiscard]] std::span<const Rgb> groups_of(std::size_t point) const {
+        return std::span(groups_).subspan(point * group_count_, group_count_);
+    }
     void put_to_sleep(std::span<const std::vector<std::uint32_t>> parts);
     void leave_groups(std::size_t points, std::span<const Rgb> groups, std::span<const Rgb> ahead);
     void mix_from(std::size_t first, std::size_t last);

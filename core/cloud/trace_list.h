@@ -100,6 +100,7 @@ class TraceList {
                 std::span<const Rgb> groups = {}, std::span<const Rgb> ahead = {});
     /// The values of the pixels, in their order; none: there was no time.
     [[nodiscard]] std::vector<std::optional<PixelValue>> values() const;
+    [[nodiscard]] std::size_t light_groups() const { return options_.light_groups; }
     /// What each light group adds to them, by pixel, then group; empty: they are not kept.
     [[nodiscard]] std::span<const Rgb> groups() const {
         return std::span(groups_).first(uncached_.size() * options_.light_groups);

@@ -145,6 +145,7 @@ void DirectCalculation::sum_tested(ShadingPoint& point) {
 /// of what they met.
 void DirectCalculation::tell_tested(const ShadingPoint& point, ContributionSink& sink) const {
     if (point.ray->aimed) return;
+    const GroupSums::Turned turned(context_.groups, point.account);
     const Rgb throughput = path_throughput(*point.ray, sink.root());
     for (std::size_t i = point.tested; i < point.block_end; ++i) {
         const LightCandidate& candidate = ranked(point, i);
@@ -168,15 +169,16 @@ void DirectCalculation::add_untested(ShadingPoint& point) {
         const Rgb value =
             candidate.contribution * std::min(1.0f, factor * lights_[candidate.source].hit_rate);
         point.ray->value += value;
-        if (context_.groups) tell_guess(*point.ray, candidate, value, *context_.groups);
+        if (context_.groups) tell_guess(point, candidate, value, *context_.groups);
     }
 }
 
 /// Light that is assumed to arrive: as much of a source's as of those that were tested.
-void DirectCalculation::tell_guess(const Ray& ray, const LightCandidate& candidate,
-                                   const Rgb& value, ContributionSink& sink) const {
-    if (ray.aimed) return;
-    const Rgb throughput = path_throughput(ray, sink.root());
+void DirectCalculation::tell_guess(const ShadingPoint& point, const LightCandidate& candidate,
+                                   const Rgb& value, GroupSums& sink) const {
+    if (point.ray->aimed) return;
+    const GroupSums::Turned turned(&sink, point.account);
+    const Rgb throughput = path_throughput(*point.ray, sink.root());
     tell({emitter_of(lights_[candidate.source]),
           candidate.direction,
           {},

@@ -99,8 +99,8 @@ class DirectCalculation {
     void sum_tested(ShadingPoint& point);
     void tell_tested(const ShadingPoint& point, ContributionSink& sink) const;
     void add_untested(ShadingPoint& point);
-    void tell_guess(const Ray& ray, const LightCandidate& candidate, const Rgb& value,
-                    ContributionSink& sink) const;
+    void tell_guess(const ShadingPoint& point, const LightCandidate& candidate, const Rgb& value,
+                    GroupSums& sink) const;
     [[nodiscard]] ModifierId emitter_of(const LightSource& source) const;
     [[nodiscard]] const ShadingPoint& point_of(const LightCandidate& candidate) const {
         return scratch_.points[candidate.point];

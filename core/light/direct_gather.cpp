@@ -17,6 +17,7 @@ ShadingPoint::ShadingPoint(const DirectRequest& request)
       one_sided(request.front != nullptr),
       coefficient(request.coefficient),
       ray(request.ray),
+      account(request.account),
       start(LightTransport::start_shadow(*request.ray)) {
     if (one_sided) front = *request.front;
     clear_air = max_component(ray->medium.extinction) <= 1e-10f;

@@ -143,13 +143,15 @@ void DirectCalculation::take(LightCandidate& candidate, Visibility found) const 
 
 /// Follow one shadow ray through whatever is in the way.
 void DirectCalculation::trace_shadow(LightCandidate& candidate) {
-    Ray& ray = *point_of(candidate).ray;
+    const ShadingPoint& point = point_of(candidate);
+    Ray& ray = *point.ray;
     Ray shadow;
     const RayKind kind = goes_through(ray, candidate.direction) ? kShadowThrough : kShadowSame;
     (void)tracer_.spawn(shadow, kind, ray, nullptr);
     shadow.direction = candidate.direction;
     shadow.coef = candidate.coefficient;
     shadow.target = candidate.source;
+    const GroupSums::Turned turned(context_.groups, point.account);
     GroupSums::Part told(context_.groups);  // nothing where the light counts as none
     tracer_.trace(shadow, context_);
     if (!shadow.hit.exists()) {  // at the aft clipping plane: what lies beyond does not shadow

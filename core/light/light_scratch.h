@@ -54,6 +54,7 @@ struct ShadingPoint {
     bool adaptive = false;   ///< tested brightest first, until the others cannot matter
     DirectCoefficient coefficient;
     Ray* ray;
+    GroupAccount* account;  ///< see DirectRequest
     ShadowStart start;      ///< of shadow rays; its random numbers place the samples on sources
     std::size_t first = 0;  ///< its candidates' ranks begin here in DirectScratch::ranks
     std::size_t count = 0;  ///< candidates that are left

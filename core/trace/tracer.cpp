@@ -148,14 +148,29 @@ void Tracer::enter_mixture(TraceContext& context, FunctionRef<void()> branch) co
 
 void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
                         TraceContext& context) const {
-    const auto shade = [&](std::size_t i) { shade_hit(rays[i], hits[i], context); };
+    shade_all(
+        rays.size(), [&](std::size_t i) { shade_hit(rays[i], hits[i], context); }, context);
+}
+
+void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits, TraceContext& context,
+                        FunctionRef<void(std::size_t)> shaded) const {
+    const auto shade = [&](std::size_t i) {
+        const GroupSums::OwnAccount own(*context.groups);
+        shade_hit(rays[i], hits[i], context);
+        shaded(i);
+    };
+    shade_all(rays.size(), shade, context);
+}
+
+void Tracer::shade_all(std::size_t count, FunctionRef<void(std::size_t)> shade,
+                       TraceContext& context) const {
     const BatchState& batches = context.batches;
-    const bool alone = has_few_candidates(context) || !batches.make_fibers || rays.size() == 1 ||
+    const bool alone = has_few_candidates(context) || !batches.make_fibers || count == 1 ||
                        batches.open == kMostBatches || context.observer ||
                        !options().ablation.batches || context.ambient.missing ||
                        lights_->sampled().empty();
     if (alone) {
-        for (std::size_t i = 0; i < rays.size(); ++i) shade(i);
+        for (std::size_t i = 0; i < count; ++i) shade(i);
         return;
     }
     const OpenBatch batch(context.batches);
@@ -163,7 +178,7 @@ void Tracer::shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
         lights_->add_direct(requests, context);
     };
     const bool in_order = ambient_->depends_on_order(context);
-    batch->run(rays.size(), shade, calculate, context,
+    batch->run(count, shade, calculate, context,
                in_order ? BatchWaits::at_their_end : BatchWaits::anywhere);
 }
 
@@ -240,7 +255,8 @@ void Tracer::use_coefficients(const CoefficientCache* cache) {
 void Tracer::add_direct(Ray& ray, DirectCoefficient coefficient, TraceContext& context,
                         const Vec3* front) const {
     if (context.ambient.missing != nullptr || lights_->sampled().empty()) return;
-    const DirectRequest request{&ray, coefficient, front};
+    const DirectRequest request{&ray, coefficient, front,
+                                context.groups ? context.groups->account() : nullptr};
     ShadingBatch* batch = context.batches.current;
     if (batch && batch->may_wait(context))
         batch->wait(request, context);

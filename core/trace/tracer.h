@@ -30,6 +30,8 @@ class Tracer final : public LightTransport {
     void shade_hit(Ray& ray, const Hit& hit, TraceContext& context) const;
     void shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
                     TraceContext& context) const override;
+    void shade_hits(std::span<Ray> rays, std::span<const Hit> hits, TraceContext& context,
+                    FunctionRef<void(std::size_t)> shaded) const override;
     void enter_mixture(TraceContext& context, FunctionRef<void()> branch) const override;
 
     /// Irradiance at a sensor point (rtrace -I): the radiance of an ideal white surface there
@@ -51,6 +53,8 @@ class Tracer final : public LightTransport {
                     const Vec3* front = nullptr) const override;
 
   private:
+    void shade_all(std::size_t count, FunctionRef<void(std::size_t)> shade,
+                   TraceContext& context) const;
     void trace_apart(Ray& ray, GroupSums& groups, TraceContext& context) const;
     void shade_target(Ray& ray, TraceContext& context) const;
     void shade_background(Ray& ray, TraceContext& context) const;

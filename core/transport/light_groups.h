@@ -49,34 +49,75 @@ struct LightMixture {
     friend bool operator==(const LightMixture&, const LightMixture&) = default;
 };
 
+/// What was told of one ray, or of some.
+struct GroupAccount {
+    std::vector<Rgb> sums;       ///< one a group
+    std::vector<Rgb> reflected;  ///< see GroupSums::reflected
+    const Ray* root = nullptr;   ///< see ContributionSink, while the account is not the current one
+};
+
 /// Adds up the terms of radiance by group. The plain picture's decisions are kept: what is tested,
 /// sampled and cached depends on the light of all groups together.
 class GroupSums final : public ContributionSink {
   public:
     explicit GroupSums(std::shared_ptr<const LightGroups> groups)
-        : groups_(std::move(groups)), sums_(groups_->size()) {}
+        : groups_(std::move(groups)), first_{std::vector<Rgb>(groups_->size()), {}, nullptr} {}
+    GroupSums(const GroupSums&) = delete;
+    GroupSums& operator=(const GroupSums&) = delete;
 
     [[nodiscard]] const LightGroups& groups() const { return *groups_; }
-    [[nodiscard]] std::size_t size() const { return sums_.size(); }
+    [[nodiscard]] std::size_t size() const { return first_.sums.size(); }
     void add(const Contribution& term) override {
-        sums_[groups_->group_of(term.modifier)] += term.value;
+        account_->sums[groups_->group_of(term.modifier)] += term.value;
     }
     /// The light of all groups times a coefficient; nothing where that is not finite.
     /// @param values  one a group, or none
     void add(const Rgb& coefficient, std::span<const Rgb> values);
 
     /// What was told since the last clear() [W/(m² sr)], one a group.
-    [[nodiscard]] std::span<const Rgb> sums() const { return sums_; }
+    [[nodiscard]] std::span<const Rgb> sums() const { return account_->sums; }
     void clear() {
-        std::fill(sums_.begin(), sums_.end(), Rgb{});
-        reflected_.clear();
+        std::fill(account_->sums.begin(), account_->sums.end(), Rgb{});
+        account_->reflected.clear();
     }
 
     /// What the last reflected ray that a primary ray has sent out brings to it, one a group;
     /// empty: none since the last clear().
-    [[nodiscard]] std::span<const Rgb> reflected() const { return reflected_; }
+    [[nodiscard]] std::span<const Rgb> reflected() const { return account_->reflected; }
     /// All that was told of this Part is of such a ray.
-    void note_reflected() { reflected_ = sums_; }
+    void note_reflected() { account_->reflected = account_->sums; }
+
+    /// Where what is told is summed: rays that are shaded together each have their own.
+    [[nodiscard]] GroupAccount* account() const { return account_; }
+    /// @return  the one before
+    GroupAccount* turn_to(GroupAccount* account);
+    /// While it lives, what is told goes to an account that somebody else holds.
+    class Turned {
+      public:
+        /// @param sums, account  either null: nothing happens
+        Turned(GroupSums* sums, GroupAccount* account) : sums_(account ? sums : nullptr) {
+            if (sums_) before_ = sums_->turn_to(account);
+        }
+        ~Turned() {
+            if (sums_) (void)sums_->turn_to(before_);
+        }
+        Turned(const Turned&) = delete;
+        Turned& operator=(const Turned&) = delete;
+
+      private:
+        GroupSums* sums_;
+        GroupAccount* before_ = nullptr;
+    };
+    /// While it lives, what is told goes to an account of its own, of the same root.
+    class OwnAccount {
+      public:
+        explicit OwnAccount(GroupSums& sums)
+            : account_{std::vector<Rgb>(sums.size()), {}, sums.root()}, turned_(&sums, &account_) {}
+
+      private:
+        GroupAccount account_;
+        Turned turned_;
+    };
 
     /// While it lives, what is told is summed apart.
     class Part {
@@ -111,8 +152,8 @@ class GroupSums final : public ContributionSink {
 
   private:
     std::shared_ptr<const LightGroups> groups_;
-    std::vector<Rgb> sums_;
-    std::vector<Rgb> reflected_;
+    GroupAccount first_;
+    GroupAccount* account_ = &first_;
 };
 
 }  // namespace lightwalk

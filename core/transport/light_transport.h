@@ -13,12 +13,15 @@
 namespace lightwalk {
 
 class LightSources;
+struct GroupAccount;
 
 /// A shaded point that wants direct light.
 struct DirectRequest {
     Ray* ray;  ///< whose hit it is; the light is added to its value
     DirectCoefficient coefficient;
     const Vec3* front = nullptr;  ///< see LightTransport::add_direct
+    GroupAccount* account =
+        nullptr;  ///< where groups of emitters are told of; null: the current one
 };
 
 /// What a ray to a light would inherit from the ray at whose hit it starts.
@@ -77,6 +80,10 @@ class LightTransport {
     /// @param hits  one a ray
     virtual void shade_hits(std::span<Ray> rays, std::span<const Hit> hits,
                             TraceContext& context) const = 0;
+    /// The same, with context.groups; shaded(i) is called while these hold what ray i has brought,
+    /// and nothing else.
+    virtual void shade_hits(std::span<Ray> rays, std::span<const Hit> hits, TraceContext& context,
+                            FunctionRef<void(std::size_t)> shaded) const = 0;
 
     /// Call `branch`, which evaluates one branch of a mixture, on a stack that is large enough.
     virtual void enter_mixture(TraceContext& context, FunctionRef<void()> branch) const = 0;

@@ -135,7 +135,7 @@ struct TraceContext {
     BatchState batches;
     AmbientCollection ambient;
     GroupSums* groups = nullptr;  ///< the sink of contributions, where it adds up what groups of
-                                  ///< emitters bring; else null. Rays are then shaded one by one
+                                  ///< emitters bring; else null
 
     /// Whether coefficients are asked for, of which radiance must not decide: else what is tested
     /// and sampled is what a picture needs.

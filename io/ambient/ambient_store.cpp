@@ -146,7 +146,7 @@ void AmbientStore::take_over_appended() {
     known_ += contents.records.size() * kAmbientRecordSize;
 }
 
-void AmbientStore::stored(const AmbientRecord& record) {
+void AmbientStore::stored(const AmbientRecord& record, std::span<const Rgb> /*groups*/) {
     if (!writable_) return;
     const std::optional<AmbientRecord> kept = fit_->for_file(record);
     if (!kept) return;

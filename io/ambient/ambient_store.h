@@ -37,7 +37,7 @@ class AmbientStore final : public AmbientListener {
     [[nodiscard]] std::vector<AmbientRecord> take_loaded() { return std::exchange(loaded_, {}); }
 
     /// Append a value. Throws InputError when the file cannot be written.
-    void stored(const AmbientRecord& record) override;
+    void stored(const AmbientRecord& record, std::span<const Rgb> groups) override;
 
   private:
     class Lock;

@@ -3,6 +3,7 @@
 #include "core/ambient/ambient_record.h"
 #include "core/cloud/point.h"
 #include "core/cloud/progressive.h"
+#include "core/transport/light_groups.h"
 #include "core/view/pixels.h"
 #include "core/view/view.h"
 #include "parallel/comm/wire.h"
@@ -16,6 +17,12 @@ void visit_fields(Wire& wire, Vec3& v) {
 template <class Wire>
 void visit_fields(Wire& wire, Rgb& c) {
     wire(c.r, c.g, c.b);
+}
+template <>
+inline constexpr bool wire::kPlain<Rgb> = sizeof(Rgb) == 3 * sizeof(float);
+template <class Wire>
+void visit_fields(Wire& wire, LightMixture& mixture) {
+    wire(mixture.levels);
 }
 template <class Wire>
 void visit_fields(Wire& wire, PixelPlace& place) {

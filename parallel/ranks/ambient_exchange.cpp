@@ -2,33 +2,33 @@
 
 namespace lightwalk {
 
-void AmbientMaster::handle(int from, AmbientValues offer, Outbox& out) {
+void AmbientMaster::handle(int from, const AmbientValues& offer, Outbox& out) {
     std::size_t& told = told_[from];
     AmbientValues news{{}, AmbientValues::Direction::news};
-    for (std::size_t i = told; i < records_.size(); ++i) {
-        if (sources_[i] != from) news.records.push_back(records_[i]);
+    for (std::size_t i = told; i < size(); ++i) {
+        if (sources_[i] != from) news.add(known_.records[i], known_.groups_of(i));
     }
-    records_.insert(records_.end(), offer.records.begin(), offer.records.end());
+    known_.add(offer);
     sources_.insert(sources_.end(), offer.records.size(), from);
-    told = records_.size();
+    told = size();
     out.messages.push_back({self_, from, std::move(news)});
 }
 
 void AmbientMaster::clear() {
-    records_.clear();
+    known_ = {};
     sources_.clear();
     told_.clear();
 }
 
-void AmbientClient::offer(const std::vector<AmbientRecord>& own, Outbox& out) {
-    own_.insert(own_.end(), own.begin(), own.end());
-    if (!asked_ && own_.size() >= batch_) ask(out);
+void AmbientClient::offer(const AmbientValues& own, Outbox& out) {
+    own_.add(own);
+    if (!asked_ && own_.records.size() >= batch_) ask(out);
 }
 
 void AmbientClient::handle(AmbientValues news, Outbox& out) {
     asked_ = false;
     if (!news.records.empty()) out.cache.push_back(std::move(news));
-    if (std::exchange(again_, false) || own_.size() >= batch_) ask(out);
+    if (std::exchange(again_, false) || own_.records.size() >= batch_) ask(out);
 }
 
 void AmbientClient::ask(Outbox& out) {
@@ -37,7 +37,7 @@ void AmbientClient::ask(Outbox& out) {
         return;
     }
     asked_ = true;
-    out.messages.push_back({self_, master_, AmbientValues{std::exchange(own_, {})}});
+    out.messages.push_back({self_, master_, std::exchange(own_, {})});
 }
 
 void SharedCache::open(PublishedCache& cache) {
@@ -56,18 +56,18 @@ bool SharedCache::is_open() const {
     return cache_ != nullptr;
 }
 
-void SharedCache::stored(const AmbientRecord& record) {
-    std::vector<AmbientRecord> full;
+void SharedCache::stored(const AmbientRecord& record, std::span<const Rgb> groups) {
+    AmbientValues full;
     {
         const std::lock_guard lock(mutex_);
-        own_.push_back(record);
-        if (own_.size() < batch_) return;
-        full.swap(own_);
+        own_.add(record, groups);
+        if (own_.records.size() < batch_) return;
+        std::swap(full, own_);
     }
     send_(std::move(full));
 }
 
-std::vector<AmbientRecord> SharedCache::unsent() {
+AmbientValues SharedCache::unsent() {
     const std::lock_guard lock(mutex_);
     return std::exchange(own_, {});
 }
@@ -75,7 +75,8 @@ std::vector<AmbientRecord> SharedCache::unsent() {
 void SharedCache::merge(const AmbientValues& news) {
     const std::lock_guard lock(mutex_);
     if (cache_ == nullptr) return;
-    for (const AmbientRecord& record : news.records) cache_->take_over(record, *this);
+    for (std::size_t i = 0; i < news.records.size(); ++i)
+        cache_->take_over(news.records[i], news.groups_of(i), *this);
 }
 
 }  // namespace lightwalk

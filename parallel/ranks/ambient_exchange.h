@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -18,14 +19,14 @@ class AmbientMaster {
   public:
     explicit AmbientMaster(int self) : self_(self) {}
     /// An offer comes in, news go out.
-    void handle(int from, AmbientValues offer, Outbox& out);
+    void handle(int from, const AmbientValues& offer, Outbox& out);
     /// The scene that the values are of is done with: forgets them.
     void clear();
-    [[nodiscard]] std::size_t size() const { return records_.size(); }
+    [[nodiscard]] std::size_t size() const { return known_.records.size(); }
 
   private:
     int self_;
-    std::vector<AmbientRecord> records_;         ///< in the order of their arrival
+    AmbientValues known_;                        ///< in the order of their arrival
     std::vector<int> sources_;                   ///< ranks they came from
     std::unordered_map<int, std::size_t> told_;  ///< records that a rank knows
 };
@@ -36,7 +37,7 @@ class AmbientClient {
     AmbientClient(int self, int master, std::size_t batch)
         : self_(self), master_(master), batch_(batch) {}
     /// Values of the own cache.
-    void offer(const std::vector<AmbientRecord>& own, Outbox& out);
+    void offer(const AmbientValues& own, Outbox& out);
     /// The master's answer, for the own cache.
     void handle(AmbientValues news, Outbox& out);
     /// Ask, whether or not a batch is full; where an offer is out, after its answer.
@@ -48,7 +49,7 @@ class AmbientClient {
     int self_, master_;
     std::size_t batch_;
     bool asked_ = false, again_ = false;
-    std::vector<AmbientRecord> own_;
+    AmbientValues own_;
 };
 
 /// A rank's cache as one of those that share their values, scene after scene.
@@ -56,7 +57,7 @@ class SharedCache final : public AmbientListener {
   public:
     /// @param batch  values that `send` is called with at once, at least 1; it is called by
     ///               whichever thread made the last of them
-    SharedCache(std::size_t batch, std::function<void(std::vector<AmbientRecord>)> send)
+    SharedCache(std::size_t batch, std::function<void(AmbientValues)> send)
         : batch_(batch), send_(std::move(send)) {}
 
     /// From now on new values of the cache go to the others, and it gets theirs.
@@ -66,18 +67,18 @@ class SharedCache final : public AmbientListener {
     [[nodiscard]] bool is_open() const;
 
     /// A value that was made here; from any thread.
-    void stored(const AmbientRecord& record) override;
+    void stored(const AmbientRecord& record, std::span<const Rgb> groups) override;
     /// Values that do not make a batch yet; they are not sent any more.
-    [[nodiscard]] std::vector<AmbientRecord> unsent();
+    [[nodiscard]] AmbientValues unsent();
     /// Values of others.
     void merge(const AmbientValues& news);
 
   private:
     std::size_t batch_;
-    std::function<void(std::vector<AmbientRecord>)> send_;
+    std::function<void(AmbientValues)> send_;
     mutable std::mutex mutex_;  ///< guards what follows
     PublishedCache* cache_ = nullptr;
-    std::vector<AmbientRecord> own_;
+    AmbientValues own_;
 };
 
 }  // namespace lightwalk

@@ -1,6 +1,7 @@
 #include "parallel/ranks/assembly.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "core/error.h"
@@ -108,9 +109,8 @@ std::vector<PixelOrigin> origins_of(const Parts& parts, int width, std::size_t p
 }
 
 /// What the parts have of the pixels that were to be refined, in the order's order.
-std::vector<std::optional<PixelValue>> refined_of(const Parts& parts, const FrameOrder& order) {
-    std::vector<std::optional<PixelValue>> values;
-    values.reserve(order.refined.size());
+void put_refined_together(const Parts& parts, const FrameOrder& order, AssembledFrame& whole) {
+    whole.refined.reserve(order.refined.size());
     std::vector<std::size_t> next(parts.size());  // of the parts' pixels
     for (const PixelPlace& place : order.refined) {
         const auto part = std::find_if(parts.begin(), parts.end(), [&](const FramePart* one) {
@@ -118,10 +118,31 @@ std::vector<std::optional<PixelValue>> refined_of(const Parts& parts, const Fram
         });
         if (part == parts.end()) refuse_parts();
         std::size_t& at = next[static_cast<std::size_t>(part - parts.begin())];
-        if (at >= (*part)->refined.size()) refuse_parts();
-        values.push_back((*part)->refined[at++]);
+        const std::vector<std::optional<PixelValue>>& refined = (*part)->refined;
+        if (at >= refined.size()) refuse_parts();
+        const std::vector<Rgb>& groups = (*part)->refined_groups;
+        const std::size_t count = groups.size() / refined.size();
+        const auto own = std::span(groups).subspan(at * count, count);
+        whole.refined_groups.insert(whole.refined_groups.end(), own.begin(), own.end());
+        whole.refined.push_back(refined[at++]);
     }
-    return values;
+    if (whole.refined_groups.size() % std::max<std::size_t>(whole.refined.size(), 1) != 0)
+        refuse_parts();
+}
+
+/// Calls visit(index of the pixel in the frame, value) for a part of a picture. In frames rows come
+/// from the top.
+template <class Visit>
+void unpack(const PixelRectangle& area, const std::string& bytes, int width, int height,
+            Visit visit) {
+    const std::vector<PixelValue> values = decode_piece(area, bytes);
+    std::size_t from = 0;
+    for (int y = area.y0; y < area.y1; ++y) {
+        std::size_t to =
+            static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(area.x0);
+        for (int x = area.x0; x < area.x1; ++x, ++from, ++to) visit(to, values[from]);
+    }
 }
 
 }  // namespace
@@ -135,19 +156,20 @@ Frame assemble_picture(const FinishedPicture& picture, int width, int height) {
     std::vector<PixelRectangle> areas;
     for (const PicturePart& part : picture.parts) areas.push_back(part.work.block);
     check_parts(areas, width, height);
+    if (!picture.parts.empty()) frame.groups.resize(picture.parts.front().layers.size());
+    for (std::vector<Rgb>& group : frame.groups) group.resize(frame.radiance.size());
     for (const PicturePart& part : picture.parts) {
         const PixelRectangle& area = part.work.block;
-        const std::vector<PixelValue> values = decode_piece(area, part.bytes);
-        std::size_t from = 0;
-        for (int y = area.y0; y < area.y1; ++y) {
-            std::size_t to =  // rows of frames come from the top
-                static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(area.x0);
-            for (int x = area.x0; x < area.x1; ++x, ++from, ++to) {
-                frame.radiance[to] = values[from].radiance;
-                frame.distance[to] = values[from].distance;
-            }
-        }
+        if (part.layers.size() != frame.groups.size()) refuse_parts();
+        unpack(area, part.bytes, width, height, [&](std::size_t to, const PixelValue& value) {
+            frame.radiance[to] = value.radiance;
+            frame.distance[to] = value.distance;
+        });
+        for (std::size_t g = 0; g < frame.groups.size(); ++g)
+            unpack(area, part.layers[g], width, height,
+                   [&](std::size_t to, const PixelValue& value) {
+                       frame.groups[g][to] = value.radiance;
+                   });
     }
     frame.complete = true;
     return frame;
@@ -168,7 +190,7 @@ AssembledFrame assemble_frame(const FrameOrder& order, const FinishedFrame& fini
     report.points = std::min(static_cast<std::size_t>(order.most_points), report.points);
     if (!order.rests) put_together(parts, order.width, whole);
     if (order.tells_origins) whole.frame.origins = origins_of(parts, order.width, pixels);
-    whole.refined = refined_of(parts, order);
+    put_refined_together(parts, order, whole);
     return whole;
 }
 

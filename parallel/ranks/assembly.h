@@ -21,6 +21,7 @@ struct AssembledFrame {
     CloudFrame frame;
     /// Values of the order's refined pixels, in its order.
     std::vector<std::optional<PixelValue>> refined;
+    std::vector<Rgb> refined_groups;  ///< see TracedValues
 };
 
 /// Throws InputError for parts that do not make the frame that was ordered.

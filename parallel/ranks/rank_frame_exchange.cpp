@@ -26,19 +26,23 @@ class RankFrameExchange final : public FrameExchange {
 
     [[nodiscard]] bool exchange_points(CloudRegion& region, const StopFlag& stop) override {
         std::vector<SharedPoints> leaving(parts_.size());
-        region.points().leaving([&](const CloudPoint& point, const PixelPlace& place) {
-            const PixelRectangle near = widened({place.x, place.y, place.x + 1, place.y + 1}, 1,
-                                                order_.width, order_.height);
-            for (const std::size_t owner : parts_.overlapping(near))
-                leaving[owner].points.push_back(point);
-        });
+        region.points().leaving(
+            [&](const CloudPoint& point, const PixelPlace& place, std::span<const Rgb> groups) {
+                const PixelRectangle near = widened({place.x, place.y, place.x + 1, place.y + 1}, 1,
+                                                    order_.width, order_.height);
+                for (const std::size_t owner : parts_.overlapping(near)) {
+                    SharedPoints& shared = leaving[owner];
+                    shared.points.push_back(point);
+                    shared.groups.insert(shared.groups.end(), groups.begin(), groups.end());
+                }
+            });
         for (std::size_t i = 0; i < leaving.size(); ++i)
             if (i != index_)
                 link_.post(link_.owners()[i], PointExchange{order_.number, std::move(leaving[i])});
         const TimedActivity waiting(link_.timeline(), 0, Activity::wait);
         const auto arrived = inbox_.points(order_.number, parts_.size() - 1, stop);
         if (!arrived) return false;
-        for (const SharedPoints& shared : *arrived) region.add(shared.points);
+        for (const SharedPoints& shared : *arrived) region.add(shared.points, shared.groups);
         return true;
     }
 
@@ -82,10 +86,13 @@ class RankFrameExchange final : public FrameExchange {
         FramePart part;
         part.frame = order_.number;
         part.area = region.frame().area;
-        if (order_.rests)
+        if (order_.rests) {
+            const std::span<const Rgb> groups = region.to_trace().groups();
             part.refined = region.to_trace().values();
-        else
+            part.refined_groups.assign(groups.begin(), groups.end());
+        } else {
             encode(region, part);
+        }
         if (order_.tells_origins) part.origins = region.frame().origins;
         part.report = region.frame().report;
         part.report.rays = rays_.traced() - rays_before_;
@@ -112,8 +119,13 @@ class RankFrameExchange final : public FrameExchange {
         const auto count = static_cast<std::uint32_t>(run.places.size());
         TracedRun result{run.frame, run.owner, run.first, count, {}};
         const TimedActivity tracing(link_.timeline(), worker, Activity::trace);
-        const auto keep = [&](std::size_t, std::span<const TracedPixelResult> traced) {
-            result.traced.insert(result.traced.end(), traced.begin(), traced.end());
+        const auto append = [](auto& all, const auto& some) {
+            all.insert(all.end(), some.begin(), some.end());
+        };
+        const auto keep = [&](std::size_t, const TracedPixels& traced) {
+            append(result.traced, traced.results);
+            append(result.groups, traced.groups);
+            append(result.ahead, traced.ahead);
         };
         tracer.trace_part(run.places, run.noise_pairs ? 1 : sample, worker, run.at_once, keep);
         return result;
@@ -127,20 +139,23 @@ class RankFrameExchange final : public FrameExchange {
 
     /// Each pixel must have been dealt with, and once.
     static void record(std::span<const TracedRun> runs, std::size_t expected, CloudRegion& region) {
-        const std::size_t uncached = region.to_trace().pixels().size();
+        const std::size_t uncached = region.to_trace().pixels().size(),
+                          groups = region.to_trace().light_groups();
         std::vector<bool> there(expected);
         for (const TracedRun& run : runs) {
             const std::size_t end = std::size_t{run.first} + run.count;
             // What is handed out together is either of the one kind or of the other.
             const bool sound = end <= expected && (run.first >= uncached || end <= uncached) &&
                                run.traced.size() <= run.count &&
+                               run.groups.size() == run.traced.size() * groups &&
+                               run.ahead.size() == run.groups.size() &&
                                std::none_of(there.begin() + run.first,
                                             there.begin() + static_cast<std::ptrdiff_t>(end),
                                             [](bool is) { return is; });
             if (!sound) throw InputError("a rank has traced pixels that it should not have");
             std::fill(there.begin() + run.first, there.begin() + static_cast<std::ptrdiff_t>(end),
                       true);
-            region.to_trace().record(run.first, run.traced);
+            region.to_trace().record(run.first, run.traced, run.groups, run.ahead);
         }
     }
 
@@ -181,6 +196,9 @@ void draw_frames(RankLink& link, const CloudOptions& cloud, const MakeWalkRays& 
         return link.inbox().next_order(stop);
     };
     while (const std::optional<FrameOrder> order = next()) {
+        const std::size_t levels = order->mixture.levels.size();
+        if (levels != 0 && levels != cloud.light_groups)
+            throw InputError("a frame of a walk is ordered with levels of other light groups");
         const std::unique_ptr<SceneCaster> rays = make(*order);
         RankFrameExchange exchange(link, *order, *rays, index, frames.keep_seconds());
         if (index < owners) {

@@ -51,7 +51,7 @@ RankLink::RankLink(Communicator& communicator, const Topology& topology,
       patience_(patience_of(topology)),
       roles_(communicator.rank(), topology, with_timed_encoding(settings, timeline_)),
       owners_(roles_.collectives().members(Collective::Group::owners)),
-      cache_(settings.ambient_batch, [this](std::vector<AmbientRecord> values) {
+      cache_(settings.ambient_batch, [this](AmbientValues values) {
           post(Activity::exchange, [carried = std::move(values)](RankRoles& roles, Outbox& out) {
               roles.ambient_client()->offer(carried, out);
           });

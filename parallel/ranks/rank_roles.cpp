@@ -75,7 +75,7 @@ void RankRoles::handle(int from, Message message, Outbox& out) {
                        if (m.direction == AmbientValues::Direction::news)
                            expected(ambient_client_).handle(std::move(m), out);
                        else
-                           expected(ambient_master_).handle(from, std::move(m), out);
+                           expected(ambient_master_).handle(from, m, out);
                    },
                    [&](Collective& m) { collectives_.handle(from, std::move(m), out); },
                    [&](Notice& m) {

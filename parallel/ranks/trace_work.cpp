@@ -44,7 +44,10 @@ void trace_work(RankLink& link, const TraceFunctions& functions, Executor& execu
                         if (!picture.renderer->render(work.block, worker, pixels))
                             return;  // stopped
                         Pixels traced{work, {}};
-                        if (picture.start.keep) traced.values = pixels.values;
+                        if (picture.start.keep) {
+                            traced.values = pixels.values;
+                            traced.groups = pixels.groups;
+                        }
                         const auto count = static_cast<std::uint32_t>(work.block.pixels());
                         finish(begin, {Payload::block, work.job, count, 0}, std::move(traced));
                     },

@@ -23,7 +23,6 @@ const CloudFrame& CloudFrames::draw(const Camera& camera, PixelCaster& caster, E
 }
 
 const ProgressivePicture* CloudFrames::mix(const LightMixture& mixture) {
-    loop_.mix(mixture);
     if (lead_.mix(mixture)) return lead_.progressive();
     lead_.abandon();
     return nullptr;

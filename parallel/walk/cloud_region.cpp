@@ -5,6 +5,7 @@
 
 #include "core/cloud/answer_block.h"
 #include "core/cloud/surface_fill.h"
+#include "core/error.h"
 #include "parallel/blocks.h"
 #include "parallel/executor_task_runner.h"
 #include "parallel/walk/step_timer.h"
@@ -51,9 +52,11 @@ void CloudRegion::project(Executor& executor) {
     points_.project(ExecutorTaskRunner(executor));
 }
 
-void CloudRegion::add(std::span<const CloudPoint> points) {
+void CloudRegion::add(std::span<const CloudPoint> points, std::span<const Rgb> groups) {
     const StepTimer timer(frame_.report.project_seconds);
-    points_.add(points);
+    if (groups.size() != points.size() * options_.light_groups)
+        throw InputError("points of a walk come with other light groups than are kept");
+    points_.add(points, groups);
 }
 
 void CloudRegion::answer(PixelCaster& caster, Executor& executor, const StopFlag& stop,

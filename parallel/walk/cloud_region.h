@@ -30,7 +30,8 @@ class CloudRegion {
     /// Find the places of all points.
     void project(Executor& executor);
     /// Points of other regions that lie in this one, or a pixel beside it.
-    void add(std::span<const CloudPoint> points);
+    /// @param groups  what light groups add, by point, then group; empty: not kept
+    void add(std::span<const CloudPoint> points, std::span<const Rgb> groups);
 
     using Clock = std::chrono::steady_clock;
     /// Find points for all pixels. What none answers is to be traced. The caster's `probe` is

@@ -36,6 +36,7 @@ FrameOrder FrameLead::new_order(std::string payload) const {
     order.payload = std::move(payload);
     order.budget = options_.budget;
     order.most_points = most_points_;
+    order.mixture = mixture_;
     return order;
 }
 
@@ -75,6 +76,7 @@ void FrameLead::begin_progressive(const CloudFrame& last, std::span<const PixelO
 }
 
 bool FrameLead::mix(const LightMixture& mixture) {
+    mixture_ = mixture;
     if (progressive() == nullptr || !progressive_.knows_groups()) return false;
     progressive_.mix(mixture);
     return true;

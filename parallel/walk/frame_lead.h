@@ -45,7 +45,8 @@ class FrameLead {
     [[nodiscard]] const ProgressivePicture* progressive() const {
         return view_ && begun_ ? &progressive_ : nullptr;
     }
-    /// Show another mixture of the light groups in it. False: it is not known of all its pixels.
+    /// Show another mixture of the light groups in it, and in the frames that follow. False: it is
+    /// not known of all its pixels.
     [[nodiscard]] bool mix(const LightMixture& mixture);
     /// An order of the last frame's view that draws nothing: parts say where pixels come from.
     [[nodiscard]] FrameOrder origins_order(std::string payload) const;
@@ -65,6 +66,7 @@ class FrameLead {
 
     int width_, height_;
     CloudOptions options_;
+    LightMixture mixture_;
     ReuseErrorController error_controller_;
     std::uint64_t frame_;
     std::size_t most_points_;  ///< of the largest frames so far: what they know outlives small ones

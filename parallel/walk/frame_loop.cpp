@@ -73,7 +73,7 @@ void FrameLoop::begin(const FrameOrder& order, const Camera& camera, Executor& e
         region_.emplace(parts[index_], width_, height_, options_);
         if (before && !order.rules.empty) region_->points().adopt(std::move(before->points()));
     }
-    region_->points().mix(mixture_, ExecutorTaskRunner(executor));
+    region_->points().mix(order.mixture, ExecutorTaskRunner(executor));
     region_->begin(camera, order.rules);
 }
 

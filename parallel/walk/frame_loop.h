@@ -59,9 +59,6 @@ class FrameLoop {
     [[nodiscard]] bool draw(const FrameOrder& order, const Camera& camera, PixelCaster& caster,
                             FrameExchange& exchange, Executor& executor, const StopFlag& stop);
 
-    /// Of the light groups in the next frames.
-    void mix(const LightMixture& mixture) { mixture_ = mixture; }
-
     /// The part of the last frame; null before the first one.
     [[nodiscard]] CloudRegion* region() { return region_ ? &*region_ : nullptr; }
     [[nodiscard]] const CloudRegion* region() const { return region_ ? &*region_ : nullptr; }
@@ -75,7 +72,6 @@ class FrameLoop {
     CloudOptions options_;
     std::size_t index_, owners_;
     std::optional<CloudRegion> region_;
-    LightMixture mixture_;
     int width_ = 0, height_ = 0;                   ///< of the picture that the region is a part of
     double infer_seconds_ = 0, keep_seconds_ = 0;  ///< of the last frame [s]
     double unknown_ = 1;                           ///< share of its pixels that no point answered

@@ -28,6 +28,7 @@ struct FrameOrder {
     std::int32_t sample = 0;  ///< see PixelCaster
     std::vector<PixelPlace> refined;
     bool tells_origins = false;  ///< whether parts say where the last frame's pixels come from
+    LightMixture mixture;        ///< of the light groups, where these are kept
     friend bool operator==(const FrameOrder&, const FrameOrder&) = default;
 };
 
@@ -43,6 +44,7 @@ struct FramePart {
     std::vector<PixelOrigin> origins;    ///< row by row from the bottom, where they are wanted
     /// Those of the order's refined pixels that lie here, in its order; none: there was no time.
     std::vector<std::optional<PixelValue>> refined;
+    std::vector<Rgb> refined_groups;  ///< see TracedValues
 };
 
 /// All parts of a frame, in any order.

@@ -46,7 +46,7 @@ class LiveFrames {
     LiveFrames& operator=(const LiveFrames&) = delete;
 
     /// Keep by groups of emitters what they bring, so that they may be dimmed: points and pixels at
-    /// rest are then mixed anew, and nothing is traced. Before begin(); by one process.
+    /// rest are then mixed anew, and nothing is traced. Before begin().
     void keep_groups(const std::shared_ptr<const LightGroups>& groups);
     /// Null: they are not kept.
     [[nodiscard]] const std::shared_ptr<const LightGroups>& light_groups() const {

@@ -23,7 +23,7 @@ inline constexpr int wire::kEnumerators<Collective::Group> = kGroups;
 LIGHTWALK_FIELDS(PictureJob, m.job, m.area, m.alignment, m.keep, m.payload, m.known, m.log)
 LIGHTWALK_FIELDS(CloudRules, m.frame, m.empty, m.tightness)
 LIGHTWALK_FIELDS(FrameOrder, m.number, m.width, m.height, m.rules, m.payload, m.budget,
-                 m.most_points, m.rests, m.leaves, m.sample, m.refined, m.tells_origins)
+                 m.most_points, m.rests, m.leaves, m.sample, m.refined, m.tells_origins, m.mixture)
 LIGHTWALK_FIELDS(Announcement, m.job)
 LIGHTWALK_FIELDS(FinishedWork, m.payload, m.job, m.count, m.seconds, m.late)
 LIGHTWALK_FIELDS(WorkRequest, m.count, m.finished)
@@ -31,22 +31,22 @@ LIGHTWALK_FIELDS(JobBlock, m.job, m.block)
 LIGHTWALK_FIELDS(RayChunk, m.number, m.first, m.numbers)
 LIGHTWALK_FIELDS(PixelRun, m.frame, m.owner, m.first, m.noise_pairs, m.at_once, m.places)
 LIGHTWALK_FIELDS(WorkGrant, m.pieces, m.frame_over)
-LIGHTWALK_FIELDS(Pixels, m.work, m.values)
+LIGHTWALK_FIELDS(Pixels, m.work, m.values, m.groups)
 LIGHTWALK_FIELDS(LoggedPixels, m.pixels)
 LIGHTWALK_FIELDS(RayAnswer, m.number, m.bytes)
-LIGHTWALK_FIELDS(TracedRun, m.frame, m.owner, m.first, m.count, m.traced)
+LIGHTWALK_FIELDS(TracedRun, m.frame, m.owner, m.first, m.count, m.traced, m.groups, m.ahead)
 LIGHTWALK_FIELDS(WorkResult, m.result)
-LIGHTWALK_FIELDS(PicturePart, m.work, m.bytes)
+LIGHTWALK_FIELDS(PicturePart, m.work, m.bytes, m.layers)
 LIGHTWALK_FIELDS(CloudReport, m.pixels, m.reused, m.filled, m.inferred, m.uncached, m.points,
                  m.rays, m.project_seconds, m.check_seconds, m.trace_seconds, m.infer_seconds,
                  m.keep_seconds, m.tightness, m.audit_errors, m.audit_floors)
-LIGHTWALK_FIELDS(FramePart, m.frame, m.area, m.pixels, m.unknown, m.report, m.origins, m.refined)
+LIGHTWALK_FIELDS(FramePart, m.frame, m.area, m.pixels, m.unknown, m.report, m.origins, m.refined,
+                 m.refined_groups)
 LIGHTWALK_FIELDS(FinishedPart, m.part)
 LIGHTWALK_FIELDS(UncachedPixels, m.frame, m.noise_pairs, m.places)
-LIGHTWALK_FIELDS(SharedPoints, m.points)
+LIGHTWALK_FIELDS(SharedPoints, m.points, m.groups)
 LIGHTWALK_FIELDS(UsedPixels, m.ahead, m.mirrored)
 LIGHTWALK_FIELDS(PointExchange, m.frame, m.points)
-LIGHTWALK_FIELDS(AmbientValues, m.records, m.direction)
 LIGHTWALK_FIELDS(Collective, m.group, m.round, m.finished, m.parts, m.numbers)
 LIGHTWALK_FIELDS(Failure, m.host, m.text)
 LIGHTWALK_FIELDS(Report, m.payload)
@@ -55,6 +55,14 @@ LIGHTWALK_FIELDS(Notice, m.notice)
 
 template <class Wire>
 void visit_fields(Wire&, Finish&) {}
+
+template <class Wire>
+void visit_fields(Wire& wire, AmbientValues& values) {
+    wire(values.records, values.direction, values.groups);
+    const std::size_t records = values.records.size(), groups = values.groups.size();
+    if (records == 0 ? groups > 0 : groups % records != 0)
+        wire::refuse("hold light groups of no ambient value");
+}
 
 template <class Wire>
 void visit_fields(Wire& wire, TracedPixelResult& pixel) {
@@ -68,7 +76,7 @@ void visit_fields(Wire& wire, TracedPixelResult& pixel) {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 6;
+constexpr std::uint8_t kVersion = 7;
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #pragma once
 // What ranks say to each other: ten kinds of message, and how they look as bytes.
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -43,6 +44,7 @@ struct WorkResult {
 struct PicturePart {
     JobBlock work;
     std::string bytes;
+    std::vector<std::string> layers = {};  ///< of light groups, in the same way, with no distances
 };
 /// Owner to rank 0: its part is finished.
 struct FinishedPart {
@@ -61,6 +63,7 @@ struct UncachedPixels {
 /// each other one, once a frame.
 struct SharedPoints {
     std::vector<CloudPoint> points;
+    std::vector<Rgb> groups = {};  ///< what light groups add, by point, then group; empty: not kept
 };
 /// Owner to owner.
 struct PointExchange {
@@ -77,6 +80,22 @@ struct AmbientValues {
     };
     std::vector<AmbientRecord> records;
     Direction direction = Direction::offer;
+    std::vector<Rgb> groups =
+        {};  ///< what light groups add, by record, then group; empty: not kept
+
+    /// Of record i.
+    [[nodiscard]] std::span<const Rgb> groups_of(std::size_t i) const {
+        const std::size_t count = groups.size() / records.size();
+        return std::span(groups).subspan(i * count, count);
+    }
+    void add(const AmbientRecord& record, std::span<const Rgb> of_record) {
+        records.push_back(record);
+        groups.insert(groups.end(), of_record.begin(), of_record.end());
+    }
+    void add(const AmbientValues& others) {
+        records.insert(records.end(), others.records.begin(), others.records.end());
+        groups.insert(groups.end(), others.groups.begin(), others.groups.end());
+    }
 };
 
 /// All ranks of a group tell each other something: a rank's share to rank 0, and the result to all.

@@ -63,6 +63,8 @@ using Work = std::variant<JobBlock, RayChunk, PixelRun>;
 struct Pixels {
     JobBlock work;
     std::vector<PixelValue> values;  ///< row by row from the bottom; none in simulations
+    std::vector<Rgb> groups =
+        {};  ///< what light groups add, by pixel, then group; empty: no layers
     friend bool operator==(const Pixels&, const Pixels&) = default;
 };
 /// What a chunk's rays say, as it is to be written.
@@ -74,7 +76,8 @@ struct RayAnswer {
 struct TracedRun {
     FrameNumber frame = 0;
     std::uint32_t owner = 0, first = 0, count = 0;  ///< as in the run
-    std::vector<TracedPixelResult> traced;  ///< the first ones; for the others it was too late
+    std::vector<TracedPixelResult> traced;     ///< the first ones; for the others it was too late
+    std::vector<Rgb> groups = {}, ahead = {};  ///< of these; see TracedPixels
 };
 using TracedWork = std::variant<Pixels, RayAnswer, TracedRun>;
 

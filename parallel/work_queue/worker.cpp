@@ -17,15 +17,25 @@ void for_rows(const PixelRectangle& part, const PixelRectangle& a, const PixelRe
     for (int y = part.y0; y < part.y1; ++y) row(index(a, y), index(b, y), part.width());
 }
 
+/// Of each pixel there are as many values as light groups.
+void copy_groups(const std::vector<Rgb>& from, std::ptrdiff_t first, std::vector<Rgb>& to,
+                 std::ptrdiff_t at, int width, std::size_t groups) {
+    const auto each = static_cast<std::ptrdiff_t>(groups);
+    std::copy_n(from.begin() + first * each, width * each, to.begin() + at * each);
+}
+
 }  // namespace
 
 Pixels cut_pixels(const Pixels& pixels, const PixelRectangle& part) {
     Pixels cut{{pixels.work.job, intersection(pixels.work.block, part)}, {}};
     if (pixels.values.empty() || cut.work.block.empty()) return cut;
     cut.values.resize(cut.work.block.pixels());
+    const std::size_t groups = pixels.groups.size() / pixels.values.size();
+    cut.groups.resize(cut.values.size() * groups);
     for_rows(cut.work.block, pixels.work.block, cut.work.block,
              [&](std::ptrdiff_t from, std::ptrdiff_t to, int width) {
                  std::copy_n(pixels.values.begin() + from, width, cut.values.begin() + to);
+                 copy_groups(pixels.groups, from, cut.groups, to, width, groups);
              });
     return cut;
 }
@@ -92,9 +102,12 @@ void Worker::store(Pixels pixels, Outbox& out) {
     const PixelRectangle& block = pixels.work.block;
     if (job.missing == 0) return;  // known from an earlier run, and traced again
     if (!pixels.values.empty()) job.values.resize(part.pixels());
+    const std::size_t groups = pixels.groups.size() / std::max<std::size_t>(block.pixels(), 1);
+    if (groups > 0) job.groups.resize(part.pixels() * groups);
     for_rows(block, block, part, [&](std::ptrdiff_t from, std::ptrdiff_t to, int width) {
         if (!pixels.values.empty())
             std::copy_n(pixels.values.begin() + from, width, job.values.begin() + to);
+        copy_groups(pixels.groups, from, job.groups, to, width, groups);
         for (int x = 0; x < width; ++x) {
             auto there = job.there[static_cast<std::size_t>(to + x)];
             job.missing -= there ? 0 : 1;
@@ -102,11 +115,20 @@ void Worker::store(Pixels pixels, Outbox& out) {
         }
     });
     if (job.missing > 0) return;
-    const JobId id = pixels.work.job;
-    send(
-        0,
-        FinishedPart{PicturePart{{id, part}, options_.encode(part, std::exchange(job.values, {}))}},
-        out);
+    send(0, FinishedPart{finished_part(pixels.work.job, job)}, out);
+}
+
+PicturePart Worker::finished_part(JobId id, Job& job) const {
+    const PixelRectangle area = own_part(job);
+    PicturePart part{{id, area}, options_.encode(area, std::exchange(job.values, {}))};
+    const std::vector<Rgb> groups = std::exchange(job.groups, {});
+    const std::size_t count = groups.size() / area.pixels();
+    for (std::size_t g = 0; g < count; ++g) {
+        std::vector<PixelValue> layer(area.pixels());
+        for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = {groups[i * count + g], 0};
+        part.layers.push_back(options_.encode(area, std::move(layer)));
+    }
+    return part;
 }
 
 }  // namespace lightwalk

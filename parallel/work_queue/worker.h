@@ -48,12 +48,14 @@ class Worker {
         bool keep = true, log = false;
         SubImages parts;                 ///< who owns what
         std::vector<PixelValue> values;  ///< of the own part, row by row from the bottom
+        std::vector<Rgb> groups;         ///< of these, by pixel, then light group; empty: none
         std::vector<bool> there;         ///< which of them
         std::size_t missing = 0;         ///< how many are not
         std::vector<Pixels> early;
     };
     void start(PictureJob job, Outbox& out);
     void share_out(Pixels pixels, Outbox& out);
+    [[nodiscard]] PicturePart finished_part(JobId id, Job& job) const;
     void send(int to, Message message, Outbox& out) const {
         out.messages.push_back({options_.self, to, std::move(message)});
     }

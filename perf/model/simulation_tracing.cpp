@@ -107,7 +107,7 @@ void Simulation::keep(std::size_t number, std::uint32_t value) {
     rank.own.push_back(record);
     if (rank.own.size() < static_cast<std::size_t>(run_.ambient_batch)) return;
     post(number, {[own = std::exchange(rank.own, {})](RankRoles& roles, Outbox& out) {
-             roles.ambient_client()->offer(own, out);
+             roles.ambient_client()->offer({own}, out);
          }});
 }
 

@@ -147,6 +147,57 @@ TEST_CASE("relight: a level may be a colour") {
     for (std::size_t i = 0; i < warm.size(); ++i) CHECK(warm[i] == white[i] * Rgb{2, 1, 0});
 }
 
+TEST_CASE("render --light-group on ranks: the layers of one process") {
+    if (!mpirun(1)) {
+        MESSAGE("skipped: no mpirun here");
+        return;
+    }
+    const TemporaryFolder folder;
+    const std::string scene = folder.write("room.rad", lit_room(1, 1, 1));
+    std::vector<std::string> options{"--light-group", "auto"};
+    bool same = true;
+    SUBCASE("direct light") {}
+    SUBCASE("indirect light in rounds") {
+        options.insert(options.end(), {"-ab", "1", "-ad", "64", "--deterministic"});
+    }
+    SUBCASE("indirect light that ranks exchange") {
+        options.insert(options.end(), {"-ab", "1", "-ad", "64", "--ambient-batch", "1"});
+        same = false;
+    }
+    const auto draw = [&](const std::string& name, const std::vector<std::string>& more,
+                          const std::vector<std::string>& launcher) {
+        std::vector<std::string> words{"render"};
+        for (const auto& some : {kView, options, more})
+            words.insert(words.end(), some.begin(), some.end());
+        words.insert(words.end(), {"-o", folder.path(name), scene});
+        const ProgramResult result = run_program(words, "", launcher);
+        CHECK(result.err.empty());
+        REQUIRE(result.status == 0);
+    };
+    draw("one_%s.exr", {"-n", "2"}, {});
+    draw("ranks_%s.exr", {"--variant", "ranks"}, *mpirun(3));
+    draw("hybrid_%s.exr", {"-n", "2"}, *mpirun(2));
+    for (const char* layer : {"lamp", "bulb", "sky"}) {
+        CAPTURE(layer);
+        for (const char* who : {"ranks_", "hybrid_"}) {
+            const std::vector<Rgb> found =
+                                       pixels_of(folder.path(std::string(who) + layer + ".exr")),
+                                   one =
+                                       pixels_of(folder.path(std::string("one_") + layer + ".exr"));
+            if (same) {
+                CHECK(found == one);
+                continue;
+            }
+            Rgb sum, wanted;
+            for (const Rgb& pixel : found) sum += pixel;
+            for (const Rgb& pixel : one) wanted += pixel;
+            CHECK(max_component(wanted) > 0);
+            for (std::size_t k = 0; k < 3; ++k)
+                CHECK(std::abs(sum[k] - wanted[k]) < .1F * wanted[k]);
+        }
+    }
+}
+
 TEST_CASE("render --light-group: what cannot be done is said, and nothing written") {
     const TemporaryFolder folder;
     const std::string scene = folder.write("room.rad", lit_room(1, 1, 1)),
@@ -176,14 +227,6 @@ TEST_CASE("render --light-group: what cannot be done is said, and nothing writte
     const ProgramResult animate =
         run_program({"animate", "--light-group", "auto", "-o", "f%d.hdr", scene});
     CHECK(animate.status == 2);
-    if (const auto launcher = mpirun(2)) {
-        std::vector<std::string> words{"render", "--light-group", "auto", "-o", exr, scene};
-        const ProgramResult ranks = run_program(words, "", *launcher);
-        if (!launcher_died(ranks)) {
-            CHECK(ranks.status != 0);
-            CHECK(ranks.err.find("by one process, without mpirun") != std::string::npos);
-        }
-    }
 }
 
 TEST_CASE("relight: what cannot be done is said, and what was there stays") {
@@ -219,40 +262,123 @@ TEST_CASE("relight: what cannot be done is said, and what was there stays") {
     CHECK(run_program({"relight", "-o", folder.path("a.tif"), lamp}).status == 1);
 }
 
-TEST_CASE("relight: rooms of lamps of the reference, dimmed") {
-    LIGHTWALK_NEEDS_SHARED(folder, "scenes/cabin");
+namespace {
+
+/// Scenes that are files in a folder, with lights as they are and dimmed.
+struct DimmedScene {
+    std::string folder;
+    std::vector<std::string> words;   ///< the view, and files beside the lights
+    std::string lights, dimmed;       ///< files
+    std::vector<std::string> groups;  ///< NAME=PATTERN
+    std::vector<std::string> levels;  ///< NAME=LEVEL, which make the one of the other
+};
+
+void check_dimmed(const DimmedScene& scene, const std::vector<std::string>& options) {
     const TemporaryFolder files;
-    const std::filesystem::path before = std::filesystem::current_path();
-    std::filesystem::current_path(folder);
-    const std::vector<std::string> rest{"pattmats",     "cabin",       "bathroom", "furniture",
-                                        "winpanes.rad", "mirrors.rad", "summerday"};
-    std::string lights = read_whole("lights");
-    const auto globe = lights.find("3\t10 10 10");
-    REQUIRE(globe != std::string::npos);
-    lights.replace(globe, 10, "3\t4 4 4");
-    const std::string dim = files.write("lights", lights);
-    const auto draw = [&](std::vector<std::string> words, const std::string& of) {
-        words.insert(words.begin(), {"render", "-w",  "--ambient-lights",
-                                     "0",      "-vf", "vf/living",
-                                     "-x",     "40",  "-y",
-                                     "30",     "-dt", "0",
-                                     "-ab",    "1",   "-aa",
-                                     "0",      "-ad", "16",
-                                     "-as",    "0",   "-av",
-                                     "0",      "0",   "0"});
-        words.insert(words.end(), rest.begin(), rest.end());
-        words.push_back(of);
-        const ProgramResult result = run_program(words, "", {"env", "RAYPATH=.:../lib"});
+    const auto draw = [&](const std::vector<std::string>& more, const std::string& lights,
+                          const std::string& name) {
+        std::vector<std::string> words{"render", "-w", "-x", "40", "-y", "30", "-dt", "0"};
+        for (const auto& some : {options, more, {"-o", files.path(name)}, scene.words, {lights}})
+            words.insert(words.end(), some.begin(), some.end());
+        const ProgramResult result =
+            run_program(words, "", {"env", "-C", scene.folder, "RAYPATH=.:../lib"});
         CAPTURE(result.err);
-        CHECK(result.status == 0);
+        REQUIRE(result.status == 0);
     };
-    draw({"--light-group", "globes=big_globe_light", "-o", files.path("all.exr")}, "lights");
-    draw({"-ps", "1", "-o", files.path("plain.exr")}, "lights");
-    draw({"-ps", "1", "-o", files.path("dimmed.exr")}, dim);
-    std::filesystem::current_path(before);
+    std::vector<std::string> groups, levels{files.path("all.exr"), "-o", files.path("mixed.exr")};
+    for (const std::string& group : scene.groups)
+        groups.insert(groups.end(), {"--light-group", group});
+    for (const std::string& level : scene.levels) levels.insert(levels.end(), {"--group", level});
+    draw(groups, scene.lights, "all.exr");
+    draw({"-ps", "1"}, scene.lights, "plain.exr");
+    draw({"-ps", "1"}, scene.dimmed, "dimmed.exr");
     relight_well({files.path("all.exr"), "-o", files.path("sum.exr")});
-    relight_well({files.path("all.exr"), "--group", "globes=.4", "-o", files.path("mixed.exr")});
+    relight_well(levels);
     CHECK(largest_difference(files.path("sum.exr"), files.path("plain.exr")) < 1e-5);
     CHECK(largest_difference(files.path("mixed.exr"), files.path("dimmed.exr")) < 1e-5);
     CHECK(largest_difference(files.path("plain.exr"), files.path("dimmed.exr")) > .1);
+}
+
+const std::vector<std::string> kDimmedIndirect{
+    "--ambient-lights", "0", "-ab", "1", "-aa", "0", "-ad", "16", "-as", "0", "-av", "0", "0", "0"};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+/// Rows of ceiling lamps over desks.
+std::string lamp_office(double window_side, double hall_side) {
+    const auto emission = [](double level) {
+        std::string text;
+        for (const double channel : {18., 17., 15.}) text += std::to_string(level * channel) + ' ';
+        return text + '\n';
+    };
+    std::string text =
+        "void plastic white 0 0 5 .75 .75 .75 0 0\nvoid plastic wood 0 0 5 .45 .3 .18 .03 .08\n"
+        "void metal steel 0 0 5 .6 .6 .62 .8 .1\nvoid brightfunc spread 2 max(-Dz,Dz)^2 . 0 0\n"
+        "spread light window_lamp 0 0 3 " +
+        emission(window_side) + "spread light hall_lamp 0 0 3 " + emission(hall_side) +
+        "white polygon floor 0 0 12 0 0 0 12 0 0 12 9 0 0 9 0\n"
+        "white polygon ceiling 0 0 12 0 0 3 0 9 3 12 9 3 12 0 3\n"
+        "white polygon north 0 0 12 0 9 0 0 9 3 12 9 3 12 9 0\n"
+        "white polygon east 0 0 12 12 0 0 12 0 3 12 9 3 12 9 0\n";
+    for (int i = 0; i < 36; ++i) {
+        const int column = i % 6, row = i / 6;
+        const auto n = [](double value) { return ' ' + std::to_string(value); };
+        const double x = 1 + 2 * column, y = .75 + 1.5 * row;
+        const std::string number = std::to_string(i);
+        text += std::string(row < 3 ? "hall" : "window") + "_lamp polygon lamp" + number +
+                " 0 0 12" + n(x - .5) + n(y - .1) + " 2.98" + n(x - .5) + n(y + .1) + " 2.98" +
+                n(x + .5) + n(y + .1) + " 2.98" + n(x + .5) + n(y - .1) + " 2.98\n" +
+                "wood ring desk" + number + " 0 0 8" + n(x) + n(y) + " .7 0 0 1 0 .6\n" +
+                "steel cylinder leg" + number + " 0 0 7" + n(x) + n(y) + " 0" + n(x) + n(y) +
+                " .7 .05\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("relight: rooms of lamps of the reference, dimmed") {
+    LIGHTWALK_NEEDS_SHARED(folder, "scenes/cabin");
+    const TemporaryFolder files;
+    const std::string dim =
+        files.write("lights", replaced(read_whole(folder + "/lights"), "3\t10 10 10", "3\t4 4 4"));
+    check_dimmed({folder,
+                  {"-vf", "vf/living", "pattmats", "cabin", "bathroom", "furniture", "winpanes.rad",
+                   "mirrors.rad", "summerday"},
+                  "lights",
+                  dim,
+                  {"globes=big_globe_light"},
+                  {"globes=.4"}},
+                 kDimmedIndirect);
+}
+
+TEST_CASE("relight: the demo scene of an evening and an office of lamps, dimmed") {
+    const TemporaryFolder files;
+    DimmedScene scene;
+    SUBCASE("demo scene") {
+        scene.folder = LIGHTWALK_SOURCE "/apps/scenes/lodge";
+        scene.words = {"-vf", "views/living.vf", "lodge.rad"};
+        scene.lights = "night.rad";
+        std::string dim = read_whole(scene.folder + "/night.rad");
+        dim = replaced(dim, "3 44 37 28", "3 11 9.25 7");
+        dim = replaced(dim, "3 62 27 8", "3 124 54 16");
+        scene.dimmed = files.write("dim.rad", dim);
+        scene.groups = {"lamps=warm", "fire=fire_light"};
+        scene.levels = {"lamps=.25", "fire=2"};
+    }
+    SUBCASE("office of lamps") {
+        scene.folder = files.path("");
+        scene.words = {"-vp", ".5", ".5", "1.7", "-vd", "12", "9", "-4", "-vh", "70", "-vv", "55"};
+        scene.lights = files.write("lit.rad", lamp_office(1, 1));
+        scene.dimmed = files.write("dim.rad", lamp_office(.1, .7));
+        scene.groups = {"window=window_*", "hall=hall_*"};
+        scene.levels = {"window=.1", "hall=.7"};
+    }
+    CAPTURE(scene.folder);
+    check_dimmed(scene, {});
+    check_dimmed(scene, kDimmedIndirect);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|roles|mended|rad_file|returning|slow|abuse|ranks ...]
+    walk_server_test.py PROGRAM [rest|light|dimmed|roles|mended|rad_file|returning|slow|abuse|ranks ...]
 """
 import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -176,6 +176,31 @@ def isolux_as_traced(program, server, client):
     assert worst < 1e-4 * mean, (worst, mean)
 
 
+def dimmed(program, words=(), launcher=()):
+    """What is seen of the lamp and of the panel adds up to what is seen, and half of both is half of it."""
+    with Server(program, ["--light-group", "auto", "--edge-samples", "1", *words], launcher=launcher) as server:
+        client = Client(server.port)
+        assert sorted(client.told("loaded")["lights"]) == ["lamp", "panel"]
+        client.look()
+        client.until(lambda m: isinstance(m, Frame) and m.finished)
+        mean = lambda: client.ask("rectangle", "mean", rect=[0.1, 0.1, 0.9, 0.9])["luminance"]  # noqa: E731
+
+        def under(**levels):
+            client.socket.send({"type": "lights", "levels": [{"name": name, "level": level, "rgb": [1, 1, 1]} for name, level in levels.items()]})
+            client.frame()
+            return mean()
+
+        whole = mean()
+        lamp, panel, half = under(panel=0), under(lamp=0), under(lamp=0.5, panel=0.5)
+        assert min(lamp, panel) > 0.01 * whole and abs(lamp + panel - whole) < 1e-5 * whole, (lamp, panel, whole)
+        assert abs(half - whole / 2) < 1e-5 * whole, (half, whole)
+        client.look(direction=[0.1, 1, 0])  # still under this mixture
+        client.until(lambda m: isinstance(m, Frame) and m.view == client.ident and m.finished)
+        moved = mean()
+        assert abs(under() - 2 * moved) < 1e-5 * moved
+        return whole, lamp, panel, moved
+
+
 def roles(program):
     """The first drives, the second watches the same picture and may take over when the first has left."""
     with Server(program) as server:
@@ -307,6 +332,10 @@ def ranks(program):
     mpirun = ["mpirun", "--mca", "orte_tmpdir_base", sockets.name, "--oversubscribe", "--bind-to", "none", "-n"]
     rest(program, ["--variant", "ranks"], [*mpirun, "3"])
     rest(program, ["--variant", "hybrid", "-n", "2"], [*mpirun, "2"])
+    alone = dimmed(program)
+    for split, number in ((["--variant", "ranks"], "3"), (["--variant", "hybrid", "-n", "1"], "2")):
+        together = dimmed(program, split, [*mpirun, number])
+        assert all(abs(a - b) < 1e-6 * a for a, b in zip(alone, together)), (alone, together)
     mended(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
     mended(program, ["--variant", "ranks", "--scene-from", "rank0", "-ab", "1", "-ad", "64"], [*mpirun, "3"])
     rad_file(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
@@ -327,7 +356,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, roles, mended, rad_file, returning, slow, abuse, ranks)}
+CASES = {case.__name__: case for case in (rest, light, dimmed, roles, mended, rad_file, returning, slow, abuse, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

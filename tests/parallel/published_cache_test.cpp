@@ -18,7 +18,7 @@ class Listener final : public AmbientListener {
   public:
     Listener(std::string name, std::vector<std::string>& heard)
         : name_(std::move(name)), heard_(heard) {}
-    void stored(const AmbientRecord& record) override {
+    void stored(const AmbientRecord& record, std::span<const Rgb>) override {
         heard_.push_back(name_ + std::to_string(static_cast<int>(record.position[0])));
     }
 
@@ -67,7 +67,7 @@ TEST_CASE(
     published.add(ranks);
     for (const bool frozen : {false, true}) {
         published.freeze(frozen);
-        published.take_over(record_at(5), ranks);
+        published.take_over(record_at(5), {}, ranks);
     }
     CHECK(heard == std::vector<std::string>{"file 5", "file 5"});
     CHECK(cache.size() == 2);

@@ -3,11 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/light/find_light_groups.h"
 #include "parallel/fibers/context_fibers.h"
 #include "tests/test_scene.h"
 
@@ -239,6 +242,53 @@ TEST_CASE("shading batches: ambient rays go side by side, too, within those that
     CHECK(scene.context.batches.open == 0);
     for (std::size_t i = 0; i < alone.size(); ++i)
         CHECK(same_bits(together[i].value, alone[i].value));
+}
+
+TEST_CASE(
+    "shading batches: of each ray that goes with others it is known what light groups bring") {
+    RenderOptions options = usual();
+    int side = 20;
+    SUBCASE("direct light, some of it guessed") {}
+    SUBCASE("ambient rays side by side within those that ask") {
+        side = 3;
+        options.ambient_bounces = 2;
+        options.ambient_divisions = 64;
+        options.ambient_accuracy = 0;
+    }
+    TestScene scene(batch_room(), options);
+    const auto groups = std::make_shared<const LightGroups>(find_light_groups(
+        scene.scene, options, {{"even", {"l*[02468]"}}, {"odd", {"l*"}}, {"day", {"day"}}}));
+    GroupSums sums(groups);
+    scene.context.contributions = scene.context.groups = &sums;
+    std::vector<Ray> together = looking_down(scene, side), alone = together;
+    const std::vector<Hit> hits = hits_of(scene, together);
+    const auto told_of = [&](std::vector<Ray>& rays) {
+        std::vector<std::vector<Rgb>> told(rays.size());
+        scene.tracer.shade_hits(rays, hits, scene.context, [&](std::size_t i) {
+            told[i].assign(sums.sums().begin(), sums.sums().end());
+            told[i].insert(told[i].end(), sums.reflected().begin(), sums.reflected().end());
+        });
+        return told;
+    };
+    const std::vector<std::vector<Rgb>> expected = told_of(alone);
+    scene.context.batches.make_fibers = make_context_fibers;
+    const std::vector<std::vector<Rgb>> told = told_of(together);
+    CHECK(!scene.context.batches.all.empty());
+    CHECK(sums.root() == nullptr);
+    int with_all = 0;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+        CAPTURE(i);
+        REQUIRE(told[i].size() == expected[i].size());
+        for (std::size_t g = 0; g < told[i].size(); ++g)
+            CHECK(same_bits(told[i][g], expected[i][g]));
+        Rgb left = together[i].value;
+        for (std::size_t g = 0; g < groups->size(); ++g) left -= told[i][g];
+        const float most = std::max(max_component(left), -min_component(left));
+        CHECK(most <= 1e-5f * max_component(together[i].value));
+        if (max_component(told[i][0]) > 0 && max_component(told[i][1]) > 0) ++with_all;
+    }
+    CHECK(with_all > static_cast<int>(told.size()) / 2);
+    for (const Rgb& value : sums.sums()) CHECK(value == Rgb{});  // nothing went to nobody
 }
 
 TEST_CASE("shading batches: rays and mixtures may be nested as deep as elsewhere") {

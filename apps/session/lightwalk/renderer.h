@@ -94,8 +94,8 @@ struct RendererOptions {
     /// coefficients. By one process.
     bool keep_coefficients = false;
     /// Pictures are made of layers, one for each group of emitters: these, or where the list is
-    /// empty the usual ones (core/light/find_light_groups.h). By one process; without reuse, but
-    /// that of a steered walk.
+    /// empty the usual ones (core/light/find_light_groups.h). Without reuse, but that of
+    /// a steered walk.
     /// Nothing: there are no layers.
     std::optional<std::vector<LightGroupPattern>> light_groups;
     bool long_rays = false;  ///< rays of lists take long: they are dealt out one by one

@@ -41,7 +41,9 @@ TEST_CASE("region points: others are told of those at the region's inner edge, a
     LeftHalf half;
     half.add({{0, 0}, {2, 7}, {3, 4}, {4, 4}, {6, 1}});
     std::vector<PixelPlace> told;
-    half.points.leaving([&](const CloudPoint&, const PixelPlace& place) { told.push_back(place); });
+    half.points.leaving([&](const CloudPoint&, const PixelPlace& place, std::span<const Rgb>) {
+        told.push_back(place);
+    });
     CHECK(told == std::vector<PixelPlace>{{3, 4}, {4, 4}, {6, 1}});
 }
 

@@ -44,7 +44,7 @@ struct Run {
     [[nodiscard]] std::uint64_t values() const { return cache.log_mean().count; }
     void insert(const AmbientRecord& record) {
         cache.insert(record);
-        store.stored(record);
+        store.stored(record, {});
     }
     Warnings warnings;
     SerialCache cache;

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
 #include <vector>
 
 #include "tests/parallel/ambient_values.h"
@@ -21,9 +22,9 @@ AmbientValues news_of(std::size_t count) {
     return {std::vector<AmbientRecord>(count), AmbientValues::Direction::news};
 }
 
-AmbientValues answer_of(AmbientMaster& master, int rank, AmbientValues values) {
+AmbientValues answer_of(AmbientMaster& master, int rank, const AmbientValues& values) {
     Outbox out;
-    master.handle(rank, std::move(values), out);
+    master.handle(rank, values, out);
     REQUIRE(out.messages.size() == 1);
     CHECK(out.messages.front().to == rank);
     const auto& answer = std::get<AmbientValues>(out.messages.front().message);
@@ -61,20 +62,34 @@ TEST_CASE("ambient values: the master passes each to who has not told or heard i
     }
 }
 
+TEST_CASE("ambient values: what light groups add to them goes with them") {
+    const std::vector<Rgb> groups{{1, 2, 3}, {4, 5, 6}};
+    std::vector<AmbientValues> sent;
+    SharedCache shared(2, [&](AmbientValues values) { sent.push_back(std::move(values)); });
+    for (int i = 0; i < 2; ++i) shared.stored(record_at(static_cast<float>(i)), groups);
+    REQUIRE(sent.size() == 1);
+    AmbientMaster master(kMaster);
+    CHECK(answer_of(master, 1, sent[0]).groups.empty());
+    const AmbientValues news = answer_of(master, 2, values_of(0));
+    REQUIRE(news.records.size() == 2);
+    for (const std::size_t i : {0, 1})
+        CHECK(std::vector(news.groups_of(i).begin(), news.groups_of(i).end()) == groups);
+}
+
 TEST_CASE("ambient values: a client has one offer out at a time") {
     AmbientClient client(kClient, kMaster, 4);
     Outbox out;
     const auto offered = [&](std::size_t message) {
         return std::get<AmbientValues>(out.messages.at(message).message).records.size();
     };
-    client.offer(values_of(3).records, out);
+    client.offer(values_of(3), out);
     CHECK(out.messages.empty());  // no batch yet
     CHECK(client.is_flushed());
-    client.offer(values_of(2).records, out);
+    client.offer(values_of(2), out);
     REQUIRE(out.messages.size() == 1);
     CHECK(offered(0) == 5);
     CHECK_FALSE(client.is_flushed());
-    client.offer(values_of(9).records, out);
+    client.offer(values_of(9), out);
     CHECK(out.messages.size() == 1);
     client.handle(news_of(2), out);  // the answer is for the cache
     CHECK(out.cache.size() == 1);
@@ -86,7 +101,7 @@ TEST_CASE("ambient values: a client has one offer out at a time") {
         CHECK(out.cache.size() == 1);
     }
     SUBCASE("and a question that comes meanwhile is asked after it") {
-        client.offer(values_of(1).records, out);
+        client.offer(values_of(1), out);
         client.ask(out);
         CHECK(out.messages.size() == 2);
         client.handle(news_of(1), out);
@@ -101,17 +116,17 @@ TEST_CASE("ambient values: a client has one offer out at a time") {
 TEST_CASE("new ambient values go out by the batch, and what makes no batch is handed over") {
     std::vector<std::size_t> batches;
     SharedCache shared(
-        3, [&](const std::vector<AmbientRecord>& values) { batches.push_back(values.size()); });
-    for (int i = 0; i < 7; ++i) shared.stored(record_at(static_cast<float>(i)));
+        3, [&](const AmbientValues& values) { batches.push_back(values.records.size()); });
+    for (int i = 0; i < 7; ++i) shared.stored(record_at(static_cast<float>(i)), {});
     CHECK(batches == std::vector<std::size_t>{3, 3});
-    const std::vector<AmbientRecord> rest = shared.unsent();
+    const std::vector<AmbientRecord> rest = shared.unsent().records;
     REQUIRE(rest.size() == 1);
     CHECK(rest[0].position[0] == 6);
-    CHECK(shared.unsent().empty());
+    CHECK(shared.unsent().records.empty());
 }
 
 TEST_CASE("ambient values of others come into the cache while it is shared, and do not go back") {
-    SharedCache shared(1, [](const std::vector<AmbientRecord>&) { FAIL("it was sent back"); });
+    SharedCache shared(1, [](const AmbientValues&) { FAIL("it was sent back"); });
     ListingCache values;
     PublishedCache cache(values);
     shared.merge(news_of(2));  // nobody's yet

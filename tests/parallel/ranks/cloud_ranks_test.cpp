@@ -6,11 +6,13 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <memory>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "core/light/find_light_groups.h"
 #include "parallel/ranks/assembly.h"
 #include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/walk/cloud_frames.h"
@@ -45,6 +47,7 @@ constexpr int kWidth = 61, kHeight = 47;
 struct Step {
     View view;
     int width = kWidth, height = kHeight;  ///< of its frame
+    LightMixture mixture = {};             ///< of a lit room's light groups
 };
 
 FrameOptions frame_options(const Step& step) {
@@ -109,14 +112,29 @@ class DelayingCommunicator final : public Communicator {
 };
 
 struct Room {
-    TestScene scene{kRoom};
+    /// @param more  lights; then their groups are kept, too
+    explicit Room(const std::string& more = "") : scene(kRoom + more) {
+        if (!more.empty())
+            groups = std::make_shared<const LightGroups>(
+                find_light_groups(scene.scene, scene.tracer.options(), {}));
+    }
+    [[nodiscard]] std::unique_ptr<WorkerContexts> contexts(int workers) {
+        auto made = std::make_unique<WorkerContexts>(scene.tracer, scene.warnings, workers);
+        if (groups) made->sum_by(groups);
+        return made;
+    }
+    TestScene scene;
+    std::shared_ptr<const LightGroups> groups;
     VisibilityProbe visibility{scene.tracer};
     StopFlag stop;
 };
 
+const std::string kSky = "void glow sky 0 0 4 5 6 8 0\nsky source up 0 0 4 0 0 1 360\n";
+
 std::unique_ptr<SceneCaster> rays_of(Room& room, const Step& step, WorkerContexts& contexts) {
     return std::make_unique<SceneCaster>(room.scene.tracer, room.visibility, Camera(step.view),
-                                         frame_options(step), contexts, room.stop);
+                                         frame_options(step), contexts, room.stop,
+                                         FrameUse::picture, &step.mixture);
 }
 
 /// What a frame of a walk shows, and what it took.
@@ -136,12 +154,14 @@ Drawn to_drawn(const CloudFrame& frame) {
 std::vector<Drawn> draw_alone(Room& room, const std::vector<Step>& steps,
                               const CloudOptions& options) {
     const auto executor = make_executor(ExecutorKind::serial, 1);
-    WorkerContexts contexts(room.scene.tracer, room.scene.warnings, 1);
+    const auto contexts = room.contexts(1);
     CloudFrames frames(kWidth, kHeight, options);
     std::vector<Drawn> result;
+    LightMixture mixture;
     for (const Step& step : steps) {
         frames.resize(step.width, step.height);
-        const auto rays = rays_of(room, step, contexts);
+        if (step.mixture != mixture) (void)frames.mix(mixture = step.mixture);
+        const auto rays = rays_of(room, step, *contexts);
         result.push_back(to_drawn(frames.draw(rays->camera(), *rays, *executor, room.stop)));
     }
     return result;
@@ -171,10 +191,12 @@ std::vector<Drawn> lead(RankLink& link, const std::vector<Step>& steps,
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const std::string payload = std::to_string(i);
         walk.resize(steps[i].width, steps[i].height);
+        if (i > 0 && steps[i].mixture != steps[i - 1].mixture && !walk.mix(steps[i].mixture))
+            walk.abandon();
         if (walk.rests(steps[i].view) && walk.wants_origins())
             walk.begin_progressive(last, finished(walk.origins_order(payload)).frame.origins);
         AssembledFrame drawn = finished(walk.order(steps[i].view, payload));
-        walk.complete(drawn.frame, drawn.refined, *executor);
+        walk.complete(drawn.frame, drawn.refined, *executor, drawn.refined_groups);
         last = std::move(drawn.frame);
         result.push_back(to_drawn(last));
     }
@@ -193,10 +215,10 @@ std::vector<Drawn> draw_together(Room& room, const std::vector<Step>& steps,
     settings.projectors = company.projectors;
     std::vector<Drawn> result;
     const auto draw = [&](RankLink& link) {
-        WorkerContexts contexts(room.scene.tracer, room.scene.warnings, company.threads);
+        const auto contexts = room.contexts(company.threads);
         const auto make = [&](const FrameOrder& order) {
             return rays_of(room, steps.at(static_cast<std::size_t>(std::stoi(order.payload))),
-                           contexts);
+                           *contexts);
         };
         std::thread program;
         if (link.leads()) {
@@ -321,6 +343,39 @@ TEST_CASE("a walk by ranks with a budget misses no pixel") {
         CHECK(report.filled > 0);
         for (const PixelValue& value : drawn.values) CHECK(value.distance >= 0);
     }
+}
+
+TEST_CASE("a walk by ranks is dimmed as one process's is, in motion and at rest") {
+    Room room(kSky);
+    REQUIRE(room.groups->size() == 2);
+    std::vector<Step> steps = walk(5);
+    steps.insert(steps.end(), 9, steps.back());  // at rest, until each pixel is traced, and on
+    const LightMixture evening{{{1.5F, 1, .4F}, {.1F, .1F, .2F}}}, night{{{.2F, .1F, .1F}, {}}};
+    for (const std::size_t i : {2, 3, 4, 5, 6, 7, 8, 9}) steps[i].mixture = evening;
+    for (const std::size_t i : {10, 11, 12, 13}) steps[i].mixture = night;
+    CloudOptions options;
+    options.refine = 0.4;
+    options.limit = 9;  // there is room for all points
+    SUBCASE("as pictures") {}
+    SUBCASE("as what is seen for a moment only, and traced again at rest") {
+        options.budget = 1000;
+    }
+    options.light_groups = room.groups->size();
+    const std::vector<Drawn> alone = draw_alone(room, steps, options);
+    for (const std::size_t i : {3, 11})  // most is from points, and from pixels at rest
+        CHECK(alone[i].report.reused > alone[i].report.pixels / 2);
+    const auto blue = [](const Drawn& drawn) {
+        double sum = 0;
+        for (const PixelValue& value : drawn.values) sum += static_cast<double>(value.radiance.b);
+        return sum;
+    };
+    CHECK(blue(alone[4]) < .5 * blue(draw_alone(room, walk(5), options)[4]));
+    CHECK(blue(alone[10]) < .3 * blue(alone[9]));
+    const auto refined = static_cast<std::size_t>(TraceCause::refined);
+    if (options.budget > 0) CHECK(alone[10].report.uncached[refined] > 0);  // it goes on
+    check_same(alone, draw_together(room, steps, options, {Variant::hybrid, 3}, 10));
+    check_same(alone, draw_together(room, steps, options, {Variant::ranks, 5}, 11));
+    check_same(alone, draw_together(room, steps, options, {Variant::ranks, 4, 1, 1}, 12));
 }
 
 TEST_CASE("a walk by ranks whose view stands still becomes ever better, as by one process") {

@@ -54,6 +54,7 @@ std::vector<Message> some_messages() {
     order.budget = .25;
     order.rests = order.tells_origins = true;
     order.refined = {{1, 2}};
+    order.mixture.levels = {{.5F, 1, 2}, {0, 0, 0}};
     FramePart part;
     part.frame = 3;
     part.area = work.block;
@@ -63,6 +64,7 @@ std::vector<Message> some_messages() {
     part.report.audit_errors = {.5F, 1e-9F, 0};
     part.origins = {{PixelOrigin::Kind::traced, 3, 0}, {PixelOrigin::Kind::reused, 0, 255}};
     part.refined = {values[3], std::nullopt};
+    part.refined_groups = {{1, 2, 3}, {4, 5, 6}};
     FramePart plain = part;
     plain.pixels = values;
     return {Announcement{PictureJob{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true}},
@@ -73,17 +75,22 @@ std::vector<Message> some_messages() {
                       std::nullopt},
             WorkGrant{{}, FrameNumber{4}},
             WorkResult{Pixels{work, values}},
+            WorkResult{Pixels{work, values, {{1, -0.0F, 1e-30F}}}},
             WorkResult{LoggedPixels{{work, {}}}},
             WorkResult{RayAnswer{5, std::string("\0\xff", 2)}},
             WorkResult{TracedRun{3, 1, 7, 3, {{values[0], {}}, one, two}}},
             WorkResult{TracedRun{3, 1, 7, 3, {}}},
+            WorkResult{TracedRun{3, 1, 7, 3, {one}, {{1, 2, 3}}, {{4, 5, 6}}}},
             FinishedPart{PicturePart{work, std::string("\0\xff bytes", 8)}},
+            FinishedPart{PicturePart{work, "bytes", {"a", "", "ccc"}}},
             FinishedPart{part},
             FinishedPart{plain},
             UncachedPixels{3, 1, {{1, 2}, {1, 2}}},
             PointExchange{3, SharedPoints{{some_point(), CloudPoint{}}}},
+            PointExchange{3, SharedPoints{{some_point()}, {{1, 2, 3}, {4, 5, 6}}}},
             PointExchange{3, UsedPixels{{{1, 2}, {3, 4}}, {{5, 6}}}},
             AmbientValues{{some_record(1), some_record(-1e-30F)}},
+            AmbientValues{{some_record(1)}, AmbientValues::Direction::news, {{1, 2, 3}, {4, 5, 6}}},
             Collective{Collective::Group::owners, 9, true, {"a", "", "ccc"}, {1, ~0ULL}},
             Notice{Failure{"node17", "room.rad:3: what is wrong"}},
             Notice{Finish{}},
@@ -110,7 +117,7 @@ TEST_CASE("a message is the same after its way over the wire") {
 
 TEST_CASE("an ambient record takes 65 bytes and arrives to the bit") {
     const std::string bytes = encode_message(AmbientValues{{some_record(3)}});
-    CHECK(bytes.size() == 2 + 8 + 65 + 1);
+    CHECK(bytes.size() == 2 + 8 + 65 + 1 + 8);
     const auto got = std::get<AmbientValues>(decode_message(bytes));
     const AmbientRecord record = got.records.at(0);
     const AmbientRecord expected = some_record(3);
@@ -128,10 +135,10 @@ TEST_CASE("an ambient record takes 65 bytes and arrives to the bit") {
 
 TEST_CASE("a point takes 41 bytes and arrives to the bit, and its kind is checked") {
     std::string bytes = encode_message(PointExchange{9, SharedPoints{{some_point()}}});
-    CHECK(bytes.size() == 2 + 8 + 1 + 8 + 41);
+    CHECK(bytes.size() == 2 + 8 + 1 + 8 + 41 + 8);
     const auto got = std::get<PointExchange>(decode_message(bytes));
     CHECK(std::get<SharedPoints>(got.points).points.at(0) == some_point());
-    bytes[bytes.size() - 5] = static_cast<char>(kPointKinds);
+    bytes[bytes.size() - 8 - 5] = static_cast<char>(kPointKinds);
     CHECK_THROWS_AS((void)decode_message(bytes), InputError);
 }
 

@@ -130,7 +130,7 @@ class PictureNetwork final : public RankNetwork {
             AmbientRecord record;
             record.normal = values_made++;
             tracer.values.push_back(record.normal);
-            roles.ambient_client()->offer({record}, out);
+            roles.ambient_client()->offer({{record}}, out);
         });
     }
 
