@@ -6,6 +6,7 @@
 
 #include "apps/session/run_header.h"
 #include "apps/walk/dimmed_lights.h"
+#include "core/math/distance.h"
 #include "core/math/overloaded.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
@@ -148,6 +149,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     for (const ClientId client : inbox.left) isolux_.forget(client);
     for (const WebReply& file : inbox.saves) save(file);
     for (const WebReply& file : inbox.light_saves) save_lights(file);
+    for (const WebReply& file : inbox.material_saves) save_materials(file);
 }
 
 /// Pictures and numbers of the dimmers' new state, without a ray where all of it is known.
@@ -288,6 +290,7 @@ void RenderLoop::reply(const WalkQuestion& question) {
                        const Camera camera(pick.view.value_or(*view_));
                        tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
                    },
+                   [&](const MaterialRequest& material) { tell(describe(material)); },
                    [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
                    [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); },
                    [&](const PlanRequest& plan) {
@@ -297,6 +300,15 @@ void RenderLoop::reply(const WalkQuestion& question) {
                        isolux_.ask(question.client, isolux, eye_height_);
                    }},
         question.ask);
+}
+
+MaterialReply RenderLoop::describe(const MaterialRequest& request) const {
+    const Scene& scene = session_.scene();
+    const auto ray = Camera(request.view.value_or(*view_)).ray(request.x, request.y);
+    const Hit hit =
+        ray ? scene.geometry().intersect({ray->origin, ray->direction, farthest_hit(ray->limit)})
+            : Hit{};
+    return describe_material(scene, session_.compiled().model(), hit, request.id);
 }
 
 /// A part of it beside each frame, so that none waits for all of it.
@@ -332,6 +344,11 @@ void RenderLoop::save_lights(const WebReply& reply) const {
     reply({200, "text/plain; charset=utf-8",
            scaled_lights(session_.compiled().model(), *groups_, mixture_of(wish_.lights, *groups_)),
            "lights.rad"});
+}
+
+void RenderLoop::save_materials(const WebReply& reply) const {
+    reply({200, "text/plain; charset=utf-8",
+           edited_materials(session_.compiled().model(), edits_.sound), "materials.rad"});
 }
 
 void RenderLoop::measure_probes() {

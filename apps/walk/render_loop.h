@@ -9,6 +9,7 @@
 
 #include "apps/session/scene_session.h"
 #include "apps/walk/client_inbox.h"
+#include "apps/walk/material_edits.h"
 #include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_isolux.h"
@@ -61,7 +62,9 @@ class RenderLoop {
     void dim();
     [[nodiscard]] bool is_dimming() const;
     void save_lights(const WebReply& reply) const;
+    void save_materials(const WebReply& reply) const;
     void reply(const WalkQuestion& question);
+    [[nodiscard]] MaterialReply describe(const MaterialRequest& request) const;
     void save(const WebReply& reply);
     void measure_probes();
     void draw_plan();
@@ -98,6 +101,7 @@ class RenderLoop {
     std::map<ClientId, std::uint32_t> plan_questions_;  ///< the newest of each
     double eye_height_;
 
+    CheckedEdits edits_;  ///< that are shown
     WalkWish wish_;
     std::optional<View> view_;               ///< that is drawn
     std::optional<ViewReply> told_;          ///< what watchers know

@@ -40,6 +40,11 @@ class CloudFrames {
     /// @return  the last frame in this mixture, where it is known of all its pixels and may be
     ///          refined; nothing: the next frame is one of a new view
     [[nodiscard]] const ProgressivePicture* mix(const LightMixture& mixture);
+    /// Forget the points that may show some materials; the next frame is one of a new view.
+    void drop(const ShownMaterials& materials) {
+        loop_.drop(materials);
+        lead_.abandon();
+    }
     void set_budget(double seconds) { lead_.set_budget(seconds); }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
     void set_refine(double share) { lead_.set_refine(share); }
