@@ -7,6 +7,7 @@
 #include "apps/session/run_header.h"
 #include "apps/walk/dimmed_lights.h"
 #include "core/math/distance.h"
+#include "core/error.h"
 #include "core/math/overloaded.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
@@ -54,17 +55,20 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
                        LiveFrames& frames, Executor& executor, WarningSink& warnings,
                        ClientInbox& client_inbox, WalkScreen& screen)
     : options_(std::move(options)),
-      session_(session),
+      frames_(frames),
+      warnings_(warnings),
+      session_(&session),
+      model_(session.compiled().model()),
       client_inbox_(client_inbox),
       screen_(screen),
       threads_(executor.concurrency()),
       has_indirect_(frames.has_indirect()),
       groups_(frames.light_groups()),
       live_(frames, options_.edge_samples),
-      answers_(session.tracer(), warnings, groups_),
+      answers_(std::in_place, session.tracer(), warnings, groups_),
       glare_(session.tracer(), executor, warnings, groups_),
       isolux_(session.tracer(), executor, warnings, groups_),
-      survey_(session.scene(), session.tracer().options().back_faces_visible),
+      survey_(std::in_place, session.scene(), session.tracer().options().back_faces_visible),
       task_runner_(executor),
       eye_height_(eye_height_of(session.scene(), home)) {}
 
@@ -154,27 +158,63 @@ void RenderLoop::answer(const InboxContents& inbox) {
 
 /// Pictures and numbers of the dimmers' new state, without a ray where all of it is known.
 void RenderLoop::dim() {
-    const LightMixture mixture = mixture_of(wish_.lights, *groups_);
-    if (!live_.mix(mixture)) drawn_ = false;
-    answers_.mix(mixture);
-    glare_.mix(mixture);
-    isolux_.mix(mixture);
+    mix_lights();
     dimmed_ = true;
     shown_ = false;
     moved_ = dimmed_at_ = Clock::now();
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
-        if (const std::optional<ProbeValue> value = answers_.mixed(probe))
+        if (const std::optional<ProbeValue> value = answers_->mixed(probe))
             reply.probes.push_back(*value);
     reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
     if (!reply.probes.empty()) client_inbox_.tell_all(walk_text(reply));
+}
+
+void RenderLoop::mix_lights() {
+    const LightMixture mixture = mixture_of(wish_.lights, *groups_);
+    if (!live_.mix(mixture)) drawn_ = false;
+    answers_->mix(mixture);
+    glare_.mix(mixture);
+    isolux_.mix(mixture);
+}
+
+bool RenderLoop::change_scene(SceneState state) {
+    change_problem_.clear();
+    try {
+        if (!options_.change) throw InputError("the scene cannot be changed here");
+        take_session(options_.change(change_of(model_, state)));
+    } catch (const InputError& error) {
+        change_problem_ = error.what();
+        return false;
+    }
+    scene_state_ = std::move(state);
+    return true;
+}
+
+/// Whatever asks rays asks them of the new session.
+void RenderLoop::take_session(const SceneSession& session) {
+    session_ = &session;
+    has_indirect_ = frames_.has_indirect();
+    groups_ = frames_.light_groups();
+    const Tracer& tracer = session.tracer();
+    answers_.emplace(tracer, warnings_, groups_);
+    glare_.change(tracer, warnings_, groups_);
+    isolux_.change(tracer, warnings_, groups_);
+    survey_.emplace(session.scene(), tracer.options().back_faces_visible);
+    live_.look_anew();
+    if (groups_) mix_lights();
+    drawn_ = shown_ = false;
+    small_sketches_ = kSmallSketches;
+    sketches_ = 1;
+    moved_ = Clock::now();
+    measured_at_ = {};
 }
 
 View RenderLoop::on_the_ground(const ViewRequest& request) const {
     View view = request.view;
     if (!request.walk) return view;
     const std::optional<double> height =
-        height_above_ground(session_.scene().geometry(), view.position, view.up);
+        height_above_ground(session_->scene().geometry(), view.position, view.up);
     if (height && std::abs(eye_height_ - *height) <= kHighestStep * eye_height_)
         view.position += (eye_height_ - *height) * normalize(view.up);
     return view;
@@ -288,7 +328,7 @@ void RenderLoop::reply(const WalkQuestion& question) {
     std::visit(
         Overloaded{[&](const PickRequest& pick) {
                        const Camera camera(pick.view.value_or(*view_));
-                       tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
+                       tell(answers_->pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
                    },
                    [&](const MaterialRequest& material) { tell(describe(material)); },
                    [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
@@ -314,9 +354,9 @@ MaterialReply RenderLoop::describe(const MaterialRequest& request) const {
 /// A part of it beside each frame, so that none waits for all of it.
 void RenderLoop::draw_plan() {
     if (plan_questions_.empty()) return;
-    survey_.aim(view_->position, eye_height_);
-    if (!survey_.step(task_runner_)) return;
-    PlanReply reply = plan_reply(survey_.plan());
+    survey_->aim(view_->position, eye_height_);
+    if (!survey_->step(task_runner_)) return;
+    PlanReply reply = plan_reply(survey_->plan());
     for (const auto& [client, id] : std::exchange(plan_questions_, {})) {
         reply.id = id;
         client_inbox_.tell(client, walk_text(reply));
@@ -330,7 +370,7 @@ void RenderLoop::measure_planes(const StopFlag& stop) {
 }
 
 void RenderLoop::save(const WebReply& reply) {
-    PictureHeader header{history_header(session_.compiled().model().header, options_.history)};
+    PictureHeader header{history_header(session_->compiled().model().header, options_.history)};
     header.lines.push_back("VIEW= " + view_text(*view_));
     for (const std::string& line : date_lines()) header.lines.push_back(line);
     const LivePicture& shown = live_.picture();
@@ -342,7 +382,8 @@ void RenderLoop::save_lights(const WebReply& reply) const {
     if (!groups_)
         return reply({404, "text/plain; charset=utf-8", "no lights may be dimmed here\n", {}});
     reply({200, "text/plain; charset=utf-8",
-           scaled_lights(session_.compiled().model(), *groups_, mixture_of(wish_.lights, *groups_)),
+           scaled_lights(session_->scene().own_modifiers(), *groups_,
+                         mixture_of(wish_.lights, *groups_)),
            "lights.rad"});
 }
 
@@ -354,7 +395,7 @@ void RenderLoop::save_materials(const WebReply& reply) const {
 void RenderLoop::measure_probes() {
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
-        reply.probes.push_back(answers_.measure(probe, view_->position));
+        reply.probes.push_back(answers_->measure(probe, view_->position));
     reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
     client_inbox_.tell_all(walk_text(reply));
     measured_at_ = Clock::now();

@@ -127,6 +127,24 @@ void LiveFrames::keep_groups(const std::shared_ptr<const LightGroups>& groups) {
     cloud_.light_groups = groups->size();
 }
 
+void LiveFrames::change(const Tracer& direct, const Tracer* indirect,
+                        const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings) {
+    const bool walks_indirect = walking_ != nullptr && walking_ == indirect_.get();
+    direct_ = std::make_unique<WalkLight>(direct, warnings, executor_.concurrency());
+    indirect_ = indirect == nullptr
+                    ? nullptr
+                    : std::make_unique<WalkLight>(*indirect, warnings, executor_.concurrency());
+    if (groups) keep_groups(groups);
+    if (walking_ == nullptr) return;
+    walking_ = walks_indirect && indirect_ ? indirect_.get() : direct_.get();
+    outdate();
+}
+
+/// Points show another light: there is nothing to be told by them.
+void LocalFrames::outdate() {
+    start(0);
+}
+
 void LocalFrames::start(std::uint64_t first) {
     frames_ = std::make_unique<CloudFrames>(options_.width, options_.height, cloud_, first);
     (void)mixed();

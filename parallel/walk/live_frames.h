@@ -60,6 +60,14 @@ class LiveFrames {
         return mixed();
     }
 
+    /// The scene is another one from here on: of the same surfaces, under other modifiers and
+    /// sources. Frames keep their size and their light, and the points of the frames before are
+    /// outdated. The tracers of before are not used any more.
+    /// @param direct, indirect  as they were given to the constructor
+    /// @param groups            null: they are not kept
+    void change(const Tracer& direct, const Tracer* indirect,
+                const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings);
+
     /// Whether there is indirect light to be traced.
     [[nodiscard]] bool has_indirect() const { return indirect_ != nullptr; }
     /// Frames of this size from here on, and of this light: what was carried on is forgotten.
@@ -100,6 +108,8 @@ class LiveFrames {
   protected:
     /// See mix().
     [[nodiscard]] virtual const ProgressivePicture* mixed() { return nullptr; }
+    /// See change().
+    virtual void outdate() {}
     /// The frames that begin() has announced.
     virtual void start(std::uint64_t first) = 0;
     /// The frames that follow are of the size in options_.
@@ -147,6 +157,7 @@ class LocalFrames final : public LiveFrames {
                                      const StopFlag& stop) override;
 
   private:
+    void outdate() override;
     void start(std::uint64_t first) override;
     void resized() override { frames_->resize(options_.width, options_.height); }
 
