@@ -137,7 +137,8 @@ const materials = new MaterialPanel({
     ask: (x, y) => session.ask("material", { x, y, ...measuring.view_shown() }),
     edits: (fields) => session.ask("edits", fields),
     may_drive: () => session.driving,
-    indirect: () => light.settings.ambient !== "off" && counters.state.phase !== "done",
+    indirect: () => light.settings.ambient !== "off",
+    settled: () => counters.state.phase === "done",
     changed: () => commands.follow_light("a material is changed"),
 });
 const roles = new Roles({

@@ -11,7 +11,7 @@ const title = (layer) => `${layer.name} (${layer.kind})`;
 export class MaterialPanel {
     /**
      * @param on  {ask(x, y): the request's number, edits(message): the request's number, may_drive(), indirect(): whether
-     *     indirect light is missing still, changed()}: changed() when the user has changed something
+     *     there is indirect light, settled(): whether all of it is there, changed()}: changed() when the user has changed something
      */
     constructor(on) {
         this.on_ = on;
@@ -97,7 +97,7 @@ export class MaterialPanel {
 
     /** @param begins  whether light has just become another one */
     follow_light(begins = false) {
-        const follows = (begins || this.follows_) && this.on_.indirect();
+        const follows = this.on_.indirect() && (begins || (this.follows_ && !this.on_.settled()));
         if (follows === this.follows_) return;
         this.follows_ = follows;
         this.say_();

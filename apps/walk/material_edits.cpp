@@ -165,6 +165,35 @@ MaterialReply describe_material(const Scene& scene, const Model& built, const Hi
     return reply;
 }
 
+Primitive edited_primitive(const Model& built, const ModifierEdit& edit) {
+    Primitive primitive = built.modifiers[edit.modifier];
+    primitive.reals = edit.reals;
+    return primitive;
+}
+
+std::vector<std::size_t> changed_modifiers(const std::vector<ModifierEdit>& before,
+                                           const std::vector<ModifierEdit>& after) {
+    std::vector<std::size_t> changed;
+    const auto add_missing = [&](const std::vector<ModifierEdit>& some,
+                                 const std::vector<ModifierEdit>& others) {
+        for (const ModifierEdit& edit : some)
+            if (std::ranges::find(others, edit) == others.end()) changed.push_back(edit.modifier);
+    };
+    add_missing(before, after);
+    add_missing(after, before);
+    std::ranges::sort(changed);
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
+}
+
+bool lights_others(const Scene& scene, const std::vector<std::size_t>& modifiers) {
+    return std::ranges::any_of(modifiers, [&](std::size_t i) {
+        const ModifierRecord& record = scene.modifier(ModifierId{static_cast<std::int32_t>(i)});
+        if (is_light(record.type) || record.type == PrimitiveType::mirror) return true;
+        return record.node && !record.node->traits().blocks_shadow_rays;
+    });
+}
+
 std::vector<bool> modifiers_with(const Scene& scene, const std::vector<std::size_t>& edited) {
     std::vector<bool> with(scene.modifier_count());
     std::set<const Primitive*> primitives;  // those of aliases are their targets'

@@ -36,6 +36,17 @@ struct CheckedEdits {
 [[nodiscard]] MaterialReply describe_material(const Scene& scene, const Model& built,
                                               const Hit& hit, std::uint32_t id);
 
+[[nodiscard]] Primitive edited_primitive(const Model& built, const ModifierEdit& edit);
+
+/// The modifiers that differ between two lists of edits, each in the order of the modifiers.
+[[nodiscard]] std::vector<std::size_t> changed_modifiers(const std::vector<ModifierEdit>& before,
+                                                         const std::vector<ModifierEdit>& after);
+
+/// Whether other numbers for one of these change the direct light on other surfaces: those of
+/// what emits, and of what light passes or is mirrored by.
+/// @param modifiers  of the scene's own
+[[nodiscard]] bool lights_others(const Scene& scene, const std::vector<std::size_t>& modifiers);
+
 /// The modifiers of a scene that show one of these: those themselves, and whatever is made of them.
 /// @param edited  into the scene's own model
 /// @return        by modifier

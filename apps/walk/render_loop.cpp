@@ -6,8 +6,8 @@
 
 #include "apps/session/run_header.h"
 #include "apps/walk/dimmed_lights.h"
-#include "core/math/distance.h"
 #include "core/error.h"
+#include "core/math/distance.h"
 #include "core/math/overloaded.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
@@ -130,6 +130,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         moved_ = now;
     }
     const bool other_light = inbox.wish.settings != wish_.settings;
+    const bool edits = inbox.wish.edits != wish_.edits;
     const bool dims = inbox.wish.lights != wish_.lights;
     const bool moved =
         inbox.wish.view && (!wish_.view || !same_picture(*inbox.wish.view, *wish_.view));
@@ -145,6 +146,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         moved_ = now;
     }
     if (moved || other_light) drawn_ = false;
+    if (edits) edit();
     if (dims && groups_) dim();
     if (inbox.new_probes) measured_at_ = {};
     if (!view_ || live_.picture().radiance.empty())
@@ -176,6 +178,38 @@ void RenderLoop::mix_lights() {
     answers_->mix(mixture);
     glare_.mix(mixture);
     isolux_.mix(mixture);
+}
+
+/// Points that cannot show what has changed stay as they are. They are traced anew once the view
+/// rests, as all points are, with what has changed in the light around.
+void RenderLoop::edit() {
+    CheckedEdits checked = check_edits(model_, wish_.edits);
+    if (checked.sound != edits_.sound) {
+        const std::vector<std::size_t> changed = changed_modifiers(edits_.sound, checked.sound);
+        const bool around = lights_others(session_->scene(), changed);
+        if (!around)
+            frames_.outdate_only(
+                ShownMaterials(session_->scene(), modifiers_with(session_->scene(), changed)));
+        SceneState state = scene_state_;
+        for (const ModifierEdit& edit : edits_.sound)
+            state.replaced.erase(static_cast<std::int32_t>(edit.modifier));
+        for (const ModifierEdit& edit : checked.sound)
+            state.replaced.insert_or_assign(static_cast<std::int32_t>(edit.modifier),
+                                            edited_primitive(model_, edit));
+        if (change_scene(std::move(state))) {
+            if (!around) small_sketches_ = sketches_ = 0;
+            edited_ = !around;
+            checked.reply.kept = around ? 0 : frames_.kept_points();
+            edits_ = checked;
+        } else {
+            frames_.outdate_only(std::nullopt);
+            for (MaterialEdit& edit : checked.reply.materials)
+                checked.reply.refused.push_back(
+                    {std::move(edit.name), edit.definition, change_problem_});
+            checked.reply.materials = edits_.reply.materials;
+        }
+    }
+    client_inbox_.announce_edits(walk_text(checked.reply));
 }
 
 bool RenderLoop::change_scene(SceneState state) {
@@ -229,7 +263,8 @@ RenderLoop::Clock::duration RenderLoop::progressive_interval(Clock::time_point n
 /// Of a moving frame's time at least a third is for its steps. At rest they are long, since each
 /// takes a while beside it.
 double RenderLoop::budget() const {
-    constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3;
+    constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3, kEdited = 0.06;
+    if (edited_) return kEdited;  // most of the picture is there
     const bool whole_sketch = sketches_ > 0 && small_sketches_ == 0;
     if (!wish_.view->moving && !is_dimming()) return whole_sketch ? kWholeSketch : kAtRest;
     const double seconds =
@@ -250,7 +285,7 @@ void RenderLoop::draw(const StopFlag& stop) {
     if (small_sketches_ > 0 || sketches_ > 0) live_.look_anew();
     if (!live_.next(*view_, size.width, size.height, ambient, budget, stop)) return;
     drawn_ = true;
-    shown_ = false;
+    shown_ = edited_ = false;
     note_size(size, budget);
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {
@@ -343,12 +378,12 @@ void RenderLoop::reply(const WalkQuestion& question) {
 }
 
 MaterialReply RenderLoop::describe(const MaterialRequest& request) const {
-    const Scene& scene = session_.scene();
+    const Scene& scene = session_->scene();
     const auto ray = Camera(request.view.value_or(*view_)).ray(request.x, request.y);
     const Hit hit =
         ray ? scene.geometry().intersect({ray->origin, ray->direction, farthest_hit(ray->limit)})
             : Hit{};
-    return describe_material(scene, session_.compiled().model(), hit, request.id);
+    return describe_material(scene, model_, hit, request.id);
 }
 
 /// A part of it beside each frame, so that none waits for all of it.
@@ -388,8 +423,8 @@ void RenderLoop::save_lights(const WebReply& reply) const {
 }
 
 void RenderLoop::save_materials(const WebReply& reply) const {
-    reply({200, "text/plain; charset=utf-8",
-           edited_materials(session_.compiled().model(), edits_.sound), "materials.rad"});
+    reply({200, "text/plain; charset=utf-8", edited_materials(model_, edits_.sound),
+           "materials.rad"});
 }
 
 void RenderLoop::measure_probes() {

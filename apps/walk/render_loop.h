@@ -73,6 +73,7 @@ class RenderLoop {
 
     void answer(const InboxContents& inbox);
     void take_session(const SceneSession& session);
+    void edit();
     void mix_lights();
     void dim();
     [[nodiscard]] bool is_dimming() const;
@@ -121,7 +122,8 @@ class RenderLoop {
     std::map<ClientId, std::uint32_t> plan_questions_;  ///< the newest of each
     double eye_height_;
 
-    CheckedEdits edits_;  ///< that are shown
+    CheckedEdits edits_;   ///< that are shown
+    bool edited_ = false;  ///< since a picture was drawn, and little of it is another one
     WalkWish wish_;
     std::optional<View> view_;               ///< that is drawn
     std::optional<ViewReply> told_;          ///< what watchers know

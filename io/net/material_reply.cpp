@@ -55,7 +55,8 @@ std::string walk_text(const EditedReply& reply) {
     return material_text_of({{"type", "edited"},
                              {"id", reply.id},
                              {"materials", std::move(materials)},
-                             {"refused", std::move(refused)}});
+                             {"refused", std::move(refused)},
+                             {"kept", reply.kept}});
 }
 
 }  // namespace lightwalk

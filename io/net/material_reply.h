@@ -42,6 +42,7 @@ struct EditedReply {
     std::uint32_t id = 0;                      ///< of the request
     std::vector<MaterialEdit> materials = {};  ///< that are changed
     std::vector<RefusedEdit> refused = {};
+    double kept = 1;  ///< share of the walk's points that show nothing of what has changed
 };
 
 [[nodiscard]] std::string walk_text(const MaterialReply& reply);

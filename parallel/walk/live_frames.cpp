@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/light/small_sources.h"
 #include "parallel/pixel_tracer.h"
@@ -135,14 +136,17 @@ void LiveFrames::change(const Tracer& direct, const Tracer* indirect,
                     ? nullptr
                     : std::make_unique<WalkLight>(*indirect, warnings, executor_.concurrency());
     if (groups) keep_groups(groups);
+    const std::optional<ShownMaterials> only = std::exchange(outdated_, std::nullopt);
     if (walking_ == nullptr) return;
     walking_ = walks_indirect && indirect_ ? indirect_.get() : direct_.get();
-    outdate();
+    kept_ = outdate(only ? &*only : nullptr);
 }
 
 /// Points show another light: there is nothing to be told by them.
-void LocalFrames::outdate() {
+double LocalFrames::outdate(const ShownMaterials* only) {
+    if (only != nullptr && frames_) return frames_->drop(*only);
     start(0);
+    return 0;
 }
 
 void LocalFrames::start(std::uint64_t first) {

@@ -106,5 +106,5 @@ TEST_CASE("material messages: replies are written as the protocol has them") {
     const EditedReply edited{5, {{"wall", 0, "plastic", {1, 2}}}, {{"door", 2, "no"}}};
     CHECK(json::parse(walk_text(edited)) == json::parse(R"({"type": "edited", "id": 5,
         "materials": [{"name": "wall", "definition": 0, "kind": "plastic", "reals": [1.0, 2.0]}],
-        "refused": [{"name": "door", "definition": 2, "why": "no"}]})"));
+        "refused": [{"name": "door", "definition": 2, "why": "no"}], "kept": 1.0})"));
 }
