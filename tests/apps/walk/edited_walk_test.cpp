@@ -168,7 +168,7 @@ TEST_CASE("edited walk: the first picture after a change has the new colour wher
     REQUIRE(first.size() == expected.size());
     std::size_t changed = 0, right = 0;
     for (std::size_t i = 0; i < first.size(); ++i) {
-        if (expected[i].r < 1.5f * built[i].r) continue;
+        if (!(expected[i].r > 1.5f * built[i].r)) continue;
         ++changed;
         right += std::abs(first[i].r - expected[i].r) < 0.1f * expected[i].r ? 1 : 0;
     }
