@@ -1,6 +1,7 @@
 #pragma once
 // One TraceContext for each worker of an executor.
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -71,8 +72,8 @@ class WorkerContexts {
         context.contributions = context.groups = sums_[worker].get();
     }
 
-    const Tracer& tracer_;
-    WarningSink& warnings_;
+    std::reference_wrapper<const Tracer> tracer_;
+    std::reference_wrapper<WarningSink> warnings_;
     std::vector<std::unique_ptr<TraceContext>> contexts_;
     std::shared_ptr<const LightGroups> groups_;
     std::vector<std::unique_ptr<GroupSums>> sums_;  ///< one a context, where there are groups

@@ -89,6 +89,34 @@ CompiledScene::CompiledScene(const SceneSource& source, WarningSink& warnings,
     cost_.read_peak_bytes = peak_memory_bytes();
 }
 
+CompiledScene::CompiledScene(const std::shared_ptr<const CompiledScene>& base, ModelChange change,
+                             WarningSink& warnings)
+    : base_(base->base_ ? base->base_ : base),
+      warnings_(warnings),
+      files_(base->files_),
+      library_(base->library_),
+      threads_(base->threads_),
+      trim_heap_(base->trim_heap_),
+      ablation_(base->ablation_),
+      resources_(base->resources_),
+      frozen_(base->frozen_),
+      extended_(true),
+      model_(base->model_) {
+    const Stopwatch watch;
+    const std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, threads_);
+    const ExecutorTaskRunner task_runner(*executor);
+    try {
+        scene_ = std::make_shared<const Scene>(base->scene_, change, modifier_factory, *resources_,
+                                               warnings_, task_runner);
+    } catch (const GeometryChange&) {
+        model_ = changed_model(*model_, change);
+        scene_ = std::make_shared<const Scene>(model_, modifier_factory, *resources_, warnings_,
+                                               task_runner, SceneExtent::whole, ablation_);
+    }
+    cost_.build_seconds = watch.seconds();
+    cost_.build_peak_bytes = peak_memory_bytes();
+}
+
 void CompiledScene::read(const SceneSource& source) {
     const std::vector<std::string>& names = source.files;
     if (!source.bytes.empty() || !source.primitives.empty())
@@ -116,9 +144,10 @@ void CompiledScene::read_files(const SceneSource& source, std::unique_ptr<Frozen
         library_, source.allow_commands, {}, pipe, extended_ ? base->model() : nullptr};
     model_ = read_scene(names.subspan(extended_ ? 1 : 0), options, warnings_, &problems_);
     frozen_ = base.get();
-    resources_ = std::move(library);
     if (extended_)
-        resources_ = std::make_unique<ExtendedResources>(std::move(base), std::move(resources_));
+        resources_ = std::make_unique<ExtendedResources>(std::move(base), std::move(library));
+    else
+        resources_ = std::move(library);
 }
 
 void CompiledScene::read_bytes(const SceneSource& source) {
@@ -183,7 +212,7 @@ void CompiledScene::compile(Resources& asked) {
     problems_.raise();
     trim_heap();
     scene_ =
-        std::make_unique<const Scene>(model_, modifier_factory, asked, warnings_,
+        std::make_shared<const Scene>(model_, modifier_factory, asked, warnings_,
                                       ExecutorTaskRunner(*executor), SceneExtent::whole, ablation_);
     trim_heap();
     cost_.build_seconds = watch.seconds();

@@ -51,6 +51,15 @@ class CompiledScene {
                   std::shared_ptr<FileRecorder> files = std::make_shared<FileRecorder>(),
                   const std::string& shared_by = {});
 
+    /// A scene of the same surfaces under other modifiers and sources, compiled; nothing is read.
+    /// It shares what it can with `base` (Scene), and is built as a whole where it cannot. Throws
+    /// InputError for bad modifiers.
+    /// @param base      after compile(); is kept alive
+    /// @param change    of base->model()
+    /// @param warnings  of what is compiled; must outlive this
+    CompiledScene(const std::shared_ptr<const CompiledScene>& base, ModelChange change,
+                  WarningSink& warnings);
+
     /// Compiles, by what the scene's library says. Throws InputError, with all problems of the
     /// description.
     void compile() { compile(*resources_); }
@@ -60,6 +69,7 @@ class CompiledScene {
     /// system has no such memory. Before compile(); throws InputError as that does.
     [[nodiscard]] std::string share();
 
+    /// As it was read.
     [[nodiscard]] const Model& model() const { return *model_; }
     /// After compile().
     [[nodiscard]] const Scene& scene() const { return *scene_; }
@@ -82,19 +92,20 @@ class CompiledScene {
     void map_shared(const std::string& path);
     void trim_heap() const;
 
+    std::shared_ptr<const CompiledScene> base_;  ///< that this is a change of; null: it is none
     WarningSink& warnings_;
     std::shared_ptr<FileRecorder> files_;
     LibraryPath library_;
     int threads_;
     bool trim_heap_;
     Ablation ablation_;
-    std::unique_ptr<Resources> resources_;
+    std::shared_ptr<Resources> resources_;
     const FrozenScene* frozen_ = nullptr;       ///< which resources_ keep
     bool extended_ = false;                     ///< files were added to it
     std::shared_ptr<const MemoryFile> shared_;  ///< with other processes; null: nothing is
     ProblemList problems_;                      ///< of the description, which model_ leaves out
     std::shared_ptr<const Model> model_;
-    std::unique_ptr<const Scene> scene_;
+    std::shared_ptr<const Scene> scene_;
     SceneCost cost_;
 };
 

@@ -11,11 +11,11 @@ namespace lightwalk {
 LocalBackend::LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), true) {
     if (options_.observer != nullptr) contexts_[0].observer = options_.observer;
-    if (!session_.coefficients) return;
+    if (!session_->coefficients) return;
     std::vector<RayTally*> tallies;
     for (const std::unique_ptr<RayTally>& tally : tallies_) tallies.push_back(tally.get());
     rounds_ =
-        std::make_unique<CoefficientRounds>(session_.tracer(), *session_.coefficients, *executor_,
+        std::make_unique<CoefficientRounds>(session_->tracer(), *session_->coefficients, *executor_,
                                             contexts_, std::move(tallies), stop());
 }
 
@@ -29,7 +29,7 @@ std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
     Frame frame;
     if (fill_cache(request, [&](const FrameProgress& made) { reporter.update(0, made); })) {
         frame = render_frame(
-            session_.tracer(), request.camera, request.options, *executor_, contexts_, stop(),
+            session_->tracer(), request.camera, request.options, *executor_, contexts_, stop(),
             [&](const FrameProgress& made) { reporter.update(picture, made); },
             request.checkpoint.get());
     }
@@ -42,10 +42,10 @@ std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
 
 /// False: stopped.
 bool LocalBackend::fill_cache(const PictureRequest& request, TakeProgress progress) {
-    if (!session_.freezable) return true;
+    if (!session_->freezable) return true;
     const CachePrepassResult filled =
-        fill_ambient_cache(session_.tracer(), request.camera, request.options, prepass(),
-                           *session_.freezable, *executor_, contexts_, stop(), progress);
+        fill_ambient_cache(session_->tracer(), request.camera, request.options, prepass(),
+                           *session_->freezable, *executor_, contexts_, stop(), progress);
     statistics_.rays += filled.rays;
     statistics_.ambient += filled.ambient;
     return filled.complete;
@@ -60,19 +60,34 @@ bool LocalBackend::prepare(const PictureRequest& request, bool first) {
 
 LiveFrames& LocalBackend::frames() {
     if (frames_) return *frames_;
-    const Tracer& tracer = direct_ ? *direct_ : session_.tracer();
-    const Tracer* const indirect = direct_ ? &session_.tracer() : nullptr;
+    const Tracer& tracer = direct_ ? *direct_ : session_->tracer();
+    const Tracer* const indirect = direct_ ? &session_->tracer() : nullptr;
     frames_ = std::make_unique<LocalFrames>(tracer, indirect, *options_.reuse, frame_options(0, 0),
                                             *executor_, warnings_);
     if (contexts_.light_groups() != nullptr) frames_->keep_groups(contexts_.shared_groups());
     return *frames_;
 }
 
+/// An ambient file is of the light that the scene has been read with.
+void LocalBackend::change(std::shared_ptr<const CompiledScene> scene) {
+    auto session = std::make_unique<SceneSession>(std::move(scene), options_.light, std::string(),
+                                                  options_.keep_coefficients, quiet_);
+    std::unique_ptr<const Tracer> direct = make_direct(*session, quiet_);
+    const std::shared_ptr<const LightGroups> groups = find_groups(*session);
+    if (frames_)
+        frames_->change(direct ? *direct : session->tracer(), direct ? &session->tracer() : nullptr,
+                        groups, warnings_);
+    contexts_ = WorkerContexts(session->tracer(), warnings_, executor_->concurrency());
+    contexts_.sum_by(groups);
+    direct_ = std::move(direct);
+    session_ = std::move(session);
+}
+
 /// Records of coefficients for what the rays' hemispheres see, before any of these is answered: an
 /// answer depends on the list as a whole, not on what is answered when.
 void LocalBackend::fill_coefficients(const RayTask& list) {
     rounds_->fill([&] {
-        trace_ray_list(session_.tracer(), contexts_, list.rays, list.first, ray_options(),
+        trace_ray_list(session_->tracer(), contexts_, list.rays, list.first, ray_options(),
                        *executor_, 1,
                        [](std::size_t, int, const Ray& /*ray*/, const Hit& /*first*/) {});
     });
@@ -85,7 +100,7 @@ std::optional<std::string> LocalBackend::finish(const RayTask& list) {
     contexts_.reset_counters();
     if (rounds_) fill_coefficients(list);
     if (stop().requested()) return std::nullopt;
-    trace_ray_list(session_.tracer(), contexts_, list.rays, list.first, ray_options(), *executor_,
+    trace_ray_list(session_->tracer(), contexts_, list.rays, list.first, ray_options(), *executor_,
                    per_task, [&](std::size_t i, int worker, const Ray& ray, const Hit& first) {
                        record(worker, list.rays[i], ray, first, records[i / per_task]);
                    });

@@ -14,7 +14,7 @@ namespace lightwalk {
 RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
                          RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
-    if (options_.reuse) light_.emplace(session_.tracer(), warnings_, executor_->concurrency());
+    if (options_.reuse) light_.emplace(session_->tracer(), warnings_, executor_->concurrency());
     if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
     for (std::optional<WalkLight>* light : {&light_, &direct_light_})
         if (*light && contexts_.light_groups() != nullptr)
@@ -22,16 +22,16 @@ RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> sc
 }
 
 void RankBackend::share_values() {
-    if (!session_.ambient) return;
+    if (!session_->ambient) return;
     // The rounds of a deterministic run begin with the same cache on all ranks.
     if (options_.deterministic || link_.exchanges_values()) {
         const std::string known =
-            link_.broadcast(leads() ? wire::encode(session_.known) : std::string());
+            link_.broadcast(leads() ? wire::encode(session_->known) : std::string());
         const auto records = wire::decode<std::vector<AmbientRecord>>(known);
         for (const AmbientRecord& record : records)
-            if (!leads()) session_.ambient->insert(record);
+            if (!leads()) session_->ambient->insert(record);
     }
-    if (link_.exchanges_values()) link_.share(*session_.freezable);
+    if (link_.exchanges_values()) link_.share(*session_->freezable);
 }
 
 void RankBackend::run(FunctionRef<void()> lead) {
@@ -73,7 +73,7 @@ void RankBackend::begin(const PictureRequest& request) {
     if (prepass() == CachePrepass::quick)
         link_.start({PictureJob{
             link_.new_number(), quick_prepass(options).whole(), 1, false, payload, {}, false}});
-    const BlockRenderer renderer(session_.tracer(), request.camera, options, contexts_, stop());
+    const BlockRenderer renderer(session_->tracer(), request.camera, options, contexts_, stop());
     PictureJob job{
         link_.new_number(),           options.area(), renderer.alignment(), true, payload, {},
         request.checkpoint != nullptr};
@@ -139,7 +139,7 @@ LiveFrames& RankBackend::frames() {
                                      : make_executor(ExecutorKind::serial, 1);
     frames_ = std::make_unique<RankFrames>(
         [this](FrameOrder order, const StopFlag& stop) { return draw(std::move(order), stop); },
-        direct_ ? *direct_ : session_.tracer(), direct_ ? &session_.tracer() : nullptr,
+        direct_ ? *direct_ : session_->tracer(), direct_ ? &session_->tracer() : nullptr,
         *options_.reuse, frame_options(0, 0), *own_executor_, warnings_);
     if (contexts_.light_groups() != nullptr) frames_->keep_groups(contexts_.shared_groups());
     return *frames_;

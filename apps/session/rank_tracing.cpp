@@ -41,7 +41,7 @@ std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob
     FrameOptions options = frame_options(order.width, order.height);
     if (!job.keep) options = quick_prepass(options);
     const auto picture =
-        std::make_shared<OrderedPicture>(order, options, session_.tracer(), contexts_, stop());
+        std::make_shared<OrderedPicture>(order, options, session_->tracer(), contexts_, stop());
     if (prepass() == CachePrepass::deterministic) {
         // Rank 0 orders no other picture meanwhile, so that no rays of another one are under way.
         // The tracing threads wait, and theirs is not to be called from one of its own tasks.
@@ -89,10 +89,10 @@ std::unique_ptr<SceneCaster> RankBackend::make_rays(const FrameOrder& order) {
 
 void RankBackend::fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
                              Executor& executor) {
-    WorkerContexts contexts(session_.tracer(), warnings_, executor.concurrency());
+    WorkerContexts contexts(session_->tracer(), warnings_, executor.concurrency());
     if (contexts_.light_groups() != nullptr) contexts.sum_by(contexts_.shared_groups());
     const CachePrepassResult filled = fill_ambient_cache(
-        session_.tracer(), camera, options, how, *session_.freezable, executor, contexts, stop(),
+        session_->tracer(), camera, options, how, *session_->freezable, executor, contexts, stop(),
         [](const FrameProgress&) {},
         how == CachePrepass::deterministic ? &link_.workers() : nullptr);
     prepass_counters_.rays += filled.rays;

@@ -23,31 +23,46 @@ RenderBackend::RenderBackend(std::shared_ptr<const CompiledScene> scene, Rendere
                              bool leads)
     : options_(std::move(options)),
       warnings_(options_.warn),
-      session_(std::move(scene), options_.light, leads ? options_.ambient_file : std::string(),
-               options_.keep_coefficients, warnings_),
+      session_(std::make_unique<SceneSession>(std::move(scene), options_.light,
+                                              leads ? options_.ambient_file : std::string(),
+                                              options_.keep_coefficients, warnings_)),
       executor_(make_executor(options_.executor.value_or(kDefaultExecutor),
                               options_.threads > 0 ? options_.threads : hardware_threads())),
-      contexts_(session_.tracer(), warnings_, executor_->concurrency()) {
+      contexts_(session_->tracer(), warnings_, executor_->concurrency()) {
     if (!options_.record)
         options_.record = [](const RayQuery&, const Ray& ray, const Hit& first,
                              std::string& bytes) { append_ray_answer(ray, first, bytes); };
     if (options_.light_groups) {
         if (options_.reuse && !options_.steered)
             throw InputError("light groups are for pictures that are traced by themselves");
-        if (session_.ambient_store)
+        if (session_->ambient_store)
             throw InputError("an ambient file holds no values of light groups");
-        contexts_.sum_by(std::make_shared<const LightGroups>(
-            find_light_groups(session_.scene(), options_.light, *options_.light_groups)));
+        contexts_.sum_by(find_groups(*session_));
     }
     for (int worker = 0; options_.make_tally && worker < contexts_.size(); ++worker) {
-        tallies_.push_back(options_.make_tally(session_.tracer()));
+        tallies_.push_back(options_.make_tally(session_->tracer()));
         contexts_[worker].contributions = tallies_.back().get();
         contexts_[worker].observer = tallies_.back()->observer();
     }
-    RenderOptions direct = session_.tracer().options();
-    if (!options_.steered || direct.ambient_bounces == 0) return;
+    direct_ = make_direct(*session_, warnings_);
+}
+
+std::unique_ptr<const Tracer> RenderBackend::make_direct(const SceneSession& session,
+                                                         WarningSink& warnings) const {
+    RenderOptions direct = session.tracer().options();
+    if (!options_.steered || direct.ambient_bounces == 0) return nullptr;
     direct.ambient_bounces = 0;
-    direct_ = std::make_unique<const Tracer>(session_.scene(), direct, warnings_);
+    return std::make_unique<const Tracer>(session.scene(), direct, warnings);
+}
+
+std::shared_ptr<const LightGroups> RenderBackend::find_groups(const SceneSession& session) const {
+    if (!options_.light_groups) return nullptr;
+    return std::make_shared<const LightGroups>(
+        find_light_groups(session.scene(), options_.light, *options_.light_groups));
+}
+
+void RenderBackend::change(std::shared_ptr<const CompiledScene> /*scene*/) {
+    throw InputError("the scene of a walk on ranks stays as it is");
 }
 
 FrameOptions RenderBackend::frame_options(int width, int height) const {
@@ -78,7 +93,7 @@ ProgressListener RenderBackend::listener() {
 }
 
 CachePrepass RenderBackend::prepass() const {
-    if (!session_.freezable) return CachePrepass::none;
+    if (!session_->freezable) return CachePrepass::none;
     if (options_.deterministic) return CachePrepass::deterministic;
     return options_.cache_prepass ? CachePrepass::quick : CachePrepass::none;
 }
@@ -128,7 +143,7 @@ RayListOptions RenderBackend::ray_options() const {
 
 std::string RenderBackend::answer_rays(const RayTask& list, int worker) {
     std::string all;
-    trace_rays(session_.tracer(), contexts_[worker], list.rays, list.first, ray_options(),
+    trace_rays(session_->tracer(), contexts_[worker], list.rays, list.first, ray_options(),
                [&](std::size_t i, const Ray& ray, const Hit& first) {
                    record(worker, list.rays[i], ray, first, all);
                });
@@ -146,7 +161,7 @@ void RenderBackend::record(int worker, const RayQuery& query, const Ray& ray, co
 RunStatistics RenderBackend::statistics() const {
     RunStatistics statistics = statistics_;
     statistics.threads = executor_->concurrency();
-    statistics.add_session(session_);
+    statistics.add_session(*session_);
     return statistics;
 }
 

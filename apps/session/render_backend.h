@@ -51,7 +51,14 @@ class RenderBackend {
     RenderBackend& operator=(const RenderBackend&) = delete;
 
     [[nodiscard]] const RendererOptions& options() const { return options_; }
-    [[nodiscard]] const SceneSession& session() const { return session_; }
+    /// Until the scene is changed.
+    [[nodiscard]] const SceneSession& session() const { return *session_; }
+    /// From now on the scene is this one, of the same surfaces, and has a session of its own: its
+    /// cache of indirect light is empty, and frames() go on where they were. Nothing of what
+    /// session() returned before is used any more, or may be. Throws InputError, and leaves all as
+    /// it was.
+    /// @param scene  a change of session().compiled()
+    virtual void change(std::shared_ptr<const CompiledScene> scene);
     /// Null: pictures have no layers.
     [[nodiscard]] const LightGroups* light_groups() const { return contexts_.light_groups(); }
     /// Of pictures of a size; a walk that is steered traces every pixel.
@@ -96,6 +103,11 @@ class RenderBackend {
     [[nodiscard]] virtual bool prepare(const PictureRequest& /*request*/, bool /*first*/) {
         return true;
     }
+    /// Without indirect light, of walks that are steered; null: there is none anyway.
+    [[nodiscard]] std::unique_ptr<const Tracer> make_direct(const SceneSession& session,
+                                                            WarningSink& warnings) const;
+    /// Null where no groups are asked for.
+    [[nodiscard]] std::shared_ptr<const LightGroups> find_groups(const SceneSession& session) const;
     /// Appends the record of a finished ray to `bytes`.
     void record(int worker, const RayQuery& query, const Ray& ray, const Hit& first,
                 std::string& bytes) const;
@@ -105,10 +117,10 @@ class RenderBackend {
 
     RendererOptions options_;
     CallbackWarnings warnings_;
+    CallbackWarnings quiet_{{}};  ///< of scenes that are changes: what is to be said has been said
     StopFlag own_stop_;
-    SceneSession session_;
-    std::unique_ptr<const Tracer> direct_;  ///< of walks that are steered: without indirect light;
-                                            ///< null: there is none anyway
+    std::unique_ptr<SceneSession> session_;
+    std::unique_ptr<const Tracer> direct_;  ///< see make_direct
     std::unique_ptr<Executor> executor_;
     WorkerContexts contexts_;
     std::vector<std::unique_ptr<RayTally>> tallies_;  ///< one a worker; none: see make_tally

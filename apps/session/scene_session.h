@@ -29,6 +29,9 @@ class SceneSession {
                  const std::string& ambient_file, bool keeps_coefficients, WarningSink& warnings);
 
     [[nodiscard]] const CompiledScene& compiled() const { return *compiled_; }
+    [[nodiscard]] const std::shared_ptr<const CompiledScene>& shared_compiled() const {
+        return compiled_;
+    }
     [[nodiscard]] const Scene& scene() const { return compiled_->scene(); }
     [[nodiscard]] const Tracer& tracer() const { return *tracer_; }
     /// Of the scene, and of the tracer.

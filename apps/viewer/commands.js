@@ -122,12 +122,16 @@ class Commands {
 
     // Lamps
 
-    /** Glare is another one in other light: it is asked for again once the dimmers rest. */
+    /** Glare is another one in other light: it is asked for again once the controls rest. */
     follow_lamps() {
-        clearTimeout(this.lamps_rest_);
-        this.lamps_rest_ = setTimeout(() => {
+        this.follow_light("a lamp is dimmed");
+    }
+
+    follow_light(why) {
+        clearTimeout(this.light_rests_);
+        this.light_rests_ = setTimeout(() => {
             if (this.glare.id !== 0) this.ask_glare();
-            this.isolux.outdate("a lamp is dimmed");
+            this.isolux.outdate(why);
         }, 300);
     }
 
@@ -142,6 +146,16 @@ class Commands {
         }
     }
 
+    async write_materials() {
+        try {
+            if (this.session.driving) this.materials.tell();
+            const text = await server_file("materials.rad", token_query(location.href));
+            download(text, this.name_("materials.rad"));
+        } catch (error) {
+            notice(`No file of materials: ${error.message}`, true);
+        }
+    }
+
     // Light
 
     want_area(wanted) {
@@ -150,8 +164,13 @@ class Commands {
         if (wanted) notice("Drag over the area");
     }
 
-    /** Read the light at x, y (0..1 from the left and the bottom), or choose the surface there for isolux. */
+    /** Read the light at x, y (0..1 from the left and the bottom), or choose the surface there for isolux or its material. */
     point(x, y) {
+        if (this.materials.choosing) {
+            this.materials.choose_at(x, y);
+            if (!is_open("materials")) toggle_panel("materials");
+            return;
+        }
         if (!this.isolux.choosing) return this.measuring.pick_at(x, y);
         this.isolux.choose_at(x, y);
         if (!is_open("measure")) toggle_panel("measure");
@@ -229,10 +248,22 @@ class Commands {
         this.isolux.tell_command(name, this.scene());
     }
 
+    /** Choose a surface, for its material or for isolux: one of these. */
+    choose_material(wanted) {
+        if (wanted) this.isolux.choose(false);
+        this.materials.choose(wanted);
+    }
+
+    choose_isolux(wanted) {
+        if (wanted) this.materials.choose(false);
+        this.isolux.choose(wanted);
+    }
+
     /** Cancel one thing: the choice of an area or a surface, else the reading, else the open panel, else the display of glare. */
     escape() {
         if (this.area_wanted) this.want_area(false);
         else if (this.isolux.choosing) this.isolux.choose(false);
+        else if (this.materials.choosing) this.materials.choose(false);
         else if (!this.measuring.reading.close() && !close_panel()) this.glare.clear();
         this.picture.focus({ preventScroll: true });
     }
@@ -254,12 +285,14 @@ function listen_for_buttons(commands) {
         "write-table": () => commands.write_table(),
         "write-table-too": () => commands.write_table(),
         "clear-table": () => measuring.measurements.clear(),
-        "isolux-surface": () => isolux.choose(!isolux.choosing),
+        "isolux-surface": () => commands.choose_isolux(!isolux.choosing),
         "isolux-floor": () => isolux.above_floor(),
         "write-isolux": () => commands.write_isolux(),
         "write-points": () => commands.write_points(),
         "clear-isolux": () => isolux.clear(),
         "write-lamps": () => commands.write_lamps(),
+        "material-choose": () => commands.choose_material(!commands.materials.choosing),
+        "write-materials": () => commands.write_materials(),
         "write-png": () => commands.write_png(),
         "write-hdr": () => commands.write_hdr(),
         "ask-glare": () => commands.ask_glare(),
@@ -297,7 +330,8 @@ function keys_of(commands) {
         o: () => commands.path.toggle_play(),
         p: () => measuring.reading.pin(),
         r: () => commands.want_area(!commands.area_wanted),
-        c: () => commands.isolux.choose(!commands.isolux.choosing),
+        c: () => commands.choose_isolux(!commands.isolux.choosing),
+        y: () => commands.choose_material(!commands.materials.choosing),
         f: drive(() => light.toggle_false()),
         x: drive(() => light.toggle_auto()),
         "-": drive(() => light.step_exposure(-1)),

@@ -9,6 +9,7 @@ import { IsoluxPanel } from "./isolux_panel.js";
 import { show_legend } from "./legend.js";
 import { LampPanel } from "./lamp_panel.js";
 import { LightPanel } from "./light_panel.js";
+import { MaterialPanel } from "./material_panel.js";
 import { Measuring } from "./measuring.js";
 import { Navigator } from "./navigator.js";
 import { cover, notice, show_failures, uncover } from "./notices.js";
@@ -71,6 +72,15 @@ const session = new Session(session_id(), camera.available, screen, {
         counters.last_isolux = message;
         isolux.answer(message);
     },
+    material: (message) => {
+        counters.last_material = message;
+        materials.answer(message);
+    },
+    edited: (message) => {
+        counters.last_edited = message;
+        materials.take(message);
+        if (!session.driving) commands.follow_light("a material is changed");
+    },
     state: server_state,
     view: (message) => {
         session.watch(message);
@@ -123,6 +133,14 @@ const lamps = new LampPanel({
         commands.follow_lamps();
     },
 });
+const materials = new MaterialPanel({
+    ask: (x, y) => session.ask("material", { x, y, ...measuring.view_shown() }),
+    edits: (fields) => session.ask("edits", fields),
+    may_drive: () => session.driving,
+    indirect: () => light.settings.ambient !== "off",
+    settled: () => counters.state.phase === "done",
+    changed: () => commands.follow_light("a material is changed"),
+});
 const roles = new Roles({
     take: () => session.send({ type: "take" }),
     hand: (to) => session.send({ type: "hand", to }),
@@ -155,6 +173,7 @@ const commands = start_commands({
     isolux,
     glare,
     lamps,
+    materials,
     picture,
     painted: () => (draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
@@ -234,6 +253,7 @@ function open_scene(name) {
     path.restore(scene_item(name, "path", []));
     isolux.clear();
     lamps.restore(scene_item(name, "lamps", []));
+    materials.forget();
     measuring.open_scene(name);
 }
 
@@ -253,6 +273,7 @@ function say_all() {
     tell_display();
     session.send({ type: "settings", ...light.settings });
     lamps.tell();
+    materials.tell();
     measuring.tell_probes();
     navigator.touch();
 }
@@ -264,6 +285,7 @@ function scene_loaded(message) {
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
     open_lamps(message.lights ?? []);
+    materials.outdate();
     plan.forget();
     cover("Drawing the first picture…");
     if (!navigator.view && views.scene_views.length > 0) {
@@ -309,6 +331,7 @@ function lost(reason, wait) {
 function role_changed(driving) {
     session.drive(driving);
     lamps.drive();
+    materials.drive();
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();
@@ -319,6 +342,7 @@ function server_state(message) {
     counters.state = message;
     show_phase(message);
     measuring.follow_light();
+    materials.follow_light();
 }
 
 // Frames -----------------------------------------------------------------------------------------

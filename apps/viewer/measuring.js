@@ -48,11 +48,15 @@ export class Measuring {
      */
     point_at(x, y, then) {
         if (!this.session_.connection.connected) return;
-        const { shown, frame_view } = this.session_;
-        // What is seen at x, y is so in the view on the screen, which may be another than the newest one.
-        const own = shown && shown !== frame_view ? { view: shown } : {};
         if (then) this.asked_.clear();
-        this.asked_.set(this.session_.ask("pick", { x, y, ...own }), then ?? [x, y]);
+        const question = { x, y, ...this.view_shown() };
+        this.asked_.set(this.session_.ask("pick", question), then ?? [x, y]);
+    }
+
+    /** What is seen at a place is so in the view on the screen, which may be another than the newest one: {view}, or {}. */
+    view_shown() {
+        const { shown, frame_view } = this.session_;
+        return shown && shown !== frame_view ? { view: shown } : {};
     }
 
     picked(message) {

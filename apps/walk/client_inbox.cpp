@@ -44,6 +44,12 @@ void ClientInbox::announce(std::string text) {
     stage_ = std::move(text);
 }
 
+void ClientInbox::announce_edits(std::string text) {
+    const std::lock_guard lock(mutex_);
+    send_to_others(std::nullopt, text);
+    edits_ = std::move(text);
+}
+
 void ClientInbox::tell_all(const std::string& text) {
     const std::lock_guard lock(mutex_);
     send_to_others(std::nullopt, text);
@@ -55,7 +61,8 @@ void ClientInbox::tell_watchers(const std::string& text) {
 }
 
 void ClientInbox::refuse(const InboxContents& contents, const std::string& why) {
-    for (const std::vector<WebReply>* waiting : {&contents.saves, &contents.light_saves})
+    for (const std::vector<WebReply>* waiting :
+         {&contents.saves, &contents.light_saves, &contents.material_saves})
         for (const WebReply& reply : *waiting)
             reply({503, "text/plain; charset=utf-8", why + '\n', {}});
     for (const WalkQuestion& question : contents.questions)
@@ -114,6 +121,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                               wish.lights = lights;
                               send_to_others(client, walk_text(LightsReply{lights}));
                           },
+                          [&](const EditsRequest& edits) {
+                              if (drives) wish.edits = edits;
+                          },
                           [&](const ProbesRequest& pins) {
                               if (!drives) return;
                               wish.probes = pins.probes;
@@ -138,6 +148,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           [&](const IsoluxRequest& isolux) {
                               ask({client, isolux});
                           },
+                          [&](const MaterialRequest& material) {
+                              ask({client, material});
+                          },
                           [&](const TakeRequest&) {
                               change_roles(client, driver_lock_.acquire(client),
                                            "somebody else drives");
@@ -160,13 +173,16 @@ void ClientInbox::closed(ClientId client) {
 }
 
 void ClientInbox::save(const std::string& path, WebReply reply) {
-    const bool lights = path == "/save/lights.rad";
-    if (!lights && path != "/save/picture.hdr") {
+    std::vector<WebReply>* const waiting = path == "/save/picture.hdr"     ? &inbox_.saves
+                                           : path == "/save/lights.rad"    ? &inbox_.light_saves
+                                           : path == "/save/materials.rad" ? &inbox_.material_saves
+                                                                           : nullptr;
+    if (waiting == nullptr) {
         reply({404, "text/plain; charset=utf-8", "there is no such file\n", {}});
         return;
     }
     const std::lock_guard lock(mutex_);
-    (lights ? inbox_.light_saves : inbox_.saves).push_back(std::move(reply));
+    waiting->push_back(std::move(reply));
     has_news_ = true;
     news_.notify_one();
 }
@@ -183,6 +199,7 @@ void ClientInbox::greet(ClientId client, const HelloRequest& request) {
     if (!stage_.empty()) sender_->send_text(client, stage_);
     if (!inbox_.wish.lights.levels.empty())
         sender_->send_text(client, walk_text(LightsReply{inbox_.wish.lights}));
+    if (!edits_.empty()) sender_->send_text(client, edits_);
     announce_roles();
     inbox_.joined.push_back(client);
     if (request.depth) inbox_.want_depth.push_back(client);

@@ -21,13 +21,16 @@ struct WalkWish {
     DisplayRequest display;
     SettingsRequest settings;
     LightsRequest lights;
+    EditsRequest edits;
     std::vector<ProbePlace> probes;
 };
 
 /// What one client asks.
 struct WalkQuestion {
     ClientId client;
-    std::variant<PickRequest, MeanRequest, GlareRequest, PlanRequest, IsoluxRequest> ask;
+    std::variant<PickRequest, MeanRequest, GlareRequest, PlanRequest, IsoluxRequest,
+                 MaterialRequest>
+        ask;
     [[nodiscard]] std::uint32_t id() const {
         return std::visit([](const auto& request) { return request.id; }, ask);
     }
@@ -50,6 +53,7 @@ struct InboxContents {
     std::vector<ClientId> want_depth, want_luminance;  ///< of those who joined
     std::vector<WebReply> saves;                       ///< who waits for the picture as a file
     std::vector<WebReply> light_saves;                 ///< the same, for the dimmed modifiers
+    std::vector<WebReply> material_saves;              ///< the same, for the changed ones
 };
 
 /// Answers by itself who drives, and greets; everything else waits in the inbox.
@@ -68,6 +72,8 @@ class ClientInbox final : public WebHandler {
     [[nodiscard]] std::vector<WalkAck> pop_acks();
     /// What becomes of the scene: all are told, and those who come later.
     void announce(std::string text);
+    /// What has become of the edits: the same.
+    void announce_edits(std::string text);
     void tell(ClientId client, std::string text) { sender_->send_text(client, std::move(text)); }
     void tell_all(const std::string& text);
     void tell_watchers(const std::string& text);
@@ -106,6 +112,7 @@ class ClientInbox final : public WebHandler {
     DriverLock driver_lock_;
     WelcomeReply welcome_;
     std::string stage_;  ///< what was announced last
+    std::string edits_;  ///< what was last announced of them; "": nothing
 };
 
 }  // namespace lightwalk

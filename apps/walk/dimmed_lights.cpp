@@ -24,24 +24,24 @@ LightMixture mixture_of(const LightsRequest& lights, const LightGroups& groups) 
 namespace {
 
 /// The light that a modifier is, itself or as another name for it; null: it is none.
-const Primitive* light_of(const Model& model, const Primitive& modifier) {
+const Primitive* light_of(const std::vector<Primitive>& modifiers, const Primitive& modifier) {
     const bool alias = modifier.type == PrimitiveType::alias;
     if (alias && (modifier.references.empty() || modifier.references[0] < 0)) return nullptr;
     const Primitive& light =
-        alias ? model.modifiers[static_cast<std::size_t>(modifier.references[0])] : modifier;
+        alias ? modifiers[static_cast<std::size_t>(modifier.references[0])] : modifier;
     return is_light(light.type) ? &light : nullptr;
 }
 
 }  // namespace
 
-std::string scaled_lights(const Model& model, const LightGroups& groups,
+std::string scaled_lights(const std::vector<Primitive>& modifiers, const LightGroups& groups,
                           const LightMixture& mixture) {
     std::string text =
         "# Dimmed lights of a walk: in the scene's files these stand in place of the modifiers of\n"
         "# the same names. Lights in mixtures are not among them.\n";
-    const std::size_t count = std::min(model.modifiers.size(), groups.of_modifier.size());
+    const std::size_t count = std::min(modifiers.size(), groups.of_modifier.size());
     for (std::size_t i = 0; i < count && !mixture.levels.empty(); ++i) {
-        const Primitive* light = light_of(model, model.modifiers[i]);
+        const Primitive* light = light_of(modifiers, modifiers[i]);
         const Rgb& level = mixture.levels[groups.of_modifier[i]];
         constexpr std::size_t kChannels = 3;
         if (light == nullptr || light->reals.size() < kChannels || level == Rgb{1, 1, 1}) continue;
@@ -49,10 +49,9 @@ std::string scaled_lights(const Model& model, const LightGroups& groups,
         for (std::size_t k = 0; k < kChannels; ++k) reals[k] *= static_cast<double>(level[k]);
         text += "\n# " + groups.names[groups.of_modifier[i]] + '\n';
         const bool plain = light->modifier < 0;
-        append_primitive(
-            plain ? "void" : model.modifiers[static_cast<std::size_t>(light->modifier)].name,
-            to_string(light->type), model.modifiers[i].name, light->strings, reals, kFullDigits,
-            text);
+        append_primitive(plain ? "void" : modifiers[static_cast<std::size_t>(light->modifier)].name,
+                         to_string(light->type), modifiers[i].name, light->strings, reals,
+                         kFullDigits, text);
     }
     return text;
 }

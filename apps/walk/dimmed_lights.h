@@ -1,6 +1,7 @@
 #pragma once
 // Dimmers of a walk: from what the page sets to what is shown, and to a file of the scene.
 #include <string>
+#include <vector>
 
 #include "core/model/primitive.h"
 #include "core/transport/light_groups.h"
@@ -12,9 +13,9 @@ namespace lightwalk {
 /// other groups are of a scene as it was before.
 [[nodiscard]] LightMixture mixture_of(const LightsRequest& lights, const LightGroups& groups);
 
-/// The modifiers of all groups that are not as the scene has them, as a Radiance file: each emits
-/// what the mixture shows of it.
-[[nodiscard]] std::string scaled_lights(const Model& model, const LightGroups& groups,
-                                        const LightMixture& mixture);
+/// Of the scene's own modifiers those of all groups that are not as the scene has them, as a
+/// Radiance file: each emits what the mixture shows of it.
+[[nodiscard]] std::string scaled_lights(const std::vector<Primitive>& modifiers,
+                                        const LightGroups& groups, const LightMixture& mixture);
 
 }  // namespace lightwalk

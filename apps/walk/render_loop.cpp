@@ -6,6 +6,8 @@
 
 #include "apps/session/run_header.h"
 #include "apps/walk/dimmed_lights.h"
+#include "core/error.h"
+#include "core/math/distance.h"
 #include "core/math/overloaded.h"
 #include "io/options/view_text.h"
 #include "io/picture/picture.h"
@@ -53,17 +55,20 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
                        LiveFrames& frames, Executor& executor, WarningSink& warnings,
                        ClientInbox& client_inbox, WalkScreen& screen)
     : options_(std::move(options)),
-      session_(session),
+      frames_(frames),
+      warnings_(warnings),
+      session_(&session),
+      model_(session.compiled().model()),
       client_inbox_(client_inbox),
       screen_(screen),
       threads_(executor.concurrency()),
       has_indirect_(frames.has_indirect()),
       groups_(frames.light_groups()),
       live_(frames, options_.edge_samples),
-      answers_(session.tracer(), warnings, groups_),
+      answers_(std::in_place, session.tracer(), warnings, groups_),
       glare_(session.tracer(), executor, warnings, groups_),
       isolux_(session.tracer(), executor, warnings, groups_),
-      survey_(session.scene(), session.tracer().options().back_faces_visible),
+      survey_(std::in_place, session.scene(), session.tracer().options().back_faces_visible),
       task_runner_(executor),
       eye_height_(eye_height_of(session.scene(), home)) {}
 
@@ -125,6 +130,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         moved_ = now;
     }
     const bool other_light = inbox.wish.settings != wish_.settings;
+    const bool edits = inbox.wish.edits != wish_.edits;
     const bool dims = inbox.wish.lights != wish_.lights;
     const bool moved =
         inbox.wish.view && (!wish_.view || !same_picture(*inbox.wish.view, *wish_.view));
@@ -140,6 +146,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         moved_ = now;
     }
     if (moved || other_light) drawn_ = false;
+    if (edits) edit();
     if (dims && groups_) dim();
     if (inbox.new_probes) measured_at_ = {};
     if (!view_ || live_.picture().radiance.empty())
@@ -148,31 +155,100 @@ void RenderLoop::answer(const InboxContents& inbox) {
     for (const ClientId client : inbox.left) isolux_.forget(client);
     for (const WebReply& file : inbox.saves) save(file);
     for (const WebReply& file : inbox.light_saves) save_lights(file);
+    for (const WebReply& file : inbox.material_saves) save_materials(file);
 }
 
 /// Pictures and numbers of the dimmers' new state, without a ray where all of it is known.
 void RenderLoop::dim() {
-    const LightMixture mixture = mixture_of(wish_.lights, *groups_);
-    if (!live_.mix(mixture)) drawn_ = false;
-    answers_.mix(mixture);
-    glare_.mix(mixture);
-    isolux_.mix(mixture);
+    mix_lights();
     dimmed_ = true;
     shown_ = false;
     moved_ = dimmed_at_ = Clock::now();
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
-        if (const std::optional<ProbeValue> value = answers_.mixed(probe))
+        if (const std::optional<ProbeValue> value = answers_->mixed(probe))
             reply.probes.push_back(*value);
     reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
     if (!reply.probes.empty()) client_inbox_.tell_all(walk_text(reply));
+}
+
+void RenderLoop::mix_lights() {
+    const LightMixture mixture = mixture_of(wish_.lights, *groups_);
+    if (!live_.mix(mixture)) drawn_ = false;
+    answers_->mix(mixture);
+    glare_.mix(mixture);
+    isolux_.mix(mixture);
+}
+
+/// Points that cannot show what has changed stay as they are. They are traced anew once the view
+/// rests, as all points are, with what has changed in the light around.
+void RenderLoop::edit() {
+    CheckedEdits checked = check_edits(model_, wish_.edits);
+    if (checked.sound != edits_.sound) {
+        const std::vector<std::size_t> changed = changed_modifiers(edits_.sound, checked.sound);
+        const bool around = lights_others(session_->scene(), changed);
+        if (!around)
+            frames_.outdate_only(
+                ShownMaterials(session_->scene(), modifiers_with(session_->scene(), changed)));
+        SceneState state = scene_state_;
+        for (const ModifierEdit& edit : edits_.sound)
+            state.replaced.erase(static_cast<std::int32_t>(edit.modifier));
+        for (const ModifierEdit& edit : checked.sound)
+            state.replaced.insert_or_assign(static_cast<std::int32_t>(edit.modifier),
+                                            edited_primitive(model_, edit));
+        if (change_scene(std::move(state))) {
+            if (!around) small_sketches_ = sketches_ = 0;
+            edited_ = !around;
+            checked.reply.kept = around ? 0 : frames_.kept_points();
+            edits_ = checked;
+        } else {
+            frames_.outdate_only(std::nullopt);
+            for (MaterialEdit& edit : checked.reply.materials)
+                checked.reply.refused.push_back(
+                    {std::move(edit.name), edit.definition, change_problem_});
+            checked.reply.materials = edits_.reply.materials;
+        }
+    }
+    client_inbox_.announce_edits(walk_text(checked.reply));
+}
+
+bool RenderLoop::change_scene(SceneState state) {
+    change_problem_.clear();
+    try {
+        if (!options_.change) throw InputError("the scene cannot be changed here");
+        take_session(options_.change(change_of(model_, state)));
+    } catch (const InputError& error) {
+        change_problem_ = error.what();
+        return false;
+    }
+    scene_state_ = std::move(state);
+    return true;
+}
+
+/// Whatever asks rays asks them of the new session.
+void RenderLoop::take_session(const SceneSession& session) {
+    session_ = &session;
+    has_indirect_ = frames_.has_indirect();
+    groups_ = frames_.light_groups();
+    const Tracer& tracer = session.tracer();
+    answers_.emplace(tracer, warnings_, groups_);
+    glare_.change(tracer, warnings_, groups_);
+    isolux_.change(tracer, warnings_, groups_);
+    survey_.emplace(session.scene(), tracer.options().back_faces_visible);
+    live_.look_anew();
+    if (groups_) mix_lights();
+    drawn_ = shown_ = false;
+    small_sketches_ = kSmallSketches;
+    sketches_ = 1;
+    moved_ = Clock::now();
+    measured_at_ = {};
 }
 
 View RenderLoop::on_the_ground(const ViewRequest& request) const {
     View view = request.view;
     if (!request.walk) return view;
     const std::optional<double> height =
-        height_above_ground(session_.scene().geometry(), view.position, view.up);
+        height_above_ground(session_->scene().geometry(), view.position, view.up);
     if (height && std::abs(eye_height_ - *height) <= kHighestStep * eye_height_)
         view.position += (eye_height_ - *height) * normalize(view.up);
     return view;
@@ -187,7 +263,8 @@ RenderLoop::Clock::duration RenderLoop::progressive_interval(Clock::time_point n
 /// Of a moving frame's time at least a third is for its steps. At rest they are long, since each
 /// takes a while beside it.
 double RenderLoop::budget() const {
-    constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3;
+    constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3, kEdited = 0.06;
+    if (edited_) return kEdited;  // most of the picture is there
     const bool whole_sketch = sketches_ > 0 && small_sketches_ == 0;
     if (!wish_.view->moving && !is_dimming()) return whole_sketch ? kWholeSketch : kAtRest;
     const double seconds =
@@ -208,7 +285,7 @@ void RenderLoop::draw(const StopFlag& stop) {
     if (small_sketches_ > 0 || sketches_ > 0) live_.look_anew();
     if (!live_.next(*view_, size.width, size.height, ambient, budget, stop)) return;
     drawn_ = true;
-    shown_ = false;
+    shown_ = edited_ = false;
     note_size(size, budget);
     pace_.rays += live_.picture().rays;
     if (live_.picture().phase == WalkPhase::moving) {
@@ -286,8 +363,9 @@ void RenderLoop::reply(const WalkQuestion& question) {
     std::visit(
         Overloaded{[&](const PickRequest& pick) {
                        const Camera camera(pick.view.value_or(*view_));
-                       tell(answers_.pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
+                       tell(answers_->pick(pick, camera, {1.0 / shown.width, 1.0 / shown.height}));
                    },
+                   [&](const MaterialRequest& material) { tell(describe(material)); },
                    [&](const MeanRequest& mean) { tell(WalkAnswers::mean(mean, shown)); },
                    [&](const GlareRequest& glare) { glare_.ask(question.client, glare, *view_); },
                    [&](const PlanRequest& plan) {
@@ -299,12 +377,21 @@ void RenderLoop::reply(const WalkQuestion& question) {
         question.ask);
 }
 
+MaterialReply RenderLoop::describe(const MaterialRequest& request) const {
+    const Scene& scene = session_->scene();
+    const auto ray = Camera(request.view.value_or(*view_)).ray(request.x, request.y);
+    const Hit hit =
+        ray ? scene.geometry().intersect({ray->origin, ray->direction, farthest_hit(ray->limit)})
+            : Hit{};
+    return describe_material(scene, model_, hit, request.id);
+}
+
 /// A part of it beside each frame, so that none waits for all of it.
 void RenderLoop::draw_plan() {
     if (plan_questions_.empty()) return;
-    survey_.aim(view_->position, eye_height_);
-    if (!survey_.step(task_runner_)) return;
-    PlanReply reply = plan_reply(survey_.plan());
+    survey_->aim(view_->position, eye_height_);
+    if (!survey_->step(task_runner_)) return;
+    PlanReply reply = plan_reply(survey_->plan());
     for (const auto& [client, id] : std::exchange(plan_questions_, {})) {
         reply.id = id;
         client_inbox_.tell(client, walk_text(reply));
@@ -318,7 +405,7 @@ void RenderLoop::measure_planes(const StopFlag& stop) {
 }
 
 void RenderLoop::save(const WebReply& reply) {
-    PictureHeader header{history_header(session_.compiled().model().header, options_.history)};
+    PictureHeader header{history_header(session_->compiled().model().header, options_.history)};
     header.lines.push_back("VIEW= " + view_text(*view_));
     for (const std::string& line : date_lines()) header.lines.push_back(line);
     const LivePicture& shown = live_.picture();
@@ -330,14 +417,20 @@ void RenderLoop::save_lights(const WebReply& reply) const {
     if (!groups_)
         return reply({404, "text/plain; charset=utf-8", "no lights may be dimmed here\n", {}});
     reply({200, "text/plain; charset=utf-8",
-           scaled_lights(session_.compiled().model(), *groups_, mixture_of(wish_.lights, *groups_)),
+           scaled_lights(session_->scene().own_modifiers(), *groups_,
+                         mixture_of(wish_.lights, *groups_)),
            "lights.rad"});
+}
+
+void RenderLoop::save_materials(const WebReply& reply) const {
+    reply({200, "text/plain; charset=utf-8", edited_materials(model_, edits_.sound),
+           "materials.rad"});
 }
 
 void RenderLoop::measure_probes() {
     ProbesReply reply;
     for (const ProbePlace& probe : wish_.probes)
-        reply.probes.push_back(answers_.measure(probe, view_->position));
+        reply.probes.push_back(answers_->measure(probe, view_->position));
     reply.settled = live_.picture().phase == WalkPhase::done ? 1 : live_.picture().share;
     client_inbox_.tell_all(walk_text(reply));
     measured_at_ = Clock::now();

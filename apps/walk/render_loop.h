@@ -2,6 +2,7 @@
 // A scene in which somebody walks: its pictures, its light, and what browsers are told of both.
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,8 @@
 
 #include "apps/session/scene_session.h"
 #include "apps/walk/client_inbox.h"
+#include "apps/walk/material_edits.h"
+#include "apps/walk/scene_state.h"
 #include "apps/walk/walk_answers.h"
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_isolux.h"
@@ -25,6 +28,10 @@ struct RenderLoopOptions {
     int edge_samples = 8;  ///< rays a pixel at an edge gets at rest
     std::string history;   ///< the command line, for headers of pictures that are saved
     int ranks = 1;         ///< that draw it, for the page's numbers
+    /// Changes the scene under the frames (RenderBackend::change); returns the session that
+    /// it has from then on. Throws InputError, and leaves all as it was. None: it cannot be
+    /// changed.
+    std::function<const SceneSession&(ModelChange change)> change = {};
 };
 
 /// Draws until it is told to stop. For one thread.
@@ -39,6 +46,13 @@ class RenderLoop {
     /// Answer what has come, and draw the next picture, if there is one to draw; otherwise wait for
     /// a moment.
     void step(const StopFlag& stop);
+
+    /// Show another state of the scene from the next frame on: views, camera and questions stay,
+    /// nothing is read. False: it cannot be, and all is as it was; change_problem() says why.
+    [[nodiscard]] bool change_scene(SceneState state);
+    /// Why the last change was not made; "": it was.
+    [[nodiscard]] const std::string& change_problem() const { return change_problem_; }
+    [[nodiscard]] const SceneState& scene_state() const { return scene_state_; }
 
     /// Height of the eye above the ground [m].
     [[nodiscard]] double eye_height() const { return eye_height_; }
@@ -58,10 +72,15 @@ class RenderLoop {
     };
 
     void answer(const InboxContents& inbox);
+    void take_session(const SceneSession& session);
+    void edit();
+    void mix_lights();
     void dim();
     [[nodiscard]] bool is_dimming() const;
     void save_lights(const WebReply& reply) const;
+    void save_materials(const WebReply& reply) const;
     void reply(const WalkQuestion& question);
+    [[nodiscard]] MaterialReply describe(const MaterialRequest& request) const;
     void save(const WebReply& reply);
     void measure_probes();
     void draw_plan();
@@ -83,21 +102,28 @@ class RenderLoop {
     [[nodiscard]] std::chrono::milliseconds patience() const;
 
     RenderLoopOptions options_;
-    const SceneSession& session_;
+    LiveFrames& frames_;
+    WarningSink& warnings_;
+    const SceneSession* session_;
+    const Model& model_;      ///< as it was read
+    SceneState scene_state_;  ///< what session_ shows of it
+    std::string change_problem_;
     ClientInbox& client_inbox_;
     WalkScreen& screen_;
     int threads_;
     bool has_indirect_;
     std::shared_ptr<const LightGroups> groups_;  ///< that may be dimmed; null: none
     LiveWalk live_;
-    WalkAnswers answers_;
+    std::optional<WalkAnswers> answers_;  ///< always there
     WalkGlare glare_;
     WalkIsolux isolux_;
-    PlanSurvey survey_;
+    std::optional<PlanSurvey> survey_;  ///< always there
     ExecutorTaskRunner task_runner_;
     std::map<ClientId, std::uint32_t> plan_questions_;  ///< the newest of each
     double eye_height_;
 
+    CheckedEdits edits_;   ///< that are shown
+    bool edited_ = false;  ///< since a picture was drawn, and little of it is another one
     WalkWish wish_;
     std::optional<View> view_;               ///< that is drawn
     std::optional<ViewReply> told_;          ///< what watchers know

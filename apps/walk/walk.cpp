@@ -10,6 +10,7 @@
 #include "apps/session/render_backend.h"
 #include "apps/walk/pages.h"
 #include "apps/walk/render_loop.h"
+#include "apps/walk/scene_changer.h"
 #include "io/files/watched_files.h"
 #include "io/formats/words.h"
 #include "io/net/web_rules.h"
@@ -243,10 +244,12 @@ class WalkRun final : CommandRun {
                                                 : view_of(session.scene());
         if (loaded.views.empty()) loaded.views.push_back({"start", home});
         page.inbox.set_views(home, loaded.views);
-        RenderLoop loop({command_.serve->page.fps, command_.serve->edge_samples,
-                         command_.common.request.history, ranks() != nullptr ? ranks()->size() : 1},
-                        session, home, renderer.backend().frames(), *page.executor, warnings(),
-                        page.inbox, page.screen);
+        RenderLoopOptions options{command_.serve->page.fps, command_.serve->edge_samples,
+                                  command_.common.request.history,
+                                  ranks() != nullptr ? ranks()->size() : 1};
+        if (ranks() == nullptr) options.change = scene_changer(renderer.backend());
+        RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
+                        *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
         if (const auto& groups = renderer.backend().frames().light_groups())
             loaded.lights = groups->names;

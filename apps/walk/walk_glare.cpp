@@ -36,12 +36,25 @@ void WalkGlare::ask(ClientId client, const GlareRequest& request, const View& vi
     asked_.push_back({client, request.id});
     if (picture_ && view_ == view) return;
     view_ = view;
+    begin();
+}
+
+void WalkGlare::begin() {
     told_ = 0;
     picture_.emplace(kFieldSide, kFieldSide, 1);
     constexpr std::size_t kPixels = std::size_t{kFieldSide} * kFieldSide;
     const LightGroups* groups = contexts_.light_groups();
     picture_->begin(std::vector<Rgb>(kPixels), std::vector<float>(kPixels),
                     std::vector<Rgb>(groups != nullptr ? kPixels * groups->size() : 0));
+}
+
+void WalkGlare::change(const Tracer& tracer, WarningSink& warnings,
+                       const std::shared_ptr<const LightGroups>& groups) {
+    tracer_ = &tracer;
+    contexts_ = WorkerContexts(tracer, warnings, executor_.concurrency());
+    contexts_.sum_by(groups);
+    picture_.reset();
+    if (is_asked()) begin();
 }
 
 void WalkGlare::mix(const LightMixture& mixture) {
@@ -59,7 +72,7 @@ void WalkGlare::forget(ClientInbox& client_inbox) {
 void WalkGlare::step(double budget, const StopFlag& stop, ClientInbox& client_inbox) {
     const Camera field(field_of(view_));
     const auto trace = [&](const ProgressiveWork& work) {
-        return trace_pixels(tracer_, contexts_, field, picture_options(), work, budget, executor_,
+        return trace_pixels(*tracer_, contexts_, field, picture_options(), work, budget, executor_,
                             stop, mixture_);
     };
     if (picture_->step(trace)) {

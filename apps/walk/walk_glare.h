@@ -19,11 +19,15 @@ class WalkGlare {
     /// @param groups  of emitters that may be dimmed; null: none
     WalkGlare(const Tracer& tracer, Executor& executor, WarningSink& warnings,
               const std::shared_ptr<const LightGroups>& groups = nullptr)
-        : tracer_(tracer),
+        : tracer_(&tracer),
           executor_(executor),
           contexts_(tracer, warnings, executor.concurrency()) {
         if (groups) contexts_.sum_by(groups);
     }
+    /// The scene is another one, of the same surfaces: what is asked is answered by it. What the
+    /// constructor was given is not used any more.
+    void change(const Tracer& tracer, WarningSink& warnings,
+                const std::shared_ptr<const LightGroups>& groups);
     /// Of the light groups in what follows, and in what is drawn already.
     void mix(const LightMixture& mixture);
 
@@ -44,7 +48,9 @@ class WalkGlare {
     [[nodiscard]] GlareReply evaluate() const;
     void tell(GlareReply reply, ClientInbox& client_inbox) const;
 
-    const Tracer& tracer_;
+    void begin();
+
+    const Tracer* tracer_;
     Executor& executor_;
     WorkerContexts contexts_;
     LightMixture mixture_;

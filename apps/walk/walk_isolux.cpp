@@ -29,15 +29,28 @@ IsoluxReply isolux_reply(std::uint32_t id, const GridIlluminance& light) {
 void WalkIsolux::ask(ClientId client, const IsoluxRequest& request, double unit) {
     forget(client);
     questions_.emplace(
-        client,
-        Question{request.id, request.normal ? MeasuringSurvey::on_surface(
-                                                  sight_, unit, request.position, *request.normal)
-                                            : MeasuringSurvey::above_floor(
-                                                  sight_, unit, request.position, request.height)});
+        client, Question{request.id, request.normal
+                                         ? MeasuringSurvey::on_surface(
+                                               *sight_, unit, request.position, *request.normal)
+                                         : MeasuringSurvey::above_floor(
+                                               *sight_, unit, request.position, request.height)});
 }
 
 void WalkIsolux::mix(const LightMixture& mixture) {
     mixture_ = mixture;
+    begin_anew();
+}
+
+void WalkIsolux::change(const Tracer& tracer, WarningSink& warnings,
+                        const std::shared_ptr<const LightGroups>& groups) {
+    tracer_ = &tracer;
+    sight_.emplace(tracer.scene(), tracer.options().back_faces_visible);
+    contexts_ = WorkerContexts(tracer, warnings, executor_.concurrency());
+    contexts_.sum_by(groups);
+    begin_anew();
+}
+
+void WalkIsolux::begin_anew() {
     for (auto& [client, question] : questions_) {
         if (question.light) question.light->begin_anew();
         question.stride = 0;
@@ -62,7 +75,7 @@ bool WalkIsolux::go_on(Question& question, ClientId client, double seconds, cons
         }
         question.light.emplace(question.survey.grid());
     }
-    const bool more = question.light->step(tracer_, contexts_, seconds, executor_, stop, mixture_);
+    const bool more = question.light->step(*tracer_, contexts_, seconds, executor_, stop, mixture_);
     const Clock::time_point now = Clock::now();
     const bool finer = question.light->stride() != question.stride;
     if (!more || finer || now - question.told >= kToldEvery) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "apps/walk/client_inbox.h"
 #include "core/plan/measuring_grid.h"
@@ -20,10 +21,10 @@ class WalkIsolux {
     /// @param groups  of emitters that may be dimmed; null: none
     WalkIsolux(const Tracer& tracer, Executor& executor, WarningSink& warnings,
                const std::shared_ptr<const LightGroups>& groups = nullptr)
-        : tracer_(tracer),
+        : tracer_(&tracer),
           executor_(executor),
           task_runner_(executor),
-          sight_(tracer.scene(), tracer.options().back_faces_visible),
+          sight_(std::in_place, tracer.scene(), tracer.options().back_faces_visible),
           contexts_(tracer, warnings, executor.concurrency()) {
         if (groups) contexts_.sum_by(groups);
     }
@@ -34,6 +35,10 @@ class WalkIsolux {
     /// Nobody waits for an answer to this client any more.
     void forget(ClientId client) { questions_.erase(client); }
 
+    /// The scene is another one, of the same surfaces: what is not finished is begun anew. What the
+    /// constructor was given is not used any more.
+    void change(const Tracer& tracer, WarningSink& warnings,
+                const std::shared_ptr<const LightGroups>& groups);
     /// Of the light groups in what follows: what is not finished is begun anew.
     void mix(const LightMixture& mixture);
 
@@ -54,10 +59,12 @@ class WalkIsolux {
     [[nodiscard]] bool go_on(Question& question, ClientId client, double seconds,
                              const StopFlag& stop, ClientInbox& client_inbox);
 
-    const Tracer& tracer_;
+    void begin_anew();
+
+    const Tracer* tracer_;
     Executor& executor_;
     ExecutorTaskRunner task_runner_;
-    PlanSight sight_;
+    std::optional<PlanSight> sight_;  ///< always there; surveys refer to it
     WorkerContexts contexts_;
     LightMixture mixture_;
     std::map<ClientId, Question> questions_;

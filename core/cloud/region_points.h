@@ -13,6 +13,7 @@
 #include "core/cloud/primary_visibility.h"
 #include "core/cloud/projection.h"
 #include "core/cloud/reuse.h"
+#include "core/cloud/shown_materials.h"
 #include "core/cloud/sleeping_points.h"
 #include "core/math/prefetch.h"
 #include "core/math/task_runner.h"
@@ -44,6 +45,12 @@ class RegionPoints {
     }
     /// Show another mixture of the light groups from now on, of which points keep the light.
     void mix(const LightMixture& mixture, const TaskRunner& task_runner);
+    /// Between two frames, of which the second one is not of a view that rests: forget the points
+    /// that may show some materials.
+    void drop(const ShownMaterials& materials) {
+        drop_points(materials, points_, groups_);
+        asleep_.drop(materials);
+    }
     /// A new frame. The camera must outlive it.
     void begin(const Camera& camera);
     /// Find the places of all points, after those have woken that the picture may show.

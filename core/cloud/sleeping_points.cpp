@@ -113,6 +113,15 @@ void SleepingPoints::wake(const PointProjector& projector, std::size_t most,
     if (any) std::erase_if(groups_, [](const Group& group) { return group.points.empty(); });
 }
 
+void SleepingPoints::drop(const ShownMaterials& materials) {
+    for (Group& group : groups_) {
+        size_ -= group.points.size();
+        drop_points(materials, group.points, group.groups);
+        size_ += group.points.size();
+    }
+    std::erase_if(groups_, [](const Group& group) { return group.points.empty(); });
+}
+
 void SleepingPoints::limit(std::size_t most) {
     while (size_ > most) {
         size_ -= groups_.front().points.size();

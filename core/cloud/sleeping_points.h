@@ -7,6 +7,7 @@
 
 #include "core/cloud/point.h"
 #include "core/cloud/projection.h"
+#include "core/cloud/shown_materials.h"
 #include "core/geometry/geometry.h"
 
 namespace lightwalk {
@@ -27,6 +28,8 @@ class SleepingPoints {
     /// @param most   once there are so many of these the others sleep on
     void wake(const PointProjector& projector, std::size_t most, std::vector<CloudPoint>& awake,
               std::vector<Rgb>& groups);
+    /// Forget those that may show some materials.
+    void drop(const ShownMaterials& materials);
     /// Forget those that have slept longest, so that hardly more than `most` are left.
     void limit(std::size_t most);
     [[nodiscard]] std::size_t size() const { return size_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cloud/material_bits.h"
 #include "core/light/light_sources.h"
 #include "core/scene/seen_material.h"
 
@@ -22,12 +23,8 @@ std::uint32_t met_surface(std::uint32_t met, std::int32_t surface, std::int32_t 
     const std::uint64_t both = std::uint64_t{static_cast<std::uint32_t>(surface)} << 32 |
                                static_cast<std::uint32_t>(frame);
     const auto bits = static_cast<std::uint32_t>(mix_bits(mix_bits(both + 1) ^ met) >> 32);
-    const std::uint64_t material =
-        mix_bits((met & kMaterialBits) + (std::uint64_t{1} << 32) +
-                 (std::uint64_t{static_cast<std::uint32_t>(index(modifier))} << 8));
     constexpr std::uint32_t kNeverNone = kMaterialBits + 1;
-    return (bits & ~kMaterialBits) | kNeverNone |
-           (static_cast<std::uint32_t>(material) & kMaterialBits);
+    return (bits & ~kMaterialBits) | kNeverNone | met_material(met, modifier);
 }
 
 /// Relative changes of a mirror-like reflection and of the transmitted rest as the ray turns, by

@@ -218,21 +218,40 @@ LightSource make_source(const Emitter& emitter, ModifierId material, WarningSink
     return source;
 }
 
+/// Calls visit(id) for each of the scene's own surfaces, in their order, until it returns false. A
+/// changed scene has other sources at infinity.
+template <class Visit>
+void visit_own_surfaces(const Scene& scene, const Visit& visit) {
+    const std::vector<SourcePlace>* const changed = scene.changed_sources();
+    std::size_t others = 0, next = 0;
+    for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
+        const SurfaceId id{static_cast<std::int32_t>(i)};
+        if (changed != nullptr) {
+            if (scene.surface(id).type() == PrimitiveType::source) continue;
+            for (; next < changed->size() && (*changed)[next].before <= others; ++next)
+                if (!visit((*changed)[next].id)) return;
+            ++others;
+        }
+        if (!visit(id)) return;
+    }
+    for (; changed != nullptr && next < changed->size(); ++next)
+        if (!visit((*changed)[next].id)) return;
+}
+
 /// Calls visit(surface, id, material) for each of the scene's own surfaces that emits, until it
 /// returns false. Millions of surfaces may have one modifier in turn, which is asked once then.
 template <class Visit>
 void visit_emitters(const Scene& scene, const Visit& visit) {
     ModifierId last = kVoid;
     std::optional<ModifierId> material;
-    for (std::size_t i = 0; i < scene.own_surfaces(); ++i) {
-        const SurfaceId id{static_cast<std::int32_t>(i)};
+    visit_own_surfaces(scene, [&](SurfaceId id) {
         const Surface surface = scene.surface(id);
         if (surface.modifier() != last) {
             last = surface.modifier();
             material = emitting_material(scene, last);
         }
-        if (material && !is_placement(surface.type()) && !visit(surface, id, *material)) return;
-    }
+        return !material || is_placement(surface.type()) || visit(surface, id, *material);
+    });
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ struct ModifierRecord {
     std::string name;
     bool named_phong = false;  ///< named exactly "Phong": transmitted rays are not bent by textures
     const Primitive* primitive = nullptr;  ///< arguments (an alias: its target's)
-    std::unique_ptr<const Modifier> node;  ///< null when no surface uses it
+    /// Null when no surface uses it. Scenes that are changes of one another share some.
+    std::shared_ptr<const Modifier> node;
     std::vector<ModifierId>
         references;  ///< global ids of primitive->references (kVoid: void or undefined)
 };

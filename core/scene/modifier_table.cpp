@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cassert>
 #include <set>
 #include <string>
@@ -10,13 +11,13 @@ namespace {
 using enum PrimitiveType;
 
 /// The primitive an alias stands for, at the end of the trail.
-const Primitive& alias_target(const Model& model, const Primitive& primitive) {
+const Primitive& alias_target(const std::vector<Primitive>& modifiers, const Primitive& primitive) {
     const Primitive* p = &primitive;
     while (p->type == alias) {
         if (p->references.empty() || p->references[0] < 0) {
             throw InputError(p->where, "alias \"" + p->name + "\": bad reference");
         }
-        p = &model.modifiers[static_cast<std::size_t>(p->references[0])];  // always an earlier one
+        p = &modifiers[static_cast<std::size_t>(p->references[0])];  // always an earlier one
     }
     return *p;
 }
@@ -33,32 +34,58 @@ class UnavailableModifier final : public Modifier {
     std::string problem_;
 };
 
-ModifierId global(std::int32_t base, std::int32_t local) {
-    return local < 0 ? kVoid : ModifierId{base + local};
+/// Whether two records say the same, but for what they refer to.
+bool is_same(const ModifierRecord& a, const ModifierRecord& b) {
+    return a.type == b.type && a.next == b.next && a.name == b.name &&
+           a.references == b.references && a.primitive->type == b.primitive->type &&
+           a.primitive->strings == b.primitive->strings &&
+           a.primitive->reals == b.primitive->reals &&
+           a.primitive->references == b.primitive->references;
 }
 
 }  // namespace
 
 ModifierTable::ModifierTable(const std::vector<LoadedModel>& models) {
     std::size_t count = 1;  // the Lambertian material of the irradiance modes
-    for (const LoadedModel& loaded : models) count += loaded.contents().modifiers.size();
+    for (const LoadedModel& loaded : models)
+        count += std::max(loaded.modifiers().size(), loaded.contents().modifiers.size());
     records_.reserve(count);
-    for (const LoadedModel& loaded : models) {
-        const Model& model = loaded.contents();
-        for (const Primitive& primitive : model.modifiers) {
-            ModifierRecord record;
-            record.name = primitive.name;
-            record.named_phong = primitive.name == "Phong";
-            record.next = global(loaded.modifier_base, primitive.modifier);
-            const Primitive& acts_as = alias_target(model, primitive);
-            record.type = acts_as.type;
-            record.primitive = &acts_as;
-            for (const std::int32_t r : acts_as.references)
-                record.references.push_back(global(loaded.modifier_base, r));
-            records_.push_back(std::move(record));
-        }
-    }
+    for (const LoadedModel& loaded : models) add(loaded, 0, loaded.contents().modifiers.size());
+    for (const LoadedModel& loaded : models)
+        add(loaded, loaded.contents().modifiers.size(), loaded.modifiers().size());
     used_.assign(records_.size(), false);
+}
+
+/// Modifiers first ... last - 1 of a model.
+void ModifierTable::add(const LoadedModel& loaded, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        const Primitive& primitive = loaded.modifiers()[i];
+        ModifierRecord record;
+        record.name = primitive.name;
+        record.named_phong = primitive.name == "Phong";
+        record.next = loaded.global(primitive.modifier);
+        const Primitive& acts_as = alias_target(loaded.modifiers(), primitive);
+        record.type = acts_as.type;
+        record.primitive = &acts_as;
+        for (const std::int32_t r : acts_as.references)
+            record.references.push_back(loaded.global(r));
+        records_.push_back(std::move(record));
+    }
+}
+
+/// What a modifier refers to comes before it, but for circles of antimatter.
+void ModifierTable::adopt(const ModifierTable& base) {
+    std::vector<bool> same(records_.size(), false);
+    const auto is_kept = [&](ModifierId id) {
+        return id == kVoid || same[static_cast<std::size_t>(index(id))];
+    };
+    const std::size_t common = std::min(records_.size(), base.records_.size() - 1);
+    for (std::size_t i = 0; i < common; ++i) {
+        ModifierRecord& record = records_[i];
+        same[i] = is_same(record, base.records_[i]) && is_kept(record.next) &&
+                  std::ranges::all_of(record.references, is_kept);
+        if (same[i]) record.node = base.records_[i].node;
+    }
 }
 
 void ModifierTable::use(ModifierId id) {
@@ -85,7 +112,7 @@ std::vector<NamedFile> ModifierTable::pictures() const {
     std::set<std::string> seen;
     for (std::size_t i = 0; i < records_.size(); ++i) {
         const ModifierRecord& record = records_[i];
-        if (!used_[i] || record.type != PrimitiveType::colorpict) continue;
+        if (!used_[i] || record.node || record.type != PrimitiveType::colorpict) continue;
         const std::vector<std::string>& strings = record.primitive->strings;
         if (strings.size() > kPictureOfColorpict &&
             seen.insert(strings[kPictureOfColorpict]).second)
@@ -94,40 +121,41 @@ std::vector<NamedFile> ModifierTable::pictures() const {
     return files;
 }
 
-void ModifierTable::compile(const std::vector<LoadedModel>& models,
-                            FindModifierFactory modifier_factory, Resources& resources,
+void ModifierTable::compile(FindModifierFactory modifier_factory, Resources& resources,
                             WarningSink& warnings, const TaskRunner& task_runner) {
     resources.prepare(pictures(), task_runner);
-    for (const LoadedModel& loaded : models) {
-        const auto count = static_cast<std::int32_t>(loaded.contents().modifiers.size());
-        for (std::int32_t i = loaded.modifier_base; i < loaded.modifier_base + count; ++i) {
-            ModifierRecord& record = records_[static_cast<std::size_t>(i)];
-            if (!used_[static_cast<std::size_t>(i)]) continue;
-            const Primitive& primitive = *record.primitive;
-            const ModifierFactory factory = modifier_factory(record.type);
-            assert(factory);  // every modifier has one
-            const ModifierBuild build{primitive,
-                                      ModifierId{i},
-                                      record.next,
-                                      resources,
-                                      functions_,
-                                      warnings,
-                                      [&record](std::size_t k) {
-                                          return k < record.references.size() ? record.references[k]
-                                                                              : kVoid;
-                                      },
-                                      [&primitive](std::size_t k) {
-                                          return k >= primitive.references.size() ||
-                                                 primitive.references[k] == kUndefinedIndex;
-                                      },
-                                      [this](ModifierId m) { return is_transparent(m); }};
-            try {
-                record.node = factory(build);
-            } catch (const MissingFile& missing) {
-                warnings.warn(missing.what());
-                record.node = std::make_unique<UnavailableModifier>(missing.what());
-            }
-        }
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        if (used_[i] && !records_[i].node)
+            compile(ModifierId{static_cast<std::int32_t>(i)}, modifier_factory, resources,
+                    warnings);
+    }
+}
+
+void ModifierTable::compile(ModifierId id, FindModifierFactory modifier_factory,
+                            Resources& resources, WarningSink& warnings) {
+    ModifierRecord& record = records_[static_cast<std::size_t>(index(id))];
+    const Primitive& primitive = *record.primitive;
+    const ModifierFactory factory = modifier_factory(record.type);
+    assert(factory);  // every modifier has one
+    const ModifierBuild build{
+        primitive,
+        id,
+        record.next,
+        resources,
+        functions_,
+        warnings,
+        [&record](std::size_t k) {
+            return k < record.references.size() ? record.references[k] : kVoid;
+        },
+        [&primitive](std::size_t k) {
+            return k >= primitive.references.size() || primitive.references[k] == kUndefinedIndex;
+        },
+        [this](ModifierId m) { return is_transparent(m); }};
+    try {
+        record.node = factory(build);
+    } catch (const MissingFile& missing) {
+        warnings.warn(missing.what());
+        record.node = std::make_unique<UnavailableModifier>(missing.what());
     }
 }
 
@@ -139,7 +167,7 @@ std::optional<ModifierId> ModifierTable::material_of(ModifierId first) const {
 }
 
 MaterialTraits ModifierTable::material_traits(ModifierId material) const {
-    const std::unique_ptr<const Modifier>& node = (*this)[material].node;
+    const std::shared_ptr<const Modifier>& node = (*this)[material].node;
     return node ? node->traits() : MaterialTraits{};
 }
 

@@ -1,6 +1,7 @@
 #include "core/scene/scene.h"
 
 #include <algorithm>
+#include <span>
 
 #include "core/model/transform_args.h"
 #include "core/scene/scene_tables.h"
@@ -20,6 +21,7 @@ struct Scene::Impl {
         SurfaceShapes shapes;
     };
 
+    std::shared_ptr<const Scene> base;  ///< that this is a change of; null: it is none
     std::vector<LoadedModel> models;
     ModifierTable modifiers;
     SurfaceTable surfaces;  ///< part i is model i; the last part is the Lambertian surface
@@ -29,12 +31,27 @@ struct Scene::Impl {
     std::unique_ptr<Primitive> lambertian;  ///< replaces every opaque material in irradiance modes
     ModifierId lambertian_modifier = kVoid;
     SurfaceId lambertian_surface = kNoSurface;
-    std::unique_ptr<Geometry> geometry;
+    std::shared_ptr<const Geometry> geometry;
+    std::vector<bool> on_finite;           ///< by modifier: whether surfaces have it that rays hit
+    std::vector<SourcePlace> new_sources;  ///< of a changed scene
+    SurfaceList source_list;               ///< the same
+    SurfaceShapes source_shapes;
 
     Impl(std::shared_ptr<const Model> model, Resources& resources, const TaskRunner& task_runner)
         : models(std::move(ModelLoader(std::move(model), resources, task_runner).models)),
           modifiers(models) {}
+    Impl(std::shared_ptr<const Scene> of, ModelChange change)
+        : base(std::move(of)),
+          models(changed_models(base->impl_->models, std::move(change.modifiers))),
+          modifiers(models),
+          shapes(base->impl_->shapes),
+          geometry(base, base->impl_->geometry.get()) {}
 
+    static std::vector<LoadedModel> changed_models(std::vector<LoadedModel> models,
+                                                   std::vector<Primitive> modifiers);
+    void share_surfaces(std::span<const PlacedSource> sources, const TaskRunner& task_runner);
+    void use_shared_modifiers();
+    void check_traits() const;
     void collect_surfaces(WarningSink& warnings, const TaskRunner& task_runner);
     void use_modifiers();
     void add_lambertian(FindModifierFactory modifier_factory, Resources& resources,
@@ -73,7 +90,86 @@ bool is_whole(const ModelCube& cube, const Bounds& bounds) {
            b.y <= cube.y + cube.size && b.z <= cube.z + cube.size;
 }
 
+/// Throws InputError where a modifier refers to one that does not come before it.
+void check_change(const ModelChange& change) {
+    const auto check = [](std::int32_t reference, std::size_t end, const Primitive& primitive) {
+        if (reference >= 0 && static_cast<std::size_t>(reference) >= end)
+            throw InputError(primitive.where, std::string(to_string(primitive.type)) + " \"" +
+                                                  primitive.name +
+                                                  "\": a modifier must come before what uses it");
+    };
+    for (std::size_t i = 0; i < change.modifiers.size(); ++i) {
+        const Primitive& primitive = change.modifiers[i];
+        check(primitive.modifier, i, primitive);
+        for (const std::int32_t reference : primitive.references) check(reference, i, primitive);
+    }
+    for (const PlacedSource& source : change.sources)
+        check(source.source.modifier, change.modifiers.size(), source.source);
+}
+
+bool operator!=(const SurfaceTraits& a, const SurfaceTraits& b) {
+    return a.has_material != b.has_material || a.transparent != b.transparent ||
+           a.shadow != b.shadow;
+}
+
 }  // namespace
+
+/// @param models  of the base
+std::vector<LoadedModel> Scene::Impl::changed_models(std::vector<LoadedModel> models,
+                                                     std::vector<Primitive> modifiers) {
+    const std::vector<Primitive>& own = models[0].model->modifiers;
+    if (modifiers.size() < own.size())
+        modifiers.insert(modifiers.end(),
+                         own.begin() + static_cast<std::ptrdiff_t>(modifiers.size()), own.end());
+    const LoadedModel& last = models.back();
+    models[0].added_base =
+        last.modifier_base + static_cast<std::int32_t>(last.contents().modifiers.size());
+    models[0].changed = std::make_shared<const std::vector<Primitive>>(std::move(modifiers));
+    return models;
+}
+
+/// The base's surfaces by their numbers, then the sources.
+void Scene::Impl::share_surfaces(std::span<const PlacedSource> sources,
+                                 const TaskRunner& task_runner) {
+    auto part_shapes = shapes.begin();
+    for (const LoadedModel& loaded : models) {
+        if (loaded.mesh)
+            surfaces.add(triangles.list, triangles.shapes, loaded.modifier_base);
+        else
+            surfaces.add(loaded.model->surfaces, **part_shapes++, loaded.modifier_base);
+    }
+    for (const PlacedSource& placed : sources) {
+        Primitive source = placed.source;
+        source.modifier = index(models[0].global(source.modifier));
+        source_list.add(source);
+    }
+    source_shapes = make_shapes(source_list, task_runner);
+    const std::size_t part = surfaces.add(source_list, source_shapes, 0);
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        new_sources.push_back({sources[i].before, surfaces.part(part).id(i)});
+}
+
+void Scene::Impl::use_shared_modifiers() {
+    on_finite = base->impl_->on_finite;
+    for (std::size_t i = 0; i < on_finite.size(); ++i)
+        if (on_finite[i]) modifiers.use(ModifierId{static_cast<std::int32_t>(i)});
+    for (std::size_t i = 0; i < source_list.size(); ++i) {
+        const std::int32_t modifier = source_list.modifier(i);
+        if (modifier >= 0) modifiers.use(ModifierId{modifier});
+    }
+}
+
+/// Throws GeometryChange where surfaces are others for the search than in the base.
+void Scene::Impl::check_traits() const {
+    for (std::size_t i = 0; i < on_finite.size(); ++i) {
+        const ModifierId id{static_cast<std::int32_t>(i)};
+        if (!on_finite[i] || !(modifiers.traits(id) != base->impl_->modifiers.traits(id))) continue;
+        const ModifierRecord& record = modifiers[id];
+        throw GeometryChange(record.primitive->where,
+                             std::string(to_string(record.type)) + " \"" + record.name +
+                                 "\": it lets light through in another way than before");
+    }
+}
 
 void Scene::Impl::collect_surfaces(WarningSink& warnings, const TaskRunner& task_runner) {
     for (const LoadedModel& loaded : models) {
@@ -91,19 +187,27 @@ void Scene::Impl::collect_surfaces(WarningSink& warnings, const TaskRunner& task
 }
 
 void Scene::Impl::use_modifiers() {
+    on_finite.assign(modifiers.size(), false);
+    const auto use = [this](ModifierId id) {
+        modifiers.use(id);
+        if (id != kVoid) on_finite[static_cast<std::size_t>(index(id))] = true;
+    };
     for (std::size_t m = 0; m < surfaces.part_count(); ++m) {
         const SurfacePart& part = surfaces.part(m);
         ModifierId last =
             kVoid;  // most of millions of surfaces have the modifier of the preceding one
         for (std::size_t i = 0; i < part.list->size(); ++i) {
-            if (part.modifier(i) != last) modifiers.use(last = part.modifier(i));
+            if (part.modifier(i) == last) continue;
+            if (part.shapes->row(i).type == PrimitiveType::source)
+                modifiers.use(part.modifier(i));
+            else
+                use(last = part.modifier(i));
         }
     }
     for (const LoadedModel& loaded : models) {
         if (!loaded.mesh) continue;
         for (const MeshModel::Triangle& triangle : loaded.mesh->triangles) {
-            if (triangle.material >= 0)
-                modifiers.use(ModifierId{loaded.modifier_base + triangle.material});
+            if (triangle.material >= 0) use(ModifierId{loaded.modifier_base + triangle.material});
         }
     }
 }
@@ -186,7 +290,7 @@ void Scene::Impl::build_geometry(const TaskRunner& task_runner, const Ablation& 
     input.ablation = ablation;
     for (std::size_t i = 0; i < models.size(); ++i)
         input.models.push_back(model_geometry(i, task_runner));
-    geometry = std::make_unique<Geometry>(std::move(input), std::string(), task_runner);
+    geometry = std::make_shared<const Geometry>(std::move(input), std::string(), task_runner);
 }
 
 Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_factory,
@@ -195,7 +299,7 @@ Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_fa
     : impl_(std::make_unique<Impl>(std::move(model), resources, task_runner)) {
     impl_->collect_surfaces(warnings, task_runner);
     impl_->use_modifiers();
-    impl_->modifiers.compile(impl_->models, modifier_factory, resources, warnings, task_runner);
+    impl_->modifiers.compile(modifier_factory, resources, warnings, task_runner);
     impl_->add_lambertian(modifier_factory, resources, warnings);
     impl_->surfaces.set_traits(impl_->modifiers.all_traits());
     if (extent != SceneExtent::whole) return;
@@ -205,6 +309,22 @@ Scene::Scene(std::shared_ptr<const Model> model, FindModifierFactory modifier_fa
         warnings.warn(
             "the octree's cube does not hold what was added to it: the cube of all surfaces is "
             "taken, as of scene files");
+}
+
+Scene::Scene(std::shared_ptr<const Scene> base, ModelChange change,
+             FindModifierFactory modifier_factory, Resources& resources, WarningSink& warnings,
+             const TaskRunner& task_runner) {
+    if (base->impl_->base) base = base->impl_->base;
+    check_change(change);
+    const std::vector<PlacedSource> sources = std::move(change.sources);
+    impl_ = std::make_unique<Impl>(std::move(base), std::move(change));
+    impl_->share_surfaces(sources, task_runner);
+    impl_->use_shared_modifiers();
+    impl_->modifiers.adopt(impl_->base->impl_->modifiers);
+    impl_->modifiers.compile(modifier_factory, resources, warnings, task_runner);
+    impl_->add_lambertian(modifier_factory, resources, warnings);
+    impl_->surfaces.set_traits(impl_->modifiers.all_traits());
+    impl_->check_traits();
 }
 
 Scene::~Scene() = default;
@@ -218,6 +338,9 @@ const SurfaceTable& Scene::surfaces() const {
 std::size_t Scene::own_surfaces() const {
     return impl_->models[0].model->surfaces.size();
 }
+const std::vector<SourcePlace>* Scene::changed_sources() const {
+    return impl_->base ? &impl_->new_sources : nullptr;
+}
 const ModifierRecord& Scene::modifier(ModifierId id) const {
     return impl_->modifiers[id];
 }
@@ -226,6 +349,9 @@ std::size_t Scene::modifier_count() const {
 }
 const Model& Scene::model() const {
     return *impl_->models[0].model;
+}
+const std::vector<Primitive>& Scene::own_modifiers() const {
+    return impl_->models[0].modifiers();
 }
 std::shared_ptr<const SurfaceShapes> Scene::shapes_of(const Model& model) const {
     std::size_t part = 0;  // meshes have none

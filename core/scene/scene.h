@@ -7,6 +7,7 @@
 
 #include "core/geometry/geometry.h"
 #include "core/math/task_runner.h"
+#include "core/model/model_change.h"
 #include "core/model/resources.h"
 #include "core/scene/modifier.h"
 
@@ -35,6 +36,20 @@ enum class SceneExtent {
                      ///< written to a file
 };
 
+/// A change of modifiers that is one of the geometry, too: what is opaque or clear to shadow rays,
+/// and which of coincident surfaces is seen, is decided by the search for hits. The changed scene
+/// has to be built as a whole (changed_model).
+class GeometryChange : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// Where a source of a changed scene stands, see PlacedSource.
+struct SourcePlace {
+    std::size_t before = 0;
+    SurfaceId id = kNoSurface;
+};
+
 class Scene {
   public:
     /// Resolve, compile and freeze. Only modifiers that some surface uses are compiled; errors in
@@ -47,6 +62,16 @@ class Scene {
           Resources& resources, WarningSink& warnings,
           const TaskRunner& task_runner = SerialTaskRunner(),
           SceneExtent extent = SceneExtent::whole, const Ablation& ablation = {});
+    /// The same surfaces under other modifiers and sources: shapes, search tree, meshes, octrees
+    /// and whatever of the modifiers is as before are those of `base`, and only the rest is
+    /// compiled. Rays find to the bit what they find in Scene(changed_model(...), ...).
+    /// Ids of the base's modifiers and surfaces mean the same here; its sources have others.
+    /// Throws InputError for bad modifiers, GeometryChange for what the base's geometry excludes.
+    /// @param base    may itself be such a scene. It is kept alive
+    /// @param change  of model()
+    Scene(std::shared_ptr<const Scene> base, ModelChange change,
+          FindModifierFactory modifier_factory, Resources& resources, WarningSink& warnings,
+          const TaskRunner& task_runner = SerialTaskRunner());
     ~Scene();
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
@@ -55,10 +80,17 @@ class Scene {
     [[nodiscard]] const SurfaceTable& surfaces()
         const;  ///< all models; the scene's own come first, in order
     [[nodiscard]] std::size_t own_surfaces() const;  ///< how many of them are the scene's own
+    /// Of a changed scene: the sources at infinity that take the place of its own surfaces of
+    /// that type; null: these are as they were read.
+    [[nodiscard]] const std::vector<SourcePlace>* changed_sources() const;
     [[nodiscard]] Surface surface(SurfaceId id) const { return surfaces()[id]; }
     [[nodiscard]] const ModifierRecord& modifier(ModifierId id) const;  ///< id != kVoid
     [[nodiscard]] std::size_t modifier_count() const;
+    /// As it was read: of a changed scene the base's.
     [[nodiscard]] const Model& model() const;
+    /// The scene's own modifiers, by their indices in the model; of a changed scene as they are
+    /// now.
+    [[nodiscard]] const std::vector<Primitive>& own_modifiers() const;
     [[nodiscard]] SceneCube cube() const;
     [[nodiscard]] SceneMemory memory() const;
     /// The shapes of the surfaces of one of the scene's models, the scene's own or a placed one;

@@ -19,7 +19,21 @@ struct LoadedModel {
     std::shared_ptr<const MeshModel> mesh;  ///< or a mesh, whose materials are its model
     std::int32_t modifier_base = 0;
     std::vector<std::uint32_t> children;  ///< model of each instance or mesh primitive, in order
+    /// Of the scene itself, where it is a changed one: modifiers in place of the model's, and
+    /// behind these others, whose ids begin at `added_base`.
+    std::shared_ptr<const std::vector<Primitive>> changed;
+    std::int32_t added_base = 0;
+
     [[nodiscard]] const Model& contents() const { return mesh ? mesh->materials : *model; }
+    [[nodiscard]] const std::vector<Primitive>& modifiers() const {
+        return changed ? *changed : contents().modifiers;
+    }
+    /// The id of one of its modifiers, or kVoid.
+    [[nodiscard]] ModifierId global(std::int32_t local) const {
+        if (local < 0) return kVoid;
+        const auto own = static_cast<std::int32_t>(contents().modifiers.size());
+        return ModifierId{local < own ? modifier_base + local : added_base + local - own};
+    }
 };
 
 /// Loads every model that the scene places, each once; rejects circular and too deeply nested
@@ -45,11 +59,14 @@ class ModelLoader {
 class ModifierTable {
   public:
     explicit ModifierTable(const std::vector<LoadedModel>& models);
+    /// Take over what is compiled in the table of the scene that this one is a change of, as far
+    /// as it is the same here.
+    void adopt(const ModifierTable& base);
     /// Compile the modifier, its chain and everything it names, earlier definitions first.
     void use(ModifierId id);
-    /// Compile what `use` marked; throws InputError for a bad modifier.
-    void compile(const std::vector<LoadedModel>& models, FindModifierFactory modifier_factory,
-                 Resources& resources, WarningSink& warnings, const TaskRunner& task_runner);
+    /// Compile what `use` marked and is not compiled yet; throws InputError for a bad modifier.
+    void compile(FindModifierFactory modifier_factory, Resources& resources, WarningSink& warnings,
+                 const TaskRunner& task_runner);
 
     [[nodiscard]] const ModifierRecord& operator[](ModifierId id) const {
         return records_[static_cast<std::size_t>(index(id))];
@@ -67,6 +84,9 @@ class ModifierTable {
   private:
     /// The pictures that modifiers in use name, each once.
     [[nodiscard]] std::vector<NamedFile> pictures() const;
+    void add(const LoadedModel& loaded, std::size_t first, std::size_t last);
+    void compile(ModifierId id, FindModifierFactory modifier_factory, Resources& resources,
+                 WarningSink& warnings);
     [[nodiscard]] MaterialTraits material_traits(ModifierId material) const;
 
     std::vector<ModifierRecord> records_;

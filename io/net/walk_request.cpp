@@ -252,6 +252,42 @@ IsoluxRequest read_isolux(const Json& object) {
     return request;
 }
 
+MaterialRequest read_material(const Json& object) {
+    const PickRequest pick = read_pick(object);
+    return {pick.id, pick.x, pick.y, pick.view};
+}
+
+const std::string& short_words(const Json& object, const char* name, std::size_t longest) {
+    const std::string& text = words(object, name);
+    if (text.empty() || text.size() > longest) refuse(name, "a text that is not too long");
+    return text;
+}
+
+MaterialEdit read_edit(const Json& object) {
+    constexpr std::size_t kLongestMaterial = 256, kLongestKind = 32, kMostReals = 16;
+    MaterialEdit edit{short_words(object, "name", kLongestMaterial),
+                      identity(object, "definition"),
+                      short_words(object, "kind", kLongestKind),
+                      {}};
+    for (const Json& real : list(object, "reals", 1, kMostReals))
+        edit.reals.push_back(number(real, "reals", -kBrightest, kBrightest));
+    return edit;
+}
+
+EditsRequest read_edits(const Json& object) {
+    EditsRequest request{identity(object, "id"), {}};
+    for (const Json& one : list(object, "materials", 0, kMostEdits)) {
+        MaterialEdit edit = read_edit(one);
+        const auto same = [&](const MaterialEdit& other) {
+            return other.name == edit.name && other.definition == edit.definition;
+        };
+        if (std::ranges::any_of(request.materials, same))
+            refuse("materials", "each definition once");
+        request.materials.push_back(std::move(edit));
+    }
+    return request;
+}
+
 /// Parse without building what nests too deep.
 Json parse_json(std::string_view text) {
     const auto watch = [](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
@@ -283,6 +319,8 @@ WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit) {
     if (type == "glare") return GlareRequest{identity(object, "id")};
     if (type == "plan") return PlanRequest{identity(object, "id")};
     if (type == "isolux") return read_isolux(object);
+    if (type == "material") return read_material(object);
+    if (type == "edits") return read_edits(object);
     if (type == "take") return TakeRequest{};
     if (type == "hand") return HandRequest{identity(object, "to")};
     throw InputError("unknown type of message \"" + type.substr(0, 32) + "\"");

@@ -20,6 +20,7 @@ inline constexpr std::size_t kLargestWalkRequest =
 inline constexpr int kLargestWalkSize = 4096;  ///< width and height of a picture [pixels]
 inline constexpr std::size_t kMostProbes = 64;
 inline constexpr std::size_t kMostLightLevels = 64;
+inline constexpr std::size_t kMostEdits = 64;
 
 struct HelloRequest {
     std::string session;     ///< 16 to 64 hex digits
@@ -97,6 +98,26 @@ struct IsoluxRequest {
     std::optional<Vec3> normal;  ///< unit, of that surface; nothing: a level plane below the eye
     double height = 0;           ///< of that plane above the floor, not negative [m]
 };
+/// `material`: what the surface is made of that a picture shows at a point, as PickRequest.
+struct MaterialRequest {
+    std::uint32_t id = 0;
+    double x = 0, y = 0;
+    std::optional<View> view;  ///< of that picture; nothing: the newest view
+};
+/// Other numbers for a material of the scene's own files.
+struct MaterialEdit {
+    std::string name;              ///< at most 256 bytes
+    std::uint32_t definition = 0;  ///< which of the modifiers of that name, in their order
+    std::string kind;              ///< its type, at most 32 bytes
+    std::vector<double> reals;     ///< all its numbers, 1 to 16; within 1e12
+    friend bool operator==(const MaterialEdit&, const MaterialEdit&) = default;
+};
+/// `edits`: all changed materials; others are as the scene has them.
+struct EditsRequest {
+    std::uint32_t id = 0;
+    std::vector<MaterialEdit> materials;  ///< at most kMostEdits; each definition once
+    friend bool operator==(const EditsRequest&, const EditsRequest&) = default;
+};
 /// `take`: a watcher asks to drive.
 struct TakeRequest {};
 /// `hand`: the driver makes another client the driver.
@@ -107,7 +128,7 @@ struct HandRequest {
 using WalkRequest =
     std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
                  LightsRequest, PickRequest, MeanRequest, ProbesRequest, GlareRequest, PlanRequest,
-                 IsoluxRequest, TakeRequest, HandRequest>;
+                 IsoluxRequest, MaterialRequest, EditsRequest, TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {

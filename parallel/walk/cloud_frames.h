@@ -40,6 +40,14 @@ class CloudFrames {
     /// @return  the last frame in this mixture, where it is known of all its pixels and may be
     ///          refined; nothing: the next frame is one of a new view
     [[nodiscard]] const ProgressivePicture* mix(const LightMixture& mixture);
+    /// Forget the points that may show some materials; the next frame is one of a new view.
+    /// @return  the share of them that are kept, of those that are awake
+    double drop(const ShownMaterials& materials) {
+        const std::size_t before = points().size();
+        loop_.drop(materials);
+        lead_.abandon();
+        return before > 0 ? static_cast<double>(points().size()) / static_cast<double>(before) : 0;
+    }
     void set_budget(double seconds) { lead_.set_budget(seconds); }
     /// Share of the pixels that a frame refines at most; above 0. Choosing them takes time, too.
     void set_refine(double share) { lead_.set_refine(share); }

@@ -59,6 +59,11 @@ class FrameLoop {
     [[nodiscard]] bool draw(const FrameOrder& order, const Camera& camera, PixelCaster& caster,
                             FrameExchange& exchange, Executor& executor, const StopFlag& stop);
 
+    /// The next frame, which is one of a new view, does without points that may show these.
+    void drop(const ShownMaterials& materials) {
+        if (region_) region_->points().drop(materials);
+    }
+
     /// The part of the last frame; null before the first one.
     [[nodiscard]] CloudRegion* region() { return region_ ? &*region_ : nullptr; }
     [[nodiscard]] const CloudRegion* region() const { return region_ ? &*region_ : nullptr; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/light/small_sources.h"
 #include "parallel/pixel_tracer.h"
@@ -125,6 +126,27 @@ void LiveFrames::keep_groups(const std::shared_ptr<const LightGroups>& groups) {
     direct_->contexts.sum_by(groups);
     if (indirect_) indirect_->contexts.sum_by(groups);
     cloud_.light_groups = groups->size();
+}
+
+void LiveFrames::change(const Tracer& direct, const Tracer* indirect,
+                        const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings) {
+    const bool walks_indirect = walking_ != nullptr && walking_ == indirect_.get();
+    direct_ = std::make_unique<WalkLight>(direct, warnings, executor_.concurrency());
+    indirect_ = indirect == nullptr
+                    ? nullptr
+                    : std::make_unique<WalkLight>(*indirect, warnings, executor_.concurrency());
+    if (groups) keep_groups(groups);
+    const std::optional<ShownMaterials> only = std::exchange(outdated_, std::nullopt);
+    if (walking_ == nullptr) return;
+    walking_ = walks_indirect && indirect_ ? indirect_.get() : direct_.get();
+    kept_ = outdate(only ? &*only : nullptr);
+}
+
+/// Points show another light: there is nothing to be told by them.
+double LocalFrames::outdate(const ShownMaterials* only) {
+    if (only != nullptr && frames_) return frames_->drop(*only);
+    start(0);
+    return 0;
 }
 
 void LocalFrames::start(std::uint64_t first) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/cloud/shown_materials.h"
 #include "core/cloud/visibility_probe.h"
 #include "core/trace/tracer.h"
 #include "parallel/executor.h"
@@ -60,6 +61,19 @@ class LiveFrames {
         return mixed();
     }
 
+    /// The scene is another one from here on: of the same surfaces, under other modifiers and
+    /// sources. Frames keep their size and their light, and the points of the frames before are
+    /// outdated. The tracers of before are not used any more.
+    /// @param direct, indirect  as they were given to the constructor
+    /// @param groups            null: they are not kept
+    void change(const Tracer& direct, const Tracer* indirect,
+                const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings);
+
+    /// The next change() outdates only the points that may show these; nothing: all.
+    void outdate_only(std::optional<ShownMaterials> materials) { outdated_ = materials; }
+    /// Share of the points that the last change() has kept.
+    [[nodiscard]] double kept_points() const { return kept_; }
+
     /// Whether there is indirect light to be traced.
     [[nodiscard]] bool has_indirect() const { return indirect_ != nullptr; }
     /// Frames of this size from here on, and of this light: what was carried on is forgotten.
@@ -100,6 +114,10 @@ class LiveFrames {
   protected:
     /// See mix().
     [[nodiscard]] virtual const ProgressivePicture* mixed() { return nullptr; }
+    /// See change().
+    /// @param only  points that may show these; null: all
+    /// @return      share of the points that are kept
+    virtual double outdate(const ShownMaterials* /*only*/) { return 0; }
     /// The frames that begin() has announced.
     virtual void start(std::uint64_t first) = 0;
     /// The frames that follow are of the size in options_.
@@ -111,6 +129,8 @@ class LiveFrames {
     std::unique_ptr<WalkLight> direct_, indirect_;  ///< indirect_: knows both, or is null
     WalkLight* walking_ = nullptr;                  ///< of the frames
     LightMixture mixture_;                          ///< of the light groups
+    std::optional<ShownMaterials> outdated_;        ///< see outdate_only
+    double kept_ = 0;                               ///< see kept_points
     std::uint64_t rays_ = 0;
 };
 
@@ -147,6 +167,7 @@ class LocalFrames final : public LiveFrames {
                                      const StopFlag& stop) override;
 
   private:
+    double outdate(const ShownMaterials* only) override;
     void start(std::uint64_t first) override;
     void resized() override { frames_->resize(options_.width, options_.height); }
 

@@ -4,7 +4,10 @@ import random, socket, time
 from walk.websocket import Closed, WebSocket
 
 VIEW = {"type": "v", "position": [0, -4, 1.5], "direction": [0, 1, -0.05], "up": [0, 0, 1], "horizontal": 60, "vertical": 46.8}
-SHAPES = [b"", b"{", b"null", b"[[[[[[[[[[[[[[", b'{"type":"view"}', b'{"type":"hello","session":1}', b"\xff\xfe" * 100, b"x" * 70000]
+SHAPES = [b"", b"{", b"null", b"[[[[[[[[[[[[[[", b'{"type":"view"}', b'{"type":"hello","session":1}', b"\xff\xfe" * 100, b"x" * 70000,
+          b'{"type":"edits","id":1,"materials":[{"name":"grey","definition":0,"kind":"plastic","reals":[1e300]}]}',
+          b'{"type":"edits","id":1,"materials":[{"name":"grey","definition":4294967295,"kind":"light","reals":[-1]}]}',
+          b'{"type":"material","id":1,"x":0.5,"y":7}']
 VIEWS = [{"width": -1}, {"width": 1e9}, {"view": {**VIEW, "direction": [0, 0, 0]}}, {"view": {**VIEW, "horizontal": 1e30}},
          {"view": {**VIEW, "position": ["NaN", 0, 0]}}, {"id": -5}]
 

@@ -44,7 +44,7 @@ def page(node, program, npm, pictures):
                                  "--luminance", "358", "--at", "0.67,0.52"]).returncode
         files = pathlib.Path(pictures)
         return (status or dimmed(program, server.scene, files) or animate(program, server.scene, files / "path.vf") or
-                isolux(program, server.scene, files))
+                isolux(program, server.scene, files) or edited(program, server.scene, files))
 
 
 def isolux(program, scene, files):
@@ -57,6 +57,22 @@ def isolux(program, scene, files):
     near = len(told) == len(lux) and all(abs(a - b) < 1e-3 * max(lux) for a, b in zip(told, lux))
     return 0 if near and max(lux) > 0 else 1
 
+
+def edited(program, scene, files):
+    """Whether the page has read of a changed material what `lightwalk trace` finds in the scene with the materials that the page has saved."""
+    materials = (files / "materials.rad").read_text()
+    names = set(re.findall(r"^void plastic\s+(\S+)", materials, re.MULTILINE))
+    rest = [line for line in scene.read_text().splitlines() if line.split()[:1] != ["void"] or line.split()[2] not in names]
+    read = json.loads((files / "edited.json").read_text())
+    way = [place - eye for place, eye in zip(read["position"], read["eye"])]
+    with tempfile.TemporaryDirectory() as folder:
+        changed = pathlib.Path(folder) / "changed.rad"
+        changed.write_text(materials + "\n".join(rest) + "\n")
+        traced = subprocess.run([program, "trace", "-h", "-dt", ".05", "-dc", ".5", "-ds", ".25", "-dr", "1", changed],
+                                input=" ".join(map(str, read["eye"] + way)) + "\n", text=True, stdout=subprocess.PIPE, check=True).stdout
+    luminance = 179 * sum(float(value) * weight for value, weight in zip(traced.split(), (0.265106, 0.670106, 0.064788)))
+    print(f"edited: the page has read {read['luminance']:.2f} cd/m2, trace finds {luminance:.2f} cd/m2; materials: {', '.join(sorted(names))}")
+    return 0 if names and abs(read["luminance"] / luminance - 1) < 0.02 else 1
 
 
 def dimmed(program, scene, files):

@@ -21,6 +21,7 @@ import {
 } from "./fake_frames.mjs";
 import { plan_message } from "./fake_plan.mjs";
 import { isolux_messages } from "./fake_isolux.mjs";
+import { edited_message, material_message } from "./fake_materials.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
 
 const { values: args } = parseArgs({
@@ -81,6 +82,7 @@ let display = {
 };
 let settings = { ambient: "rest" };
 let lights = { type: "lights", levels: [] };
+let edited = null; // the newest answer to `edits`
 let probes = [];
 let failing = false,
     dumb = false, // no frames
@@ -131,6 +133,7 @@ function greet(socket, client, session) {
     setTimeout(() => {
         tell(socket, kLoaded);
         tell(socket, lights);
+        if (edited) tell(socket, edited);
     }, 60);
 }
 
@@ -191,6 +194,12 @@ function answer(socket, message) {
                 setTimeout(() => tell(socket, part), 250 * k),
             );
         },
+        material: () => tell(socket, material_message(message.id, looked_at(message))),
+        edits: () => {
+            if (!driving) return;
+            edited = edited_message(message);
+            tell_all(edited);
+        },
         take: () =>
             driver === null
                 ? ((driver = client.id), tell_roles())
@@ -208,8 +217,11 @@ const planned = ({ id }) =>
         : { type: "refused", text: "there is no picture yet", id };
 const lux = (hit) => (hit.luminance * Math.PI) / 0.6;
 
-function picked({ id, x, y, view = present_view() }) {
-    const hit = look(view.position, direction_at(view, x, y));
+const looked_at = ({ x, y, view = present_view() }) =>
+    look(view.position, direction_at(view, x, y));
+
+function picked({ id, ...question }) {
+    const hit = looked_at(question);
     if (!hit)
         return {
             type: "picked",
@@ -371,6 +383,8 @@ async function serve(request, response) {
         );
     if (pathname === "/save/lights.rad" || pathname === "/lights")
         return response.end(JSON.stringify(lights.levels));
+    if (pathname === "/save/materials.rad" || pathname === "/materials")
+        return response.end(JSON.stringify(edited?.materials ?? []));
     const name = pathname === "/" ? "index.html" : /^\/page\/([\w.-]+)$/.exec(pathname)?.[1];
     try {
         const body = await readFile(path.join(kPage, name));

@@ -31,6 +31,7 @@ import {
 import { camera_steps } from "./page_camera.mjs";
 import { isolux_steps } from "./page_isolux.mjs";
 import { lamp_steps } from "./page_lamps.mjs";
+import { material_steps } from "./page_materials.mjs";
 import { place_steps } from "./page_places.mjs";
 
 const { values: args } = parseArgs({
@@ -80,6 +81,7 @@ const steps = {
     ...colour_steps(address, prank),
     ...isolux_steps(prank, args.npm),
     ...lamp_steps(address),
+    ...material_steps(address, args.npm),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);

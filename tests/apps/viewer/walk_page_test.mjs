@@ -6,7 +6,8 @@
 // Loads, waits for the first picture, turns, walks, clicks a surface of known luminance L [cd/m2] at
 // X,Y (0..1 from the left and the bottom, seen from view N of the scene) and reads it within 2 %,
 // switches false colour, saves a view, reloads and returns to it, records a path to path.vf, opens the plan, saves the isolux of the floor as isolux.csv and
-// isolux.pts, and where the walk has light groups dims them: what it reads then goes to dimmed.json, beside lights.rad. A screenshot of each
+// isolux.pts, changes the floor's material and saves it as materials.rad (what it reads then goes to edited.json), and where the walk has
+// light groups dims them: what it reads then goes to dimmed.json, beside lights.rad. A screenshot of each
 // step, and these files, go to --pictures. FOLDER has node_modules with playwright-core. Without --address there is nothing to do.
 import assert from "node:assert/strict";
 import { mkdir, writeFile } from "node:fs/promises";
@@ -256,6 +257,50 @@ const steps = {
             const [file] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
             await file.saveAs(path.join(args.pictures, name));
         }
+    },
+
+    async "change the floor's material, and read its light"(page) {
+        await page.focus("#picture");
+        await page.keyboard.press("h");
+        await page.waitForTimeout(200);
+        await settled(page);
+        const [x, y] = [0.5 * width, 0.92 * height];
+        await page.keyboard.press("y");
+        await page.mouse.click(x, y);
+        await page.waitForFunction(() => window.lightwalk.last_material, null, { timeout: 10000 });
+        const { last_material: material } = await counters(page, "last_material");
+        assert.equal(material.layers[0].kind, "plastic");
+        const before = await fingerprint(page);
+        for (const [k, value] of [0.7, 0.2, 0.1].entries()) {
+            const box = page.locator(`#material-layers .layer:first-child [data-number="${k}"]`);
+            await box.fill(String(value));
+            await box.press("Enter");
+        }
+        await page.waitForFunction(
+            () => window.lightwalk.last_edited?.materials[0]?.reals[2] === 0.1,
+            null,
+            { timeout: 10000 },
+        );
+        await page.waitForTimeout(300);
+        await settled(page);
+        assert.ok(difference(before, await fingerprint(page)) > 3, "the colours did not change");
+        await page.evaluate(() => (window.lightwalk.last_pick = null));
+        await page.mouse.click(x, y);
+        await page.waitForFunction(() => window.lightwalk.last_pick, null, { timeout: 10000 });
+        const { last_pick, shown_view } = await counters(page, "last_pick", "shown_view");
+        const [file] = await Promise.all([
+            page.waitForEvent("download"),
+            page.click("#write-materials"),
+        ]);
+        await file.saveAs(path.join(args.pictures, "materials.rad"));
+        const read = { ...last_pick, eye: shown_view.position };
+        await writeFile(path.join(args.pictures, "edited.json"), JSON.stringify(read));
+        await page.click("#material-reset");
+        await page.waitForFunction(
+            () => window.lightwalk.last_edited?.materials.length === 0,
+            null,
+            { timeout: 10000 },
+        );
     },
 
     async "dim a lamp, and read what is left of it"(page) {

@@ -35,7 +35,7 @@ TEST_CASE(
     const auto model = parse_scene(kLamps, "lamps.rad",
                                    {LibraryPath(std::vector<std::string>{}), false}, warnings);
     const auto file = [&](const LightsRequest& lights) {
-        return scaled_lights(*model, groups, mixture_of(lights, groups));
+        return scaled_lights(model->modifiers, groups, mixture_of(lights, groups));
     };
     CHECK(file({}).find(" light ") == std::string::npos);
     const LightsRequest lights{{{"shelf", 0.5, {1, 2, 1}}, {"sky", 2, {1, 1, 0.5f}}}};

@@ -39,6 +39,7 @@ const std::vector<std::string> kSound{
     R"({"type":"plan","id":6})",
     R"({"type":"isolux","id":7,"position":[1,2,0.5],"normal":[0,0,4]})",
     R"({"type":"isolux","id":8,"position":[1,2,1.6],"height":0.75})",
+    R"({"type":"material","id":9,"x":0.5,"y":0.25})",
 };
 
 /// Fields of these messages that need not be there.

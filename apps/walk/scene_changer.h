@@ -1,0 +1,15 @@
+#pragma once
+// Other modifiers and sources for the scene of a walk, under the frames that go on.
+#include <functional>
+
+#include "apps/session/render_backend.h"
+#include "core/model/model_change.h"
+
+namespace lightwalk {
+
+/// What RenderLoopOptions::change needs.
+/// @param backend  must outlive the result
+[[nodiscard]] std::function<const SceneSession&(ModelChange change)> scene_changer(
+    RenderBackend& backend);
+
+}  // namespace lightwalk

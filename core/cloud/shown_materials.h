@@ -1,0 +1,37 @@
+#pragma once
+// Which points of the cloud may show some materials: by what their hashes say of the surfaces on
+// their way.
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <vector>
+
+#include "core/cloud/point.h"
+#include "core/scene/scene.h"
+
+namespace lightwalk {
+
+/// Says of points that they may show a material, as seen straight, through panes, or in mirrors:
+/// always of those that do, and of others with the odds of a hash of eight bits (one in 256 for
+/// each way on which some are seen). Of light that is scattered from there to other surfaces it
+/// says nothing.
+class ShownMaterials {
+  public:
+    /// @param wanted  by modifier, of surfaces of which at least one must be on the way
+    ShownMaterials(const Scene& scene, const std::vector<bool>& wanted);
+
+    [[nodiscard]] bool may_show(const CloudPoint& point) const {
+        return bits_[static_cast<std::size_t>(point.kind)][point.surface & kMaterialBits];
+    }
+
+  private:
+    using Bits = std::bitset<kMaterialBits + 1>;
+    std::array<Bits, kPointKinds> bits_;
+};
+
+/// Takes out the points that may show the materials; the others keep their order.
+/// @param groups  what light groups add to each point, by point, then group; or empty
+void drop_points(const ShownMaterials& materials, std::vector<CloudPoint>& points,
+                 std::vector<Rgb>& groups);
+
+}  // namespace lightwalk
