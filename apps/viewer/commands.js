@@ -120,15 +120,27 @@ class Commands {
         }
     }
 
-    // Lamps
+    // Light that changes
 
-    /** Glare is another one in other light: it is asked for again once the dimmers rest. */
-    follow_lamps() {
-        clearTimeout(this.lamps_rest_);
-        this.lamps_rest_ = setTimeout(() => {
+    /** Glare is another one in other light: it is asked for again once dimmers and time rest. */
+    follow_light(why) {
+        clearTimeout(this.light_rests_);
+        this.light_rests_ = setTimeout(() => {
             if (this.glare.id !== 0) this.ask_glare();
-            this.isolux.outdate("a lamp is dimmed");
+            this.isolux.outdate(why);
         }, 300);
+    }
+
+    async write_sky() {
+        try {
+            if (this.session.driving) this.time.tell();
+            download(
+                await server_file("sky.rad", token_query(location.href)),
+                this.name_("sky.rad"),
+            );
+        } catch (error) {
+            notice(`No file of the sky: ${error.message}`, true);
+        }
     }
 
     async write_lamps() {
@@ -260,6 +272,7 @@ function listen_for_buttons(commands) {
         "write-points": () => commands.write_points(),
         "clear-isolux": () => isolux.clear(),
         "write-lamps": () => commands.write_lamps(),
+        "write-sky": () => commands.write_sky(),
         "write-png": () => commands.write_png(),
         "write-hdr": () => commands.write_hdr(),
         "ask-glare": () => commands.ask_glare(),
@@ -281,7 +294,7 @@ function listen_for_buttons(commands) {
 }
 
 function keys_of(commands) {
-    const { lamps, light, views, measuring } = commands;
+    const { lamps, light, time, views, measuring } = commands;
     const drive = (act) => () => commands.session.driving && act();
     const middle = () => commands.point(0.5, 0.5);
     const keys = {
@@ -309,6 +322,7 @@ function keys_of(commands) {
         m: () => toggle_panel("measure"),
         n: () => toggle_panel("plan"),
         u: () => lamps.lamps.length > 0 && toggle_panel("lamps"),
+        y: () => time.file && toggle_panel("time"),
         i: toggle_status,
         Enter: middle,
         " ": middle,

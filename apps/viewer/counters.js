@@ -13,6 +13,7 @@ export function make_counters(session, navigator, camera, decoder) {
         last_glare: null,
         last_probes: null,
         last_isolux: null,
+        last_time: null,
         state: {}, ///< the server's newest `state` message
         errors: [],
         scene: "",

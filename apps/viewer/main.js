@@ -23,6 +23,7 @@ import { show_phase, start_figures } from "./status.js";
 import { StickMark } from "./stick.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
 import { fit_view, same_picture } from "./view.js";
+import { TimePanel } from "./time_panel.js";
 import { UnderPointer } from "./under_pointer.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
@@ -82,7 +83,12 @@ const session = new Session(session_id(), camera.available, screen, {
     lights: (message) => {
         if (session.driving && lamps.touched) return;
         lamps.take(message);
-        commands.follow_lamps();
+        commands.follow_light("a lamp is dimmed");
+    },
+    time: (message) => {
+        counters.last_time = message;
+        time.take(message);
+        commands.follow_light("the time is another one");
     },
     refused: ({ text, id, view }) => {
         if (id !== undefined && (plan.refused(id) || isolux.refused(id))) return;
@@ -120,8 +126,17 @@ const lamps = new LampPanel({
     may_drive: () => session.driving,
     changed: () => {
         counters.lamps = lamps.lamps;
-        commands.follow_lamps();
+        commands.follow_light("a lamp is dimmed");
     },
+});
+const time = new TimePanel({
+    time: (message) => session.send(message),
+    may_drive: () => session.driving,
+    changed: () => {
+        counters.time = time.time;
+    },
+    frames: () => counters.frames,
+    ambient: () => light.settings.ambient,
 });
 const roles = new Roles({
     take: () => session.send({ type: "take" }),
@@ -155,6 +170,7 @@ const commands = start_commands({
     isolux,
     glare,
     lamps,
+    time,
     picture,
     painted: () => (draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
@@ -253,6 +269,7 @@ function say_all() {
     tell_display();
     session.send({ type: "settings", ...light.settings });
     lamps.tell();
+    time.tell();
     measuring.tell_probes();
     navigator.touch();
 }
@@ -264,6 +281,7 @@ function scene_loaded(message) {
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
     open_lamps(message.lights ?? []);
+    open_time(message.time);
     plan.forget();
     cover("Drawing the first picture…");
     if (!navigator.view && views.scene_views.length > 0) {
@@ -280,6 +298,14 @@ function open_lamps(names) {
     if (names.length === 0 && is_open("lamps")) close_panel();
     lamps.open(names);
     if (session.driving) lamps.tell();
+}
+
+/** Where a generator writes the scene's sky; the time that was chosen stays. */
+function open_time(place) {
+    document.querySelector("#dock [data-panel=time]").hidden = !place;
+    if (!place && is_open("time")) close_panel();
+    time.open(place);
+    if (session.driving) time.tell();
 }
 
 /** The eye returns to where the newest frame was seen from, lest the same view is sent again. */
@@ -309,6 +335,7 @@ function lost(reason, wait) {
 function role_changed(driving) {
     session.drive(driving);
     lamps.drive();
+    time.drive();
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();
@@ -318,6 +345,7 @@ function role_changed(driving) {
 function server_state(message) {
     counters.state = message;
     show_phase(message);
+    time.follow(message);
     measuring.follow_light();
 }
 
@@ -417,6 +445,7 @@ function refresh() {
     if (drew || camera.draws) redraw();
     if (welcomed && counters.ready) plan.refresh(now);
     isolux.refresh(now);
+    time.refresh(now);
 }
 
 start_panels();

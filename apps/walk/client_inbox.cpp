@@ -55,7 +55,8 @@ void ClientInbox::tell_watchers(const std::string& text) {
 }
 
 void ClientInbox::refuse(const InboxContents& contents, const std::string& why) {
-    for (const std::vector<WebReply>* waiting : {&contents.saves, &contents.light_saves})
+    for (const std::vector<WebReply>* waiting :
+         {&contents.saves, &contents.light_saves, &contents.sky_saves})
         for (const WebReply& reply : *waiting)
             reply({503, "text/plain; charset=utf-8", why + '\n', {}});
     for (const WalkQuestion& question : contents.questions)
@@ -114,6 +115,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                               wish.lights = lights;
                               send_to_others(client, walk_text(LightsReply{lights}));
                           },
+                          [&](const TimeRequest& time) {
+                              if (drives) wish.time = time;
+                          },
                           [&](const ProbesRequest& pins) {
                               if (!drives) return;
                               wish.probes = pins.probes;
@@ -160,13 +164,16 @@ void ClientInbox::closed(ClientId client) {
 }
 
 void ClientInbox::save(const std::string& path, WebReply reply) {
-    const bool lights = path == "/save/lights.rad";
-    if (!lights && path != "/save/picture.hdr") {
+    std::vector<WebReply>* const waiting = path == "/save/lights.rad"    ? &inbox_.light_saves
+                                           : path == "/save/sky.rad"     ? &inbox_.sky_saves
+                                           : path == "/save/picture.hdr" ? &inbox_.saves
+                                                                         : nullptr;
+    if (waiting == nullptr) {
         reply({404, "text/plain; charset=utf-8", "there is no such file\n", {}});
         return;
     }
     const std::lock_guard lock(mutex_);
-    (lights ? inbox_.light_saves : inbox_.saves).push_back(std::move(reply));
+    waiting->push_back(std::move(reply));
     has_news_ = true;
     news_.notify_one();
 }

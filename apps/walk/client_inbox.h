@@ -21,6 +21,7 @@ struct WalkWish {
     DisplayRequest display;
     SettingsRequest settings;
     LightsRequest lights;
+    TimeRequest time;
     std::vector<ProbePlace> probes;
 };
 
@@ -50,6 +51,7 @@ struct InboxContents {
     std::vector<ClientId> want_depth, want_luminance;  ///< of those who joined
     std::vector<WebReply> saves;                       ///< who waits for the picture as a file
     std::vector<WebReply> light_saves;                 ///< the same, for the dimmed modifiers
+    std::vector<WebReply> sky_saves;                   ///< for the sky of another time
 };
 
 /// Answers by itself who drives, and greets; everything else waits in the inbox.

@@ -5,7 +5,16 @@ import { until } from "./page_helpers.mjs";
 
 export const access_steps = (address, npm) => ({
     async "axe finds nothing wrong with any panel"(page) {
-        for (const panel of ["light", "views", "plan", "measure", "lamps", "save", "help"]) {
+        for (const panel of [
+            "light",
+            "views",
+            "plan",
+            "measure",
+            "lamps",
+            "time",
+            "save",
+            "help",
+        ]) {
             await page.mouse.move(300, 300);
             if (panel === "help") await page.click("#show-help");
             else await page.click(`#dock [data-panel=${panel}]`);
@@ -18,7 +27,7 @@ export const access_steps = (address, npm) => ({
     },
 
     async "Tab reaches every control"(page) {
-        for (const panel of ["light", "views", "plan", "measure", "lamps", "save"]) {
+        for (const panel of ["light", "views", "plan", "measure", "lamps", "time", "save"]) {
             await page.mouse.move(300, 300);
             await page.click(`#dock [data-panel=${panel}]`);
             const wanted = await page.evaluate(() =>
@@ -61,7 +70,7 @@ export const access_steps = (address, npm) => ({
             [400, 300],
         ]) {
             await other.setViewportSize({ width: size[0], height: size[1] });
-            for (const panel of ["light", "views", "plan", "measure", "lamps", "save"]) {
+            for (const panel of ["light", "views", "plan", "measure", "lamps", "time", "save"]) {
                 await other.evaluate(
                     (p) => document.querySelector(`#dock [data-panel=${p}]`).click(),
                     panel,

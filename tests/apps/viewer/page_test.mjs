@@ -32,6 +32,7 @@ import { camera_steps } from "./page_camera.mjs";
 import { isolux_steps } from "./page_isolux.mjs";
 import { lamp_steps } from "./page_lamps.mjs";
 import { place_steps } from "./page_places.mjs";
+import { time_steps } from "./page_time.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -80,6 +81,7 @@ const steps = {
     ...colour_steps(address, prank),
     ...isolux_steps(prank, args.npm),
     ...lamp_steps(address),
+    ...time_steps(address),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);
