@@ -73,6 +73,8 @@ class CompiledScene {
     [[nodiscard]] const Model& model() const { return *model_; }
     /// After compile().
     [[nodiscard]] const Scene& scene() const { return *scene_; }
+    /// Where its files are looked for.
+    [[nodiscard]] const LibraryPath& library() const { return library_; }
     [[nodiscard]] Resources& resources() { return *resources_; }
     /// The frozen scene on which the scene is built; null: there is none.
     [[nodiscard]] const FrozenScene* frozen() const { return frozen_; }

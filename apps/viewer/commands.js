@@ -120,19 +120,27 @@ class Commands {
         }
     }
 
-    // Lamps
+    // Light that changes
 
-    /** Glare is another one in other light: it is asked for again once the controls rest. */
-    follow_lamps() {
-        this.follow_light("a lamp is dimmed");
-    }
-
+    /** Glare is another one in other light: it is asked for again once dimmers and time rest. */
     follow_light(why) {
         clearTimeout(this.light_rests_);
         this.light_rests_ = setTimeout(() => {
             if (this.glare.id !== 0) this.ask_glare();
             this.isolux.outdate(why);
         }, 300);
+    }
+
+    async write_sky() {
+        try {
+            if (this.session.driving) this.time.tell();
+            download(
+                await server_file("sky.rad", token_query(location.href)),
+                this.name_("sky.rad"),
+            );
+        } catch (error) {
+            notice(`No file of the sky: ${error.message}`, true);
+        }
     }
 
     async write_lamps() {
@@ -293,6 +301,7 @@ function listen_for_buttons(commands) {
         "write-lamps": () => commands.write_lamps(),
         "material-choose": () => commands.choose_material(!commands.materials.choosing),
         "write-materials": () => commands.write_materials(),
+        "write-sky": () => commands.write_sky(),
         "write-png": () => commands.write_png(),
         "write-hdr": () => commands.write_hdr(),
         "ask-glare": () => commands.ask_glare(),
@@ -314,7 +323,7 @@ function listen_for_buttons(commands) {
 }
 
 function keys_of(commands) {
-    const { lamps, light, views, measuring } = commands;
+    const { lamps, light, time, views, measuring } = commands;
     const drive = (act) => () => commands.session.driving && act();
     const middle = () => commands.point(0.5, 0.5);
     const keys = {
@@ -343,6 +352,7 @@ function keys_of(commands) {
         m: () => toggle_panel("measure"),
         n: () => toggle_panel("plan"),
         u: () => lamps.lamps.length > 0 && toggle_panel("lamps"),
+        0: () => time.file && toggle_panel("time"),
         i: toggle_status,
         Enter: middle,
         " ": middle,

@@ -24,6 +24,7 @@ import { show_phase, start_figures } from "./status.js";
 import { StickMark } from "./stick.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
 import { fit_view, same_picture } from "./view.js";
+import { TimePanel } from "./time_panel.js";
 import { UnderPointer } from "./under_pointer.js";
 import { ViewsPanel } from "./views_panel.js";
 import { start_commands } from "./commands.js";
@@ -92,7 +93,12 @@ const session = new Session(session_id(), camera.available, screen, {
     lights: (message) => {
         if (session.driving && lamps.touched) return;
         lamps.take(message);
-        commands.follow_lamps();
+        commands.follow_light("a lamp is dimmed");
+    },
+    time: (message) => {
+        counters.last_time = message;
+        time.take(message);
+        commands.follow_light("the time is another one");
     },
     refused: ({ text, id, view }) => {
         if (id !== undefined && (plan.refused(id) || isolux.refused(id))) return;
@@ -130,7 +136,7 @@ const lamps = new LampPanel({
     may_drive: () => session.driving,
     changed: () => {
         counters.lamps = lamps.lamps;
-        commands.follow_lamps();
+        commands.follow_light("a lamp is dimmed");
     },
 });
 const materials = new MaterialPanel({
@@ -140,6 +146,15 @@ const materials = new MaterialPanel({
     indirect: () => light.settings.ambient !== "off",
     settled: () => counters.state.phase === "done",
     changed: () => commands.follow_light("a material is changed"),
+});
+const time = new TimePanel({
+    time: (message) => session.send(message),
+    may_drive: () => session.driving,
+    changed: () => {
+        counters.time = time.time;
+    },
+    frames: () => counters.frames,
+    ambient: () => light.settings.ambient,
 });
 const roles = new Roles({
     take: () => session.send({ type: "take" }),
@@ -174,6 +189,7 @@ const commands = start_commands({
     glare,
     lamps,
     materials,
+    time,
     picture,
     painted: () => (draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
@@ -274,6 +290,7 @@ function say_all() {
     session.send({ type: "settings", ...light.settings });
     lamps.tell();
     materials.tell();
+    time.tell();
     measuring.tell_probes();
     navigator.touch();
 }
@@ -286,6 +303,7 @@ function scene_loaded(message) {
     navigator.set_eye_height(message.eye_height);
     open_lamps(message.lights ?? []);
     materials.outdate();
+    open_time(message.time);
     plan.forget();
     cover("Drawing the first picture…");
     if (!navigator.view && views.scene_views.length > 0) {
@@ -302,6 +320,14 @@ function open_lamps(names) {
     if (names.length === 0 && is_open("lamps")) close_panel();
     lamps.open(names);
     if (session.driving) lamps.tell();
+}
+
+/** Where a generator writes the scene's sky; the time that was chosen stays. */
+function open_time(place) {
+    document.querySelector("#dock [data-panel=time]").hidden = !place;
+    if (!place && is_open("time")) close_panel();
+    time.open(place);
+    if (session.driving) time.tell();
 }
 
 /** The eye returns to where the newest frame was seen from, lest the same view is sent again. */
@@ -332,6 +358,7 @@ function role_changed(driving) {
     session.drive(driving);
     lamps.drive();
     materials.drive();
+    time.drive();
     if (driving && welcomed) {
         navigator.touch();
         measuring.tell_probes();
@@ -341,6 +368,7 @@ function role_changed(driving) {
 function server_state(message) {
     counters.state = message;
     show_phase(message);
+    time.follow(message);
     measuring.follow_light();
     materials.follow_light();
 }
@@ -441,6 +469,7 @@ function refresh() {
     if (drew || camera.draws) redraw();
     if (welcomed && counters.ready) plan.refresh(now);
     isolux.refresh(now);
+    time.refresh(now);
 }
 
 start_panels();

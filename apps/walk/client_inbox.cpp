@@ -62,7 +62,7 @@ void ClientInbox::tell_watchers(const std::string& text) {
 
 void ClientInbox::refuse(const InboxContents& contents, const std::string& why) {
     for (const std::vector<WebReply>* waiting :
-         {&contents.saves, &contents.light_saves, &contents.material_saves})
+         {&contents.saves, &contents.light_saves, &contents.material_saves, &contents.sky_saves})
         for (const WebReply& reply : *waiting)
             reply({503, "text/plain; charset=utf-8", why + '\n', {}});
     for (const WalkQuestion& question : contents.questions)
@@ -124,6 +124,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           [&](const EditsRequest& edits) {
                               if (drives) wish.edits = edits;
                           },
+                          [&](const TimeRequest& time) {
+                              if (drives) wish.time = time;
+                          },
                           [&](const ProbesRequest& pins) {
                               if (!drives) return;
                               wish.probes = pins.probes;
@@ -176,6 +179,7 @@ void ClientInbox::save(const std::string& path, WebReply reply) {
     std::vector<WebReply>* const waiting = path == "/save/picture.hdr"     ? &inbox_.saves
                                            : path == "/save/lights.rad"    ? &inbox_.light_saves
                                            : path == "/save/materials.rad" ? &inbox_.material_saves
+                                           : path == "/save/sky.rad"       ? &inbox_.sky_saves
                                                                            : nullptr;
     if (waiting == nullptr) {
         reply({404, "text/plain; charset=utf-8", "there is no such file\n", {}});

@@ -22,6 +22,7 @@ struct WalkWish {
     SettingsRequest settings;
     LightsRequest lights;
     EditsRequest edits;
+    TimeRequest time;
     std::vector<ProbePlace> probes;
 };
 
@@ -54,6 +55,7 @@ struct InboxContents {
     std::vector<WebReply> saves;                       ///< who waits for the picture as a file
     std::vector<WebReply> light_saves;                 ///< the same, for the dimmed modifiers
     std::vector<WebReply> material_saves;              ///< the same, for the changed ones
+    std::vector<WebReply> sky_saves;                   ///< for the sky of another time
 };
 
 /// Answers by itself who drives, and greets; everything else waits in the inbox.

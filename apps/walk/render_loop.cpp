@@ -58,7 +58,7 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       frames_(frames),
       warnings_(warnings),
       session_(&session),
-      model_(session.compiled().model()),
+      states_(session.compiled().model(), session.compiled().library()),
       client_inbox_(client_inbox),
       screen_(screen),
       threads_(executor.concurrency()),
@@ -132,6 +132,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     const bool other_light = inbox.wish.settings != wish_.settings;
     const bool edits = inbox.wish.edits != wish_.edits;
     const bool dims = inbox.wish.lights != wish_.lights;
+    const bool timed = inbox.wish.time.time != wish_.time.time;
     const bool moved =
         inbox.wish.view && (!wish_.view || !same_picture(*inbox.wish.view, *wish_.view));
     if (inbox.wish.view && wish_.view && inbox.wish.view->id != wish_.view->id) shown_ = false;
@@ -147,6 +148,8 @@ void RenderLoop::answer(const InboxContents& inbox) {
     }
     if (moved || other_light) drawn_ = false;
     if (edits) edit();
+    if (timed) set_time();
+    if (timed || !inbox.joined.empty()) tell_time();
     if (dims && groups_) dim();
     if (inbox.new_probes) measured_at_ = {};
     if (!view_ || live_.picture().radiance.empty())
@@ -156,6 +159,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     for (const WebReply& file : inbox.saves) save(file);
     for (const WebReply& file : inbox.light_saves) save_lights(file);
     for (const WebReply& file : inbox.material_saves) save_materials(file);
+    for (const WebReply& file : inbox.sky_saves) save_sky(file);
 }
 
 /// Pictures and numbers of the dimmers' new state, without a ray where all of it is known.
@@ -216,13 +220,32 @@ bool RenderLoop::change_scene(SceneState state) {
     change_problem_.clear();
     try {
         if (!options_.change) throw InputError("the scene cannot be changed here");
-        take_session(options_.change(change_of(model_, state)));
+        take_session(options_.change(states_.change_of(state)));
     } catch (const InputError& error) {
         change_problem_ = error.what();
         return false;
     }
     scene_state_ = std::move(state);
     return true;
+}
+
+void RenderLoop::set_time() {
+    SceneState state = scene_state_;
+    state.time = wish_.time.time;
+    (void)change_scene(std::move(state));
+}
+
+std::optional<TimePlace> RenderLoop::time_place() const {
+    std::optional<TimePlace> place = ::lightwalk::time_place(states_.skies());
+    if (place && !options_.change)
+        place->refused = "many processes draw this walk, and keep the scene as it was read";
+    return place;
+}
+
+void RenderLoop::tell_time() {
+    if (states_.skies().empty() && change_problem_.empty()) return;
+    client_inbox_.tell_all(
+        walk_text(time_reply(states_.skies(), scene_state_.time, change_problem_)));
 }
 
 /// Whatever asks rays asks them of the new session.
@@ -425,6 +448,17 @@ void RenderLoop::save_lights(const WebReply& reply) const {
 void RenderLoop::save_materials(const WebReply& reply) const {
     reply({200, "text/plain; charset=utf-8", edited_materials(model_, edits_.sound),
            "materials.rad"});
+}
+
+void RenderLoop::save_sky(const WebReply& reply) const {
+    const SkyCalls& skies = states_.skies();
+    if (skies.empty() || !skies.refusal().empty())
+        return reply({404, "text/plain; charset=utf-8", "no generator writes the sky here\n", {}});
+    reply(
+        {200, "text/plain; charset=utf-8",
+         "# The sky of a walk's time: it stands in place of the commands that made the scene's.\n" +
+             skies.text(scene_state_.time.value_or(skies.first().time())),
+         "sky.rad"});
 }
 
 void RenderLoop::measure_probes() {

@@ -16,6 +16,7 @@
 #include "apps/walk/walk_glare.h"
 #include "apps/walk/walk_isolux.h"
 #include "apps/walk/walk_screen.h"
+#include "apps/walk/walk_time.h"
 #include "core/cloud/moving_size.h"
 #include "core/plan/floor_plan.h"
 #include "parallel/executor_task_runner.h"
@@ -54,6 +55,9 @@ class RenderLoop {
     [[nodiscard]] const std::string& change_problem() const { return change_problem_; }
     [[nodiscard]] const SceneState& scene_state() const { return scene_state_; }
 
+    /// Where and when the scene's sky is seen; nothing where no generator has written it.
+    [[nodiscard]] std::optional<TimePlace> time_place() const;
+
     /// Height of the eye above the ground [m].
     [[nodiscard]] double eye_height() const { return eye_height_; }
 
@@ -76,6 +80,9 @@ class RenderLoop {
     void edit();
     void mix_lights();
     void dim();
+    void set_time();
+    void tell_time();
+    void save_sky(const WebReply& reply) const;
     [[nodiscard]] bool is_dimming() const;
     void save_lights(const WebReply& reply) const;
     void save_materials(const WebReply& reply) const;
@@ -105,7 +112,7 @@ class RenderLoop {
     LiveFrames& frames_;
     WarningSink& warnings_;
     const SceneSession* session_;
-    const Model& model_;      ///< as it was read
+    SceneStates states_;
     SceneState scene_state_;  ///< what session_ shows of it
     std::string change_problem_;
     ClientInbox& client_inbox_;

@@ -251,6 +251,7 @@ class WalkRun final : CommandRun {
         RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
                         *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
+        loaded.time = loop.time_place();
         if (const auto& groups = renderer.backend().frames().light_groups())
             loaded.lights = groups->names;
         page.inbox.announce(walk_text(loaded));

@@ -58,6 +58,9 @@ class ModelBuilder {
     [[nodiscard]] std::int32_t alias_target(const std::string& name,
                                             const SourceLocation& where) const;
 
+    /// Note what has written a sky.
+    void add_sky(GeneratedPart part) { model_->skies.push_back(std::move(part)); }
+
     [[nodiscard]] const Model& model() const { return *model_; }
 
     /// Hand over the model; the builder is empty afterwards.

@@ -42,13 +42,23 @@ struct ModelCube {
 
 class SurfaceShapes;
 
+/// Primitives that a command in a scene file has written.
+struct GeneratedPart {
+    SourceLocation where;
+    std::string command;  ///< as it stands there
+    std::string refusal;  ///< why it cannot be run for other primitives; "": it can
+    std::int32_t first_modifier = 0, last_modifier = 0;  ///< into Model::modifiers; exclusive
+    std::size_t first_surface = 0, last_surface = 0;     ///< into Model::surfaces; exclusive
+};
+
 /// One name space: a scene, or the contents of one octree. Modifiers and surfaces are numbered
 /// apart, each in the order of their definitions.
 struct Model {
     std::vector<Primitive> modifiers;
     SurfaceList surfaces;
-    std::vector<std::string> header;  ///< information header lines of an octree, without FORMAT
-    std::optional<ModelCube> cube;    ///< as read from an octree; nothing for scene files
+    std::vector<std::string> header;   ///< information header lines of an octree, without FORMAT
+    std::vector<GeneratedPart> skies;  ///< that gensky and gendaylit have written into scene files
+    std::optional<ModelCube> cube;     ///< as read from an octree; nothing for scene files
     /// The result of make_shapes for `surfaces`, where it was read from a file; else null.
     std::shared_ptr<const SurfaceShapes> shapes;
 

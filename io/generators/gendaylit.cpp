@@ -13,6 +13,7 @@
 #include "io/generators/generator.h"
 #include "io/generators/perez_sky.h"
 #include "io/generators/scene_writer.h"
+#include "io/generators/sky_command.h"
 #include "io/generators/sky_words.h"
 
 namespace lightwalk {
@@ -405,6 +406,13 @@ std::string daylit_sky(std::span<const std::string> args, const DaylitOptions& s
 }
 
 }  // namespace
+
+SkyDetails gendaylit_details(std::span<const std::string> words) {
+    GeneratorWords all(words, kGendaylitUsage);
+    NoWarnings quiet;
+    const DaylitOptions sky = parse_gendaylit(all, quiet);
+    return {sky.moment, sky.site, {}};
+}
 
 std::string run_gendaylit(std::span<const std::string> args, GeneratorContext& context) {
     if (args.size() == 2 && args[1] == "-defaults") return gendaylit_defaults();

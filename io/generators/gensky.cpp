@@ -9,6 +9,7 @@
 
 #include "io/generators/generator.h"
 #include "io/generators/scene_writer.h"
+#include "io/generators/sky_command.h"
 #include "io/generators/sky_words.h"
 
 namespace lightwalk {
@@ -179,6 +180,14 @@ SkyOptions parse_gensky(GeneratorWords& words, WarningSink& warnings) {
     return sky;
 }
 
+/// The option by which gensky knows a sky: one of kSkyTypes.
+std::string type_of(const SkyOptions& sky) {
+    if (sky.model == SkyModel::overcast) return "-c";
+    if (sky.model == SkyModel::uniform) return "-u";
+    const std::string sign = sky.show_sun ? "+" : "-";
+    return sign + (sky.model == SkyModel::intermediate ? "i" : "s");
+}
+
 /// The values of a sky that are printed [W/(m² sr)].
 struct SkyRadiances {
     double shape = 0;  ///< the model's value toward the zenith, F2
@@ -261,6 +270,13 @@ std::string gensky_defaults() {
 }
 
 }  // namespace
+
+SkyDetails gensky_details(std::span<const std::string> words) {
+    GeneratorWords all(words, kGenskyUsage);
+    NoWarnings quiet;
+    const SkyOptions sky = parse_gensky(all, quiet);
+    return {sky.moment, sky.site, type_of(sky)};
+}
 
 std::string run_gensky(std::span<const std::string> args, GeneratorContext& context) {
     if (args.size() == 2 && args[1] == "-defaults") return gensky_defaults();

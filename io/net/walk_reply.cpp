@@ -51,6 +51,19 @@ Json to_json(const DisplayRequest& request) {
         {"scale", {{"low", display.low}, {"high", display.high}, {"log", display.logarithmic}}}};
 }
 
+Json to_json(const SkyTime& time) {
+    return {{"month", time.month}, {"day", time.day}, {"hour", time.hour}, {"sky", time.type}};
+}
+
+Json to_json(const TimePlace& place) {
+    if (!place.refused.empty()) return {{"refused", place.refused}};
+    return {{"time", to_json(place.time)},
+            {"solar", place.solar},
+            {"types", place.types},
+            {"latitude", place.latitude},
+            {"longitude", place.longitude}};
+}
+
 const char* word(WalkAmbient ambient) {
     switch (ambient) {
         case WalkAmbient::always:
@@ -126,6 +139,7 @@ std::string walk_text(const LoadedReply& reply) {
     Json object{
         {"type", "loaded"}, {"views", to_json(reply.views)}, {"eye_height", reply.eye_height}};
     if (!reply.lights.empty()) object["lights"] = reply.lights;
+    if (reply.time) object["time"] = to_json(*reply.time);
     return text_of(object);
 }
 
@@ -136,6 +150,17 @@ std::string walk_text(const LightsReply& reply) {
                           {"level", light.level},
                           {"rgb", {light.color.r, light.color.g, light.color.b}}});
     return text_of({{"type", "lights"}, {"levels", levels}});
+}
+
+std::string walk_text(const TimeReply& reply) {
+    Json object{{"type", "time"},
+                {"time", reply.time ? to_json(*reply.time) : Json()},
+                {"rise", or_null(reply.rise)},
+                {"set", or_null(reply.set)},
+                {"altitude", reply.altitude},
+                {"azimuth", reply.azimuth}};
+    if (!reply.problem.empty()) object["problem"] = reply.problem;
+    return text_of(object);
 }
 
 std::string walk_text(const RoleReply& reply) {

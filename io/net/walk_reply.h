@@ -40,14 +40,30 @@ struct LoadingReply {
 struct FailedReply {
     std::vector<std::string> messages;  ///< "file:line: ..."
 };
+/// Where and when a scene's sky is seen.
+struct TimePlace {
+    SkyTime time;
+    bool solar = false;                  ///< hours are of local solar time
+    bool types = false;                  ///< the sky may be of other kinds
+    double latitude = 0, longitude = 0;  ///< to the north, to the east [deg]
+    std::string refused;                 ///< why the time cannot be changed; "": it can
+};
 struct LoadedReply {
     std::vector<NamedView> views;
     double eye_height = 1.6;          ///< [m]
     std::vector<std::string> lights;  ///< names of the light groups that may be dimmed; empty: none
+    std::optional<TimePlace> time = std::nullopt;  ///< nothing: no generator has written a sky
 };
 /// `lights`: to watchers and newcomers, what the driver has set.
 struct LightsReply {
     LightsRequest lights;
+};
+/// `time`: what is shown from now on.
+struct TimeReply {
+    std::optional<SkyTime> time;       ///< nothing: that of the scene's files
+    std::optional<double> rise, set;   ///< of the sun; neither: it is up, or down, all day [h]
+    double altitude = 0, azimuth = 0;  ///< of the sun; from the south to the west [deg]
+    std::string problem;               ///< why it is not what was asked for; "": it is
 };
 struct RoleReply {
     bool driver = false;
@@ -145,6 +161,7 @@ struct ByeReply {
 [[nodiscard]] std::string walk_text(const FailedReply& reply);
 [[nodiscard]] std::string walk_text(const LoadedReply& reply);
 [[nodiscard]] std::string walk_text(const LightsReply& reply);
+[[nodiscard]] std::string walk_text(const TimeReply& reply);
 [[nodiscard]] std::string walk_text(const RoleReply& reply);
 [[nodiscard]] std::string walk_text(const PickedReply& reply);
 [[nodiscard]] std::string walk_text(const MeanReply& reply);

@@ -207,6 +207,26 @@ LightsRequest read_lights(const Json& object) {
     return request;
 }
 
+int whole_number(const Json& object, int low, int high, const char* name) {
+    const double x = number(object, low, high, name);
+    if (x != std::floor(x)) refuse(name, "a whole number");
+    return static_cast<int>(x);
+}
+
+TimeRequest read_time(const Json& object) {
+    constexpr double kDay = 24;
+    TimeRequest request{std::nullopt, truth(object, "moving")};
+    const Json& wanted = field(object, "time");
+    if (wanted.is_null()) return request;
+    SkyTime time{whole_number(wanted, 1, 12, "month"), whole_number(wanted, 1, 31, "day"),
+                 number(wanted, 0, kDay, "hour"), words(wanted, "sky")};
+    if (!(time.hour < kDay)) refuse("hour", "less than 24");
+    if (!time.type.empty() && std::ranges::find(kSkyTypes, time.type) == kSkyTypes.end())
+        refuse("sky", "one of +s -s +i -i -c -u");
+    request.time = std::move(time);
+    return request;
+}
+
 PickRequest read_pick(const Json& object) {
     PickRequest request{identity(object, "id"), number(object, 0, 1, "x"),
                         number(object, 0, 1, "y"), std::nullopt};
@@ -313,6 +333,7 @@ WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit) {
     if (type == "display") return read_display(object);
     if (type == "settings") return read_settings(object);
     if (type == "lights") return read_lights(object);
+    if (type == "time") return read_time(object);
     if (type == "pick") return read_pick(object);
     if (type == "rectangle") return read_rectangle(object);
     if (type == "probes") return read_probes(object);

@@ -11,6 +11,7 @@
 #include "core/math/rgb.h"
 #include "core/view/view.h"
 #include "core/view/walk_state.h"
+#include "io/generators/sky_command.h"
 #include "io/picture/display.h"
 
 namespace lightwalk {
@@ -62,6 +63,12 @@ struct LightLevel {
 struct LightsRequest {
     std::vector<LightLevel> levels;  ///< at most kMostLightLevels; names are unique
     friend bool operator==(const LightsRequest&, const LightsRequest&) = default;
+};
+/// `time`: when the sky is seen that generators have written.
+struct TimeRequest {
+    std::optional<SkyTime> time;  ///< nothing: as the scene's files have it
+    bool moving = false;          ///< other times will follow soon
+    friend bool operator==(const TimeRequest&, const TimeRequest&) = default;
 };
 /// `pick`: the light at a point of a picture, in the image coordinates of Camera, 0 to 1.
 struct PickRequest {
@@ -127,8 +134,9 @@ struct HandRequest {
 
 using WalkRequest =
     std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
-                 LightsRequest, PickRequest, MeanRequest, ProbesRequest, GlareRequest, PlanRequest,
-                 IsoluxRequest, MaterialRequest, EditsRequest, TakeRequest, HandRequest>;
+                 LightsRequest, TimeRequest, PickRequest, MeanRequest, ProbesRequest, GlareRequest,
+                 PlanRequest, IsoluxRequest, MaterialRequest, EditsRequest, TakeRequest,
+                 HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {

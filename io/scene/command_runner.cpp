@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/generators/sky_command.h"
 #include "io/scene/model_scene.h"
 
 namespace lightwalk {
@@ -206,6 +207,7 @@ std::string CommandRunner::run_stage(const SimpleCommand& words, const std::stri
 std::string CommandRunner::run_program(const SimpleCommand& words, GeneratorContext& context) {
     const std::vector<std::string> args =
         expand_patterns(words, context.directory, library_.files());
+    if (SkyCommand::is_sky(args[0])) ++skies_;
     return find_program(args[0])(args, context);
 }
 

@@ -35,6 +35,9 @@ class CommandRunner {
     [[nodiscard]] std::string convert(const std::vector<std::string>& args,
                                       const std::string& directory);
 
+    /// How many skies commands have made so far, also those within other commands.
+    [[nodiscard]] std::size_t skies() const { return skies_; }
+
   private:
     class Output;
 
@@ -59,7 +62,7 @@ class CommandRunner {
     bool allow_commands_;
     WarningSink& warnings_;
     int depth_ = 0;
-    std::size_t commands_ = 0, bytes_ = 0;
+    std::size_t commands_ = 0, bytes_ = 0, skies_ = 0;
     std::size_t streamed_bytes_ = 0;  ///< length of all output that went to sinks in parts
 };
 

@@ -12,7 +12,9 @@
 
 #include "core/model/model_builder.h"
 #include "io/files/forget_pages.h"
+#include "io/generators/sky_command.h"
 #include "io/generators/text_sink.h"
+#include "io/language/command_line.h"
 #include "io/language/primitive_text.h"
 #include "io/language/tokenizer.h"
 #include "io/scene/binary_models.h"
@@ -198,6 +200,8 @@ class SceneReader {
         }
         const std::string name = to_prefix(where) + abbreviate_command(command);
         const std::size_t before = size();
+        const GeneratedPart sky = begin_sky(where, command);
+        const std::size_t skies = runner_.skies();
         OutputReader output(*this, name, where, depth + 1);
         const std::unique_ptr<TextPipe> pipe = make_pipe_ ? make_pipe_(output) : nullptr;
         try {
@@ -214,7 +218,35 @@ class SceneReader {
             throw;
         }
         if (pipe) pipe->finish();
+        if (runner_.skies() > skies) note_sky(sky, runner_.skies() - skies);
         warn_if_empty(before, name);
+    }
+
+    [[nodiscard]] GeneratedPart begin_sky(const SourceLocation& where,
+                                          const std::string& command) const {
+        const Model& model = builder_.model();
+        return {where, command,
+                {},    static_cast<std::int32_t>(model.modifiers.size()),
+                0,     model.surfaces.size(),
+                0};
+    }
+
+    /// Unless commands that the command has written did so.
+    /// @param part   as it was before the command
+    /// @param count  of the skies that were made
+    void note_sky(GeneratedPart part, std::size_t count) {
+        const Model& model = builder_.model();
+        if (!model.skies.empty() && model.skies.back().first_surface >= part.first_surface &&
+            model.skies.back().first_modifier >= part.first_modifier)
+            return;
+        part.last_modifier = static_cast<std::int32_t>(model.modifiers.size());
+        part.last_surface = model.surfaces.size();
+        const auto pipelines = split_command(without_command_mark(part.command));
+        const bool direct = pipelines && pipelines->size() == 1 &&
+                            SkyCommand::is_sky(pipelines->front().front().front().text);
+        if (!direct || count > 1)
+            part.refusal = "the sky is made within \"" + abbreviate_command(part.command) + "\"";
+        builder_.add_sky(std::move(part));
     }
 
     /// Go on without the command's output, or without the rest of it.

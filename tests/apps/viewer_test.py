@@ -4,6 +4,7 @@
     viewer_test.py modules
     viewer_test.py fake NPM PICTURES
     viewer_test.py page PROGRAM NPM PICTURES
+    viewer_test.py time PROGRAM NPM PICTURES
 
 fake: the page against a server that draws a room without a renderer, and misbehaves when it is told to. NPM is a folder with node_modules;
 PICTURES gets a screenshot of each step, or of those that fail. Exit status 77: what is needed is not there.
@@ -16,7 +17,7 @@ VIEWER = pathlib.Path(__file__).resolve().parent / "viewer"
 
 
 def modules(node):
-    tests = sorted(str(path) for path in VIEWER.glob("*_test.mjs") if path.name not in ("walk_page_test.mjs", "page_test.mjs"))
+    tests = sorted(str(path) for path in VIEWER.glob("*_test.mjs") if not path.name.endswith("page_test.mjs"))
     return subprocess.run([node, "--test", *tests]).returncode
 
 
@@ -45,6 +46,40 @@ def page(node, program, npm, pictures):
         files = pathlib.Path(pictures)
         return (status or dimmed(program, server.scene, files) or animate(program, server.scene, files / "path.vf") or
                 isolux(program, server.scene, files) or edited(program, server.scene, files))
+
+
+SUNLIT = """!gensky 9 21 {} +s -a 46 -o -7 -m -15
+skyfunc glow sky_glow 0 0 4 1 1 1 0
+sky_glow source sky 0 0 4 0 0 1 180
+void plastic grey 0 0 5 .5 .5 .5 0 0
+grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
+grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
+grey sphere ball 0 0 4 -1 2 .7 .7
+"""
+
+
+def time(node, program, npm, pictures):
+    """Whether the page reads at other hours what `lightwalk trace` finds in the scene whose file names these hours."""
+    if lacking(npm, "playwright-core"):
+        return 77
+    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1"], SUNLIT.format("14.3")) as server:
+        status = subprocess.run([node, VIEWER / "time_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures]).returncode
+    if status:
+        return status
+    wrong = 0
+    for read in json.loads((pathlib.Path(pictures) / "read.json").read_text()):
+        hour = 14.3 if read["hour"] is None else read["hour"]
+        ray = " ".join(map(str, read["position"] + read["normal"]))
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "scene.rad"
+            scene.write_text(SUNLIT.format(hour))
+            options = "-h -I -ab 0 -av .1 .1 .1 -dt .05 -dc .5 -ds .25 -dr 1"  # the walk's
+            traced = subprocess.run([program, "trace", *options.split(), scene], input=ray + "\n", text=True, stdout=subprocess.PIPE, check=True).stdout
+        lux = 179 * sum(float(value) * weight for value, weight in zip(traced.split(), (0.265106, 0.670106, 0.064788)))
+        print(f"time: at {hour} the page has read {read['illuminance']:.2f} lx, trace finds {lux:.2f} lx")
+        wrong += abs(read["illuminance"] / lux - 1) > 0.01
+    wrong += "gensky 9 21 12.0000 +s" not in (pathlib.Path(pictures) / "sky.rad").read_text()
+    return 1 if wrong else 0
 
 
 def isolux(program, scene, files):
@@ -106,4 +141,4 @@ if __name__ == "__main__":
     if not node:
         print("skipped: there is no Node.js")
         sys.exit(77)
-    sys.exit({"modules": modules, "fake": fake, "page": page}[sys.argv[1]](node, *sys.argv[2:]))
+    sys.exit({"modules": modules, "fake": fake, "page": page, "time": time}[sys.argv[1]](node, *sys.argv[2:]))

@@ -70,6 +70,13 @@ const kLoaded = {
     views: kViews,
     eye_height: kEyeHeight,
     lights: ["sun", "sky", "desk lamp"],
+    time: {
+        time: { month: 9, day: 21, hour: 14.3, sky: "+s" },
+        solar: false,
+        types: true,
+        latitude: 46,
+        longitude: 7,
+    },
 };
 
 // The walk --------------------------------------------------------------------------------------
@@ -83,6 +90,7 @@ let display = {
 let settings = { ambient: "rest" };
 let lights = { type: "lights", levels: [] };
 let edited = null; // the newest answer to `edits`
+let time = { type: "time", time: null, moving: false };
 let probes = [];
 let failing = false,
     dumb = false, // no frames
@@ -134,8 +142,18 @@ function greet(socket, client, session) {
         tell(socket, kLoaded);
         tell(socket, lights);
         if (edited) tell(socket, edited);
+        tell(socket, time_reply());
     }, 60);
 }
+
+const time_reply = () => ({
+    type: "time",
+    time: time.time,
+    rise: 6.5,
+    set: 18.25,
+    altitude: 30,
+    azimuth: 40,
+});
 
 /** Walking keeps the eye above the floor; the page takes the height over. */
 const eye_of = ({ view, walk }) =>
@@ -167,6 +185,11 @@ function answer(socket, message) {
             if (!driving) return;
             lights = message;
             for (const other of clients.keys()) if (other !== socket) tell(other, message);
+        },
+        time: () => {
+            if (!driving) return;
+            time = message;
+            tell_all(time_reply());
         },
         pick: () => tell(socket, picked(message)),
         rectangle: () => tell(socket, mean(message)),
@@ -385,6 +408,8 @@ async function serve(request, response) {
         return response.end(JSON.stringify(lights.levels));
     if (pathname === "/save/materials.rad" || pathname === "/materials")
         return response.end(JSON.stringify(edited?.materials ?? []));
+    if (pathname === "/save/sky.rad" || pathname === "/time")
+        return response.end(JSON.stringify(time));
     const name = pathname === "/" ? "index.html" : /^\/page\/([\w.-]+)$/.exec(pathname)?.[1];
     try {
         const body = await readFile(path.join(kPage, name));

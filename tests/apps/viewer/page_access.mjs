@@ -12,6 +12,7 @@ export const access_steps = (address, npm) => ({
             "measure",
             "lamps",
             "materials",
+            "time",
             "save",
             "help",
         ]) {
@@ -27,7 +28,16 @@ export const access_steps = (address, npm) => ({
     },
 
     async "Tab reaches every control"(page) {
-        for (const panel of ["light", "views", "plan", "measure", "lamps", "materials", "save"]) {
+        for (const panel of [
+            "light",
+            "views",
+            "plan",
+            "measure",
+            "lamps",
+            "time",
+            "materials",
+            "save",
+        ]) {
             await page.mouse.move(300, 300);
             await page.click(`#dock [data-panel=${panel}]`);
             const wanted = await page.evaluate(() =>
@@ -76,6 +86,7 @@ export const access_steps = (address, npm) => ({
                 "plan",
                 "measure",
                 "lamps",
+                "time",
                 "materials",
                 "save",
             ]) {

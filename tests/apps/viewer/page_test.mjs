@@ -33,6 +33,7 @@ import { isolux_steps } from "./page_isolux.mjs";
 import { lamp_steps } from "./page_lamps.mjs";
 import { material_steps } from "./page_materials.mjs";
 import { place_steps } from "./page_places.mjs";
+import { time_steps } from "./page_time.mjs";
 
 const { values: args } = parseArgs({
     options: {
@@ -82,6 +83,7 @@ const steps = {
     ...isolux_steps(prank, args.npm),
     ...lamp_steps(address),
     ...material_steps(address, args.npm),
+    ...time_steps(address),
     async "all keys move as the help says"(page) {
         await page.keyboard.press("2");
         await page.waitForTimeout(100);

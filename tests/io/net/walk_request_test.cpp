@@ -40,6 +40,7 @@ const std::vector<std::string> kSound{
     R"({"type":"isolux","id":7,"position":[1,2,0.5],"normal":[0,0,4]})",
     R"({"type":"isolux","id":8,"position":[1,2,1.6],"height":0.75})",
     R"({"type":"material","id":9,"x":0.5,"y":0.25})",
+    R"({"type":"time","time":{"month":9,"day":21,"hour":14.3,"sky":"+s"},"moving":true})",
 };
 
 /// Fields of these messages that need not be there.
@@ -341,4 +342,27 @@ TEST_CASE("walk request: whether frames shall have depth may be missing, and the
     CHECK_FALSE(read<PickRequest>(sound(5)).view);
     CHECK(read<PickRequest>(sound(12)).view.value().vertical == 40.5);
     CHECK(refusal(12, "/view/up", json::array({0, 1, 0})) != "accepted");
+}
+
+TEST_CASE("walk request: a time is a day, an hour and a kind of sky, or that of the files") {
+    constexpr std::size_t kTime = 16;
+    const auto request = read<TimeRequest>(sound(kTime));
+    CHECK(request.moving);
+    CHECK(request.time == SkyTime{9, 21, 14.3, "+s"});
+    json message = sound(kTime);
+    message["time"] = nullptr;
+    CHECK(read<TimeRequest>(message).time == std::nullopt);
+    for (const auto& [pointer, values] : std::map<const char*, std::vector<json>>{
+             {"/time/month", {0, 13, 1.5, -1}},
+             {"/time/day", {0, 32, 1.5}},
+             {"/time/hour", {24, -0.1, 1e300}},
+             {"/time/sky", {"+x", "+c", "s", "+s -c"}},
+             {"/time", {json::array(), 1, "now", json::object()}}})
+        for (const json& value : values) {
+            CAPTURE(pointer);
+            CAPTURE(value.dump());
+            CHECK(refusal(kTime, pointer, value) != "accepted");
+        }
+    CHECK(refusal(kTime, "/time/sky", "") == "accepted");
+    CHECK(refusal(kTime, "/time/hour", 23.9999) == "accepted");
 }
