@@ -52,7 +52,8 @@ std::unique_ptr<const Tracer> RenderBackend::make_direct(const SceneSession& ses
     RenderOptions direct = session.tracer().options();
     if (!options_.steered || direct.ambient_bounces == 0) return nullptr;
     direct.ambient_bounces = 0;
-    return std::make_unique<const Tracer>(session.scene(), direct, warnings);
+    return std::make_unique<const Tracer>(session.scene(), direct, warnings, SerialTaskRunner(),
+                                          &session.tracer());
 }
 
 std::shared_ptr<const LightGroups> RenderBackend::find_groups(const SceneSession& session) const {

@@ -112,6 +112,7 @@ class RenderLoop {
     LiveFrames& frames_;
     WarningSink& warnings_;
     const SceneSession* session_;
+    const Model& model_;  ///< as it was read
     SceneStates states_;
     SceneState scene_state_;  ///< what session_ shows of it
     std::string change_problem_;

@@ -1,6 +1,7 @@
 #include "core/light/light_sources.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "core/light/emission.h"
@@ -34,11 +35,15 @@ void LightSources::index_sources() {
 }
 
 void LightSources::finalize(const LightTransport& tracer, WarningSink& warnings,
-                            const TaskRunner& task_runner) {
+                            const TaskRunner& task_runner, const LightSources* alike) {
     index_sources();
     find_scattered(warnings);
     const bool chosen = options_.ambient_bounces > 0 && options_.ambient_lights > 0;
-    if (options_.shadow_threshold > 0 || chosen) {
+    if (options_.shadow_threshold > 0 && alike != nullptr && !chosen) {
+        assert(alike->sources_.size() == sources_.size());
+        for (std::size_t i = 0; i < sources_.size(); ++i)
+            sources_[i].hit_rate = alike->sources_[i].hit_rate;
+    } else if (options_.shadow_threshold > 0 || chosen) {
         const std::vector<float> rates = measure_hit_rates(*this, tracer, warnings, task_runner);
         for (std::size_t i = 0; i < rates.size(); ++i) sources_[i].hit_rate = rates[i];
     }

@@ -48,8 +48,10 @@ class LightSources {
     }
     /// The list is complete: find what mists name in it, measure and freeze hit rates (-dt > 0).
     /// Called once by LightTransport's constructor, with that tracer, before any rendering.
+    /// @param alike  the same sources, of a tracer with the same options but for those of indirect
+    ///               light: their rates are taken, which would come out the same. Null: none
     void finalize(const LightTransport& tracer, WarningSink& warnings,
-                  const TaskRunner& task_runner);
+                  const TaskRunner& task_runner, const LightSources* alike = nullptr);
 
     /// The distant source that a ray leaving the scene sees: its surface, or nothing (black).
     [[nodiscard]] std::optional<SurfaceId> background(const Ray& ray) const;

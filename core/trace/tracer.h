@@ -19,8 +19,11 @@ class Tracer final : public LightTransport {
     /// Prepares the light sources and their frozen visibility statistics, by a bounded number of
     /// rays. Throws InputError for illegal light sources and options that exclude each other.
     /// @param scene  must outlive this
+    /// @param alike  of the same scene, with the same options but for those of indirect light: its
+    ///               sources' statistics are taken, which would come out the same. Null: there is
+    ///               none
     Tracer(const Scene& scene, const RenderOptions& options, WarningSink& warnings,
-           const TaskRunner& task_runner = SerialTaskRunner());
+           const TaskRunner& task_runner = SerialTaskRunner(), const Tracer* alike = nullptr);
     ~Tracer() override;
 
     [[nodiscard]] const LightSources& lights() const override { return *lights_; }

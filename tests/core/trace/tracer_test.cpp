@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "core/light/light_sources.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
@@ -218,4 +219,30 @@ TEST_CASE("tracer: one context gives the same rays again, whatever it traced bef
     const Rgb first = scene.trace({0, -4, 0}, {0, 1, 0.1}, 5).value;
     for (std::uint32_t i = 0; i < 20; ++i) (void)scene.trace({0, -4, 0}, {0, 1, 0.01 * i}, i);
     CHECK(scene.trace({0, -4, 0}, {0, 1, 0.1}, 5).value == first);
+}
+
+TEST_CASE(
+    "tracer: one without indirect light takes the statistics of one with it, which are its own") {
+    std::string text =
+        "void light lamp 0 0 3 9 9 9\nvoid plastic grey 0 0 5 .5 .5 .5 0 0\n"
+        "grey polygon floor 0 0 12 0 0 0 9 0 0 9 9 0 0 9 0\n"
+        "grey polygon board 0 0 12 2 2 1 5 2 1 5 5 1 2 5 1\n";
+    for (int i = 0; i < 40; ++i)
+        text += "lamp sphere l" + std::to_string(i) + " 0 0 4 " + std::to_string(i % 8) + ' ' +
+                std::to_string(i / 8) + " 2 .1\n";
+    RenderOptions options = with([](RenderOptions& o) {
+        o.shadow_threshold = .2;
+        o.ambient_bounces = 1;
+    });
+    TestScene scene(text, options);
+    options.ambient_bounces = 0;
+    const Tracer own(scene.scene, options, scene.warnings);
+    const Tracer taken(scene.scene, options, scene.warnings, SerialTaskRunner(), &scene.tracer);
+    REQUIRE(own.lights().all().size() == 40);
+    std::size_t between = 0;
+    for (std::int32_t i = 0; i < 40; ++i) {
+        CHECK(taken.lights()[i].hit_rate == own.lights()[i].hit_rate);
+        between += own.lights()[i].hit_rate > 0.5f && own.lights()[i].hit_rate < 1;
+    }
+    CHECK(between > 10);  // they have been measured
 }

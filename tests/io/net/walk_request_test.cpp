@@ -345,7 +345,7 @@ TEST_CASE("walk request: whether frames shall have depth may be missing, and the
 }
 
 TEST_CASE("walk request: a time is a day, an hour and a kind of sky, or that of the files") {
-    constexpr std::size_t kTime = 16;
+    constexpr std::size_t kTime = 17;
     const auto request = read<TimeRequest>(sound(kTime));
     CHECK(request.moving);
     CHECK(request.time == SkyTime{9, 21, 14.3, "+s"});
