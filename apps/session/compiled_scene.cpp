@@ -89,8 +89,8 @@ CompiledScene::CompiledScene(const SceneSource& source, WarningSink& warnings,
     cost_.read_peak_bytes = peak_memory_bytes();
 }
 
-CompiledScene::CompiledScene(const std::shared_ptr<const CompiledScene>& base, ModelChange change,
-                             WarningSink& warnings)
+CompiledScene::CompiledScene(const std::shared_ptr<const CompiledScene>& base,
+                             const ModelChange& change, WarningSink& warnings)
     : base_(base->base_ ? base->base_ : base),
       warnings_(warnings),
       files_(base->files_),

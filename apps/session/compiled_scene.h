@@ -57,7 +57,7 @@ class CompiledScene {
     /// @param base      after compile(); is kept alive
     /// @param change    of base->model()
     /// @param warnings  of what is compiled; must outlive this
-    CompiledScene(const std::shared_ptr<const CompiledScene>& base, ModelChange change,
+    CompiledScene(const std::shared_ptr<const CompiledScene>& base, const ModelChange& change,
                   WarningSink& warnings);
 
     /// Compiles, by what the scene's library says. Throws InputError, with all problems of the

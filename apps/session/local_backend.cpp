@@ -69,8 +69,8 @@ LiveFrames& LocalBackend::frames() {
 }
 
 /// An ambient file is of the light that the scene has been read with.
-void LocalBackend::change(std::shared_ptr<const CompiledScene> scene) {
-    auto session = std::make_unique<SceneSession>(std::move(scene), options_.light, std::string(),
+void LocalBackend::change(const std::shared_ptr<const CompiledScene>& scene) {
+    auto session = std::make_unique<SceneSession>(scene, options_.light, std::string(),
                                                   options_.keep_coefficients, quiet_);
     std::unique_ptr<const Tracer> direct = make_direct(*session, quiet_);
     const std::shared_ptr<const LightGroups> groups = find_groups(*session);

@@ -16,7 +16,7 @@ class LocalBackend final : public RenderBackend {
     /// The work is done by finish(): there is nothing to wait for.
     [[nodiscard]] RayDemand ray_demand(bool wait, bool begun) override;
     [[nodiscard]] LiveFrames& frames() override;
-    void change(std::shared_ptr<const CompiledScene> scene) override;
+    void change(const std::shared_ptr<const CompiledScene>& scene) override;
 
   private:
     [[nodiscard]] bool prepare(const PictureRequest& request, bool first) override;

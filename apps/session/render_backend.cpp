@@ -62,7 +62,7 @@ std::shared_ptr<const LightGroups> RenderBackend::find_groups(const SceneSession
         find_light_groups(session.scene(), options_.light, *options_.light_groups));
 }
 
-void RenderBackend::change(std::shared_ptr<const CompiledScene> /*scene*/) {
+void RenderBackend::change(const std::shared_ptr<const CompiledScene>& /*scene*/) {
     throw InputError("the scene of a walk on ranks stays as it is");
 }
 

@@ -58,7 +58,7 @@ class RenderBackend {
     /// session() returned before is used any more, or may be. Throws InputError, and leaves all as
     /// it was.
     /// @param scene  a change of session().compiled()
-    virtual void change(std::shared_ptr<const CompiledScene> scene);
+    virtual void change(const std::shared_ptr<const CompiledScene>& scene);
     /// Null: pictures have no layers.
     [[nodiscard]] const LightGroups* light_groups() const { return contexts_.light_groups(); }
     /// Of pictures of a size; a walk that is steered traces every pixel.

@@ -32,7 +32,7 @@ struct RenderLoopOptions {
     /// Changes the scene under the frames (RenderBackend::change); returns the session that
     /// it has from then on. Throws InputError, and leaves all as it was. None: it cannot be
     /// changed.
-    std::function<const SceneSession&(ModelChange change)> change = {};
+    std::function<const SceneSession&(const ModelChange& change)> change = {};
 };
 
 /// Draws until it is told to stop. For one thread.

@@ -9,7 +9,7 @@ namespace lightwalk {
 
 /// What RenderLoopOptions::change needs.
 /// @param backend  must outlive the result
-[[nodiscard]] std::function<const SceneSession&(ModelChange change)> scene_changer(
+[[nodiscard]] std::function<const SceneSession&(const ModelChange& change)> scene_changer(
     RenderBackend& backend);
 
 }  // namespace lightwalk

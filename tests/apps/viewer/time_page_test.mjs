@@ -29,7 +29,7 @@ try {
     await page.goto(args.address);
     await wait(() => window.lightwalk?.ready && window.lightwalk.frames > 0);
     await page.focus("#picture");
-    await page.keyboard.press("y");
+    await page.keyboard.press("0");
     await page.waitForSelector("#panel-time:not([hidden])");
     const read = [];
     for (const minutes of [null, 600, 1020, 120, 720]) {
