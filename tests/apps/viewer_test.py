@@ -78,7 +78,7 @@ def time(node, program, npm, pictures):
         lux = 179 * sum(float(value) * weight for value, weight in zip(traced.split(), (0.265106, 0.670106, 0.064788)))
         print(f"time: at {hour} the page has read {read['illuminance']:.2f} lx, trace finds {lux:.2f} lx")
         wrong += abs(read["illuminance"] / lux - 1) > 0.01
-    wrong += "gensky 9 21 12.0000 +s" not in (pathlib.Path(pictures) / "sky.rad").read_text()
+    wrong += "gensky 9 21 12.0000 -a 46 -o -7 -m -15 +s\n" not in (pathlib.Path(pictures) / "sky.rad").read_text()
     return 1 if wrong else 0
 
 
