@@ -18,6 +18,8 @@ frames as they come; else one that draws the camera from them, and is sent depth
 
 Where the scene has dimmers (--options "--light-group auto") a third line, `dim`: the view rests, all its pixels are traced, and one after the
 other the dimmers are drawn to and fro, sixty levels a second. The latency is from sending a level to the next frame.
+Where a generator makes the scene's sky one more, `hours`: the view rests, and the hour is drawn from nine to five and back, sixty times a
+second. The rate is of pictures at other hours; the latency is from sending an hour to the next frame.
 
 With --rate the client is behind a link that carries so many Mbit/s, and with --delay behind a round trip of so many ms. What waits on
 the way, in a queue of the server's or of the link's, comes on top of the delay in `latency`.
@@ -130,6 +132,8 @@ class Client:
                 sys.exit("\n".join(message["messages"]))
             elif message["type"] == "loaded":
                 self.loaded = message
+            elif message["type"] == "time":
+                self.hours += 1
             return
         frame = Frame(message)
         self.socket.send({"type": "ack", "frame": frame.number})
@@ -143,12 +147,17 @@ class Client:
 
     def forget(self):
         self.sent, self.frames, self.latency, self.bytes, self.reuse, self.width = {}, 0, [], 0, [], 0
-        self.inferred, self.guessed, self.dims = [], [], False
+        self.inferred, self.guessed, self.dims, self.hours = [], [], False, 0
 
     def dim(self, name, level):
         self.ident += 1
         self.sent[self.ident], self.dims = time.monotonic(), True
         self.socket.send({"type": "lights", "levels": [{"name": name, "level": level, "rgb": [1, 1, 1]}]})
+
+    def set_hour(self, hour):
+        self.ident += 1
+        self.sent[self.ident], self.dims = time.monotonic(), True
+        self.socket.send({"type": "time", "time": {**self.loaded["time"]["time"], "hour": hour}, "moving": True})
 
 
 def port_behind(port, args):
@@ -175,14 +184,30 @@ def measure(client, view, walk, seconds):
     return figures(client, time.monotonic() - start)
 
 
-def measure_dimming(client, view, seconds):
-    """Frames of a view at rest while its lights change."""
+def rest(client, view):
+    """Until all of the view's pixels are traced."""
     client.look(view, moving=False)
     client.finished = False
     end = time.monotonic() + MOST_REST
     while not client.finished and time.monotonic() < end:
         client.listen(time.monotonic() + 0.1)
     client.forget()
+
+
+def measure_hours(client, view, seconds):
+    """Pictures of a view at rest while the sun moves."""
+    rest(client, view)
+    start = time.monotonic()
+    while (now := time.monotonic()) < start + seconds:
+        client.set_hour(17 - 8 * abs(1 - (now - start) / 4 % 2))
+        client.listen(now + 1 / 60)
+    found = figures(client, time.monotonic() - start)
+    return {**found, "fps": min(client.frames, client.hours) / (time.monotonic() - start)}
+
+
+def measure_dimming(client, view, seconds):
+    """Frames of a view at rest while its lights change."""
+    rest(client, view)
     names = client.loaded["lights"]
     start = time.monotonic()
     while (now := time.monotonic()) < start + seconds:
@@ -242,8 +267,10 @@ def main():
                 # Eyes are as high as a person's, whatever the scene's unit is.
                 view = {**page_view(views.parse(words)), "pace": client.loaded["eye_height"] / 1.6}
                 view["vertical"] = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
-                for walk in [*WALKS, *(["dim"] if client.loaded.get("lights") else [])]:
-                    found = measure(client, view, walk, args.seconds) if walk in WALKS else measure_dimming(client, view, args.seconds)
+                others = {"dim": measure_dimming if client.loaded.get("lights") else None,
+                          "hours": measure_hours if "refused" not in (client.loaded.get("time") or {"refused": ""}) else None}
+                for walk in [*WALKS, *(name for name, known in others.items() if known)]:
+                    found = measure(client, view, walk, args.seconds) if walk in WALKS else others[walk](client, view, args.seconds)
                     row = {"view": place.name, "size": f"{size[0]}x{size[1]}", "walk": walk, **found}
                     if args.abuse and walk in WALKS:
                         row.update(measure_abused(client, view, walk, args.seconds, row["fps"]))

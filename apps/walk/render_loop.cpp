@@ -25,6 +25,9 @@ constexpr double kLeastShown = 0.1, kMostShown = 1;  // between pictures that ar
 // whole one that takes its time: refined from the first one it would be a blur for seconds.
 constexpr int kSmallSketches = 4;
 constexpr double kFewGuessed = 0.05;
+// In other light nothing is known of any pixel's colour: while it goes on to change, all pixels of
+// a small picture rather than a few of a larger one, which are no picture.
+constexpr double kRelitShare = 0.25;                  // of the width and of the height
 constexpr double kAtRest = 0.12, kWholeSketch = 0.5;  // of a step [s]: so long a new view may wait
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
@@ -118,6 +121,12 @@ RenderLoop::Size RenderLoop::size_now() const {
     const Size whole{wish_.view->width, wish_.view->height};
     const bool rests = !wish_.view->moving || Clock::now() - moved_ > kHeld;
     if (rests && small_sketches_ == 0) return whole;
+    if (relit_ && !wish_.view->moving) {
+        const auto of = [](int side) {
+            return std::max(static_cast<int>(std::lround(kRelitShare * side)), 1);
+        };
+        return {of(whole.width), of(whole.height)};
+    }
     return {moving_size_.of(whole.width), moving_size_.of(whole.height)};
 }
 
@@ -142,6 +151,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
         if (!view_ || is_elsewhere(*view_, wish_.view->view, eye_height_)) {
             small_sketches_ = kSmallSketches;
             sketches_ = 1;
+            relit_ = false;
         }
         glare_.forget(client_inbox_);
         view_ = on_the_ground(*wish_.view);
@@ -202,7 +212,10 @@ void RenderLoop::edit() {
             state.replaced.insert_or_assign(static_cast<std::int32_t>(edit.modifier),
                                             edited_primitive(model_, edit));
         if (change_scene(std::move(state))) {
-            if (!around) small_sketches_ = sketches_ = 0;
+            if (!around) {
+                small_sketches_ = sketches_ = 0;
+                relit_ = false;
+            }
             edited_ = !around;
             checked.reply.kept = around ? 0 : frames_.kept_points();
             edits_ = checked;
@@ -264,6 +277,7 @@ void RenderLoop::take_session(const SceneSession& session) {
     drawn_ = shown_ = false;
     small_sketches_ = kSmallSketches;
     sketches_ = 1;
+    relit_ = true;
     moved_ = Clock::now();
     measured_at_ = {};
 }
@@ -328,6 +342,7 @@ void RenderLoop::note_size(Size size, double budget) {
     const auto guessed = static_cast<double>(picture.report.filled - picture.report.inferred);
     int& left = small_sketches_ > 0 ? small_sketches_ : sketches_;
     left = guessed < kFewGuessed * pixels ? 0 : std::max(left - 1, 0);
+    relit_ = relit_ && small_sketches_ > 0;
     if (picture.phase == WalkPhase::moving && wish_.view->moving &&
         size.width == moving_size_.of(wish_.view->width))
         moving_size_.record(picture.report, budget);

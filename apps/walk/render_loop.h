@@ -138,6 +138,7 @@ class RenderLoop {
     bool drawn_ = false;                     ///< the picture is of view_, as wished
     bool shown_ = false;                     ///< as it is, with the display that is wished
     int small_sketches_ = 0, sketches_ = 0;  ///< of a new place, at most: small ones, whole ones
+    bool relit_ = false;  ///< the small ones are of other light in the same place
     Clock::time_point moved_, shown_at_, measured_at_, dimmed_at_;
     bool dimmed_ = false;  ///< since a picture was shown
     MovingSize moving_size_;

@@ -94,6 +94,28 @@ TEST_CASE("changed walk: at another hour it is the walk of the scene that names 
     CHECK(pixels_of(walk) == before);
 }
 
+TEST_CASE("changed walk: while the hour is drawn pictures are small, then there is a whole one") {
+    const LoadedScene scene(room(sunlit("14.3")));
+    Walk walk(scene);
+    rest(walk);
+    const auto width = [&] {
+        return number_at<std::uint16_t>(*walk.clients.frames[kDriver].back(), 12);
+    };
+    const int whole = width();
+    for (const std::string hour : {"9", "10", "11", "12"}) {
+        const std::size_t seen = walk.clients.frames_of(kDriver);
+        walk.inbox.message(kDriver, time_of(hour, true));
+        for (int i = 0; i < 100 && walk.clients.frames_of(kDriver) == seen; ++i) {
+            walk.acknowledge(kDriver);
+            walk.loop->step(walk.stop);
+        }
+        REQUIRE(walk.clients.frames_of(kDriver) > seen);
+        CHECK(4 * width() == whole);
+    }
+    settle(walk);
+    CHECK(width() == whole);
+}
+
 TEST_CASE("changed walk: night falls, also where there was no sun, and it is day again") {
     for (const std::string first : {"14.3", "2"}) {
         const LoadedScene scene(room(sunlit(first)));
