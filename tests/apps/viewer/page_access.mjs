@@ -3,19 +3,11 @@ import assert from "node:assert/strict";
 import { axe_complaints } from "./axe.mjs";
 import { until } from "./page_helpers.mjs";
 
+const kPanels = ["light", "views", "plan", "measure", "lamps", "materials", "time", "save"];
+
 export const access_steps = (address, npm) => ({
     async "axe finds nothing wrong with any panel"(page) {
-        for (const panel of [
-            "light",
-            "views",
-            "plan",
-            "measure",
-            "lamps",
-            "materials",
-            "time",
-            "save",
-            "help",
-        ]) {
+        for (const panel of [...kPanels, "help"]) {
             await page.mouse.move(300, 300);
             if (panel === "help") await page.click("#show-help");
             else await page.click(`#dock [data-panel=${panel}]`);
@@ -28,16 +20,7 @@ export const access_steps = (address, npm) => ({
     },
 
     async "Tab reaches every control"(page) {
-        for (const panel of [
-            "light",
-            "views",
-            "plan",
-            "measure",
-            "lamps",
-            "time",
-            "materials",
-            "save",
-        ]) {
+        for (const panel of kPanels) {
             await page.mouse.move(300, 300);
             await page.click(`#dock [data-panel=${panel}]`);
             const wanted = await page.evaluate(() =>
@@ -80,16 +63,7 @@ export const access_steps = (address, npm) => ({
             [400, 300],
         ]) {
             await other.setViewportSize({ width: size[0], height: size[1] });
-            for (const panel of [
-                "light",
-                "views",
-                "plan",
-                "measure",
-                "lamps",
-                "time",
-                "materials",
-                "save",
-            ]) {
+            for (const panel of kPanels) {
                 await other.evaluate(
                     (p) => document.querySelector(`#dock [data-panel=${p}]`).click(),
                     panel,
