@@ -1,25 +1,17 @@
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "apps/session/lightwalk/renderer.h"
-#include "apps/session/render_backend.h"
-#include "apps/walk/render_loop.h"
-#include "apps/walk/scene_changer.h"
-#include "core/cloud/cloud_frame.h"
 #include "io/picture/picture.h"
-#include "tests/apps/walk/recorded_clients.h"
-#include "tests/test_scene.h"
+#include "tests/apps/walk/steered_walk.h"
 
 using namespace lightwalk;
 using namespace lightwalk::test;
 using nlohmann::json;
 
 namespace {
-
-constexpr ClientId kPainter{1}, kOnlooker{2};
 
 std::string painted_room(const std::string& ball = ".5 .5 .5 0 0",
                          const std::string& lamp = "40 40 40") {
@@ -32,57 +24,30 @@ lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
 )";
 }
 
-/// A walk without a server, whose scene may be changed.
-struct PaintedWalk {
+RendererOptions with_bounces(int ambient_bounces) {
+    RendererOptions options = options_of(true);
+    options.light.ambient_bounces = ambient_bounces;
+    return options;
+}
+
+/// A walk at rest, in a scene that may be changed.
+struct PaintedWalk : Walk {
     explicit PaintedWalk(const std::string& text, int ambient_bounces = 0, bool changes = true)
-        : scene(source_of(text)), renderer(scene, options_of(ambient_bounces)) {
-        inbox.attach(clients);
-        for (const ClientId client : {kPainter, kOnlooker})
-            inbox.message(client,
-                          hello("0123456789abcde" + std::to_string(static_cast<int>(client))));
-        View home;
-        home.position = {0, -4, 1.5};
-        RenderLoopOptions options{30, 1, "lightwalk walk"};
-        if (changes) options.change = scene_changer(renderer.backend());
-        loop.emplace(std::move(options), renderer.backend().session(), home,
-                     renderer.backend().frames(), *executor, warnings, inbox, screen);
-        inbox.message(kPainter, view_message(1, 0.25, 64, 48));
+        : Walk(LoadedScene(room(text)), with_bounces(ambient_bounces), 30, changes) {
+        inbox.message(kDriver, view_message(1, 0.25, 64, 48));
         rest();
     }
-    static SceneSource source_of(const std::string& text) {
-        SceneSource source;
-        source.bytes = text;
-        return source;
-    }
-    static RendererOptions options_of(int ambient_bounces) {
-        RendererOptions options;
-        options.threads = 2;
-        options.steered = true;
-        options.pixels.spacing = 1;
-        options.light.ambient_bounces = ambient_bounces;
-        CloudOptions cloud = *default_reuse();
-        cloud.samples = 1;
-        options.reuse = std::make_shared<const CloudOptions>(cloud);
-        return options;
-    }
-
     void step() {
         loop->step(stop);
-        for (const ClientId client : {kPainter, kOnlooker}) {
-            const std::size_t frames = clients.frames_of(client);
-            if (frames == acked[client]) continue;
-            acked[client] = frames;
-            inbox.message(client, R"({"type":"ack","frame":)" +
-                                      std::to_string(frame_number(*clients.frames[client].back())) +
-                                      "}");
-        }
+        for (const ClientId client : {kDriver, kWatcher}) acknowledge(client);
     }
+    /// Until there is one more final picture.
     void rest() {
-        const std::size_t before = clients.frames_of(kPainter);
+        const std::size_t before = clients.frames_of(kDriver);
         for (int i = 0; i < 2000; ++i) {
             step();
-            if (clients.frames_of(kPainter) > before &&
-                (frame_flags(*clients.frames[kPainter].back()) & 4) != 0)
+            if (clients.frames_of(kDriver) > before &&
+                (frame_flags(*clients.frames[kDriver].back()) & 4) != 0)
                 return;
         }
         FAIL("the view does not come to rest");
@@ -99,24 +64,7 @@ struct PaintedWalk {
         }
         return newest;
     }
-    std::string saved(const std::string& name = "picture.hdr") {
-        std::string bytes;
-        inbox.save("/save/" + name, WebReply([&](WebAnswer answer) { bytes = answer.bytes; }));
-        loop->step(stop);
-        return bytes;
-    }
     std::vector<Rgb> pixels() { return read_hdr(saved(), "saved").pixels; }
-
-    Silence warnings;
-    LoadedScene scene;
-    Renderer renderer;
-    RecordedClients clients;
-    std::map<ClientId, std::size_t> acked;
-    ClientInbox inbox{WelcomeReply{}};
-    std::unique_ptr<Executor> executor = make_executor(kDefaultExecutor, 2);
-    WalkScreen screen{*executor};
-    std::optional<RenderLoop> loop;
-    StopFlag stop;
 };
 
 json paint(double red, double specularity = 0) {
@@ -135,9 +83,9 @@ json lamp(double red) {
 TEST_CASE("edited walk: the picture becomes that of the changed scene, and most points are kept") {
     PaintedWalk walk(painted_room());
     const std::vector<Rgb> built = walk.pixels();
-    walk.edit(kPainter, 3, json::array({paint(.9)}));
+    walk.edit(kDriver, 3, json::array({paint(.9)}));
     walk.rest();
-    const json edited = walk.told(kOnlooker, "edited");
+    const json edited = walk.told(kWatcher, "edited");
     CHECK(edited["id"] == 3);
     CHECK(edited["refused"].empty());
     CHECK(edited["materials"] == json::array({paint(.9)}));
@@ -147,11 +95,11 @@ TEST_CASE("edited walk: the picture becomes that of the changed scene, and most 
     CHECK(walk.pixels() == red.pixels());
     CHECK(walk.pixels() != built);
     // A reflection more than before, then all as it was.
-    walk.edit(kPainter, 4, json::array({paint(.5, .1)}));
+    walk.edit(kDriver, 4, json::array({paint(.5, .1)}));
     walk.rest();
     PaintedWalk polished(painted_room(".5 .5 .5 .1 0"));
     CHECK(walk.pixels() == polished.pixels());
-    walk.edit(kPainter, 5, json::array());
+    walk.edit(kDriver, 5, json::array());
     walk.rest();
     CHECK(walk.pixels() == built);
 }
@@ -161,9 +109,9 @@ TEST_CASE("edited walk: the first picture after a change has the new colour wher
     const std::vector<Rgb> built = walk.pixels();
     PaintedWalk red(painted_room("1 .5 .5 0 0"));
     const std::vector<Rgb> expected = red.pixels();
-    const std::size_t frames = walk.clients.frames_of(kPainter);
-    walk.edit(kPainter, 1, json::array({paint(1)}));
-    for (int i = 0; i < 100 && walk.clients.frames_of(kPainter) == frames; ++i) walk.step();
+    const std::size_t frames = walk.clients.frames_of(kDriver);
+    walk.edit(kDriver, 1, json::array({paint(1)}));
+    for (int i = 0; i < 100 && walk.clients.frames_of(kDriver) == frames; ++i) walk.step();
     const std::vector<Rgb> first = walk.pixels();
     REQUIRE(first.size() == expected.size());
     // Of pixels at edges the rays of a picture at rest go elsewhere.
@@ -181,9 +129,9 @@ TEST_CASE("edited walk: the first picture after a change has the new colour wher
 
 TEST_CASE("edited walk: another lamp changes all light, and indirect light is calculated anew") {
     PaintedWalk walk(painted_room(), 1);
-    walk.edit(kPainter, 1, json::array({lamp(80)}));
+    walk.edit(kDriver, 1, json::array({lamp(80)}));
     walk.rest();
-    CHECK(walk.told(kPainter, "edited")["kept"] == 0);
+    CHECK(walk.told(kDriver, "edited")["kept"] == 0);
     PaintedWalk brighter(painted_room(".5 .5 .5 0 0", "80 40 40"), 1);
     const std::vector<Rgb> is = walk.pixels(), should = brighter.pixels();
     double sum = 0, expected = 0;
@@ -197,22 +145,22 @@ TEST_CASE("edited walk: another lamp changes all light, and indirect light is ca
 TEST_CASE(
     "edited walk: only the driver changes materials, newcomers are told, and there is a file") {
     PaintedWalk walk(painted_room());
-    walk.edit(kOnlooker, 1, json::array({paint(.9)}));
+    walk.edit(kWatcher, 1, json::array({paint(.9)}));
     walk.step();
-    CHECK_FALSE(walk.clients.got(kOnlooker, "edited"));
+    CHECK_FALSE(walk.clients.got(kWatcher, "edited"));
     CHECK(walk.saved("materials.rad").find("plastic") == std::string::npos);
-    walk.edit(kPainter, 2, json::array({paint(.9), lamp(-1)}));
+    walk.edit(kDriver, 2, json::array({paint(.9), lamp(-1)}));
     walk.step();
-    const json edited = walk.told(kPainter, "edited");
+    const json edited = walk.told(kDriver, "edited");
     REQUIRE(edited["refused"].size() == 1);
     CHECK(edited["refused"][0]["name"] == "lamp");
     CHECK(edited["materials"].size() == 1);
     walk.inbox.message(ClientId{3}, hello("0123456789abcdef77"));
     CHECK(walk.clients.got(ClientId{3}, "edited", "\"paint\""));
     CHECK(walk.saved("materials.rad").find("0.9") != std::string::npos);
-    walk.inbox.message(kOnlooker, R"({"type":"material","id":8,"x":0.4,"y":0.45})");
+    walk.inbox.message(kWatcher, R"({"type":"material","id":8,"x":0.4,"y":0.45})");
     walk.step();
-    const json material = walk.told(kOnlooker, "material");
+    const json material = walk.told(kWatcher, "material");
     CHECK(material["surface"] == "ball");
     CHECK(material["layers"][0]["reals"][0] == .9);
     CHECK(material["layers"][0]["built"][0] == .5);
@@ -220,9 +168,9 @@ TEST_CASE(
 
 TEST_CASE("edited walk: a scene that cannot be changed says so, and goes on as it is") {
     PaintedWalk walk(painted_room(), 0, false);
-    walk.edit(kPainter, 2, json::array({paint(.9)}));
+    walk.edit(kDriver, 2, json::array({paint(.9)}));
     walk.step();
-    const json edited = walk.told(kPainter, "edited");
+    const json edited = walk.told(kDriver, "edited");
     CHECK(edited["materials"].empty());
     REQUIRE(edited["refused"].size() == 1);
     CHECK(edited["refused"][0]["why"] == "the scene cannot be changed here");

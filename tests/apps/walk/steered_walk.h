@@ -48,7 +48,11 @@ inline SceneSource room(const std::string& text = kRoom) {
 /// A walk without a server: two pages that are one step away.
 struct Walk {
     explicit Walk(const LoadedScene& scene, double rate = 30, bool groups = false)
-        : renderer(scene, options_of(true, groups)) {
+        : Walk(scene, options_of(true, groups), rate) {}
+    /// @param changes  whether its scene may be changed
+    Walk(const LoadedScene& scene, const RendererOptions& renderer_options, double rate = 30,
+         bool changes = true)
+        : renderer(scene, renderer_options) {
         inbox.attach(clients);
         for (const ClientId client : {kDriver, kWatcher})
             inbox.message(client,
@@ -56,7 +60,7 @@ struct Walk {
         View home;
         home.position = {0, -4, 1.5};
         RenderLoopOptions options{rate, 1, "lightwalk walk"};
-        options.change = scene_changer(renderer.backend());
+        if (changes) options.change = scene_changer(renderer.backend());
         loop.emplace(std::move(options), renderer.backend().session(), home,
                      renderer.backend().frames(), *executor, warnings, inbox, screen);
     }
