@@ -3,22 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "core/model/model_change.h"
 #include "core/model/primitive.h"
 
 namespace lightwalk::test {
-
-/// A surface as a primitive that owns its arguments.
-[[nodiscard]] inline Primitive to_primitive(const SurfacePrimitive& surface) {
-    Primitive primitive;
-    primitive.type = surface.type;
-    primitive.modifier = surface.modifier;
-    primitive.name = std::string(surface.name);
-    primitive.strings = surface.strings.to_strings();
-    for (std::size_t i = 0; i < surface.reals.size(); ++i)
-        primitive.reals.push_back(surface.reals[i]);
-    primitive.where = surface.where();
-    return primitive;
-}
 
 /// A SurfacePrimitive that refers to a primitive, which must outlive it.
 [[nodiscard]] inline SurfacePrimitive view_of(const Primitive& primitive) {

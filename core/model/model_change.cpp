@@ -1,9 +1,8 @@
 #include "core/model/model_change.h"
 
 namespace lightwalk {
-namespace {
 
-Primitive primitive_of(const SurfacePrimitive& surface) {
+Primitive to_primitive(const SurfacePrimitive& surface) {
     Primitive primitive;
     primitive.type = surface.type;
     primitive.modifier = surface.modifier;
@@ -15,14 +14,12 @@ Primitive primitive_of(const SurfacePrimitive& surface) {
     return primitive;
 }
 
-}  // namespace
-
 ModelChange unchanged(const Model& model) {
     ModelChange change{model.modifiers, {}};
     std::size_t others = 0;
     for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
         if (model.surfaces.type(i) == PrimitiveType::source)
-            change.sources.push_back({others, primitive_of(model.surfaces[i])});
+            change.sources.push_back({others, to_primitive(model.surfaces[i])});
         else
             ++others;
     }

@@ -9,6 +9,9 @@
 
 namespace lightwalk {
 
+/// A surface as a primitive that owns its arguments.
+[[nodiscard]] Primitive to_primitive(const SurfacePrimitive& surface);
+
 /// A source at infinity, and its place among the scene's other surfaces.
 struct PlacedSource {
     std::size_t before = 0;  ///< how many surfaces stand before it that are no sources

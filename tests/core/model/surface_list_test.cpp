@@ -81,7 +81,7 @@ void check_same(const SurfaceList& list, const std::vector<Primitive>& expected)
     REQUIRE(list.size() == expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         CAPTURE(i);
-        const Primitive found = test::to_primitive(list[i]);
+        const Primitive found = to_primitive(list[i]);
         CHECK(found.type == expected[i].type);
         CHECK(found.modifier == expected[i].modifier);
         CHECK(found.name == expected[i].name);

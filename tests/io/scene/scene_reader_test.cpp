@@ -30,8 +30,7 @@ struct Parsed {
     /// Modifiers come first, then the surfaces.
     [[nodiscard]] Primitive at(std::size_t i) const {
         const std::size_t modifiers = model->modifiers.size();
-        return i < modifiers ? model->modifiers[i]
-                             : test::to_primitive(model->surfaces[i - modifiers]);
+        return i < modifiers ? model->modifiers[i] : to_primitive(model->surfaces[i - modifiers]);
     }
     [[nodiscard]] std::size_t size() const { return model->size(); }
     /// Last primitive with this name.
