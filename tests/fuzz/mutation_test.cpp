@@ -16,7 +16,12 @@
 namespace lightwalk::test {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__)  // four times as slow; without it all are run, and their memory
+                                   // is watched
+constexpr int kMutants = 4000;
+#else
 constexpr int kMutants = 10000;
+#endif
 constexpr unsigned kHangSeconds = 5;
 constexpr long kMaxMemory = 1 << 20;  // [KiB]
 

@@ -5,8 +5,8 @@ values of the function language, records of single rays, pictures. They must agr
   compare_levels.py [--shared DIR] [--work DIR] [--release FOLDER] [--scale N] [--all-tests] [LEVEL...]
 
 LEVEL: v2, v3, v4-256, v4-512 (vectors of so many bits preferred); default: all. One that this processor cannot run is
-said and left out. With --release FOLDER the project's own build there, made for v3 by the preset, stands for v3: its tests
-are run elsewhere. Reference scenes come from DIR (default: ../shared); without them the demo scene alone is rendered.
+said and left out. With --release FOLDER the project's own build there, made for v3 by the preset, stands for v3 (its tests
+are run elsewhere), and v4-512 is core and parallel for that level, with the rest of that build. Reference scenes come from DIR (default: ../shared); without them the demo scene alone is rendered.
 --scale makes pictures N times as large a side. --all-tests builds and runs all tests in each level: some ten minutes each.
 Exit 0: all agree, 1: something differs or fails.
 """
@@ -27,6 +27,7 @@ V4 = V3 | {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}
 LEVELS = {"v2": ("x86-64-v2", "", V2), "v3": ("x86-64-v3", "", V3),
           "v4-256": ("x86-64-v4", "-mprefer-vector-width=256", V4), "v4-512": ("x86-64-v4", "-mprefer-vector-width=512", V4)}
 TARGETS = ["lightwalk", "lightwalk_level_tests", "lightwalk_level_values"]
+SECOND = "_second_level"  # ends the names of the targets in the project's own build that are for another level
 DIRECT = "-ps 1 -ab 0 -av .1 .1 .1"
 AMBIENT = "--deterministic -ps 1 -ab 1 -ad 256 -as 64 -aa .15 -ar 64 -av .1 .1 .1"
 LODGE = "apps/scenes/lodge"
@@ -79,10 +80,16 @@ def build(name, work, shared, targets):
     return folder
 
 
-def run_tests(folder, everything):
+def build_second(folder, level):
+    """In the project's own build."""
+    call(["cmake", f"-DLIGHTWALK_SECOND_LEVEL={level}", folder])
+    call(["ninja", "-C", folder, *(target + SECOND for target in TARGETS)])
+
+
+def run_tests(folder, everything, suffix=""):
     """Run those of functions, textures and lights, or all that the project has; what ctest says of them."""
     if not everything:
-        call([folder / "tests" / "lightwalk_level_tests", "--minimal"])
+        call([folder / "tests" / ("lightwalk_level_tests" + suffix), "--minimal"])
         return "passes its tests"
     said = call(["ctest", "--test-dir", folder, "-j", os.cpu_count(), "--output-on-failure"]).decode()
     return next(line for line in said.splitlines() if "tests passed" in line)
@@ -107,12 +114,12 @@ def place(folder, shared):
 class Build:
     """A build's programs, as they run here, under an emulator, or with more set in their environment."""
 
-    def __init__(self, folder, shared, emulator=(), more=None):
-        self.folder, self.shared, self.emulator = folder, shared, emulator
+    def __init__(self, folder, shared, emulator=(), more=None, suffix=""):
+        self.folder, self.shared, self.emulator, self.suffix = folder, shared, emulator, suffix
         self.environment = dict(os.environ, RAYPATH=".:../lib", **(more or {}))
 
     def call(self, program, words, **more):
-        return call([*self.emulator, self.folder / program, *words], env=self.environment, **more)
+        return call([*self.emulator, self.folder / (program + self.suffix), *words], env=self.environment, **more)
 
     def values(self):
         return self.call("tests/lightwalk_level_values", [])
@@ -185,11 +192,17 @@ def check(name, given, shared, first):
     """Build and run a level; its results, and whether an old processor computes the same."""
     start = time.monotonic()
     released = name == "v3" and given.release is not None
+    second = SECOND if name == "v4-512" and given.release is not None and not given.all_tests else ""
     targets = ["all", "lightwalk_level_values"] if given.all_tests else TARGETS
-    folder = build_released(given.release.resolve()) if released else build(name, given.work.resolve(), shared, targets)
+    if released or second:
+        folder = build_released(given.release.resolve())
+        if second:
+            build_second(folder, LEVELS[name][0])
+    else:
+        folder = build(name, given.work.resolve(), shared, targets)
     built = time.monotonic()
-    passed = "released" if released else run_tests(folder, given.all_tests)
-    found = Build(folder, shared).results(given.scale)
+    passed = "released" if released else run_tests(folder, given.all_tests, second)
+    found = Build(folder, shared, suffix=second).results(given.scale)
     print(f"{name}: built in {built - start:.0f} s, {passed}, ran in {time.monotonic() - built:.0f} s", flush=True)
     if first:
         for what, output in found.items():
