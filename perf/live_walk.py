@@ -19,7 +19,9 @@ frames as they come; else one that draws the camera from them, and is sent depth
 Where the scene has dimmers (--options "--light-group auto") a third line, `dim`: the view rests, all its pixels are traced, and one after the
 other the dimmers are drawn to and fro, sixty levels a second. The latency is from sending a level to the next frame.
 Where a generator makes the scene's sky one more, `hours`: the view rests, and the hour is drawn from nine to five and back, sixty times a
-second. The rate is of pictures at other hours; the latency is from sending an hour to the next frame.
+second. The rate is of pictures at other hours; the latency is from sending an hour to the next frame. Then the hand lets go. Where there is
+indirect light (--options "-ab 1") a line `after` says how long until the picture is whole in size, until all of it shows indirect light, be
+it a draft, until its direct light is exact, and until all is but for finer edges; as the server tells, four times a second [s].
 
 With --rate the client is behind a link that carries so many Mbit/s, and with --delay behind a round trip of so many ms. What waits on
 the way, in a queue of the server's or of the link's, comes on top of the delay in `latency`.
@@ -128,6 +130,7 @@ class Client:
                 self.reuse.append(message["reuse"])
                 self.guessed.append(message.get("guessed", 0))  # servers of before do not tell
                 self.inferred.append(message.get("inferred", 0))
+                self.states.append((time.monotonic(), message))
             elif message["type"] == "failed":
                 sys.exit("\n".join(message["messages"]))
             elif message["type"] == "loaded":
@@ -141,6 +144,7 @@ class Client:
         self.finished = frame.finished
         self.bytes += frame.bytes
         self.width += frame.width
+        self.widths.append((time.monotonic(), frame.width))
         now = time.monotonic()
         for ident in [ident for ident in self.sent if ident <= frame.view or self.dims]:
             self.latency.append(now - self.sent.pop(ident))
@@ -148,16 +152,17 @@ class Client:
     def forget(self):
         self.sent, self.frames, self.latency, self.bytes, self.reuse, self.width = {}, 0, [], 0, [], 0
         self.inferred, self.guessed, self.dims, self.hours = [], [], False, 0
+        self.states, self.widths = [], []
 
     def dim(self, name, level):
         self.ident += 1
         self.sent[self.ident], self.dims = time.monotonic(), True
         self.socket.send({"type": "lights", "levels": [{"name": name, "level": level, "rgb": [1, 1, 1]}]})
 
-    def set_hour(self, hour):
+    def set_hour(self, hour, moving=True):
         self.ident += 1
         self.sent[self.ident], self.dims = time.monotonic(), True
-        self.socket.send({"type": "time", "time": {**self.loaded["time"]["time"], "hour": hour}, "moving": True})
+        self.socket.send({"type": "time", "time": {**self.loaded["time"]["time"], "hour": hour}, "moving": moving})
 
 
 def port_behind(port, args):
@@ -203,6 +208,26 @@ def measure_hours(client, view, seconds):
         client.listen(now + 1 / 60)
     found = figures(client, time.monotonic() - start)
     return {**found, "fps": min(client.frames, client.hours) / (time.monotonic() - start)}
+
+
+def measure_after(client, view, seconds):
+    """How long after another hour until its light is there."""
+    measure_hours(client, view, min(seconds, 2))
+    client.forget()
+    start, client.finished = time.monotonic(), False
+    client.set_hour(15, moving=False)
+    refined = lambda: [state for _, state in client.states[-1:] if state["phase"] in ("refining", "done")]
+    while not refined() and time.monotonic() < start + MOST_REST:
+        client.listen(time.monotonic() + 0.1)
+
+    def first(happened, found):
+        return min((when - start for when, what in happened if found(what)), default=math.inf)
+    whole = first(client.widths, lambda width: width == client.size[0])
+    states = [(when, state) for when, state in client.states if when - start >= whole]
+    is_lit = lambda state: state["phase"] in ("refining", "done")
+    return {"whole size s": whole,
+            "indirect s": first(states, lambda state: state.get("inferred", 0) > 0 or state["phase"] == "ambient" and state["share"] > 0 or is_lit(state)),
+            "direct exact s": first(states, lambda state: state["phase"] == "ambient" or is_lit(state)), "exact s": first(states, is_lit)}
 
 
 def measure_dimming(client, view, seconds):
@@ -269,6 +294,8 @@ def main():
                 view["vertical"] = 2 * math.degrees(math.atan(math.tan(math.radians(view["horizontal"]) / 2) * size[1] / size[0]))
                 others = {"dim": measure_dimming if client.loaded.get("lights") else None,
                           "hours": measure_hours if "refused" not in (client.loaded.get("time") or {"refused": ""}) else None}
+                if others["hours"] and "-ab" in args.options:
+                    others["after"] = measure_after
                 for walk in [*WALKS, *(name for name, known in others.items() if known)]:
                     found = measure(client, view, walk, args.seconds) if walk in WALKS else others[walk](client, view, args.seconds)
                     row = {"view": place.name, "size": f"{size[0]}x{size[1]}", "walk": walk, **found}
@@ -277,7 +304,8 @@ def main():
                     if not rows:
                         print("\t".join(row))
                     rows.append(row)
-                    print("\t".join(f"{value:.3g}" if isinstance(value, float) else str(value) for value in row.values()), flush=True)
+                    named = lambda name, value: f"{name} {value}" if name not in rows[0] else value
+                    print("\t".join(named(name, f"{value:.3g}" if isinstance(value, float) else str(value)) for name, value in row.items()), flush=True)
     if args.json:
         args.json.write_text(json.dumps(rows, indent=1) + "\n")
 

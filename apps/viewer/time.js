@@ -73,12 +73,12 @@ export function sun_text({ rise, set, altitude }) {
  * @param ambient  see `settings`: whether indirect light is wanted
  */
 export function progress_text(clock, state, ambient) {
-    const indirect = ambient !== "off";
+    const follows = state.inferred > 0 ? "indirect light is a draft" : "indirect light follows";
     if (state.phase === "moving") return `Light of ${clock}, coarse`;
     if (state.phase === "filling")
-        return `Light of ${clock}: ${Math.round(100 * state.share)} % of the picture${indirect ? ", indirect light follows" : ""}`;
+        return `Light of ${clock}: ${Math.round(100 * state.share)} % of the picture${ambient === "off" ? "" : `, ${follows}`}`;
     if (state.phase === "ambient")
-        return `Light of ${clock}; indirect light: ${Math.round(100 * state.share)} %`;
+        return `Light of ${clock}; indirect light: ${Math.round(100 * state.share)} %${state.inferred > 0 ? ", else a draft" : ""}`;
     if (state.phase === "refining") return `Light of ${clock}; edges become finer`;
     return `Light of ${clock}`;
 }

@@ -380,8 +380,8 @@ void RenderLoop::report(Clock::time_point now) {
     const double seconds = std::chrono::duration<double>(now - pace_.since).count();
     StateReply state;
     state.fps = pace_.frames / seconds;
-    state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1;
-    state.inferred = pace_.pixels > 0 ? pace_.inferred / pace_.pixels : 0;
+    state.inferred = pace_.pixels > 0 ? pace_.inferred / pace_.pixels : live_.picture().inferred;
+    state.reuse = pace_.pixels > 0 ? pace_.reused / pace_.pixels : 1 - state.inferred;
     state.guessed = pace_.pixels > 0 ? pace_.guessed / pace_.pixels : 0;
     state.rays_per_second = static_cast<double>(pace_.rays) / seconds;
     state.phase = live_.picture().phase;

@@ -8,7 +8,7 @@ namespace {
 
 // Choosing them takes a pass over the picture.
 constexpr std::size_t kMostPixels = 65536;
-constexpr int kOvertureSpacing = 8;  // [pixels]
+constexpr int kOvertureSpacing = 8, kCoarsestOfDraft = 4;  // [pixels]
 // Of a finer grid single pixels are shown only where it does not show that others are not: a wall
 // with dots on it looks worse than a wall that waits [pixels].
 constexpr int kUnseen = 2;
@@ -18,7 +18,8 @@ constexpr float kFarWeight = 0.01f;  // of its light; not 0, lest there be none 
 }  // namespace
 
 void ProgressiveLight::begin(std::span<const Rgb> radiance, std::span<const float> distance,
-                             std::span<const Rgb> groups) {
+                             std::span<const Rgb> groups, bool drafted) {
+    coarsest_ = drafted ? kCoarsestOfDraft : 1 << (kGridLevels - 1);
     before_.assign(radiance.begin(), radiance.end());
     groups_before_.assign(groups.begin(), groups.end());
     left_.assign(kGridLevels, 0);
@@ -66,12 +67,12 @@ bool ProgressiveLight::step(Trace trace) {
     return true;
 }
 
-/// Spacing of the finest grid that is traced as a whole; 0: none is.
+/// Spacing of the finest grid that is traced as a whole; 0: none is, or none that is to be shown.
 int ProgressiveLight::whole_grid() const {
     int spacing = 0;
     for (int level = 0; level < kGridLevels && left_[static_cast<std::size_t>(level)] == 0; ++level)
         spacing = 1 << (kGridLevels - 1 - level);
-    return spacing;
+    return spacing <= coarsest_ ? spacing : 0;
 }
 
 /// What the grid's pixels around have won, weighted as near as they are, in the picture and in the

@@ -37,9 +37,10 @@ class ProgressiveLight {
         : width_(width), height_(height), work_(width, height, samples) {}
 
     /// @param radiance, distance  row by row from the bottom
-    /// @param groups  what each light group adds to the pixels; empty: they are not kept
+    /// @param groups   what each light group adds to the pixels; empty: they are not kept
+    /// @param drafted  whether the picture is nearly right: then a coarse grid would make it worse
     void begin(std::span<const Rgb> radiance, std::span<const float> distance,
-               std::span<const Rgb> groups = {});
+               std::span<const Rgb> groups = {}, bool drafted = false);
 
     /// Show another mixture of the light groups, where these are kept.
     void mix(const LightMixture& mixture);
@@ -70,6 +71,7 @@ class ProgressiveLight {
     ProgressivePicture work_;
     std::vector<Rgb> before_;
     std::vector<Rgb> groups_before_;  ///< by pixel, then group
+    int coarsest_ = 0;                ///< spacing of grids that are shown [pixels]
     bool overture_ = true;            ///< no pixel counts yet, see step()
     std::vector<std::size_t> left_;   ///< pixels to trace, by level of the grid
     ProgressiveWork chosen_;          ///< of them those that come next

@@ -13,6 +13,7 @@ namespace lightwalk {
 namespace {
 
 constexpr std::size_t kPixelsALiveTask = 16;
+constexpr std::size_t kMostDraftedValues = 1 << 25;  ///< of light groups, some 400 MB
 
 }  // namespace
 
@@ -131,6 +132,7 @@ void LiveFrames::keep_groups(const std::shared_ptr<const LightGroups>& groups) {
 void LiveFrames::change(const Tracer& direct, const Tracer* indirect,
                         const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings) {
     const bool walks_indirect = walking_ != nullptr && walking_ == indirect_.get();
+    draft_.reset();
     direct_ = std::make_unique<WalkLight>(direct, warnings, executor_.concurrency());
     indirect_ = indirect == nullptr
                     ? nullptr
@@ -183,6 +185,18 @@ TracedValues LocalFrames::trace(const View& view, const ProgressiveWork& work, d
                                        options_, work, seconds, executor_, stop, mixture_);
     rays_ = indirect_->contexts.rays().total();
     return values;
+}
+
+ViewDraft LocalFrames::draft(const View& view, double seconds, const StopFlag& stop) {
+    if (options_.whole().pixels() * cloud_.light_groups > kMostDraftedValues) return {};
+    if (!draft_) {
+        draft_ = std::make_unique<FirstLight>(indirect_->tracer, direct_->tracer, light_groups(),
+                                              executor_.concurrency());
+        draft_->mix(mixture_);
+    }
+    const ViewDraft made = draft_->step(view, options_, seconds, executor_, stop);
+    rays_ = draft_->rays();
+    return made;
 }
 
 }  // namespace lightwalk

@@ -15,6 +15,7 @@
 #include "parallel/frame_options.h"
 #include "parallel/stop_flag.h"
 #include "parallel/walk/cloud_frames.h"
+#include "parallel/walk/first_light.h"
 #include "parallel/worker_contexts.h"
 
 namespace lightwalk {
@@ -58,6 +59,7 @@ class LiveFrames {
     ///          are traced; null: the next frame is drawn as one of a new view
     [[nodiscard]] const ProgressivePicture* mix(LightMixture mixture) {
         mixture_ = std::move(mixture);
+        if (draft_) draft_->mix(mixture_);
         return mixed();
     }
 
@@ -105,6 +107,13 @@ class LiveFrames {
     /// @param seconds  after which no more are begun, but some are at once
     [[nodiscard]] virtual TracedValues trace(const View& view, const ProgressiveWork& work,
                                              double seconds, const StopFlag& stop) = 0;
+    /// A draft of what indirect light adds to the pixels of a view, in pictures of this size; it is
+    /// there until that of another one is asked for.
+    /// @param seconds  of work at it
+    [[nodiscard]] virtual ViewDraft draft(const View& /*view*/, double /*seconds*/,
+                                          const StopFlag& /*stop*/) {
+        return {};
+    }
     /// See draw_small_sources(); by all light there is.
     /// @param indirect  false: by the light of the frames
     void add_small_sources(const View& view, Frame& frame, bool indirect = true);
@@ -127,6 +136,7 @@ class LiveFrames {
     FrameOptions options_;
     Executor& executor_;
     std::unique_ptr<WalkLight> direct_, indirect_;  ///< indirect_: knows both, or is null
+    std::unique_ptr<FirstLight> draft_;             ///< of this light; null: not asked for yet
     WalkLight* walking_ = nullptr;                  ///< of the frames
     LightMixture mixture_;                          ///< of the light groups
     std::optional<ShownMaterials> outdated_;        ///< see outdate_only
@@ -165,6 +175,7 @@ class LocalFrames final : public LiveFrames {
     }
     [[nodiscard]] TracedValues trace(const View& view, const ProgressiveWork& work, double seconds,
                                      const StopFlag& stop) override;
+    [[nodiscard]] ViewDraft draft(const View& view, double seconds, const StopFlag& stop) override;
 
   private:
     double outdate(const ShownMaterials* only) override;

@@ -9,6 +9,13 @@ namespace {
 // Of the pixels, to be chosen for the first step at rest; twice what was traced for each next one.
 constexpr double kFirstShare = 0.02, kLeastShare = 0.001;
 
+/// Light is nowhere less than none.
+void add_all(std::span<const Rgb> more, std::vector<Rgb>& pixels) {
+    std::ranges::transform(pixels, more, pixels.begin(), [](const Rgb& a, const Rgb& b) {
+        return Rgb{std::max(a.r + b.r, 0.0f), std::max(a.g + b.g, 0.0f), std::max(a.b + b.b, 0.0f)};
+    });
+}
+
 }  // namespace
 
 void LiveWalk::begin(int width, int height, WalkAmbient use) {
@@ -29,6 +36,7 @@ void LiveWalk::resize(int width, int height) {
 void LiveWalk::look_anew() {
     if (view_) frames_.forget_view();
     view_.reset();
+    draft_ = nullptr;
 }
 
 bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, double budget,
@@ -39,6 +47,8 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
         resize(width, height);
     if (view_ != view) {
         progressive_.reset();
+        draft_ = nullptr;
+        drafting_ = use == WalkAmbient::rest && frames_.has_indirect();
         refine_ = kFirstShare;
         view_ = view;
         if (draw(view, false, budget, stop)) return true;
@@ -49,13 +59,9 @@ bool LiveWalk::next(const View& view, int width, int height, WalkAmbient use, do
     const ProgressivePicture* picture = frames_.progressive(stop);
     if (stop.requested()) return false;
     const bool adds_light = use_ == WalkAmbient::rest && frames_.has_indirect();
+    if (drafting_) return draft_light(budget, stop);
     if (adds_light && picture != nullptr && picture->open_pixels() == 0) {
-        progressive_ = std::make_unique<ProgressiveLight>(width, height, samples_);
-        if (picture->knows_groups())
-            progressive_->begin(picture->radiance(), picture->distance(), picture->groups());
-        else
-            progressive_->begin(turned_rows(std::span<const Rgb>(picture_.radiance), width),
-                                turned_rows(std::span<const float>(picture_.distance), width));
+        begin_light(*picture);
         return add_light(budget, stop);
     }
     if (picture != nullptr && !picture->finished()) return draw(view, true, budget, stop);
@@ -75,7 +81,8 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     picture_.rays = frames_.rays();
     picture_.report = std::move(drawn.report);
     picture_.phase = WalkPhase::moving;
-    picture_.share = 0;
+    picture_.share = picture_.inferred = 0;
+    undrafted_ = picture_.radiance;
     if (!rests) return true;
     const auto pixels = static_cast<double>(picture_.radiance.size());
     const auto traced = static_cast<double>(
@@ -85,7 +92,46 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     const std::size_t open = progressive != nullptr ? progressive->open_pixels() : 0;
     picture_.share = 1 - static_cast<double>(open) / pixels;
     picture_.phase = open > 0 ? WalkPhase::filling : WalkPhase::refining;
+    add_draft();
     return true;
+}
+
+/// Before the pixels are traced: indirect light is most of what is missing.
+bool LiveWalk::draft_light(double budget, const StopFlag& stop) {
+    const ViewDraft made = frames_.draft(*view_, budget, stop);
+    if (stop.requested()) return false;
+    draft_ = made.best;
+    drafting_ = !made.last;
+    picture_.rays = frames_.rays();
+    picture_.phase = WalkPhase::filling;
+    picture_.share = 0;
+    add_draft();
+    return true;
+}
+
+/// To a picture without indirect light.
+void LiveWalk::add_draft() {
+    picture_.inferred = draft_ != nullptr ? 1 : 0;
+    if (draft_ == nullptr) return;
+    picture_.radiance = undrafted_;
+    add_all(turned_rows(draft_->added(), width_), picture_.radiance);
+}
+
+/// What is traced from here on takes the place of the draft.
+void LiveWalk::begin_light(const ProgressivePicture& direct) {
+    progressive_ = std::make_unique<ProgressiveLight>(width_, height_, samples_);
+    const bool drafted = draft_ != nullptr;
+    if (!direct.knows_groups())
+        return progressive_->begin(turned_rows(std::span<const Rgb>(picture_.radiance), width_),
+                                   turned_rows(std::span<const float>(picture_.distance), width_),
+                                   {}, drafted);
+    std::vector<Rgb> radiance(direct.radiance().begin(), direct.radiance().end());
+    std::vector<Rgb> groups(direct.groups().begin(), direct.groups().end());
+    if (drafted) {
+        add_all(draft_->added(), radiance);
+        add_all(draft_->groups(), groups);
+    }
+    progressive_->begin(radiance, direct.distance(), groups, drafted);
 }
 
 /// Rows from the bottom, without small light sources.
@@ -113,6 +159,8 @@ bool LiveWalk::mix(const LightMixture& mixture) {
         return false;
     }
     take(direct->radiance(), direct->distance(), false);
+    undrafted_ = picture_.radiance;
+    add_draft();
     picture_.phase = std::min(picture_.phase, WalkPhase::refining);
     return true;
 }
@@ -123,6 +171,7 @@ bool LiveWalk::add_light(double budget, const StopFlag& stop) {
     take(progressive_->picture(), progressive_->distance(), true);
     picture_.rays = worked ? frames_.rays() : 0;
     picture_.share = progressive_->share();
+    picture_.inferred = draft_ != nullptr && worked ? 1 - picture_.share : 0;
     picture_.phase = !worked              ? WalkPhase::done
                      : picture_.share < 1 ? WalkPhase::ambient
                                           : WalkPhase::refining;

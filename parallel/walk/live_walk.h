@@ -19,6 +19,8 @@ struct LivePicture {
     std::vector<float> distance;  ///< along the pixels' rays [m]
     WalkPhase phase = WalkPhase::moving;
     double share = 0;  ///< of that phase's work that is done, 0 ... 1
+    double inferred =
+        0;  ///< of the pixels of a view that rests, which have a draft of indirect light
     CloudReport report;
     std::uint64_t rays = 0;  ///< that it took
 };
@@ -48,15 +50,21 @@ class LiveWalk {
     void begin(int width, int height, WalkAmbient use);
     void resize(int width, int height);
     [[nodiscard]] bool draw(const View& view, bool rests, double budget, const StopFlag& stop);
+    [[nodiscard]] bool draft_light(double budget, const StopFlag& stop);
+    void begin_light(const ProgressivePicture& direct);
     [[nodiscard]] bool add_light(double budget, const StopFlag& stop);
+    void add_draft();
     void take(std::span<const Rgb> radiance, std::span<const float> distance, bool indirect);
 
     LiveFrames& frames_;
     int samples_;
     int width_ = 0, height_ = 0;
     WalkAmbient use_ = WalkAmbient::off;
-    double refine_ = 0;         ///< see LiveFrames::draw
-    std::optional<View> view_;  ///< of the last picture
+    double refine_ = 0;                  ///< see LiveFrames::draw
+    std::optional<View> view_;           ///< of the last picture
+    bool drafting_ = false;              ///< a better draft will come
+    const DraftLight* draft_ = nullptr;  ///< of view_; null: there is none
+    std::vector<Rgb> undrafted_;         ///< the last picture without it
     std::unique_ptr<ProgressiveLight> progressive_;
     LivePicture picture_;
 };

@@ -43,12 +43,14 @@ test("the sun's day, and a day without rise or set", () => {
 });
 
 test("what is not exact yet is said", () => {
-    const text = (phase, share, ambient = "rest") =>
-        progress_text("14:30", { phase, share }, ambient);
+    const text = (phase, share, ambient = "rest", inferred = 0) =>
+        progress_text("14:30", { phase, share, inferred }, ambient);
     assert.match(text("moving", 0), /coarse/);
     assert.match(text("filling", 0.5), /50 %.*indirect light follows/);
     assert.doesNotMatch(text("filling", 0.5, "off"), /indirect/);
-    assert.match(text("ambient", 0.25), /indirect light: 25 %/);
+    assert.match(text("ambient", 0.25), /indirect light: 25 %$/);
+    assert.match(text("filling", 0.5, "rest", 1), /50 %.*indirect light is a draft/);
+    assert.match(text("ambient", 0.25, "rest", 0.75), /indirect light: 25 %, else a draft/);
     assert.equal(text("done", 1), "Light of 14:30");
 });
 

@@ -18,11 +18,11 @@ std::size_t index_of(const PixelPlace& place) {
 
 /// The left half is near, the right half far; each has as much more light as is given.
 struct Rested {
-    Rested(float left, float right) : won{left, right} {
+    Rested(float left, float right, bool drafted = false) : won{left, right} {
         std::vector<float> distance;
         for (int i = 0; i < kAcross * kDown; ++i)
             distance.push_back(i % kAcross < kAcross / 2 ? kNear : kFar);
-        light.begin(std::vector<Rgb>(distance.size(), Rgb::grey(1)), distance);
+        light.begin(std::vector<Rgb>(distance.size(), Rgb::grey(1)), distance, {}, drafted);
     }
     [[nodiscard]] PixelValue value(const PixelPlace& place) const {
         const bool near = place.x < kAcross / 2;
@@ -81,6 +81,18 @@ TEST_CASE("progressive light: until the coarsest grid is whole the picture is th
     CHECK(rested.step(coarsest - 1));
     CHECK(rested.light.picture() == std::vector<Rgb>(kAcross * kDown, Rgb::grey(1)));
     CHECK(rested.step(1));
+    for (const Rgb& pixel : rested.light.picture()) CHECK(pixel.g == doctest::Approx(5));
+}
+
+TEST_CASE(
+    "progressive light: of a draft no grid is shown that is coarser than every fourth pixel") {
+    Rested rested(4, 4, true);
+    rested.play_overture();
+    const std::size_t every_fourth = 9 * 5;
+    while (rested.traced < every_fourth) {
+        CHECK(rested.light.picture() == std::vector<Rgb>(kAcross * kDown, Rgb::grey(1)));
+        CHECK(rested.step(5));
+    }
     for (const Rgb& pixel : rested.light.picture()) CHECK(pixel.g == doctest::Approx(5));
 }
 

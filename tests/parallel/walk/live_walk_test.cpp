@@ -153,6 +153,38 @@ TEST_CASE("indirect light comes while a view rests, and ends as the picture that
     CHECK(error(early->radiance) < 0.5 * error(direct.radiance));
 }
 
+TEST_CASE("a draft of indirect light comes first, is told as such, and nothing of it stays") {
+    Walker walker(1);
+    const View view = view_at(0);
+    const Frame truth = walker.rendered(walker.full, view);
+    std::vector<LivePicture> all;
+    const LivePicture last = walker.rest(view, WalkAmbient::rest, &all);
+    CHECK(last.inferred == 0);
+    CHECK(last.radiance == truth.radiance);
+    const auto first = std::find_if(
+        all.begin(), all.end(), [](const LivePicture& picture) { return picture.inferred > 0; });
+    REQUIRE(first != all.end());
+    CHECK(first->inferred == 1);
+    CHECK(first->phase == WalkPhase::filling);
+    for (auto picture = first; picture != all.end(); ++picture) {
+        if (picture->phase == WalkPhase::filling) CHECK(picture->inferred == 1);
+        if (picture->phase == WalkPhase::ambient)
+            CHECK(picture->inferred == doctest::Approx(1 - picture->share));
+    }
+    const auto light = std::find_if(all.begin(), all.end(), [](const LivePicture& picture) {
+        return picture.phase == WalkPhase::ambient;
+    });
+    REQUIRE(light != all.end());
+    double error = 0, sum = 0;
+    for (std::size_t i = 0; i < truth.radiance.size(); ++i) {
+        const Rgb &drafted = light->radiance[i], &right = truth.radiance[i];
+        error += static_cast<double>(std::abs(brightness(drafted) - brightness(right)));
+        sum += static_cast<double>(brightness(right));
+    }
+    CHECK(error < 0.1 * sum);  // both are of few rays
+    CHECK(walker.next(view_at(0.05), WalkAmbient::rest).inferred == 0);
+}
+
 TEST_CASE("indirect light is always there, or never, where that is asked for") {
     Walker walker(1);
     CHECK(walker.rest(view_at(0), WalkAmbient::always).radiance ==
