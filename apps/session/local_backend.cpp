@@ -68,19 +68,9 @@ LiveFrames& LocalBackend::frames() {
     return *frames_;
 }
 
-/// An ambient file is of the light that the scene has been read with.
 void LocalBackend::change(const std::shared_ptr<const CompiledScene>& scene) {
-    auto session = std::make_unique<SceneSession>(scene, options_.light, std::string(),
-                                                  options_.keep_coefficients, quiet_);
-    std::unique_ptr<const Tracer> direct = make_direct(*session, quiet_);
-    const std::shared_ptr<const LightGroups> groups = find_groups(*session);
-    if (frames_)
-        frames_->change(direct ? *direct : session->tracer(), direct ? &session->tracer() : nullptr,
-                        groups, warnings_);
-    contexts_ = WorkerContexts(session->tracer(), warnings_, executor_->concurrency());
-    contexts_.sum_by(groups);
-    direct_ = std::move(direct);
-    session_ = std::move(session);
+    ChangedScene next = make_changed(scene);
+    take_over(next, frames_.get());
 }
 
 /// Records of coefficients for what the rays' hemispheres see, before any of these is answered: an

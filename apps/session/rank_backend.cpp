@@ -2,23 +2,21 @@
 #include "apps/session/rank_backend.h"
 
 #include <algorithm>
+#include <exception>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include "apps/session/picture_order.h"
-#include "apps/session/rank_frames.h"
 #include "core/error.h"
+#include "parallel/comm/model_fields.h"
 
 namespace lightwalk {
 
 RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
                          RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
-    if (options_.reuse) light_.emplace(session_->tracer(), warnings_, executor_->concurrency());
-    if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
-    for (std::optional<WalkLight>* light : {&light_, &direct_light_})
-        if (*light && contexts_.light_groups() != nullptr)
-            (*light)->contexts.sum_by(contexts_.shared_groups());
+    light_frames();
 }
 
 void RankBackend::share_values() {
@@ -145,6 +143,61 @@ LiveFrames& RankBackend::frames() {
     return *frames_;
 }
 
+/// Rank 0 makes its scene at the same time as the others, whose tracing threads do so once they are
+/// done with the frame before; its own ones say no more than that they are.
+void RankBackend::change_model(const ModelChange& change) {
+    ChangeOrder order;
+    order.number = change_ = link_.new_number();
+    answers_to_change_.clear();
+    order.payload = wire::encode(change);
+    if (frames_ && frames_->outdated()) order.shown = frames_->outdated()->flags();
+    link_.start({order});
+    order.payload.clear();
+    ChangedScene next;
+    try {
+        std::exception_ptr problem;
+        try {
+            next = make_changed(changed_scene(change));
+        } catch (const std::exception&) {
+            problem = std::current_exception();
+        }
+        wait_for_prepared();
+        if (problem) std::rethrow_exception(problem);
+        check_prepared();
+    } catch (const std::exception& error) {
+        order.step = ChangeOrder::Step::drop;
+        link_.start({order});
+        throw InputError(error.what());
+    }
+    if (frames_) frames_->set_kept(kept_points());
+    take(std::move(next), order.number);
+    order.step = ChangeOrder::Step::take;
+    link_.start({order});
+}
+
+void RankBackend::wait_for_prepared() {
+    const std::size_t all = link_.topology().workers.size();
+    while (answers_to_change_.size() < all) {
+        if (stop().requested()) throw InputError("the walk ends");
+        receive_news(true);
+    }
+}
+
+void RankBackend::check_prepared() const {
+    for (const auto& [rank, said] : answers_to_change_)
+        if (!said.problem.empty())
+            throw InputError("rank " + std::to_string(rank) + ": " + said.problem);
+}
+
+double RankBackend::kept_points() const {
+    double points = 0, kept = 0;
+    for (const auto& [rank, said] : answers_to_change_) {
+        points += static_cast<double>(said.points);
+        kept += static_cast<double>(std::min(said.kept_points, said.points));
+    }
+    return points > 0 ? kept / points : 0;
+}
+
 /// Nothing: stopped.
 std::optional<AssembledFrame> RankBackend::draw(FrameOrder order, const StopFlag& stop) {
     order.number = link_.new_number();
@@ -183,9 +236,13 @@ void RankBackend::receive_news(bool wait) {
                 },
                 [&](RayAnswer& news) { answers_.push_back(std::move(news.bytes)); },
                 [&](FinishedFrame& news) { frame_ = std::move(news); },
-                [&](const RankNotice& news) {
+                [&](RankNotice& news) {
                     if (const auto* report = std::get_if<Report>(&news.notice.notice))
                         statistics_.reports[news.from] = wire::decode<RankReport>(report->payload);
+                    auto* prepared = std::get_if<PreparedChange>(&news.notice.notice);
+                    if (prepared != nullptr && prepared->number == change_ &&
+                        link_.topology().traces(news.from))
+                        answers_to_change_[news.from] = std::move(*prepared);
                 }},
             some);
     }

@@ -3,6 +3,8 @@
 
 #include "apps/session/picture_order.h"
 #include "apps/session/rank_backend.h"
+#include "core/error.h"
+#include "parallel/comm/model_fields.h"
 #include "parallel/ranks/trace_work.h"
 
 namespace lightwalk {
@@ -26,14 +28,54 @@ void RankBackend::trace() {
         CloudOptions cloud = *options_.reuse;
         if (contexts_.light_groups() != nullptr)
             cloud.light_groups = contexts_.light_groups()->size();
-        return draw_frames(
-            link_, cloud, [this](const FrameOrder& order) { return make_rays(order); }, *executor_,
-            stop());
+        return draw_frames(link_, cloud, walk_scene(), *executor_, stop());
     }
     trace_work(link_,
                {[this](const PictureJob& job) { return make_renderer(job); },
                 [this](const RayChunk& chunk, int worker) { return answer_chunk(chunk, worker); }},
                *executor_, stop());
+}
+
+/// On rank 0 its program makes the scene, and takes it before the others are told to: its threads
+/// wait for the next order then.
+WalkScene RankBackend::walk_scene() {
+    WalkScene scene;
+    scene.make_rays = [this](const FrameOrder& order) { return make_rays(order); };
+    scene.prepare = [this](const std::string& payload) {
+        if (leads()) return;
+        const auto change = wire::decode<ModelChange>(payload);
+        check_sound(change, session_->compiled().model());
+        prepared_ = make_changed(changed_scene(change));
+    };
+    scene.take = [this](FrameNumber number) -> std::size_t {
+        if (!leads()) {
+            if (!prepared_) throw InputError("a scene is to be taken that was not prepared");
+            take(std::move(*prepared_), number);
+            prepared_.reset();
+        }
+        return contexts_.light_groups() != nullptr ? contexts_.light_groups()->size() : 0;
+    };
+    scene.drop = [this] { prepared_.reset(); };
+    return scene;
+}
+
+void RankBackend::take(ChangedScene next, FrameNumber number) {
+    if (link_.exchanges_values()) link_.share(*next.session->freezable, number);
+    take_over(next, frames_.get());
+    light_frames();
+}
+
+void RankBackend::light_frames() {
+    if (light_) {
+        past_counters_.rays += light_->contexts.rays();
+        past_counters_.ambient += light_->contexts.ambient();
+    }
+    if (options_.reuse) light_.emplace(session_->tracer(), warnings_, executor_->concurrency());
+    direct_light_.reset();
+    if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
+    for (std::optional<WalkLight>* light : {&light_, &direct_light_})
+        if (*light && contexts_.light_groups() != nullptr)
+            (*light)->contexts.sum_by(contexts_.shared_groups());
 }
 
 std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob& job) {
@@ -95,8 +137,8 @@ void RankBackend::fill_cache(const Camera& camera, const FrameOptions& options, 
         session_->tracer(), camera, options, how, *session_->freezable, executor, contexts, stop(),
         [](const FrameProgress&) {},
         how == CachePrepass::deterministic ? &link_.workers() : nullptr);
-    prepass_counters_.rays += filled.rays;
-    prepass_counters_.ambient += filled.ambient;
+    past_counters_.rays += filled.rays;
+    past_counters_.ambient += filled.ambient;
 }
 
 RankReport RankBackend::report() const {
@@ -107,8 +149,8 @@ RankReport RankBackend::report() const {
         report.rays += contexts->rays();
         report.ambient += contexts->ambient();
     }
-    report.rays += prepass_counters_.rays;
-    report.ambient += prepass_counters_.ambient;
+    report.rays += past_counters_.rays;
+    report.ambient += past_counters_.ambient;
     return report;
 }
 

@@ -17,6 +17,9 @@ namespace {
 /// What rank 0 says of the scene, before more about it; nothing: it could not read it.
 constexpr char kEachItsOwn = 'e', kShared = 's', kRecorded = 'r';
 
+/// Of a file's bytes that stay for a scene that changes.
+constexpr std::size_t kLargestKept = std::size_t{1} << 18;
+
 using ScenePtr = std::shared_ptr<CompiledScene>;
 
 std::shared_ptr<FileSource> files_of(const RendererRequest& request) {
@@ -72,7 +75,8 @@ ScenePtr follow_reading(RankLink& link, const RendererRequest& request) {
         const auto replay = std::make_shared<FileReplay>(rest);
         ScenePtr scene = read_by(request, std::make_shared<FileRecorder>(replay));
         scene->compile();
-        replay->clear();
+        // A scene that changes may ask once more for what nobody keeps, as function files.
+        replay->clear(request.options.steered ? kLargestKept : 0);
         return scene;
     }
     ScenePtr scene;

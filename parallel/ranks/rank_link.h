@@ -103,10 +103,12 @@ class RankLink {
     /// Whether ambient values are exchanged.
     [[nodiscard]] bool exchanges_values() const { return topology_.ambient_master.has_value(); }
     /// Where they are, new values of the cache go to the other ranks from now on, and it gets
-    /// theirs. Called by all ranks, after agree().
-    /// @param cache  must outlive the work
-    void share(PublishedCache& cache) { cache_.open(cache); }
-    // On rank 0: the next picture, frame of a walk, or rays.
+    /// theirs. Called by all ranks, after agree(), and by those that trace when a walk's scene
+    /// changes; then the cache before is not used any more.
+    /// @param cache  must outlive the work, or its scene
+    /// @param scene  see AmbientValues
+    void share(PublishedCache& cache, std::uint64_t scene = 0) { cache_.open(cache, scene); }
+    // On rank 0: the next picture, frame of a walk, change of its scene, or rays.
     void start(Announcement announcement);
     void add(RayChunk chunk);
     /// Numbers pictures and frames, on rank 0.

@@ -67,34 +67,38 @@ std::vector<Message> some_messages() {
     part.refined_groups = {{1, 2, 3}, {4, 5, 6}};
     FramePart plain = part;
     plain.pixels = values;
-    return {Announcement{PictureJob{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true}},
-            Announcement{order},
-            WorkRequest{2, {{FinishedWork::Payload::rays, 7, 64, .125, 3}, {}}},
-            WorkGrant{{work, RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
-                       PixelRun{3, 1, 7, true, false, {{1, 2}}}},
-                      std::nullopt},
-            WorkGrant{{}, FrameNumber{4}},
-            WorkResult{Pixels{work, values}},
-            WorkResult{Pixels{work, values, {{1, -0.0F, 1e-30F}}}},
-            WorkResult{LoggedPixels{{work, {}}}},
-            WorkResult{RayAnswer{5, std::string("\0\xff", 2)}},
-            WorkResult{TracedRun{3, 1, 7, 3, {{values[0], {}}, one, two}}},
-            WorkResult{TracedRun{3, 1, 7, 3, {}}},
-            WorkResult{TracedRun{3, 1, 7, 3, {one}, {{1, 2, 3}}, {{4, 5, 6}}}},
-            FinishedPart{PicturePart{work, std::string("\0\xff bytes", 8)}},
-            FinishedPart{PicturePart{work, "bytes", {"a", "", "ccc"}}},
-            FinishedPart{part},
-            FinishedPart{plain},
-            UncachedPixels{3, 1, {{1, 2}, {1, 2}}},
-            PointExchange{3, SharedPoints{{some_point(), CloudPoint{}}}},
-            PointExchange{3, SharedPoints{{some_point()}, {{1, 2, 3}, {4, 5, 6}}}},
-            PointExchange{3, UsedPixels{{{1, 2}, {3, 4}}, {{5, 6}}}},
-            AmbientValues{{some_record(1), some_record(-1e-30F)}},
-            AmbientValues{{some_record(1)}, AmbientValues::Direction::news, {{1, 2, 3}, {4, 5, 6}}},
-            Collective{Collective::Group::owners, 9, true, {"a", "", "ccc"}, {1, ~0ULL}},
-            Notice{Failure{"node17", "room.rad:3: what is wrong"}},
-            Notice{Finish{}},
-            Notice{Report{"{}"}}};
+    return {
+        Announcement{PictureJob{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true}},
+        Announcement{order},
+        Announcement{ChangeOrder{12, ChangeOrder::Step::prepare, "a sky", {0, 1, 1}}},
+        Announcement{ChangeOrder{12, ChangeOrder::Step::drop, {}, {}}},
+        WorkRequest{2, {{FinishedWork::Payload::rays, 7, 64, .125, 3}, {}}},
+        WorkGrant{{work, RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
+                   PixelRun{3, 1, 7, true, false, {{1, 2}}}},
+                  std::nullopt},
+        WorkGrant{{}, FrameNumber{4}},
+        WorkResult{Pixels{work, values}},
+        WorkResult{Pixels{work, values, {{1, -0.0F, 1e-30F}}}},
+        WorkResult{LoggedPixels{{work, {}}}},
+        WorkResult{RayAnswer{5, std::string("\0\xff", 2)}},
+        WorkResult{TracedRun{3, 1, 7, 3, {{values[0], {}}, one, two}}},
+        WorkResult{TracedRun{3, 1, 7, 3, {}}},
+        WorkResult{TracedRun{3, 1, 7, 3, {one}, {{1, 2, 3}}, {{4, 5, 6}}}},
+        FinishedPart{PicturePart{work, std::string("\0\xff bytes", 8)}},
+        FinishedPart{PicturePart{work, "bytes", {"a", "", "ccc"}}},
+        FinishedPart{part},
+        FinishedPart{plain},
+        UncachedPixels{3, 1, {{1, 2}, {1, 2}}},
+        PointExchange{3, SharedPoints{{some_point(), CloudPoint{}}}},
+        PointExchange{3, SharedPoints{{some_point()}, {{1, 2, 3}, {4, 5, 6}}}},
+        PointExchange{3, UsedPixels{{{1, 2}, {3, 4}}, {{5, 6}}}},
+        AmbientValues{{some_record(1), some_record(-1e-30F)}},
+        AmbientValues{{some_record(1)}, AmbientValues::Direction::news, {{1, 2, 3}, {4, 5, 6}}, 12},
+        Collective{Collective::Group::owners, 9, true, {"a", "", "ccc"}, {1, ~0ULL}},
+        Notice{Failure{"node17", "room.rad:3: what is wrong"}},
+        Notice{Finish{}},
+        Notice{Report{"{}"}},
+        Notice{PreparedChange{12, "room.rad:3: what is wrong", 1ULL << 40, 7}}};
 }
 
 }  // namespace
@@ -117,7 +121,7 @@ TEST_CASE("a message is the same after its way over the wire") {
 
 TEST_CASE("an ambient record takes 65 bytes and arrives to the bit") {
     const std::string bytes = encode_message(AmbientValues{{some_record(3)}});
-    CHECK(bytes.size() == 2 + 8 + 65 + 1 + 8);
+    CHECK(bytes.size() == 2 + 8 + 65 + 1 + 8 + 8);
     const auto got = std::get<AmbientValues>(decode_message(bytes));
     const AmbientRecord record = got.records.at(0);
     const AmbientRecord expected = some_record(3);
