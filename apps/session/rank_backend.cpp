@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "apps/session/listed_rays.h"
 #include "apps/session/picture_order.h"
 #include "core/error.h"
 #include "parallel/comm/model_fields.h"
@@ -17,6 +18,12 @@ RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> sc
                          RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
     light_frames();
+    if (!session_->coefficients) return;
+    std::vector<RayTally*> tallies;
+    for (const std::unique_ptr<RayTally>& tally : tallies_) tallies.push_back(tally.get());
+    rounds_ = std::make_unique<CoefficientRounds>(session_->tracer(), *session_->coefficients,
+                                                  *executor_, contexts_, std::move(tallies),
+                                                  link_.everyone(), stop());
 }
 
 void RankBackend::share_values() {
@@ -42,6 +49,7 @@ void RankBackend::run(FunctionRef<void()> lead) {
         });
         link_.guard([&] {
             lead();
+            if (rounds_) (void)link_.everyone().all_gather({});  // no more lists
             link_.dismiss();
             const auto others = static_cast<std::size_t>(link_.ranks() - 1);
             while (statistics_.reports.size() < others && !stop().requested()) receive_news(true);
@@ -106,17 +114,13 @@ std::optional<Frame> RankBackend::finish(const PictureRequest& request) {
 }
 
 void RankBackend::begin(const RayTask& list) {
-    RayChunk chunk{next_chunk_++, list.first, {}};
-    chunk.numbers.reserve(6 * list.rays.size());
-    for (const RayQuery& query : list.rays) {
-        for (const Vec3& v : {query.origin, query.direction})
-            chunk.numbers.insert(chunk.numbers.end(), {v.x, v.y, v.z});
-    }
-    link_.add(std::move(chunk));
+    if (rounds_) return;
+    link_.add({next_chunk_++, list.first, numbers_of(list)});
     if (demand_.lists > 0) --demand_.lists;
 }
 
-std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
+std::optional<std::string> RankBackend::finish(const RayTask& list) {
+    if (rounds_) return answer_together(list);
     while (answers_.empty() && !stop().requested()) receive_news(true);
     if (answers_.empty()) return std::nullopt;
     std::string answer = std::move(answers_.front());
@@ -124,7 +128,8 @@ std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
     return answer;
 }
 
-RayDemand RankBackend::ray_demand(bool wait, bool /*begun*/) {
+RayDemand RankBackend::ray_demand(bool wait, bool begun) {
+    if (rounds_) return demand_of_threads(begun);
     receive_news(wait && answers_.empty());
     demand_.answered = !answers_.empty();
     return demand_;

@@ -8,6 +8,7 @@
 
 #include "apps/session/rank_frames.h"
 #include "apps/session/render_backend.h"
+#include "parallel/coefficient_rounds.h"
 #include "parallel/ranks/assembly.h"
 #include "parallel/ranks/rank_frame_exchange.h"
 #include "parallel/ranks/rank_link.h"
@@ -69,6 +70,11 @@ class RankBackend final : public RenderBackend {
     [[nodiscard]] WalkScene walk_scene();
     [[nodiscard]] std::shared_ptr<const BlockRenderer> make_renderer(const PictureJob& job);
     [[nodiscard]] std::string answer_chunk(const RayChunk& chunk, int worker);
+    /// Where coefficients are kept all ranks answer one list after the other together.
+    void answer_lists();
+    /// The rank's share of a list, once the records that it looks for are there; nothing: stopped.
+    [[nodiscard]] std::optional<std::string> answer_share(const RayTask& list);
+    [[nodiscard]] std::optional<std::string> answer_together(const RayTask& list);
     [[nodiscard]] std::unique_ptr<SceneCaster> make_rays(const FrameOrder& order);
     void fill_cache(const Camera& camera, const FrameOptions& options, CachePrepass how,
                     Executor& executor);
@@ -78,6 +84,7 @@ class RankBackend final : public RenderBackend {
     TraceCounters past_counters_;  ///< of prepasses, and of scenes before this one
     std::optional<WalkLight> light_, direct_light_;  ///< of a walk's frames
     LightMixture mixture_;                           ///< of the frame that is drawn
+    std::unique_ptr<CoefficientRounds> rounds_;      ///< null: coefficients are not kept
     std::optional<ChangedScene> prepared_;           ///< see ChangeOrder; not on rank 0
 
     // On rank 0.

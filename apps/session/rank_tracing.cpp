@@ -1,11 +1,14 @@
 // What every rank that traces does for a run.
+#include <span>
 #include <utility>
 
+#include "apps/session/listed_rays.h"
 #include "apps/session/picture_order.h"
 #include "apps/session/rank_backend.h"
 #include "core/error.h"
 #include "parallel/comm/model_fields.h"
 #include "parallel/ranks/trace_work.h"
+#include "parallel/ray_list.h"
 
 namespace lightwalk {
 namespace {
@@ -23,7 +26,8 @@ struct OrderedPicture {
 }  // namespace
 
 void RankBackend::trace() {
-    if (!link_.traces()) return link_.inbox().wait_for_end(stop());
+    if (rounds_ && !leads()) return answer_lists();
+    if (!link_.traces() || rounds_) return link_.inbox().wait_for_end(stop());
     if (options_.reuse) {
         CloudOptions cloud = *options_.reuse;
         if (contexts_.light_groups() != nullptr)
@@ -95,14 +99,56 @@ std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob
 }
 
 std::string RankBackend::answer_chunk(const RayChunk& chunk, int worker) {
-    RayTask list;
-    list.first = chunk.first;
-    list.rays.resize(chunk.rays());
-    for (std::size_t i = 0; i < list.rays.size(); ++i) {
-        const double* const v = &chunk.numbers[6 * i];
-        list.rays[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    return answer_rays(list_of({chunk.first, chunk.numbers}), worker);
+}
+
+/// Rank 0's program gives the lists; an empty one is the end.
+void RankBackend::answer_lists() {
+    for (;;) {
+        const std::string told = link_.everyone().all_gather({}).front();
+        if (told.empty()) return;
+        const auto list = wire::decode<ListedRays>(told);
+        std::optional<std::string> bytes = answer_share(list_of(list));
+        if (!bytes) return;
+        const auto rank = static_cast<std::uint64_t>(link_.rank());
+        const auto ranks = static_cast<std::uint64_t>(link_.ranks());
+        link_.post(0, WorkResult{RayAnswer{ranks * next_chunk_++ + rank, *std::move(bytes)}});
     }
-    return answer_rays(list, worker);
+}
+
+std::optional<std::string> RankBackend::answer_share(const RayTask& list) {
+    const auto rank = static_cast<std::size_t>(link_.rank());
+    const auto ranks = static_cast<std::size_t>(link_.ranks());
+    const std::size_t begin = list.rays.size() * rank / ranks;
+    const std::size_t end = list.rays.size() * (rank + 1) / ranks;
+    const std::span<const RayQuery> own = std::span(list.rays).subspan(begin, end - begin);
+    const auto trace = [&](TakeListedRay take) {
+        trace_ray_list(session_->tracer(), contexts_, own, list.first + begin, ray_options(),
+                       *executor_, 1, take);
+    };
+    const bool filled = rounds_->fill(
+        [&] { trace([](std::size_t, int, const Ray& /*ray*/, const Hit& /*first*/) {}); });
+    if (!filled) return std::nullopt;
+    std::vector<std::string> records(own.size());
+    trace([&](std::size_t i, int worker, const Ray& ray, const Hit& first) {
+        record(worker, own[i], ray, first, records[i]);
+    });
+    std::string all;
+    for (const std::string& one : records) all += one;
+    return all;
+}
+
+std::optional<std::string> RankBackend::answer_together(const RayTask& list) {
+    (void)link_.everyone().all_gather(wire::encode(ListedRays{list.first, numbers_of(list)}));
+    std::optional<std::string> own = answer_share(list);
+    if (!own) return std::nullopt;
+    const auto ranks = static_cast<std::size_t>(link_.ranks());
+    link_.post(0, WorkResult{RayAnswer{ranks * next_chunk_++, *std::move(own)}});
+    while (answers_.size() < ranks && !stop().requested()) receive_news(true);
+    if (answers_.size() < ranks) return std::nullopt;
+    std::string all;
+    for (const std::string& share : std::exchange(answers_, {})) all += share;
+    return all;
 }
 
 /// The first frame fills the ambient cache for all; a deterministic walk has each do so. Of a quick

@@ -116,8 +116,8 @@ bool exchange_values(const RankOptions& options, const RendererOptions& work) {
     // Rays that only ask what they meet need none, and who watches rays is alone. A deterministic
     // run exchanges values in rounds, among all who trace.
     const bool needed = !work.answers_rays || (work.rays.shade && work.observer == nullptr);
-    return options.ambient_batch > 0 && needed && caches_ambient_values(work.light) &&
-           (!work.deterministic || work.steered);
+    return options.ambient_batch > 0 && needed && !work.keep_coefficients &&
+           caches_ambient_values(work.light) && (!work.deterministic || work.steered);
 }
 
 Ranks::Ranks(Communicator& communicator, const RankOptions& options, const RendererOptions& work)

@@ -173,6 +173,13 @@ RayListOptions RenderBackend::ray_options() const {
     return list;
 }
 
+RayDemand RenderBackend::demand_of_threads(bool begun) const {
+    constexpr std::size_t kRaysAList = 16384;  // that are worth the while of many threads
+    // A ray that is watched may be told at length: one at a time.
+    const std::size_t rays = options_.observer != nullptr ? 1 : kRaysAList;
+    return {begun ? std::size_t{0} : std::size_t{1}, rays, begun};
+}
+
 std::string RenderBackend::answer_rays(const RayTask& list, int worker) {
     std::string all;
     trace_rays(session_->tracer(), contexts_[worker], list.rays, list.first, ray_options(),

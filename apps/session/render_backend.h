@@ -132,6 +132,8 @@ class RenderBackend {
     /// The records of a list's rays, by one thread.
     [[nodiscard]] std::string answer_rays(const RayTask& list, int worker);
     [[nodiscard]] RayListOptions ray_options() const;
+    /// See ray_demand: of lists that are answered as a whole.
+    [[nodiscard]] RayDemand demand_of_threads(bool begun) const;
 
     RendererOptions options_;
     CallbackWarnings warnings_;

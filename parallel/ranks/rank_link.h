@@ -88,6 +88,8 @@ class RankLink {
     [[nodiscard]] std::string broadcast(std::string bytes);
     /// The ranks that trace, for one of their tracing threads.
     [[nodiscard]] Group& workers() { return workers_; }
+    /// All ranks, for one thread of each.
+    [[nodiscard]] Group& everyone() { return everyone_; }
     /// Ranks that own parts of a walk's frames.
     [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
 
@@ -150,6 +152,18 @@ class RankLink {
       private:
         RankLink& link_;
     };
+    class Everyone final : public Group {
+      public:
+        explicit Everyone(RankLink& link) : link_(link) {}
+        [[nodiscard]] int index() const override { return link_.rank(); }
+        [[nodiscard]] int size() const override { return link_.ranks(); }
+        [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
+            return link_.all_gather(Collective::Group::all, std::move(mine));
+        }
+
+      private:
+        RankLink& link_;
+    };
     struct Posted {
         Activity activity{};
         Step step;
@@ -193,6 +207,7 @@ class RankLink {
     RankRoles roles_;
     std::vector<int> owners_;
     Workers workers_{*this};
+    Everyone everyone_{*this};
     TracerInbox inbox_;
     SharedCache cache_;
     std::chrono::steady_clock::time_point exchanged_;  ///< when values were, last
