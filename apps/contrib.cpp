@@ -41,7 +41,7 @@ class ContribRun final : CommandRun {
         }
         (void)contribution_outputs(outputs_);  // what is wrong with names is told at once
         settle_light();
-        if (command_.cache) settle_cache(communicator);
+        if (command_.cache) settle_cache();
     }
 
     int run() {
@@ -74,17 +74,13 @@ class ContribRun final : CommandRun {
         settings.light.shadow_threshold = 0;
     }
 
-    void settle_cache(const Communicator* communicator) {
+    void settle_cache() {
         for (const TrackedModifier& modifier : tracked_) {
             if (depends_on_position(modifier.bin))
                 throw UsageError("option --cache: the bins of modifier \"" + modifier.name +
                                  "\" depend on place (Px Py Pz), which is not kept: expected Dx Dy "
                                  "Dz alone");
         }
-        if (communicator != nullptr && communicator->size() > 1)
-            throw UsageError(
-                "option --cache: the places are kept by one process, no ranks: expected threads "
-                "(-n)");
         if (command_.common.settings.light.ambient_bounces < 2)
             warnings().warn("--cache changes nothing: it is for -ab 2 and more");
     }

@@ -55,7 +55,7 @@ std::vector<OptionRow> modifier_rows(ContribCommand& c, const LibraryPath& libra
          "cache of coefficients | with -ab 2 and more, for many rays: what rays of indirect light "
          "see is not traced further, but interpolated between places whose coefficients are kept, "
          "which lie closer for a lower -aa (0 counts as 0.2); directions next to those in which "
-         "light comes in get more rays. For bins by direction, of light sources; by one process. "
+         "light comes in get more rays. For bins by direction, of light sources. "
          "With -r the rays that are left make places of their own: their records are as exact, not "
          "the same"},
         {"Bins", SectionTitle{}},

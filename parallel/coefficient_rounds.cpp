@@ -2,9 +2,29 @@
 
 #include <utility>
 
+#include "core/error.h"
+#include "parallel/round_bytes.h"
 #include "parallel/waiting_points.h"
 
 namespace lightwalk {
+
+template <class Wire>
+void visit_fields(Wire& wire, CoefficientRecord& record) {
+    wire(record.position, record.normal, record.reach, record.value);
+}
+template <class Wire>
+void visit_fields(Wire& wire, CoefficientTerm& term) {
+    wire(term.column, term.coefficient);
+}
+template <class Wire>
+void visit_fields(Wire& wire, CoefficientRounds::Made& made) {
+    wire(made.record, made.terms);
+}
+template <class Wire>
+void visit_fields(Wire& wire, CoefficientRounds::Share& share) {
+    wire(share.stop, share.points, share.made);
+}
+
 namespace {
 
 constexpr std::size_t kPointsPerTask = 64;  ///< that are looked up
@@ -37,40 +57,64 @@ class Untold {
 
 CoefficientRounds::CoefficientRounds(const Tracer& tracer, CoefficientCache& cache,
                                      Executor& executor, WorkerContexts& contexts,
-                                     std::vector<RayTally*> tallies, const StopFlag& stop)
+                                     std::vector<RayTally*> tallies, Group& exchange,
+                                     const StopFlag& stop)
     : tracer_(tracer),
       cache_(cache),
       executor_(executor),
       contexts_(contexts),
       tallies_(std::move(tallies)),
+      exchange_(exchange),
       stop_(stop),
       calculation_(tracer, cache),
       guess_(cache.limits()) {}
 
-void CoefficientRounds::fill(FunctionRef<void()> trace) {
+bool CoefficientRounds::fill(FunctionRef<void()> trace) {
     WaitingPoints waiting(
         collect(trace), guess_,
         [this](const AmbientPoint* some, std::size_t count) { return served(some, count); });
-    while (!stop_.requested() && !cache_.full()) {
+    while (!stopped_ && !cache_.full()) {
         const std::vector<AmbientPoint> chosen =
             waiting.choose(WaitingPoints::most_values(cache_.size()));
-        if (chosen.empty()) return;
-        const std::vector<Made> made = compute(chosen);
-        if (stop_.requested()) return;
-        for (const Made& one : made) {
+        if (chosen.empty()) break;
+        for (const Made& one : compute(chosen)) {
             if (!one.record || cache_.full()) continue;
             cache_.insert(*one.record, one.terms);
             guess_.add(one.record->position, one.record->normal, CoefficientCache::kLevel,
                        one.record->reach);
         }
     }
+    return !stopped_;
+}
+
+/// Each process adds whether it was requested to stop, so that all stop at the same place.
+std::vector<CoefficientRounds::Share> CoefficientRounds::gather(Share mine) {
+    mine.stop = stop_.requested();
+    std::vector<Share> all;
+    if (exchange_.size() == 1) {
+        all.push_back(std::move(mine));
+    } else {
+        for (const std::string& bytes : exchange_.all_gather(wire::encode(mine))) {
+            if (bytes.empty()) throw InputError("another rank takes no part in a round");
+            all.push_back(wire::decode<Share>(bytes));
+        }
+    }
+    for (const Share& share : all) stopped_ = stopped_ || share.stop;
+    return all;
 }
 
 std::vector<AmbientPoint> CoefficientRounds::collect(FunctionRef<void()> trace) {
-    const Untold untold(contexts_);
-    const CollectingPoints collecting(contexts_);
-    trace();
-    return stop_.requested() ? std::vector<AmbientPoint>() : collecting.points();
+    Share mine;
+    {
+        const Untold untold(contexts_);
+        const CollectingPoints collecting(contexts_);
+        trace();
+        mine.points = collecting.points();
+    }
+    std::vector<AmbientPoint> points;
+    for (const Share& share : gather(std::move(mine)))
+        points.insert(points.end(), share.points.begin(), share.points.end());
+    return stopped_ ? std::vector<AmbientPoint>() : points;
 }
 
 /// Whether there is a record for each of some points.
@@ -85,20 +129,31 @@ std::vector<char> CoefficientRounds::served(const AmbientPoint* points, std::siz
     return result;
 }
 
-/// The records of the points, in their order; after a stop, some of them.
+/// The records of the points, in their order; after a stop, nothing.
 std::vector<CoefficientRounds::Made> CoefficientRounds::compute(
     const std::vector<AmbientPoint>& chosen) {
-    std::vector<Made> made(chosen.size());
+    Share mine;
+    mine.made.resize(chosen.size());
     executor_.for_each(
         chosen.size(),
         [&](std::size_t task, int worker) {
-            Made& own = made[task];
+            if (!exchange_.does(task)) return;
+            Made& own = mine.made[task];
             const std::optional<double> reach = calculation_.reach_at(chosen[task]);
             if (!reach) return;
             own.record = calculation_.record_at(chosen[task], *reach, contexts_[worker]);
             own.terms = tallies_[static_cast<std::size_t>(worker)]->take_terms();
         },
         stop_);
+    std::vector<Share> all = gather(std::move(mine));
+    if (stopped_) return {};
+    std::vector<Made> made(chosen.size());
+    for (std::size_t other = 0; other < all.size(); ++other) {
+        std::vector<Made>& theirs = all[other].made;
+        if (theirs.size() != made.size()) throw InputError("another rank computes other places");
+        for (std::size_t i = other; i < made.size(); i += all.size())
+            made[i] = std::move(theirs[i]);
+    }
     return made;
 }
 

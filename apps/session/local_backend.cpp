@@ -16,7 +16,7 @@ LocalBackend::LocalBackend(std::shared_ptr<const CompiledScene> scene, RendererO
     for (const std::unique_ptr<RayTally>& tally : tallies_) tallies.push_back(tally.get());
     rounds_ =
         std::make_unique<CoefficientRounds>(session_->tracer(), *session_->coefficients, *executor_,
-                                            contexts_, std::move(tallies), stop());
+                                            contexts_, std::move(tallies), alone_, stop());
 }
 
 std::optional<Frame> LocalBackend::finish(const PictureRequest& request) {
@@ -68,25 +68,15 @@ LiveFrames& LocalBackend::frames() {
     return *frames_;
 }
 
-/// An ambient file is of the light that the scene has been read with.
 void LocalBackend::change(const std::shared_ptr<const CompiledScene>& scene) {
-    auto session = std::make_unique<SceneSession>(scene, options_.light, std::string(),
-                                                  options_.keep_coefficients, quiet_);
-    std::unique_ptr<const Tracer> direct = make_direct(*session, quiet_);
-    const std::shared_ptr<const LightGroups> groups = find_groups(*session);
-    if (frames_)
-        frames_->change(direct ? *direct : session->tracer(), direct ? &session->tracer() : nullptr,
-                        groups, warnings_);
-    contexts_ = WorkerContexts(session->tracer(), warnings_, executor_->concurrency());
-    contexts_.sum_by(groups);
-    direct_ = std::move(direct);
-    session_ = std::move(session);
+    ChangedScene next = make_changed(scene);
+    take_over(next, frames_.get());
 }
 
 /// Records of coefficients for what the rays' hemispheres see, before any of these is answered: an
 /// answer depends on the list as a whole, not on what is answered when.
 void LocalBackend::fill_coefficients(const RayTask& list) {
-    rounds_->fill([&] {
+    (void)rounds_->fill([&] {
         trace_ray_list(session_->tracer(), contexts_, list.rays, list.first, ray_options(),
                        *executor_, 1,
                        [](std::size_t, int, const Ray& /*ray*/, const Hit& /*first*/) {});
@@ -112,10 +102,7 @@ std::optional<std::string> LocalBackend::finish(const RayTask& list) {
 }
 
 RayDemand LocalBackend::ray_demand(bool /*wait*/, bool begun) {
-    constexpr std::size_t kRaysAList = 16384;  // that are worth the while of many threads
-    // A ray that is watched may be told at length: one at a time.
-    const std::size_t rays = options_.observer != nullptr ? 1 : kRaysAList;
-    return {begun ? std::size_t{0} : std::size_t{1}, rays, begun};
+    return demand_of_threads(begun);
 }
 
 }  // namespace lightwalk

@@ -24,6 +24,7 @@ class LocalBackend final : public RenderBackend {
 
     void fill_coefficients(const RayTask& list);
 
+    GroupOfOne alone_;
     std::unique_ptr<CoefficientRounds> rounds_;  ///< null: coefficients are not kept
     std::unique_ptr<LiveFrames> frames_;         ///< null: not asked for yet
 };

@@ -2,23 +2,28 @@
 #include "apps/session/rank_backend.h"
 
 #include <algorithm>
+#include <exception>
+#include <string>
 #include <thread>
 #include <utility>
 
+#include "apps/session/listed_rays.h"
 #include "apps/session/picture_order.h"
-#include "apps/session/rank_frames.h"
 #include "core/error.h"
+#include "parallel/comm/model_fields.h"
 
 namespace lightwalk {
 
 RankBackend::RankBackend(RankLink& link, std::shared_ptr<const CompiledScene> scene,
                          RendererOptions options)
     : RenderBackend(std::move(scene), std::move(options), link.leads()), link_(link) {
-    if (options_.reuse) light_.emplace(session_->tracer(), warnings_, executor_->concurrency());
-    if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
-    for (std::optional<WalkLight>* light : {&light_, &direct_light_})
-        if (*light && contexts_.light_groups() != nullptr)
-            (*light)->contexts.sum_by(contexts_.shared_groups());
+    light_frames();
+    if (!session_->coefficients) return;
+    std::vector<RayTally*> tallies;
+    for (const std::unique_ptr<RayTally>& tally : tallies_) tallies.push_back(tally.get());
+    rounds_ = std::make_unique<CoefficientRounds>(session_->tracer(), *session_->coefficients,
+                                                  *executor_, contexts_, std::move(tallies),
+                                                  link_.everyone(), stop());
 }
 
 void RankBackend::share_values() {
@@ -44,6 +49,7 @@ void RankBackend::run(FunctionRef<void()> lead) {
         });
         link_.guard([&] {
             lead();
+            if (rounds_) (void)link_.everyone().all_gather({});  // no more lists
             link_.dismiss();
             const auto others = static_cast<std::size_t>(link_.ranks() - 1);
             while (statistics_.reports.size() < others && !stop().requested()) receive_news(true);
@@ -108,17 +114,13 @@ std::optional<Frame> RankBackend::finish(const PictureRequest& request) {
 }
 
 void RankBackend::begin(const RayTask& list) {
-    RayChunk chunk{next_chunk_++, list.first, {}};
-    chunk.numbers.reserve(6 * list.rays.size());
-    for (const RayQuery& query : list.rays) {
-        for (const Vec3& v : {query.origin, query.direction})
-            chunk.numbers.insert(chunk.numbers.end(), {v.x, v.y, v.z});
-    }
-    link_.add(std::move(chunk));
+    if (rounds_) return;
+    link_.add({next_chunk_++, list.first, numbers_of(list)});
     if (demand_.lists > 0) --demand_.lists;
 }
 
-std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
+std::optional<std::string> RankBackend::finish(const RayTask& list) {
+    if (rounds_) return answer_together(list);
     while (answers_.empty() && !stop().requested()) receive_news(true);
     if (answers_.empty()) return std::nullopt;
     std::string answer = std::move(answers_.front());
@@ -126,7 +128,8 @@ std::optional<std::string> RankBackend::finish(const RayTask& /*list*/) {
     return answer;
 }
 
-RayDemand RankBackend::ray_demand(bool wait, bool /*begun*/) {
+RayDemand RankBackend::ray_demand(bool wait, bool begun) {
+    if (rounds_) return demand_of_threads(begun);
     receive_news(wait && answers_.empty());
     demand_.answered = !answers_.empty();
     return demand_;
@@ -143,6 +146,61 @@ LiveFrames& RankBackend::frames() {
         *options_.reuse, frame_options(0, 0), *own_executor_, warnings_);
     if (contexts_.light_groups() != nullptr) frames_->keep_groups(contexts_.shared_groups());
     return *frames_;
+}
+
+/// Rank 0 makes its scene at the same time as the others, whose tracing threads do so once they are
+/// done with the frame before; its own ones say no more than that they are.
+void RankBackend::change_model(const ModelChange& change) {
+    ChangeOrder order;
+    order.number = change_ = link_.new_number();
+    answers_to_change_.clear();
+    order.payload = wire::encode(change);
+    if (frames_ && frames_->outdated()) order.shown = frames_->outdated()->flags();
+    link_.start({order});
+    order.payload.clear();
+    ChangedScene next;
+    try {
+        std::exception_ptr problem;
+        try {
+            next = make_changed(changed_scene(change));
+        } catch (const std::exception&) {
+            problem = std::current_exception();
+        }
+        wait_for_prepared();
+        if (problem) std::rethrow_exception(problem);
+        check_prepared();
+    } catch (const std::exception& error) {
+        order.step = ChangeOrder::Step::drop;
+        link_.start({order});
+        throw InputError(error.what());
+    }
+    if (frames_) frames_->set_kept(kept_points());
+    take(std::move(next), order.number);
+    order.step = ChangeOrder::Step::take;
+    link_.start({order});
+}
+
+void RankBackend::wait_for_prepared() {
+    const std::size_t all = link_.topology().workers.size();
+    while (answers_to_change_.size() < all) {
+        if (stop().requested()) throw InputError("the walk ends");
+        receive_news(true);
+    }
+}
+
+void RankBackend::check_prepared() const {
+    for (const auto& [rank, said] : answers_to_change_)
+        if (!said.problem.empty())
+            throw InputError("rank " + std::to_string(rank) + ": " + said.problem);
+}
+
+double RankBackend::kept_points() const {
+    double points = 0, kept = 0;
+    for (const auto& [rank, said] : answers_to_change_) {
+        points += static_cast<double>(said.points);
+        kept += static_cast<double>(std::min(said.kept_points, said.points));
+    }
+    return points > 0 ? kept / points : 0;
 }
 
 /// Nothing: stopped.
@@ -183,9 +241,13 @@ void RankBackend::receive_news(bool wait) {
                 },
                 [&](RayAnswer& news) { answers_.push_back(std::move(news.bytes)); },
                 [&](FinishedFrame& news) { frame_ = std::move(news); },
-                [&](const RankNotice& news) {
+                [&](RankNotice& news) {
                     if (const auto* report = std::get_if<Report>(&news.notice.notice))
                         statistics_.reports[news.from] = wire::decode<RankReport>(report->payload);
+                    auto* prepared = std::get_if<PreparedChange>(&news.notice.notice);
+                    if (prepared != nullptr && prepared->number == change_ &&
+                        link_.topology().traces(news.from))
+                        answers_to_change_[news.from] = std::move(*prepared);
                 }},
             some);
     }

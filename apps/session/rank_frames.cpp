@@ -6,6 +6,16 @@
 
 namespace lightwalk {
 
+/// The ranks do so themselves, see ChangeOrder.
+double RankFrames::outdate(const ShownMaterials* only) {
+    if (only != nullptr && lead_) {
+        lead_->abandon();
+        return kept_share_;
+    }
+    start(0);
+    return 0;
+}
+
 void RankFrames::start(std::uint64_t first) {
     lead_.emplace(options_.width, options_.height, cloud_, first);
     last_.reset();

@@ -21,6 +21,8 @@ class RankFrames final : public LiveFrames {
         : LiveFrames(direct, indirect, cloud, options, executor, warnings),
           draw_(std::move(draw)) {}
 
+    /// Share of the points that ranks keep at the next change(), where it keeps some.
+    void set_kept(double share) { kept_share_ = share; }
     void forget_view() override { lead_->abandon(); }
     [[nodiscard]] WalkFrame draw(const View& view, double budget, double refine,
                                  const StopFlag& stop) override;
@@ -29,6 +31,7 @@ class RankFrames final : public LiveFrames {
                                      const StopFlag& stop) override;
 
   private:
+    double outdate(const ShownMaterials* only) override;
     void start(std::uint64_t first) override;
     void resized() override;
     [[nodiscard]] const ProgressivePicture* mixed() override;
@@ -37,6 +40,7 @@ class RankFrames final : public LiveFrames {
 
     Draw draw_;
     std::optional<FrameLead> lead_;
+    double kept_share_ = 0;  ///< see set_kept
     struct Last {
         View view;
         CloudFrame frame;

@@ -1,9 +1,14 @@
 // What every rank that traces does for a run.
+#include <span>
 #include <utility>
 
+#include "apps/session/listed_rays.h"
 #include "apps/session/picture_order.h"
 #include "apps/session/rank_backend.h"
+#include "core/error.h"
+#include "parallel/comm/model_fields.h"
 #include "parallel/ranks/trace_work.h"
+#include "parallel/ray_list.h"
 
 namespace lightwalk {
 namespace {
@@ -21,19 +26,60 @@ struct OrderedPicture {
 }  // namespace
 
 void RankBackend::trace() {
-    if (!link_.traces()) return link_.inbox().wait_for_end(stop());
+    if (rounds_ && !leads()) return answer_lists();
+    if (!link_.traces() || rounds_) return link_.inbox().wait_for_end(stop());
     if (options_.reuse) {
         CloudOptions cloud = *options_.reuse;
         if (contexts_.light_groups() != nullptr)
             cloud.light_groups = contexts_.light_groups()->size();
-        return draw_frames(
-            link_, cloud, [this](const FrameOrder& order) { return make_rays(order); }, *executor_,
-            stop());
+        return draw_frames(link_, cloud, walk_scene(), *executor_, stop());
     }
     trace_work(link_,
                {[this](const PictureJob& job) { return make_renderer(job); },
                 [this](const RayChunk& chunk, int worker) { return answer_chunk(chunk, worker); }},
                *executor_, stop());
+}
+
+/// On rank 0 its program makes the scene, and takes it before the others are told to: its threads
+/// wait for the next order then.
+WalkScene RankBackend::walk_scene() {
+    WalkScene scene;
+    scene.make_rays = [this](const FrameOrder& order) { return make_rays(order); };
+    scene.prepare = [this](const std::string& payload) {
+        if (leads()) return;
+        const auto change = wire::decode<ModelChange>(payload);
+        check_sound(change, session_->compiled().model());
+        prepared_ = make_changed(changed_scene(change));
+    };
+    scene.take = [this](FrameNumber number) -> std::size_t {
+        if (!leads()) {
+            if (!prepared_) throw InputError("a scene is to be taken that was not prepared");
+            take(std::move(*prepared_), number);
+            prepared_.reset();
+        }
+        return contexts_.light_groups() != nullptr ? contexts_.light_groups()->size() : 0;
+    };
+    scene.drop = [this] { prepared_.reset(); };
+    return scene;
+}
+
+void RankBackend::take(ChangedScene next, FrameNumber number) {
+    if (link_.exchanges_values()) link_.share(*next.session->freezable, number);
+    take_over(next, frames_.get());
+    light_frames();
+}
+
+void RankBackend::light_frames() {
+    if (light_) {
+        past_counters_.rays += light_->contexts.rays();
+        past_counters_.ambient += light_->contexts.ambient();
+    }
+    if (options_.reuse) light_.emplace(session_->tracer(), warnings_, executor_->concurrency());
+    direct_light_.reset();
+    if (direct_) direct_light_.emplace(*direct_, warnings_, executor_->concurrency());
+    for (std::optional<WalkLight>* light : {&light_, &direct_light_})
+        if (*light && contexts_.light_groups() != nullptr)
+            (*light)->contexts.sum_by(contexts_.shared_groups());
 }
 
 std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob& job) {
@@ -53,14 +99,56 @@ std::shared_ptr<const BlockRenderer> RankBackend::make_renderer(const PictureJob
 }
 
 std::string RankBackend::answer_chunk(const RayChunk& chunk, int worker) {
-    RayTask list;
-    list.first = chunk.first;
-    list.rays.resize(chunk.rays());
-    for (std::size_t i = 0; i < list.rays.size(); ++i) {
-        const double* const v = &chunk.numbers[6 * i];
-        list.rays[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    return answer_rays(list_of({chunk.first, chunk.numbers}), worker);
+}
+
+/// Rank 0's program gives the lists; an empty one is the end.
+void RankBackend::answer_lists() {
+    for (;;) {
+        const std::string told = link_.everyone().all_gather({}).front();
+        if (told.empty()) return;
+        const auto list = wire::decode<ListedRays>(told);
+        std::optional<std::string> bytes = answer_share(list_of(list));
+        if (!bytes) return;
+        const auto rank = static_cast<std::uint64_t>(link_.rank());
+        const auto ranks = static_cast<std::uint64_t>(link_.ranks());
+        link_.post(0, WorkResult{RayAnswer{ranks * next_chunk_++ + rank, *std::move(bytes)}});
     }
-    return answer_rays(list, worker);
+}
+
+std::optional<std::string> RankBackend::answer_share(const RayTask& list) {
+    const auto rank = static_cast<std::size_t>(link_.rank());
+    const auto ranks = static_cast<std::size_t>(link_.ranks());
+    const std::size_t begin = list.rays.size() * rank / ranks;
+    const std::size_t end = list.rays.size() * (rank + 1) / ranks;
+    const std::span<const RayQuery> own = std::span(list.rays).subspan(begin, end - begin);
+    const auto trace = [&](TakeListedRay take) {
+        trace_ray_list(session_->tracer(), contexts_, own, list.first + begin, ray_options(),
+                       *executor_, 1, take);
+    };
+    const bool filled = rounds_->fill(
+        [&] { trace([](std::size_t, int, const Ray& /*ray*/, const Hit& /*first*/) {}); });
+    if (!filled) return std::nullopt;
+    std::vector<std::string> records(own.size());
+    trace([&](std::size_t i, int worker, const Ray& ray, const Hit& first) {
+        record(worker, own[i], ray, first, records[i]);
+    });
+    std::string all;
+    for (const std::string& one : records) all += one;
+    return all;
+}
+
+std::optional<std::string> RankBackend::answer_together(const RayTask& list) {
+    (void)link_.everyone().all_gather(wire::encode(ListedRays{list.first, numbers_of(list)}));
+    std::optional<std::string> own = answer_share(list);
+    if (!own) return std::nullopt;
+    const auto ranks = static_cast<std::size_t>(link_.ranks());
+    link_.post(0, WorkResult{RayAnswer{ranks * next_chunk_++, *std::move(own)}});
+    while (answers_.size() < ranks && !stop().requested()) receive_news(true);
+    if (answers_.size() < ranks) return std::nullopt;
+    std::string all;
+    for (const std::string& share : std::exchange(answers_, {})) all += share;
+    return all;
 }
 
 /// The first frame fills the ambient cache for all; a deterministic walk has each do so. Of a quick
@@ -95,8 +183,8 @@ void RankBackend::fill_cache(const Camera& camera, const FrameOptions& options, 
         session_->tracer(), camera, options, how, *session_->freezable, executor, contexts, stop(),
         [](const FrameProgress&) {},
         how == CachePrepass::deterministic ? &link_.workers() : nullptr);
-    prepass_counters_.rays += filled.rays;
-    prepass_counters_.ambient += filled.ambient;
+    past_counters_.rays += filled.rays;
+    past_counters_.ambient += filled.ambient;
 }
 
 RankReport RankBackend::report() const {
@@ -107,8 +195,8 @@ RankReport RankBackend::report() const {
         report.rays += contexts->rays();
         report.ambient += contexts->ambient();
     }
-    report.rays += prepass_counters_.rays;
-    report.ambient += prepass_counters_.ambient;
+    report.rays += past_counters_.rays;
+    report.ambient += past_counters_.ambient;
     return report;
 }
 

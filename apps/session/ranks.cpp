@@ -17,6 +17,9 @@ namespace {
 /// What rank 0 says of the scene, before more about it; nothing: it could not read it.
 constexpr char kEachItsOwn = 'e', kShared = 's', kRecorded = 'r';
 
+/// Of a file's bytes that stay for a scene that changes.
+constexpr std::size_t kLargestKept = std::size_t{1} << 18;
+
 using ScenePtr = std::shared_ptr<CompiledScene>;
 
 std::shared_ptr<FileSource> files_of(const RendererRequest& request) {
@@ -72,7 +75,8 @@ ScenePtr follow_reading(RankLink& link, const RendererRequest& request) {
         const auto replay = std::make_shared<FileReplay>(rest);
         ScenePtr scene = read_by(request, std::make_shared<FileRecorder>(replay));
         scene->compile();
-        replay->clear();
+        // A scene that changes may ask once more for what nobody keeps, as function files.
+        replay->clear(request.options.steered ? kLargestKept : 0);
         return scene;
     }
     ScenePtr scene;
@@ -112,8 +116,8 @@ bool exchange_values(const RankOptions& options, const RendererOptions& work) {
     // Rays that only ask what they meet need none, and who watches rays is alone. A deterministic
     // run exchanges values in rounds, among all who trace.
     const bool needed = !work.answers_rays || (work.rays.shade && work.observer == nullptr);
-    return options.ambient_batch > 0 && needed && caches_ambient_values(work.light) &&
-           (!work.deterministic || work.steered);
+    return options.ambient_batch > 0 && needed && !work.keep_coefficients &&
+           caches_ambient_values(work.light) && (!work.deterministic || work.steered);
 }
 
 Ranks::Ranks(Communicator& communicator, const RankOptions& options, const RendererOptions& work)

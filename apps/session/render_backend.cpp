@@ -63,7 +63,38 @@ std::shared_ptr<const LightGroups> RenderBackend::find_groups(const SceneSession
 }
 
 void RenderBackend::change(const std::shared_ptr<const CompiledScene>& /*scene*/) {
-    throw InputError("the scene of a walk on ranks stays as it is");
+    throw InputError("the scene of a walk on ranks is changed by its description");
+}
+
+void RenderBackend::change_model(const ModelChange& change) {
+    this->change(changed_scene(change));
+}
+
+std::shared_ptr<const CompiledScene> RenderBackend::changed_scene(const ModelChange& change) const {
+    const std::shared_ptr<const CompiledScene>& now = session_->shared_compiled();
+    return std::make_shared<const CompiledScene>(now, change, now->warnings());
+}
+
+/// An ambient file is of the light that the scene has been read with.
+RenderBackend::ChangedScene RenderBackend::make_changed(
+    const std::shared_ptr<const CompiledScene>& scene) {
+    ChangedScene next;
+    next.session = std::make_unique<SceneSession>(scene, options_.light, std::string(),
+                                                  options_.keep_coefficients, quiet_);
+    next.direct = make_direct(*next.session, quiet_);
+    next.groups = find_groups(*next.session);
+    return next;
+}
+
+void RenderBackend::take_over(ChangedScene& next, LiveFrames* frames) {
+    const Tracer& tracer = next.session->tracer();
+    if (frames != nullptr)
+        frames->change(next.direct ? *next.direct : tracer, next.direct ? &tracer : nullptr,
+                       next.groups, warnings_);
+    contexts_ = WorkerContexts(tracer, warnings_, executor_->concurrency());
+    contexts_.sum_by(next.groups);
+    std::swap(direct_, next.direct);
+    std::swap(session_, next.session);
 }
 
 FrameOptions RenderBackend::frame_options(int width, int height) const {
@@ -140,6 +171,13 @@ RayListOptions RenderBackend::ray_options() const {
     RayListOptions list = options_.rays;
     list.seed = options_.light.seed;
     return list;
+}
+
+RayDemand RenderBackend::demand_of_threads(bool begun) const {
+    constexpr std::size_t kRaysAList = 16384;  // that are worth the while of many threads
+    // A ray that is watched may be told at length: one at a time.
+    const std::size_t rays = options_.observer != nullptr ? 1 : kRaysAList;
+    return {begun ? std::size_t{0} : std::size_t{1}, rays, begun};
 }
 
 std::string RenderBackend::answer_rays(const RayTask& list, int worker) {

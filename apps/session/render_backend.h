@@ -59,6 +59,9 @@ class RenderBackend {
     /// it was.
     /// @param scene  a change of session().compiled()
     virtual void change(const std::shared_ptr<const CompiledScene>& scene);
+    /// The same, for a change of session().compiled().model(). On ranks it is called on rank 0 and
+    /// while run() is, and changes the scene of all ranks, or of none.
+    virtual void change_model(const ModelChange& change);
     /// Null: pictures have no layers.
     [[nodiscard]] const LightGroups* light_groups() const { return contexts_.light_groups(); }
     /// Of pictures of a size; a walk that is steered traces every pixel.
@@ -103,6 +106,21 @@ class RenderBackend {
     [[nodiscard]] virtual bool prepare(const PictureRequest& /*request*/, bool /*first*/) {
         return true;
     }
+    /// A scene that is to take the place of the one at hand, and what goes with it.
+    struct ChangedScene {
+        std::unique_ptr<SceneSession> session;
+        std::unique_ptr<const Tracer> direct;       ///< see make_direct
+        std::shared_ptr<const LightGroups> groups;  ///< see find_groups
+    };
+    /// Throws InputError.
+    [[nodiscard]] ChangedScene make_changed(const std::shared_ptr<const CompiledScene>& scene);
+    /// The session's scene under a change.
+    [[nodiscard]] std::shared_ptr<const CompiledScene> changed_scene(
+        const ModelChange& change) const;
+    /// Exchanges it for the one at hand. Nothing may use that one any more but frames(), which
+    /// change here.
+    /// @param frames  null: none are made yet
+    void take_over(ChangedScene& next, LiveFrames* frames);
     /// Without indirect light, of walks that are steered; null: there is none anyway.
     [[nodiscard]] std::unique_ptr<const Tracer> make_direct(const SceneSession& session,
                                                             WarningSink& warnings) const;
@@ -114,6 +132,8 @@ class RenderBackend {
     /// The records of a list's rays, by one thread.
     [[nodiscard]] std::string answer_rays(const RayTask& list, int worker);
     [[nodiscard]] RayListOptions ray_options() const;
+    /// See ray_demand: of lists that are answered as a whole.
+    [[nodiscard]] RayDemand demand_of_threads(bool begun) const;
 
     RendererOptions options_;
     CallbackWarnings warnings_;

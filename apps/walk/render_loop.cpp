@@ -251,8 +251,7 @@ void RenderLoop::set_time() {
 
 std::optional<TimePlace> RenderLoop::time_place() const {
     std::optional<TimePlace> place = ::lightwalk::time_place(states_.skies());
-    if (place && !options_.change)
-        place->refused = "many processes draw this walk, and keep the scene as it was read";
+    if (place && !options_.change) place->refused = "the scene cannot be changed here";
     return place;
 }
 

@@ -1,14 +1,11 @@
 #include "apps/walk/scene_changer.h"
 
-#include <memory>
-
 namespace lightwalk {
 
 std::function<const SceneSession&(const ModelChange& change)> scene_changer(
     RenderBackend& backend) {
     return [&backend](const ModelChange& change) -> const SceneSession& {
-        const std::shared_ptr<const CompiledScene> now = backend.session().shared_compiled();
-        backend.change(std::make_shared<const CompiledScene>(now, change, now->warnings()));
+        backend.change_model(change);
         return backend.session();
     };
 }

@@ -247,7 +247,7 @@ class WalkRun final : CommandRun {
         RenderLoopOptions options{command_.serve->page.fps, command_.serve->edge_samples,
                                   command_.common.request.history,
                                   ranks() != nullptr ? ranks()->size() : 1};
-        if (ranks() == nullptr) options.change = scene_changer(renderer.backend());
+        options.change = scene_changer(renderer.backend());
         RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
                         *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();

@@ -1,6 +1,7 @@
 #include "core/cloud/shown_materials.h"
 
 #include "core/cloud/material_bits.h"
+#include "core/error.h"
 #include "core/scene/seen_material.h"
 
 namespace lightwalk {
@@ -105,6 +106,21 @@ ShownMaterials::ShownMaterials(const Scene& scene, const std::vector<bool>& want
     // An image in a surface that is not flat has the bits of that surface.
     bits(PointKind::mirrored) =
         crossing(reflected, met.crossed, kMostCrossed - 1).on(met.all).with | reflected.with;
+}
+
+ShownMaterials::ShownMaterials(std::span<const std::uint8_t> flags) {
+    if (flags.size() != bits_.size() * bits_[0].size())
+        throw InputError("materials are told in another way than here");
+    std::size_t next = 0;
+    for (Bits& bits : bits_)
+        for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = flags[next++] != 0;
+}
+
+std::vector<std::uint8_t> ShownMaterials::flags() const {
+    std::vector<std::uint8_t> flags;
+    for (const Bits& bits : bits_)
+        for (std::size_t i = 0; i < bits.size(); ++i) flags.push_back(bits[i] ? 1 : 0);
+    return flags;
 }
 
 void drop_points(const ShownMaterials& materials, std::vector<CloudPoint>& points,

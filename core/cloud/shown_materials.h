@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/cloud/point.h"
@@ -19,6 +20,11 @@ class ShownMaterials {
   public:
     /// @param wanted  by modifier, of surfaces of which at least one must be on the way
     ShownMaterials(const Scene& scene, const std::vector<bool>& wanted);
+
+    /// Those that have these flags(). Throws InputError for another number of them.
+    explicit ShownMaterials(std::span<const std::uint8_t> flags);
+    /// All there is to know of them: for another process, whose points are of the same scene.
+    [[nodiscard]] std::vector<std::uint8_t> flags() const;
 
     [[nodiscard]] bool may_show(const CloudPoint& point) const {
         return bits_[static_cast<std::size_t>(point.kind)][point.surface & kMaterialBits];

@@ -1,5 +1,10 @@
 #include "core/model/model_change.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
 namespace lightwalk {
 
 Primitive to_primitive(const SurfacePrimitive& surface) {
@@ -24,6 +29,20 @@ ModelChange unchanged(const Model& model) {
             ++others;
     }
     return change;
+}
+
+void check_sound(const ModelChange& change, const Model& model) {
+    bool sound = true;
+    for (std::size_t i = 0; i < change.modifiers.size(); ++i)
+        sound = sound && is_sound_modifier(change.modifiers[i], i);
+    const auto modifiers = static_cast<std::int64_t>(change.modifiers.size());
+    for (const PlacedSource& placed : change.sources) {
+        const Primitive& source = placed.source;
+        sound = sound && source.type == PrimitiveType::source && source.modifier >= kVoidIndex &&
+                source.modifier < modifiers && placed.before <= model.surfaces.size() &&
+                std::ranges::all_of(source.reals, [](double x) { return std::isfinite(x); });
+    }
+    if (!sound) throw InputError("a change of the scene has modifiers or sources that cannot be");
 }
 
 std::shared_ptr<Model> changed_model(const Model& model, const ModelChange& change) {

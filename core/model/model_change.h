@@ -34,6 +34,10 @@ struct ModelChange {
 /// The modifiers and sources that a model has.
 [[nodiscard]] ModelChange unchanged(const Model& model);
 
+/// Throws InputError for a change that nobody can have made of the model: one that comes from
+/// another process may be anything.
+void check_sound(const ModelChange& change, const Model& model);
+
 /// The model with other modifiers and sources, as if it had been read so. Its other surfaces are
 /// copied.
 [[nodiscard]] std::shared_ptr<Model> changed_model(const Model& model, const ModelChange& change);

@@ -1,6 +1,7 @@
 #pragma once
 // The scene description as it was read: primitives with resolved names. See "The Radiance 6.x Scene
 // Description Language" (Radiance's ray.pdf) for the primitive types and their arguments.
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -31,6 +32,10 @@ struct Primitive {
     std::vector<std::int32_t> references;
     SourceLocation where;
 };
+
+/// Whether a modifier may be the one of a number: of a modifier's type, with finite numbers, and
+/// names only of earlier ones. What bytes from elsewhere say of modifiers has to be so.
+[[nodiscard]] bool is_sound_modifier(const Primitive& modifier, std::size_t number);
 
 /// The cube an octree file was built with: it holds all its finite surfaces, and may be larger than
 /// needed.

@@ -102,8 +102,11 @@ class FileReplay final : public FileSource {
     explicit FileReplay(std::string_view recording);
     [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
                                                     std::size_t limit) override;
-    /// Release the memory of the recording.
-    void clear() { answers_.clear(); }
+    /// Release the memory of the recording, but for answers of so many bytes at most.
+    void clear(std::size_t kept = 0) {
+        std::erase_if(answers_,
+                      [&](const auto& entry) { return kept == 0 || entry.second.size() > kept; });
+    }
 
   private:
     std::map<std::string, std::string, std::less<>> answers_;

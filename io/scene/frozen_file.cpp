@@ -16,7 +16,7 @@ namespace lightwalk {
 namespace {
 
 constexpr std::uint32_t kByteOrder = 0x01020304;
-constexpr std::uint32_t kFormatVersion = 3;
+constexpr std::uint32_t kFormatVersion = 4;
 constexpr std::size_t kVersionLength = 16;
 
 struct FrozenHeader {

@@ -67,19 +67,6 @@ void pack_modifiers(PackedWriter& writer, std::span<const Primitive> modifiers) 
 
 constexpr std::size_t kLeastModifier = 1 + 4 + 4 * 8 + 4 + 4;  ///< packed [bytes]
 
-/// Checks that names refer to earlier modifiers, and that modifier numbers exist.
-bool is_sound(const Primitive& modifier, std::size_t number) {
-    const auto earlier = static_cast<std::int64_t>(number);
-    const auto names_one = [&](std::int32_t reference) {
-        return reference >= kUndefinedIndex && reference < earlier;
-    };
-    return static_cast<std::size_t>(modifier.type) < primitive_type_count() &&
-           !is_surface(modifier.type) && modifier.modifier >= kVoidIndex &&
-           modifier.modifier < earlier && modifier.references.size() <= modifier.strings.size() &&
-           std::ranges::all_of(modifier.references, names_one) &&
-           std::ranges::all_of(modifier.reals, [](double x) { return std::isfinite(x); });
-}
-
 std::vector<FileName> unpack_files(PackedReader& reader) {
     std::vector<FileName> files;
     for (const std::string& name : reader.texts()) files.emplace_back(name);
@@ -98,7 +85,7 @@ std::vector<Primitive> unpack_modifiers(PackedReader& reader) {
         modifier.reals = reader.list<double>();
         modifier.references = reader.list<std::int32_t>();
         const auto file = reader.number<std::uint32_t>();
-        if (!is_sound(modifier, i) || file >= files.size()) reader.fail();
+        if (!is_sound_modifier(modifier, i) || file >= files.size()) reader.fail();
         modifier.where = {files[file], reader.number<std::int32_t>()};
     }
     return modifiers;
@@ -120,6 +107,44 @@ std::optional<ModelCube> unpack_cube(PackedReader& reader) {
     if (!std::isfinite(cube.x + cube.y + cube.z) || !std::isfinite(cube.size) || cube.size < 0)
         reader.fail();
     return present ? std::optional(cube) : std::nullopt;
+}
+
+void pack_skies(PackedWriter& writer, const std::vector<GeneratedPart>& skies) {
+    writer.count(skies.size());
+    for (const GeneratedPart& sky : skies) {
+        writer.text(sky.where.file.text());
+        writer.number(sky.where.line);
+        writer.text(sky.command);
+        writer.text(sky.refusal);
+        writer.number(sky.first_modifier);
+        writer.number(sky.last_modifier);
+        writer.count(sky.first_surface);
+        writer.count(sky.last_surface);
+    }
+}
+
+constexpr std::size_t kLeastSky = 3 * 8 + 4 + 2 * 4 + 2 * 8;  ///< packed [bytes]
+
+std::vector<GeneratedPart> unpack_skies(PackedReader& reader) {
+    std::vector<GeneratedPart> skies(reader.count(kLeastSky));
+    for (GeneratedPart& sky : skies) {
+        sky.where.file = FileName(reader.text());
+        sky.where.line = reader.number<std::int32_t>();
+        sky.command = reader.text();
+        sky.refusal = reader.text();
+        sky.first_modifier = reader.number<std::int32_t>();
+        sky.last_modifier = reader.number<std::int32_t>();
+        sky.first_surface = reader.number<std::uint64_t>();
+        sky.last_surface = reader.number<std::uint64_t>();
+    }
+    return skies;
+}
+
+/// Checks that a sky is a part of its model.
+bool is_sound(const GeneratedPart& sky, const Model& model) {
+    return sky.first_modifier >= 0 && sky.first_modifier <= sky.last_modifier &&
+           static_cast<std::size_t>(sky.last_modifier) <= model.modifiers.size() &&
+           sky.first_surface <= sky.last_surface && sky.last_surface <= model.surfaces.size();
 }
 
 SurfaceList map_surfaces(const FrozenFile& file, std::uint32_t number, std::vector<FileName> files,
@@ -230,6 +255,7 @@ void freeze_model(const Model& model, const SurfaceShapes& shapes, std::uint32_t
     pack_modifiers(writer, model.modifiers);
     writer.texts(model.header);
     pack_cube(writer, model.cube);
+    pack_skies(writer, model.skies);
     writer.count(surfaces.files.size());
     for (const FileName& name : surfaces.files) writer.text(name.text());
     writer.texts(shapes.columns().warnings);
@@ -255,10 +281,14 @@ std::shared_ptr<const Model> map_model(const FrozenFile& file, std::uint32_t num
         model.modifiers = unpack_modifiers(reader);
         model.header = reader.texts();
         model.cube = unpack_cube(reader);
+        model.skies = unpack_skies(reader);
         std::vector<FileName> files = unpack_files(reader);
         std::vector<std::string> warnings = reader.texts();
         reader.end();
         model.surfaces = map_surfaces(file, number, std::move(files), model.modifiers.size());
+        if (!std::ranges::all_of(model.skies,
+                                 [&](const GeneratedPart& sky) { return is_sound(sky, model); }))
+            reader.fail();
         model.shapes = std::make_shared<const SurfaceShapes>(
             map_shapes(file, number, model.surfaces, std::move(warnings)));
         return std::shared_ptr<const Model>(mapped, &model);

@@ -1,10 +1,26 @@
 #include "parallel/ranks/ambient_exchange.h"
 
 namespace lightwalk {
+namespace {
+
+AmbientValues none_of(std::uint64_t scene) {
+    AmbientValues none;
+    none.scene = scene;
+    return none;
+}
+
+}  // namespace
 
 void AmbientMaster::handle(int from, const AmbientValues& offer, Outbox& out) {
+    AmbientValues news{{}, AmbientValues::Direction::news, {}, offer.scene};
+    if (offer.scene > known_.scene) {
+        clear();
+        known_.scene = offer.scene;
+    } else if (offer.scene < known_.scene) {  // the rank has not heard of the change yet
+        out.messages.push_back({self_, from, std::move(news)});
+        return;
+    }
     std::size_t& told = told_[from];
-    AmbientValues news{{}, AmbientValues::Direction::news};
     for (std::size_t i = told; i < size(); ++i) {
         if (sources_[i] != from) news.add(known_.records[i], known_.groups_of(i));
     }
@@ -21,6 +37,8 @@ void AmbientMaster::clear() {
 }
 
 void AmbientClient::offer(const AmbientValues& own, Outbox& out) {
+    if (own.scene < own_.scene) return;
+    if (own.scene > own_.scene) own_ = none_of(own.scene);
     own_.add(own);
     if (!asked_ && own_.records.size() >= batch_) ask(out);
 }
@@ -37,12 +55,13 @@ void AmbientClient::ask(Outbox& out) {
         return;
     }
     asked_ = true;
-    out.messages.push_back({self_, master_, std::exchange(own_, {})});
+    out.messages.push_back({self_, master_, std::exchange(own_, none_of(own_.scene))});
 }
 
-void SharedCache::open(PublishedCache& cache) {
+void SharedCache::open(PublishedCache& cache, std::uint64_t scene) {
     const std::lock_guard lock(mutex_);
     cache_ = &cache;
+    own_ = none_of(scene);
     cache.add(*this);
 }
 
@@ -62,19 +81,19 @@ void SharedCache::stored(const AmbientRecord& record, std::span<const Rgb> group
         const std::lock_guard lock(mutex_);
         own_.add(record, groups);
         if (own_.records.size() < batch_) return;
-        std::swap(full, own_);
+        full = std::exchange(own_, none_of(own_.scene));
     }
     send_(std::move(full));
 }
 
 AmbientValues SharedCache::unsent() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(own_, {});
+    return std::exchange(own_, none_of(own_.scene));
 }
 
 void SharedCache::merge(const AmbientValues& news) {
     const std::lock_guard lock(mutex_);
-    if (cache_ == nullptr) return;
+    if (cache_ == nullptr || news.scene != own_.scene) return;
     for (std::size_t i = 0; i < news.records.size(); ++i)
         cache_->take_over(news.records[i], news.groups_of(i), *this);
 }

@@ -14,7 +14,8 @@
 
 namespace lightwalk {
 
-/// Gathers the ambient values of its clients and passes to each what the others found.
+/// Gathers the ambient values of its clients and passes to each what the others found: those of the
+/// newest scene that it has heard of.
 class AmbientMaster {
   public:
     explicit AmbientMaster(int self) : self_(self) {}
@@ -42,6 +43,8 @@ class AmbientClient {
     void handle(AmbientValues news, Outbox& out);
     /// Ask, whether or not a batch is full; where an offer is out, after its answer.
     void ask(Outbox& out);
+    /// The scenes that the values are of are done with.
+    void clear() { own_ = {}; }
     /// Nothing that was offered or asked so far is still to be sent or answered.
     [[nodiscard]] bool is_flushed() const { return !asked_; }
 
@@ -49,7 +52,7 @@ class AmbientClient {
     int self_, master_;
     std::size_t batch_;
     bool asked_ = false, again_ = false;
-    AmbientValues own_;
+    AmbientValues own_;  ///< of the newest scene
 };
 
 /// A rank's cache as one of those that share their values, scene after scene.
@@ -60,9 +63,11 @@ class SharedCache final : public AmbientListener {
     SharedCache(std::size_t batch, std::function<void(AmbientValues)> send)
         : batch_(batch), send_(std::move(send)) {}
 
-    /// From now on new values of the cache go to the others, and it gets theirs.
-    /// @param cache  must outlive what traces, and close()
-    void open(PublishedCache& cache);
+    /// From now on new values of the cache go to the others, and it gets theirs; the one before
+    /// gets none. Not while rays are traced.
+    /// @param cache  must outlive what traces, and close() or the next open()
+    /// @param scene  see AmbientValues
+    void open(PublishedCache& cache, std::uint64_t scene = 0);
     void close();
     [[nodiscard]] bool is_open() const;
 
@@ -78,7 +83,7 @@ class SharedCache final : public AmbientListener {
     std::function<void(AmbientValues)> send_;
     mutable std::mutex mutex_;  ///< guards what follows
     PublishedCache* cache_ = nullptr;
-    AmbientValues own_;
+    AmbientValues own_;  ///< of the cache's scene
 };
 
 }  // namespace lightwalk

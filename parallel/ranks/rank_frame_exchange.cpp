@@ -1,8 +1,11 @@
 #include "parallel/ranks/rank_frame_exchange.h"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
 #include <utility>
 
+#include "core/cloud/shown_materials.h"
 #include "core/error.h"
 #include "parallel/ranks/piece_codec.h"
 #include "parallel/ranks/trace_work.h"
@@ -184,34 +187,92 @@ class RankFrameExchange final : public FrameExchange {
     SubImages parts_;
 };
 
+/// All frames, of scene after scene.
+class RankFrameLoop {
+  public:
+    RankFrameLoop(RankLink& link, const CloudOptions& cloud, const WalkScene& scene)
+        : link_(link),
+          cloud_(cloud),
+          scene_(scene),
+          index_(link.topology().worker_index(link.rank()).value_or(0)) {
+        frames_.emplace(cloud_, index_, link_.owners().size());
+    }
+
+    void draw(const FrameOrder& order, Executor& executor, const StopFlag& stop) {
+        const std::size_t levels = order.mixture.levels.size();
+        if (levels != 0 && levels != cloud_.light_groups)
+            throw InputError("a frame of a walk is ordered with levels of other light groups");
+        const std::unique_ptr<SceneCaster> rays = scene_.make_rays(order);
+        RankFrameExchange exchange(link_, order, *rays, index_, frames_->keep_seconds());
+        if (owns()) {
+            (void)frames_->draw(order, rays->camera(), *rays, exchange, executor, stop);
+            return;
+        }
+        // A rank that owns no part has nothing to do before others have found what to trace.
+        const auto deadline = order.budget > 0 ? deadline_of(order.budget)
+                                               : UncachedPixelTracer::Clock::time_point::max();
+        exchange.trace_runs(UncachedPixelTracer(*rays, cloud_.tolerance,
+                                                tracing_deadline(deadline, order.budget, 0)),
+                            order.sample, executor, stop);
+    }
+
+    void follow(const ChangeOrder& change) {
+        if (!scene_.prepare) throw InputError("the scene of these frames cannot be changed");
+        switch (change.step) {
+            case ChangeOrder::Step::prepare:
+                link_.post(0, Notice{prepared(change)});
+                return;
+            case ChangeOrder::Step::take:
+                cloud_.light_groups = scene_.take(change.number);
+                if (change.shown.empty())  // of which nothing is kept
+                    frames_.emplace(cloud_, index_, link_.owners().size());
+                else
+                    frames_->drop(ShownMaterials(change.shown));
+                return;
+            case ChangeOrder::Step::drop:
+                scene_.drop();
+        }
+    }
+
+  private:
+    [[nodiscard]] bool owns() const { return index_ < link_.owners().size(); }
+
+    [[nodiscard]] PreparedChange prepared(const ChangeOrder& change) {
+        PreparedChange told{change.number, {}, 0, 0};
+        try {
+            scene_.prepare(change.payload);
+            if (change.shown.empty() || frames_->region() == nullptr) return told;
+            const ShownMaterials outdated(change.shown);
+            const std::span<const CloudPoint> points = frames_->region()->points().all();
+            told.points = points.size();
+            told.kept_points = static_cast<std::uint64_t>(std::ranges::count_if(
+                points, [&](const CloudPoint& point) { return !outdated.may_show(point); }));
+        } catch (const std::exception& error) {
+            told.problem = error.what();
+        }
+        return told;
+    }
+
+    RankLink& link_;
+    CloudOptions cloud_;
+    const WalkScene& scene_;
+    std::size_t index_;  ///< of this rank among the workers, the first of which are the owners
+    std::optional<FrameLoop> frames_;
+};
+
 }  // namespace
 
-void draw_frames(RankLink& link, const CloudOptions& cloud, const MakeWalkRays& make,
+void draw_frames(RankLink& link, const CloudOptions& cloud, const WalkScene& scene,
                  Executor& executor, const StopFlag& stop) {
-    const std::size_t index = link.topology().worker_index(link.rank()).value_or(0);
-    const std::size_t owners = link.owners().size();
-    FrameLoop frames(cloud, index, owners);
+    RankFrameLoop loop(link, cloud, scene);
     const auto next = [&] {
         const TimedActivity waiting(link.timeline(), 0, Activity::wait);
         return link.inbox().next_order(stop);
     };
-    while (const std::optional<FrameOrder> order = next()) {
-        const std::size_t levels = order->mixture.levels.size();
-        if (levels != 0 && levels != cloud.light_groups)
-            throw InputError("a frame of a walk is ordered with levels of other light groups");
-        const std::unique_ptr<SceneCaster> rays = make(*order);
-        RankFrameExchange exchange(link, *order, *rays, index, frames.keep_seconds());
-        if (index < owners) {
-            (void)frames.draw(*order, rays->camera(), *rays, exchange, executor, stop);
-            continue;
-        }
-        // A rank that owns no part has nothing to do before others have found what to trace.
-        const auto deadline = order->budget > 0 ? deadline_of(order->budget)
-                                                : UncachedPixelTracer::Clock::time_point::max();
-        exchange.trace_runs(UncachedPixelTracer(*rays, cloud.tolerance,
-                                                tracing_deadline(deadline, order->budget, 0)),
-                            order->sample, executor, stop);
-    }
+    while (const std::optional<TracerInbox::Order> order = next())
+        std::visit(Overloaded{[&](const FrameOrder& frame) { loop.draw(frame, executor, stop); },
+                              [&](const ChangeOrder& change) { loop.follow(change); }},
+                   *order);
 }
 
 std::vector<std::size_t> owners_beside(const SubImages& parts, std::size_t index, int width,

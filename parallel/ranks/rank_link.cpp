@@ -245,6 +245,7 @@ void RankLink::end_work() {
     meet();
     post(Activity::exchange, [](RankRoles& roles, Outbox&) {
         if (roles.ambient_master()) roles.ambient_master()->clear();
+        if (roles.ambient_client()) roles.ambient_client()->clear();
     });
 }
 

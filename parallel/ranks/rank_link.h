@@ -88,6 +88,8 @@ class RankLink {
     [[nodiscard]] std::string broadcast(std::string bytes);
     /// The ranks that trace, for one of their tracing threads.
     [[nodiscard]] Group& workers() { return workers_; }
+    /// All ranks, for one thread of each.
+    [[nodiscard]] Group& everyone() { return everyone_; }
     /// Ranks that own parts of a walk's frames.
     [[nodiscard]] const std::vector<int>& owners() const { return owners_; }
 
@@ -103,10 +105,12 @@ class RankLink {
     /// Whether ambient values are exchanged.
     [[nodiscard]] bool exchanges_values() const { return topology_.ambient_master.has_value(); }
     /// Where they are, new values of the cache go to the other ranks from now on, and it gets
-    /// theirs. Called by all ranks, after agree().
-    /// @param cache  must outlive the work
-    void share(PublishedCache& cache) { cache_.open(cache); }
-    // On rank 0: the next picture, frame of a walk, or rays.
+    /// theirs. Called by all ranks, after agree(), and by those that trace when a walk's scene
+    /// changes; then the cache before is not used any more.
+    /// @param cache  must outlive the work, or its scene
+    /// @param scene  see AmbientValues
+    void share(PublishedCache& cache, std::uint64_t scene = 0) { cache_.open(cache, scene); }
+    // On rank 0: the next picture, frame of a walk, change of its scene, or rays.
     void start(Announcement announcement);
     void add(RayChunk chunk);
     /// Numbers pictures and frames, on rank 0.
@@ -143,6 +147,18 @@ class RankLink {
         [[nodiscard]] std::vector<std::uint64_t> all_reduce(
             const std::vector<std::uint64_t>& mine) override {
             return link_.all_reduce(Collective::Group::workers, mine);
+        }
+
+      private:
+        RankLink& link_;
+    };
+    class Everyone final : public Group {
+      public:
+        explicit Everyone(RankLink& link) : link_(link) {}
+        [[nodiscard]] int index() const override { return link_.rank(); }
+        [[nodiscard]] int size() const override { return link_.ranks(); }
+        [[nodiscard]] std::vector<std::string> all_gather(std::string mine) override {
+            return link_.all_gather(Collective::Group::all, std::move(mine));
         }
 
       private:
@@ -191,6 +207,7 @@ class RankLink {
     RankRoles roles_;
     std::vector<int> owners_;
     Workers workers_{*this};
+    Everyone everyone_{*this};
     TracerInbox inbox_;
     SharedCache cache_;
     std::chrono::steady_clock::time_point exchanged_;  ///< when values were, last

@@ -27,7 +27,8 @@ void TracerInbox::push(TracerNews news) {
     {
         const std::lock_guard lock(mutex_);
         std::visit(Overloaded{[&](PictureJob& job) { push_picture(std::move(job)); },
-                              [&](FrameOrder& order) { orders_.push_back(std::move(order)); },
+                              [&](FrameOrder& order) { orders_.emplace_back(std::move(order)); },
+                              [&](ChangeOrder& order) { orders_.emplace_back(std::move(order)); },
                               [&](WorkGrant& grant) { push_grant(std::move(grant)); },
                               [&](TracedRun& run) {
                                   FrameMail& mail = mail_[run.frame];
@@ -103,7 +104,7 @@ std::optional<TracerInbox::Item> TracerInbox::next(const StopFlag& stop) {
     return wait_for(stop, [&] { return popped(items_); });
 }
 
-std::optional<FrameOrder> TracerInbox::next_order(const StopFlag& stop) {
+std::optional<TracerInbox::Order> TracerInbox::next_order(const StopFlag& stop) {
     return wait_for(stop, [&] { return popped(orders_); });
 }
 

@@ -50,7 +50,8 @@ class TracerInbox {
     /// A picture whose blocks follow, or a piece of work.
     using Item = std::variant<std::shared_ptr<OpenPicture>, PictureBlock, RayChunk>;
     [[nodiscard]] std::optional<Item> next(const StopFlag& stop);
-    [[nodiscard]] std::optional<FrameOrder> next_order(const StopFlag& stop);
+    using Order = std::variant<FrameOrder, ChangeOrder>;
+    [[nodiscard]] std::optional<Order> next_order(const StopFlag& stop);
     /// Pixels of this frame. Nothing: also where no more come. Those of the next frame may be there
     /// already, where a rank has not been needed for this one.
     [[nodiscard]] std::optional<PixelRun> next_run(FrameNumber frame, const StopFlag& stop);
@@ -76,7 +77,7 @@ class TracerInbox {
     std::deque<Item> items_;
     std::map<JobId, std::shared_ptr<OpenPicture>> pictures_;  ///< the newest kJobsAtOnce
     std::deque<PixelRun> runs_;
-    std::deque<FrameOrder> orders_;
+    std::deque<Order> orders_;
     FrameNumber frames_over_ = 0;  ///< of frames before this one no more runs come
     std::map<FrameNumber, FrameMail> mail_;
     bool closed_ = false;

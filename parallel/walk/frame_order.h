@@ -32,6 +32,26 @@ struct FrameOrder {
     friend bool operator==(const FrameOrder&, const FrameOrder&) = default;
 };
 
+/// Another scene, of the same surfaces, for the frames that follow. All ranks prepare it; a second
+/// order says whether they take it, which they do where each could.
+struct ChangeOrder {
+    enum class Step : std::uint8_t { prepare, take, drop };
+    FrameNumber number = 0;  ///< the same in both
+    Step step = Step::prepare;
+    std::string payload;  ///< to be prepared: what changes, for whoever makes the frames' rays
+    std::vector<std::uint8_t> shown;  ///< of the points that are outdated, see ShownMaterials;
+                                      ///< empty: all are
+    friend bool operator==(const ChangeOrder&, const ChangeOrder&) = default;
+};
+
+/// What a rank says of a change that it was to prepare.
+struct PreparedChange {
+    FrameNumber number = 0;
+    std::string problem;            ///< why it cannot be; "": it can
+    std::uint64_t points = 0;       ///< of this rank's part
+    std::uint64_t kept_points = 0;  ///< of these, where the change is taken
+};
+
 /// A rectangle of a frame, drawn by the rank that owns it.
 struct FramePart {
     FrameNumber frame = 0;

@@ -73,6 +73,7 @@ class LiveFrames {
 
     /// The next change() outdates only the points that may show these; nothing: all.
     void outdate_only(std::optional<ShownMaterials> materials) { outdated_ = materials; }
+    [[nodiscard]] const std::optional<ShownMaterials>& outdated() const { return outdated_; }
     /// Share of the points that the last change() has kept.
     [[nodiscard]] double kept_points() const { return kept_; }
 

@@ -13,6 +13,8 @@ template <>
 inline constexpr int wire::kEnumerators<AmbientValues::Direction> = 2;
 template <>
 inline constexpr int wire::kEnumerators<Collective::Group> = kGroups;
+template <>
+inline constexpr int wire::kEnumerators<ChangeOrder::Step> = 3;
 
 // Defines visit_fields for a type whose fields are listed.
 #define LIGHTWALK_FIELDS(Type, ...)          \
@@ -24,6 +26,7 @@ LIGHTWALK_FIELDS(PictureJob, m.job, m.area, m.alignment, m.keep, m.payload, m.kn
 LIGHTWALK_FIELDS(CloudRules, m.frame, m.empty, m.tightness)
 LIGHTWALK_FIELDS(FrameOrder, m.number, m.width, m.height, m.rules, m.payload, m.budget,
                  m.most_points, m.rests, m.leaves, m.sample, m.refined, m.tells_origins, m.mixture)
+LIGHTWALK_FIELDS(ChangeOrder, m.number, m.step, m.payload, m.shown)
 LIGHTWALK_FIELDS(Announcement, m.job)
 LIGHTWALK_FIELDS(FinishedWork, m.payload, m.job, m.count, m.seconds, m.late)
 LIGHTWALK_FIELDS(WorkRequest, m.count, m.finished)
@@ -50,6 +53,7 @@ LIGHTWALK_FIELDS(PointExchange, m.frame, m.points)
 LIGHTWALK_FIELDS(Collective, m.group, m.round, m.finished, m.parts, m.numbers)
 LIGHTWALK_FIELDS(Failure, m.host, m.text)
 LIGHTWALK_FIELDS(Report, m.payload)
+LIGHTWALK_FIELDS(PreparedChange, m.number, m.problem, m.points, m.kept_points)
 LIGHTWALK_FIELDS(Notice, m.notice)
 #undef LIGHTWALK_FIELDS
 
@@ -58,7 +62,7 @@ void visit_fields(Wire&, Finish&) {}
 
 template <class Wire>
 void visit_fields(Wire& wire, AmbientValues& values) {
-    wire(values.records, values.direction, values.groups);
+    wire(values.records, values.direction, values.groups, values.scene);
     const std::size_t records = values.records.size(), groups = values.groups.size();
     if (records == 0 ? groups > 0 : groups % records != 0)
         wire::refuse("hold light groups of no ambient value");
@@ -76,7 +80,7 @@ void visit_fields(Wire& wire, TracedPixelResult& pixel) {
 
 namespace {
 
-constexpr std::uint8_t kVersion = 7;
+constexpr std::uint8_t kVersion = 8;
 
 }  // namespace
 

@@ -13,9 +13,10 @@
 
 namespace lightwalk {
 
-/// Rank 0 to everyone, before the first piece of work of a picture or of a walk's frame.
+/// Rank 0 to everyone, before the first piece of work of a picture or of a walk's frame, and where
+/// the scene of a walk changes.
 struct Announcement {
-    std::variant<PictureJob, FrameOrder> job;
+    std::variant<PictureJob, FrameOrder, ChangeOrder> job;
 };
 
 /// Worker to the queue: what is finished, and how many pieces of work more are wanted.
@@ -82,6 +83,9 @@ struct AmbientValues {
     Direction direction = Direction::offer;
     std::vector<Rgb> groups =
         {};  ///< what light groups add, by record, then group; empty: not kept
+    /// Of which scene of a walk, by the number of its change; 0: as it was read. Values of another
+    /// one than the receiver's are of no use there.
+    std::uint64_t scene = 0;
 
     /// Of record i.
     [[nodiscard]] std::span<const Rgb> groups_of(std::size_t i) const {
@@ -121,7 +125,7 @@ struct Report {
 };
 /// Program to program.
 struct Notice {
-    std::variant<Failure, Finish, Report> notice;
+    std::variant<Failure, Finish, Report, PreparedChange> notice;
 };
 
 using Message = std::variant<Announcement, WorkRequest, WorkGrant, WorkResult, FinishedPart,

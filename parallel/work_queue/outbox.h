@@ -34,7 +34,8 @@ struct RankNotice {
 using ProgramNews = std::variant<Progress, FinishedPicture, ChunksWanted, RayAnswer, FinishedFrame,
                                  LoggedPixels, RankNotice>;
 /// For the threads of this rank that trace.
-using TracerNews = std::variant<PictureJob, FrameOrder, WorkGrant, PointExchange, TracedRun>;
+using TracerNews =
+    std::variant<PictureJob, FrameOrder, ChangeOrder, WorkGrant, PointExchange, TracedRun>;
 
 struct Outbox {
     std::vector<Envelope> messages;  ///< to ranks, the own one included, in order

@@ -63,6 +63,7 @@ class WorkQueue {
     // From the program.
     void start(PictureJob job, Outbox& out);
     void start(FrameOrder order, Outbox& out);
+    void start(const ChangeOrder& order, Outbox& out) const { announce({order}, out); }
     /// Rays will come: asks for the first chunks.
     void open_stream(Outbox& out) { rays_.begin(out); }
     void add(RayChunk chunk, Outbox& out);

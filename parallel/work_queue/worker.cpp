@@ -47,7 +47,7 @@ void Worker::begin(Outbox& out) {
 
 void Worker::handle(Announcement announcement, Outbox& out) {
     std::visit(Overloaded{[&](PictureJob& job) { start(std::move(job), out); },
-                          [&](FrameOrder& order) { out.tracers.emplace_back(std::move(order)); }},
+                          [&](auto& order) { out.tracers.emplace_back(std::move(order)); }},
                announcement.job);
 }
 

@@ -213,7 +213,7 @@ double WalkSimulation::bytes_of(const Envelope& envelope) const {
 
 void WalkSimulation::handle(std::size_t number, TracerNews news) {
     Rank& rank = ranks_[number];
-    std::visit(Overloaded{[](const PictureJob&) {},
+    std::visit(Overloaded{[](const PictureJob&) {}, [](const ChangeOrder&) {},
                           [&](const FrameOrder&) {
                               if (number < owners_) project(number);
                           },

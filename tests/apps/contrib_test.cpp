@@ -444,3 +444,28 @@ TEST_CASE("contrib: ranks share the rays, and answer the same bytes") {
     CHECK(!alone.out.empty());
     CHECK(shared.out == alone.out);
 }
+
+TEST_CASE("contrib: ranks keep the coefficients of one process, and answer the same bytes") {
+    if (!mpirun(2)) return;
+    const TemporaryFolder folder;
+    std::string rays;
+    for (int i = 0; i < 40; ++i) rays += kRays;
+    const std::vector<std::string> words{"-h-", "--cache",    "-ab", "2", "-ad", "64",
+                                         "-b",  "if(Dx,1,0)", "-bn", "2", "-m",  "sky"};
+    const std::string alone = contrib(folder, words, rays).out;
+    CHECK(!alone.empty());
+    CHECK(alone != contrib(folder,
+                           with({"-h-", "-ab", "2", "-ad", "64"},
+                                {"-b", "if(Dx,1,0)", "-bn", "2", "-m", "sky"}),
+                           rays)
+                       .out);
+    for (const auto& [ranks, split] : std::vector<std::pair<int, std::vector<std::string>>>{
+             {2, {"--variant", "hybrid", "-n", "2"}}, {3, {"--variant", "ranks"}}}) {
+        CAPTURE(ranks);
+        const ProgramResult shared =
+            contrib(folder, with(split, words), rays, kRoom, *mpirun(ranks));
+        if (launcher_died(shared)) continue;
+        CHECK(shared.status == 0);
+        CHECK(shared.out == alone);
+    }
+}

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|dimmed|roles|mended|rad_file|returning|slow|abuse|ranks ...]
+    walk_server_test.py PROGRAM [rest|light|dimmed|changed|roles|mended|rad_file|returning|slow|abuse|ranks ...]
 """
 import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -201,6 +201,57 @@ def dimmed(program, words=(), launcher=()):
         return whole, lamp, panel, moved
 
 
+SUNLIT = """!gensky 9 21 {hour} +s -a 46 -o -7 -m -15
+skyfunc glow sky_glow 0 0 4 1 1 1 0
+sky_glow source sky 0 0 4 0 0 1 180
+void plastic paint 0 0 5 {paint} 0 0
+paint sphere globe 0 0 4 1.5 1 .6 .6
+""" + ROOM
+
+
+def changed(program, words=(), launcher=(), light=()):
+    """At another hour, with another colour, and at night a view at rest is the picture of the scene whose files say so."""
+    built = {"hour": "14.3", "paint": ".5 .5 .5"}
+    with Server(program, ["--edge-samples", "1", *light, *words], SUNLIT.format(**built), launcher) as server:
+        client = Client(server.port)
+        loaded = client.told("loaded")
+        assert "refused" not in loaded["time"], loaded
+        client.look()
+        client.until(lambda m: isinstance(m, Frame) and m.finished)
+
+        def check(**now):
+            client.until(lambda m: isinstance(m, Frame) and m.finished)
+            other = server.scene.parent / "other.rad"
+            other.write_text(SUNLIT.format(**{**built, **now}))
+            rendered = subprocess.run([program, "render", "-ps", "1", "-pa", "0", "-x", str(SIZE[0]), "-y", str(SIZE[1]),
+                                       *WORDS.split(), *light, other], stdout=subprocess.PIPE, check=True).stdout
+            body = [picture.split(b"\n\n", 1)[1] for picture in (server.get("/save/picture.hdr"), rendered)]
+            assert body[0] == body[1], f"the picture is another one: {now}"
+
+        def paint(red):
+            client.socket.send({"type": "edits", "id": 1, "materials": [
+                {"name": "paint", "definition": 0, "kind": "plastic", "reals": [red, 0.5, 0.5, 0, 0]}]})
+            return client.told("edited")
+
+        def at(hour):
+            client.socket.send({"type": "time", "time": {"month": 9, "day": 21, "hour": hour, "sky": ""}, "moving": False})
+            told = client.told("time")
+            assert "problem" not in told, told
+
+        edited = paint(0.9)
+        assert not edited["refused"] and 0.5 < edited["kept"] < 1, edited
+        check(paint=".9 .5 .5")
+        at(9.5)
+        check(hour="9.5", paint=".9 .5 .5")
+        at(2)  # night
+        check(hour="2", paint=".9 .5 .5")
+        at(11)
+        check(hour="11", paint=".9 .5 .5")
+        paint(0.2)
+        check(hour="11", paint=".2 .5 .5")
+        assert b"gensky 9 21 11.0000" in server.get("/save/sky.rad")
+
+
 def roles(program):
     """The first drives, the second watches the same picture and may take over when the first has left."""
     with Server(program) as server:
@@ -336,6 +387,9 @@ def ranks(program):
     for split, number in ((["--variant", "ranks"], "3"), (["--variant", "hybrid", "-n", "1"], "2")):
         together = dimmed(program, split, [*mpirun, number])
         assert all(abs(a - b) < 1e-6 * a for a, b in zip(alone, together)), (alone, together)
+    changed(program, ["--variant", "hybrid", "-n", "2"], [*mpirun, "2"])
+    changed(program, ["--variant", "ranks", "--scene-from", "rank0"], [*mpirun, "3"], ["-ab", "1", "-aa", "0", "-ad", "4"])
+    changed(program, ["--variant", "hybrid", "-n", "1", "--scene-from", "each"], [*mpirun, "3"])
     mended(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
     mended(program, ["--variant", "ranks", "--scene-from", "rank0", "-ab", "1", "-ad", "64"], [*mpirun, "3"])
     rad_file(program, ["--variant", "hybrid", "-n", "1"], [*mpirun, "2"])
@@ -356,7 +410,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, dimmed, roles, mended, rad_file, returning, slow, abuse, ranks)}
+CASES = {case.__name__: case for case in (rest, light, dimmed, changed, roles, mended, rad_file, returning, slow, abuse, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

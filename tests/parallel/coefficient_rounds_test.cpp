@@ -3,8 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <memory>
+#include <thread>
+#include <vector>
 
+#include "core/ambient/ambient_cache.h"
 #include "parallel/ray_list.h"
+#include "tests/parallel/meeting.h"
 #include "tests/test_scene.h"
 
 using namespace lightwalk;
@@ -67,7 +72,7 @@ class Halves final : public RayTally {
 };
 
 struct KeptRoom {
-    explicit KeptRoom(int workers)
+    explicit KeptRoom(int workers, Group* group = nullptr)
         : scene(kRoom, room_options()),
           cache(ambient_limits(scene.scene.cube().origin, scene.scene.cube().size, 0.3, 64), 1),
           executor(make_executor(kDefaultExecutor, workers)),
@@ -80,12 +85,15 @@ struct KeptRoom {
             all.push_back(tallies.back().get());
         }
         rounds = std::make_unique<CoefficientRounds>(scene.tracer, cache, *executor, contexts,
-                                                     std::move(all), stop);
+                                                     std::move(all),
+                                                     group != nullptr ? *group : alone, stop);
         for (double x = 0.4; x < 4; x += 0.8)
             for (double y = 0.4; y < 5; y += 0.8) rays.push_back({{x, y, 1}, {0, 0, 1}});
     }
-    void trace() {
-        trace_ray_list(scene.tracer, contexts, rays, 0, {.sensor = true}, *executor, 1,
+    void trace() { trace(0, rays.size()); }
+    void trace(std::size_t begin, std::size_t end) {
+        trace_ray_list(scene.tracer, contexts, std::span(rays).subspan(begin, end - begin), begin,
+                       {.sensor = true}, *executor, 1,
                        [](std::size_t, int, const Ray&, const Hit&) {});
     }
 
@@ -95,6 +103,7 @@ struct KeptRoom {
     WorkerContexts contexts;
     std::vector<std::unique_ptr<Halves>> tallies;
     StopFlag stop;
+    GroupOfOne alone;
     std::unique_ptr<CoefficientRounds> rounds;
     std::vector<RayQuery> rays;
 };
@@ -107,10 +116,53 @@ bool same(std::span<const CoefficientTerm> a, std::span<const CoefficientTerm> b
 
 }  // namespace
 
+TEST_CASE("rounds of coefficients: the same records, to the bit, by processes that share them") {
+    KeptRoom alone(2);
+    REQUIRE(alone.rounds->fill([&] { alone.trace(); }));
+    for (const int count : {2, 3}) {
+        CAPTURE(count);
+        Meeting meeting(count);
+        std::vector<std::unique_ptr<MeetingExchange>> exchanges;
+        std::vector<std::unique_ptr<KeptRoom>> rooms;
+        std::vector<std::thread> threads;
+        for (int i = 0; i < count; ++i) {
+            exchanges.push_back(std::make_unique<MeetingExchange>(meeting, i, count));
+            rooms.push_back(std::make_unique<KeptRoom>(1, exchanges.back().get()));
+        }
+        for (int i = 0; i < count; ++i) {
+            threads.emplace_back([&, i] {
+                KeptRoom& room = *rooms[static_cast<std::size_t>(i)];
+                const auto n = static_cast<std::size_t>(count), k = static_cast<std::size_t>(i);
+                const std::size_t all = room.rays.size();
+                CHECK(room.rounds->fill([&] { room.trace(all * k / n, all * (k + 1) / n); }));
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+        for (const auto& room : rooms) {
+            REQUIRE(room->cache.size() == alone.cache.size());
+            for (std::uint32_t i = 0; i < alone.cache.size(); ++i) {
+                CHECK(same(room->cache.terms(i), alone.cache.terms(i)));
+                CHECK(room->cache.value(i) == alone.cache.value(i));
+            }
+        }
+    }
+}
+
+TEST_CASE("rounds of coefficients: where one process is to stop, all do") {
+    Meeting meeting(2);
+    MeetingExchange first(meeting, 0, 2), second(meeting, 1, 2);
+    KeptRoom one(1, &first), other(1, &second);
+    other.stop.request();
+    std::thread thread([&] { CHECK_FALSE(one.rounds->fill([&] { one.trace(); })); });
+    CHECK_FALSE(other.rounds->fill([] {}));
+    thread.join();
+    CHECK(one.cache.size() == 0);
+}
+
 TEST_CASE("rounds of coefficients: the same records, to the bit, by any number of workers") {
     KeptRoom one(1), three(3);
-    one.rounds->fill([&] { one.trace(); });
-    three.rounds->fill([&] { three.trace(); });
+    (void)one.rounds->fill([&] { one.trace(); });
+    (void)three.rounds->fill([&] { three.trace(); });
     CHECK(one.cache.size() > 20);
     REQUIRE(one.cache.size() == three.cache.size());
     for (std::uint32_t i = 0; i < one.cache.size(); ++i) {
@@ -124,22 +176,22 @@ TEST_CASE("rounds of coefficients: looking tells nobody, and what was found is n
     KeptRoom room(2);
     std::vector<RayQuery> all;
     all.swap(room.rays);
-    room.rounds->fill([&] { room.trace(); });
+    (void)room.rounds->fill([&] { room.trace(); });
     CHECK(room.cache.size() == 0);  // no ray asked
     all.swap(room.rays);
-    room.rounds->fill([&] {
+    (void)room.rounds->fill([&] {
         room.trace();
         for (const auto& tally : room.tallies) CHECK(tally->told == 0);
     });
     const std::size_t first = room.cache.size();
     CHECK(first > 30);
-    room.rounds->fill([&] { room.trace(); });
+    (void)room.rounds->fill([&] { room.trace(); });
     CHECK(room.cache.size() == first);
 }
 
 TEST_CASE("rounds of coefficients end at a stop") {
     KeptRoom room(2);
     room.stop.request();
-    room.rounds->fill([&] { room.trace(); });
+    (void)room.rounds->fill([&] { room.trace(); });
     CHECK(room.cache.size() == 0);
 }

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "apps/session/render_backend.h"
+#include "io/files/file_source.h"
 #include "parallel/walk/live_frames.h"
+#include "parallel/walk/live_walk.h"
 #include "tests/apps/session/room.h"
 #include "tests/temporary_folder.h"
 
@@ -237,6 +239,160 @@ TEST_CASE("ranks: scenes follow each other, and one that cannot be read ends not
             CHECK(refused == company.ranks);
             CHECK(text.find("bad.rad:1") != std::string::npos);
             CHECK(text.find("bad.rad:1") == text.rfind("bad.rad:1"));
+        }
+    }
+}
+
+namespace {
+
+/// A view at rest.
+std::vector<Rgb> picture_at_rest(LiveWalk& walk) {
+    const StopFlag never;
+    for (int i = 0; i < 1000; ++i) {
+        REQUIRE(walk.next(task_at(.2).view, 40, 30, WalkAmbient::rest, .05, never));
+        if (walk.picture().phase == WalkPhase::done) return walk.picture().radiance;
+    }
+    FAIL("the view does not come to rest");
+    return {};
+}
+
+RendererOptions steered_light() {
+    RendererOptions options = plain_light();
+    options.steered = true;
+    CloudOptions cloud = *default_reuse();
+    cloud.samples = 1;
+    options.reuse = std::make_shared<const CloudOptions>(cloud);
+    return options;
+}
+
+/// Other numbers for a modifier of a scene.
+ModelChange edited(const Model& model, const std::string& name, std::vector<double> reals) {
+    ModelChange change = unchanged(model);
+    for (Primitive& modifier : change.modifiers)
+        if (modifier.name == name) modifier.reals = reals;
+    return change;
+}
+
+const std::vector<double> kGreen{.1, .7, .3, .02, .1}, kOff{0, 0, 0};
+
+/// The pictures at rest of a scene as it was read, and with other materials, one after the other.
+Pictures changed_pictures(Renderer& renderer) {
+    RenderBackend& backend = renderer.backend();
+    const Model& model = backend.session().compiled().model();
+    LiveWalk walk(backend.frames(), 1);
+    Pictures pictures{picture_at_rest(walk)};
+    for (const ModelChange& change :
+         {edited(model, "grey", kGreen), edited(model, "lamp", kOff), unchanged(model)}) {
+        backend.change_model(change);
+        walk.look_anew();
+        pictures.push_back(picture_at_rest(walk));
+    }
+    return pictures;
+}
+
+}  // namespace
+
+TEST_CASE("ranks: the scene of a walk changes on all of them, and back") {
+    const TemporaryFolder folder;
+    const SceneSource source = room(folder);
+    RendererOptions options = steered_light();
+    bool cached = false;
+    SUBCASE("by direct light") {}
+    SUBCASE("with indirect light") {
+        options.light.ambient_bounces = 1;
+        options.light.ambient_divisions = 32;
+        options.light.ambient_super_samples = 0;
+        SUBCASE("of each pixel") {
+            options.light.ambient_accuracy = 0;
+        }
+        SUBCASE("that ranks tell each other") {
+            cached = true;
+            options.light.ambient_value = {};
+        }
+    }
+    SUBCASE("in light groups") {
+        options.light_groups.emplace();
+    }
+    Renderer alone(LoadedScene(source), options);
+    const Pictures expected = changed_pictures(alone);
+    CHECK_FALSE(expected[0] == expected[1]);
+    for (const Company& company : companies()) {
+        CAPTURE(company.ranks);
+        Pictures together;
+        CHECK(all_well(on_ranks(company, options, [&](Ranks& ranks, const RendererOptions& own) {
+            Renderer renderer = ranks.open({source, own, {}, {}, {}});
+            renderer.run([&] { together = changed_pictures(renderer); });
+            if (ranks.leads()) CHECK(renderer.backend().statistics().rays.primary > 4 * 40 * 30);
+        })));
+        REQUIRE(together.size() == expected.size());
+        // Values that are cached depend on which rank was first; but without lamps only one
+        // of a scene before could bring anything.
+        const std::size_t exact = cached ? 2 : 0;
+        for (std::size_t i = exact; i < (cached ? 3 : expected.size()); ++i) {
+            CAPTURE(i);
+            CHECK(together[i] == expected[i]);
+        }
+    }
+}
+
+TEST_CASE("ranks: a change that one rank cannot make is told, and all go on as they were") {
+    /// Files of which one cannot be read.
+    class FaultyFiles final : public FileSource {
+      public:
+        [[nodiscard]] std::optional<std::string> answer(Question question, const std::string& text,
+                                                        std::size_t limit) override {
+            if (text.ends_with("spots.cal")) throw InputError("the disk of this rank is broken");
+            return real_files()->answer(question, text, limit);
+        }
+    };
+    const TemporaryFolder folder;
+    SceneSource source = room(folder);
+    source.library = {folder.path()};
+    source.files.push_back(folder.write("more.rad", R"(
+void brightfunc pattern 2 1 . 0 0
+pattern plastic spotted 0 0 5 .5 .5 .5 0 0
+spotted sphere other 0 0 4 2 2 .7 .7
+)"));
+    folder.write("spots.cal", "spots = frac(Px);\n");
+    const auto spotted = [](const Model& model) {
+        ModelChange change = unchanged(model);
+        for (Primitive& modifier : change.modifiers)
+            if (modifier.name == "pattern") modifier.strings = {"spots", "spots.cal"};
+        return change;
+    };
+    const RendererOptions options = steered_light();
+    for (const Company& company : companies()) {
+        if (company.ranks == 1 || company.options.scene_from == SceneFrom::rank0) continue;
+        for (const bool leader : {false, true}) {
+            Company own_files = company;
+            own_files.options.scene_from = SceneFrom::each;
+            CAPTURE(company.ranks);
+            CAPTURE(leader);
+            std::string problem;
+            Pictures pictures;
+            CHECK(all_well(
+                on_ranks(own_files, options, [&](Ranks& ranks, const RendererOptions& own) {
+                    RendererRequest request{source, own, {}, {}, {}};
+                    const bool faulty = leader ? ranks.leads() : !ranks.leads();
+                    if (faulty) request.files = std::make_shared<FaultyFiles>();
+                    Renderer renderer = ranks.open(request);
+                    renderer.run([&] {
+                        RenderBackend& backend = renderer.backend();
+                        LiveWalk walk(backend.frames(), 1);
+                        pictures.push_back(picture_at_rest(walk));
+                        try {
+                            backend.change_model(spotted(backend.session().compiled().model()));
+                        } catch (const InputError& error) {
+                            problem = error.what();
+                        }
+                        walk.look_anew();
+                        pictures.push_back(picture_at_rest(walk));
+                    });
+                })));
+            CHECK(problem.find("the disk of this rank is broken") != std::string::npos);
+            CHECK((problem.find("rank ") == 0) == !leader);
+            REQUIRE(pictures.size() == 2);
+            CHECK(pictures[0] == pictures[1]);
         }
     }
 }

@@ -304,3 +304,29 @@ TEST_CASE("a file is a frozen scene by its first bytes") {
     CHECK_FALSE(is_frozen_scene("-", *files));
     CHECK_FALSE(is_frozen_scene("!genbox a b 1 1 1", *files));
 }
+
+TEST_CASE("a frozen scene knows which of its parts a generator has written as its sky") {
+    const TemporaryFolder folder;
+    folder.write("room.rad", R"rad(void plastic grey 0 0 5 .5 .5 .5 0 0
+grey sphere ball 0 0 4 0 0 0 1
+!gensky 6 21 12 +s
+skyfunc glow sky_glow 0 0 4 1 1 1 0
+sky_glow source sky 0 0 4 0 0 1 180
+)rad");
+    const Room room(folder);
+    const std::vector<GeneratedPart>& skies = room.scene.model().skies;
+    REQUIRE(skies.size() == 1);
+    const auto frozen = mapped(room.bytes());
+    const std::shared_ptr<const Model> model = frozen->model();
+    REQUIRE(model->skies.size() == 1);
+    const GeneratedPart &was = skies[0], &is = model->skies[0];
+    CHECK(to_prefix(is.where) == to_prefix(was.where));
+    CHECK(is.command == was.command);
+    CHECK(is.refusal == was.refusal);
+    CHECK(is.first_modifier == was.first_modifier);
+    CHECK(is.last_modifier == was.last_modifier);
+    CHECK(is.last_modifier > is.first_modifier);
+    CHECK(is.first_surface == was.first_surface);
+    CHECK(is.last_surface == was.last_surface);
+    CHECK(is.last_surface > is.first_surface);
+}

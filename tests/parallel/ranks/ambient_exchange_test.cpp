@@ -139,3 +139,64 @@ TEST_CASE("ambient values of others come into the cache while it is shared, and 
     shared.merge(news_of(4));
     CHECK(values.records.size() == 3);
 }
+
+TEST_CASE("ambient values: those of a scene before reach nobody once it has changed") {
+    constexpr std::uint64_t kNew = 7;
+    const auto of_scene = [](AmbientValues values, std::uint64_t scene) {
+        values.scene = scene;
+        return values;
+    };
+    AmbientMaster master(kMaster);
+    CHECK(answer_of(master, 1, values_of(3)).records.empty());
+    CHECK(answer_of(master, 2, of_scene(values_of(1), kNew)).records.empty());
+    CHECK(master.size() == 1);
+    // Rank 1 has not heard of it: what it offers is too late, and it is not told what it cannot
+    // use.
+    const AmbientValues late = answer_of(master, 1, values_of(2));
+    CHECK(late.records.empty());
+    CHECK(late.scene == 0);
+    CHECK(master.size() == 1);
+    const AmbientValues news = answer_of(master, 1, of_scene(values_of(0), kNew));
+    CHECK(news.records.size() == 1);
+    CHECK(news.scene == kNew);
+}
+
+TEST_CASE("ambient values: a cache takes those of its own scene, and tells of its own ones") {
+    std::vector<AmbientValues> sent;
+    SharedCache shared(2, [&](AmbientValues values) { sent.push_back(std::move(values)); });
+    ListingCache old_values, new_values;
+    PublishedCache before(old_values), after(new_values);
+    shared.open(before);
+    shared.stored(record_at(1), {});
+    shared.open(after, 7);
+    shared.merge(news_of(2));
+    CHECK(old_values.records.empty());
+    CHECK(new_values.records.empty());
+    AmbientValues news = news_of(1);
+    news.scene = 7;
+    shared.merge(news);
+    CHECK(new_values.records.size() == 1);
+    for (int i = 0; i < 2; ++i) shared.stored(record_at(2), {});
+    REQUIRE(sent.size() == 1);
+    CHECK(sent[0].scene == 7);
+    CHECK(sent[0].records.size() == 2);  // none of before
+    CHECK(shared.unsent().scene == 7);
+}
+
+TEST_CASE("ambient values: a client forgets what it had not offered of the scene before") {
+    AmbientClient client(kClient, kMaster, 4);
+    Outbox out;
+    AmbientValues fresh = values_of(1);
+    fresh.scene = 7;
+    client.offer(values_of(3), out);
+    client.offer(fresh, out);
+    client.offer(values_of(2), out);  // late
+    client.ask(out);
+    REQUIRE(out.messages.size() == 1);
+    const auto& offered = std::get<AmbientValues>(out.messages[0].message);
+    CHECK(offered.scene == 7);
+    CHECK(offered.records.size() == 1);
+    client.handle(AmbientValues{{}, AmbientValues::Direction::news, {}, 7}, out);
+    client.ask(out);  // having nothing new, it still says of which scene it is
+    CHECK(std::get<AmbientValues>(out.messages.at(1).message).scene == 7);
+}

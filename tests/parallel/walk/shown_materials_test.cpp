@@ -129,3 +129,22 @@ TEST_CASE("shown materials: points are dropped with what light groups add to the
     CHECK(points[1].surface == 2u << 8);
     CHECK(groups == std::vector<Rgb>{{}, {}, {2, 2, 2}, {2, 2, 2}});
 }
+
+TEST_CASE("shown materials: another process that has their flags says the same of all points") {
+    const TestScene scene(coloured_room("", true));
+    const ShownMaterials walls = shown_materials_of(scene.scene, "wall");
+    const ShownMaterials copy(walls.flags());
+    std::size_t shown = 0;
+    for (int kind = 0; kind < kPointKinds; ++kind) {
+        CloudPoint point;
+        point.kind = static_cast<PointKind>(kind);
+        for (point.surface = 0; point.surface <= kMaterialBits; ++point.surface) {
+            CHECK(copy.may_show(point) == walls.may_show(point));
+            shown += walls.may_show(point) ? 1 : 0;
+        }
+    }
+    CHECK(shown > 0);
+    std::vector<std::uint8_t> few = walls.flags();
+    few.pop_back();
+    CHECK_THROWS_AS(ShownMaterials{few}, InputError);
+}

@@ -67,8 +67,12 @@ std::vector<Message> some_messages() {
     part.refined_groups = {{1, 2, 3}, {4, 5, 6}};
     FramePart plain = part;
     plain.pixels = values;
+    AmbientValues news{
+        {some_record(1)}, AmbientValues::Direction::news, {{1, 2, 3}, {4, 5, 6}}, 12};
     return {Announcement{PictureJob{3, {0, 0, 640, 480}, 4, true, "a view", {{0, 0, 8, 8}}, true}},
             Announcement{order},
+            Announcement{ChangeOrder{12, ChangeOrder::Step::prepare, "a sky", {0, 1, 1}}},
+            Announcement{ChangeOrder{12, ChangeOrder::Step::drop, {}, {}}},
             WorkRequest{2, {{FinishedWork::Payload::rays, 7, 64, .125, 3}, {}}},
             WorkGrant{{work, RayChunk{5, 1ULL << 40, {1, -0.0, 1e-300, .1, 0, 2}},
                        PixelRun{3, 1, 7, true, false, {{1, 2}}}},
@@ -90,11 +94,12 @@ std::vector<Message> some_messages() {
             PointExchange{3, SharedPoints{{some_point()}, {{1, 2, 3}, {4, 5, 6}}}},
             PointExchange{3, UsedPixels{{{1, 2}, {3, 4}}, {{5, 6}}}},
             AmbientValues{{some_record(1), some_record(-1e-30F)}},
-            AmbientValues{{some_record(1)}, AmbientValues::Direction::news, {{1, 2, 3}, {4, 5, 6}}},
+            news,
             Collective{Collective::Group::owners, 9, true, {"a", "", "ccc"}, {1, ~0ULL}},
             Notice{Failure{"node17", "room.rad:3: what is wrong"}},
             Notice{Finish{}},
-            Notice{Report{"{}"}}};
+            Notice{Report{"{}"}},
+            Notice{PreparedChange{12, "room.rad:3: what is wrong", 1ULL << 40, 7}}};
 }
 
 }  // namespace
@@ -117,7 +122,7 @@ TEST_CASE("a message is the same after its way over the wire") {
 
 TEST_CASE("an ambient record takes 65 bytes and arrives to the bit") {
     const std::string bytes = encode_message(AmbientValues{{some_record(3)}});
-    CHECK(bytes.size() == 2 + 8 + 65 + 1 + 8);
+    CHECK(bytes.size() == 2 + 8 + 65 + 1 + 8 + 8);
     const auto got = std::get<AmbientValues>(decode_message(bytes));
     const AmbientRecord record = got.records.at(0);
     const AmbientRecord expected = some_record(3);

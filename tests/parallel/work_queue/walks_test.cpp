@@ -90,6 +90,7 @@ class Walk final : public RankNetwork {
         std::visit(
             Overloaded{
                 [](PictureJob&) { FAIL("nobody asked for a picture"); },
+                [](ChangeOrder&) { FAIL("nobody asked for another scene"); },
                 [&](FrameOrder& order) { project(number, order.number); },
                 [&](WorkGrant& grant) {
                     for (Work& piece : grant.pieces)
