@@ -91,7 +91,8 @@ bool LiveWalk::draw(const View& view, bool rests, double budget, const StopFlag&
     const ProgressivePicture* progressive = frames_.progressive(stop);
     const std::size_t open = progressive != nullptr ? progressive->open_pixels() : 0;
     picture_.share = 1 - static_cast<double>(open) / pixels;
-    picture_.phase = open > 0 ? WalkPhase::filling : WalkPhase::refining;
+    const bool light_follows = use_ == WalkAmbient::rest && frames_.has_indirect();
+    picture_.phase = open > 0 || light_follows ? WalkPhase::filling : WalkPhase::refining;
     add_draft();
     return true;
 }

@@ -174,7 +174,7 @@ TEST_CASE("a draft is near what indirect light adds") {
     CHECK(far / pixels < 0.15);
 }
 
-TEST_CASE("a draft that has no time is made bit by bit; what is usable is there for all pixels") {
+TEST_CASE("a draft that has no time is made bit by bit, and is usable for all pixels at once") {
     Drafted room(kFurnace);
     const ViewDraft nothing = room.step(kNoTime);
     CHECK(nothing.best == nullptr);

@@ -175,6 +175,9 @@ TEST_CASE("a draft of indirect light comes first, is told as such, and nothing o
         return picture.phase == WalkPhase::ambient;
     });
     REQUIRE(light != all.end());
+    CHECK(std::none_of(all.begin(), light, [](const LivePicture& picture) {
+        return picture.phase == WalkPhase::refining;  // light is to come
+    }));
     double error = 0, sum = 0;
     for (std::size_t i = 0; i < truth.radiance.size(); ++i) {
         const Rgb &drafted = light->radiance[i], &right = truth.radiance[i];
