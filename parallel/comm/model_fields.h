@@ -5,11 +5,9 @@
 
 namespace lightwalk {
 
+// The alias is the last one.
 template <>
-inline constexpr int wire::kEnumerators<PrimitiveType> = 0
-#define PRIMITIVE(id, word, kind) +1
-#include "core/model/primitive_types.def"
-    ;
+inline constexpr int wire::kEnumerators<PrimitiveType> = static_cast<int>(PrimitiveType::alias) + 1;
 
 template <class Wire>
 void visit_fields(Wire& wire, SourceLocation& where) {

@@ -36,6 +36,7 @@ grey sphere ball 0 0 4 -1 2 .7 .7
 }  // namespace
 
 TEST_CASE("a change of a model is the same after its way over the wire") {
+    CHECK(static_cast<std::size_t>(wire::kEnumerators<PrimitiveType>) == primitive_type_count());
     const auto model = model_of(kChangedRoom);
     const ModelChange change = unchanged(*model);
     REQUIRE(change.sources.size() == 1);
