@@ -1,7 +1,7 @@
 // The scale of relative differences of luminance, as the server draws them (io/picture/difference_colour.h). Does not use the
 // document.
 const kEven = 0.1, // octaves about none in which the scale is even
-    kOctaves = 2; // at its ends
+    kOctaves = 4; // at its ends
 
 const kStops = [
     [103, 169, 255],
@@ -14,7 +14,7 @@ const kStops = [
 ];
 
 /** Shares that are written beside the scale, of the first side. */
-export const kDifferences = [3, 1, 0.25, 0.05, 0, -0.05, -0.2, -0.5, -0.75];
+export const kDifferences = [15, 3, 1, 0.25, 0.05, 0, -0.05, -0.2, -0.5, -0.75, -0.9375];
 
 /** Where luminance `now` lies on the scale, -1 to 1, against `before`. */
 export function difference_place(before, now) {

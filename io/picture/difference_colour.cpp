@@ -9,7 +9,7 @@
 namespace lightwalk {
 namespace {
 
-constexpr double kEven = 0.1, kOctaves = 2;  // see difference_place()
+constexpr double kEven = 0.1, kOctaves = 4;  // see difference_place()
 
 // From less to more, at even distances: two hues that people of any colour vision tell apart.
 constexpr std::array<std::array<double, 3>, 7> kStops{{{103, 169, 255},
@@ -22,7 +22,7 @@ constexpr std::array<std::array<double, 3>, 7> kStops{{{103, 169, 255},
 
 // Ratios by the upper bits of positive floats: 256 steps an octave.
 constexpr unsigned kRatioDropped = 15;
-constexpr float kLeastRatio = 0x1p-3f, kMostRatio = 0x1p3f;
+constexpr float kLeastRatio = 0x1p-5f, kMostRatio = 0x1p5f;
 
 std::size_t ratio_index(float ratio) {
     const auto bits = std::bit_cast<std::uint32_t>(std::clamp(ratio, kLeastRatio, kMostRatio));

@@ -6,10 +6,9 @@
 namespace lightwalk {
 
 /// Where a difference lies on its scale, which is even about none, and logarithmic far from it:
-/// with r = log2(now / before), in octaves, sign(r) log(1 + |r| / r0) / log(1 + 2 / r0), r0 = 0.1.
-/// @return  -1 (a quarter, or less) ... 0 (the same) ... 1 (four times as much, or more); where
-/// both
-///          are 0, or one is no number, 0
+/// with r = log2(now / before), in octaves, sign(r) log(1 + |r| / r0) / log(1 + 4 / r0), r0 = 0.1.
+/// @return  -1 (a sixteenth, or less) ... 0 (the same) ... 1 (16 times as much, or more); 0 where
+///          both are 0, or one is no number
 [[nodiscard]] double difference_place(float before, float now);
 
 /// The colour of a difference: sRGB bytes, blue where there is less, grey where there is the same,

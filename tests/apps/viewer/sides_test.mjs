@@ -60,8 +60,8 @@ test("the scale of differences is the server's", () => {
     assert.equal(difference_place(0, 0), 0);
     assert.equal(difference_place(0, 1), 1);
     assert.equal(difference_place(1, 0), -1);
-    assert.ok(Math.abs(difference_place(1, 4) - 1) < 1e-12);
-    assert.ok(Math.abs(difference_place(1, 2) - Math.log1p(10) / Math.log1p(20)) < 1e-12);
+    assert.ok(Math.abs(difference_place(1, 16) - 1) < 1e-12);
+    assert.ok(Math.abs(difference_place(1, 2) - Math.log1p(10) / Math.log1p(40)) < 1e-12);
     assert.ok(Math.abs(difference_place(2, 1) + difference_place(1, 2)) < 1e-12);
     assert.deepEqual(difference_colour(0), [62, 62, 64]);
     assert.deepEqual(difference_colour(-1), [103, 169, 255]);
