@@ -75,6 +75,12 @@ export class Camera {
         this.again_ = true; // until a frame of another view comes
     }
 
+    /** The frames so far show something else than those to come: these do not fill their gaps. */
+    forget() {
+        this.reprojection_?.forget();
+        this.kept_ = this.again_ = false;
+    }
+
     /** Nothing is drawn any more: the graphics memory is free. */
     end() {
         this.reprojection_?.end();

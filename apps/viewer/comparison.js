@@ -221,6 +221,7 @@ export class Comparison {
         const message = { type: "difference", shown };
         this.told_.set(message.type, message);
         this.beside_.session.send(message);
+        this.beside_.camera.forget();
         show_difference_legend(shown);
         const { number, display } = this.display();
         if (!shown) this.want(number, display);

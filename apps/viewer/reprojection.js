@@ -163,9 +163,13 @@ export class Reprojection {
         gl.depthFunc(gl.LESS);
     }
 
+    forget() {
+        this.frames_ = [];
+    }
+
     /** Give the graphics memory back. */
     end() {
-        this.frames_ = [];
+        this.forget();
         this.gl_.getExtension("WEBGL_lose_context")?.loseContext();
     }
 

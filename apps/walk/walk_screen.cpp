@@ -139,8 +139,8 @@ double WalkScreen::most_moving_pixels() const {
 void WalkScreen::show_difference(const LivePicture& base, const LivePicture& picture,
                                  const PixelRectangle& area, int y, std::span<std::uint8_t> row) {
     const auto place = [](int at, int side, int other_side) {
-        return static_cast<std::size_t>(static_cast<std::int64_t>(2 * at + 1) * other_side /
-                                        (2 * side));
+        constexpr std::int64_t kTwice = 2;
+        return static_cast<std::size_t>((kTwice * at + 1) * other_side / (kTwice * side));
     };
     const std::size_t below = place(y, picture.height, base.height);
     const Rgb* const before = &base.radiance[below * static_cast<std::size_t>(base.width)];
