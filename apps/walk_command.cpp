@@ -199,7 +199,11 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
         {"--edge-samples N", &serve.edge_samples,
          "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
          "render`",
-         With{.least = 1, .most = 255}}};
+         With{.least = 1, .most = 255}},
+        {"--beside FILES", &serve.beside,
+         "octree, frozen scene or scene files, in one word with spaces between them, that the page "
+         "shows beside the walk's scene where somebody compares; else that is the scene itself, at "
+         "another time, under other dimmers or of other materials"}};
 }
 
 void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {

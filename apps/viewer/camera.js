@@ -75,20 +75,35 @@ export class Camera {
         this.again_ = true; // until a frame of another view comes
     }
 
-    /** Draw `view`, of a picture of that size [pixels], unless the picture shows just that. Returns whether it was drawn. */
-    draw(view, { width, height }) {
-        this.draws = this.draw_(view, width, height);
+    /** The frames so far show something else than those to come: these do not fill their gaps. */
+    forget() {
+        this.reprojection_?.forget();
+        this.kept_ = this.again_ = false;
+    }
+
+    /** Nothing is drawn any more: the graphics memory is free. */
+    end() {
+        this.reprojection_?.end();
+        this.reprojection_ = null;
+    }
+
+    /**
+     * Draw `view`, of a picture of that size [pixels], unless the picture shows just that. Returns whether it was drawn.
+     * @param part  of the picture that is to be seen: from and to, 0..1 from the left
+     */
+    draw(view, { width, height }, part = [0, 1]) {
+        this.draws = this.draw_(view, width, height, part);
         if (this.canvas_.hidden === this.draws) this.canvas_.hidden = !this.draws;
         return this.draws;
     }
 
-    draw_(view, width, height) {
+    draw_(view, width, height, part) {
         if (!this.ready || !view || !can_warp(view) || is_picture_of(this.view_, view))
             return false;
         this.size_ = [width, height];
         if (!this.kept_) this.keep_();
         if (!this.reprojection_.has_frame) return false;
-        this.reprojection_.draw(view, width, height);
+        this.reprojection_.draw(view, width, height, part);
         ++this.refreshes;
         return true;
     }

@@ -124,6 +124,7 @@ class Commands {
 
     /** Glare is another one in other light: it is asked for again once dimmers and time rest. */
     follow_light(why) {
+        if (this.comparison.side === "B") return; // these are of the walk
         clearTimeout(this.light_rests_);
         this.light_rests_ = setTimeout(() => {
             if (this.glare.id !== 0) this.ask_glare();
@@ -131,13 +132,15 @@ class Commands {
         }, 300);
     }
 
+    /** A file of the side that the panels show. */
+    side_file_(name) {
+        return server_file(`${this.comparison.folder}${name}`, token_query(location.href));
+    }
+
     async write_sky() {
         try {
             if (this.session.driving) this.time.tell();
-            download(
-                await server_file("sky.rad", token_query(location.href)),
-                this.name_("sky.rad"),
-            );
+            download(await this.side_file_("sky.rad"), this.name_("sky.rad"));
         } catch (error) {
             notice(`No file of the sky: ${error.message}`, true);
         }
@@ -147,7 +150,7 @@ class Commands {
         try {
             const { driving } = this.session;
             if (driving) this.lamps.tell();
-            const text = await server_file("lights.rad", token_query(location.href));
+            const text = await this.side_file_("lights.rad");
             download(text, this.name_("lights.rad"));
         } catch (error) {
             notice(`No file of lamps: ${error.message}`, true);
@@ -157,7 +160,7 @@ class Commands {
     async write_materials() {
         try {
             if (this.session.driving) this.materials.tell();
-            const text = await server_file("materials.rad", token_query(location.href));
+            const text = await this.side_file_("materials.rad");
             download(text, this.name_("materials.rad"));
         } catch (error) {
             notice(`No file of materials: ${error.message}`, true);
@@ -175,6 +178,7 @@ class Commands {
     /** Read the light at x, y (0..1 from the left and the bottom), or choose the surface there for isolux or its material. */
     point(x, y) {
         if (this.materials.choosing) {
+            if (this.comparison.open) this.comparison.choose(this.comparison.side_at(x));
             this.materials.choose_at(x, y);
             if (!is_open("materials")) toggle_panel("materials");
             return;
@@ -353,6 +357,8 @@ function keys_of(commands) {
         n: () => toggle_panel("plan"),
         u: () => lamps.lamps.length > 0 && toggle_panel("lamps"),
         0: () => time.file && toggle_panel("time"),
+        ".": () => commands.comparison.toggle(),
+        ",": () => commands.comparison.show_difference(!commands.comparison.shows_difference),
         i: toggle_status,
         Enter: middle,
         " ": middle,

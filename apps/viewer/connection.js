@@ -51,11 +51,20 @@ export class Connection {
         this.open_();
     }
 
+    /** For good. */
+    close() {
+        this.closed_ = true;
+        clearTimeout(this.timer_);
+        this.timer_ = undefined;
+        this.socket_.close();
+    }
+
     open_() {
         this.timer_ = undefined;
         const socket = new WebSocket(this.address_);
         socket.binaryType = "arraybuffer";
         socket.onopen = () => {
+            if (this.closed_) return socket.close();
             this.reason_ = "";
             this.on_.open();
         };
@@ -65,6 +74,7 @@ export class Connection {
     }
 
     receive_(data) {
+        if (this.closed_) return;
         // A server that accepts and at once closes again must not be asked without pause: backoff starts anew only
         // after a message has arrived.
         this.attempt_ = 0;
@@ -87,6 +97,7 @@ export class Connection {
     }
 
     lost_(reason) {
+        if (this.closed_) return;
         const wait = wait_before(this.attempt_++);
         this.timer_ = setTimeout(() => this.open_(), wait);
         this.on_.lost(this.reason_ || reason || "", wait);

@@ -3,6 +3,7 @@ import { decode_frame } from "./decoding.js";
 
 export class Decoder {
     constructor() {
+        this.started_ = null;
         this.worker_ = null; // until it has said that it works
         this.waiting_ = new Map(); // by number: {resolve, reject}
         this.number_ = 0;
@@ -21,6 +22,7 @@ export class Decoder {
     }
 
     start_(worker) {
+        this.started_ = worker;
         worker.onmessage = ({ data }) => {
             if (data.ready) this.worker_ = worker;
             else this.answer_(data);
@@ -30,6 +32,12 @@ export class Decoder {
             for (const number of [...this.waiting_.keys()])
                 this.answer_({ number, error: "frame: who decodes it has failed" });
         };
+    }
+
+    /** Nothing more is decoded. */
+    end() {
+        this.started_?.terminate();
+        this.worker_ = null;
     }
 
     answer_({ number, decoded, error }) {

@@ -37,9 +37,20 @@ export class LampPanel {
         this.lamps = own
             ? names.map((name) => sound_lamp(name, before.find((lamp) => lamp.name === name) ?? {}))
             : lamps_of(names, this.told_);
-        by_id("lamps-hint").hidden = names.length > 0;
-        by_id("lamps-tools").hidden = names.length === 0;
         this.show_();
+    }
+
+    /**
+     * Show another side of a comparison.
+     * @param other  what was returned when it was shown last; null: nothing is known of it yet
+     * @returns what was shown
+     */
+    swap(other) {
+        if (this.waiting_) this.tell();
+        const { lamps, touched, told_ } = this;
+        Object.assign(this, other ?? { lamps: [], touched: false, told_: [] });
+        this.show_();
+        return { lamps, touched, told_ };
     }
 
     /** Take what the browser has stored of the scene's presets. */
@@ -100,6 +111,10 @@ export class LampPanel {
     }
 
     show_() {
+        const some = this.lamps.length > 0;
+        by_id("lamps-hint").hidden = some;
+        by_id("lamps-tools").hidden = !some;
+        by_id("lamps-preset").value = "";
         by_id("lamps").replaceChildren(...this.lamps.map((lamp, index) => this.row_(lamp, index)));
         this.lamps.forEach((_, index) => this.show_values_(index));
         this.drive();

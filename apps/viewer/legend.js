@@ -1,4 +1,5 @@
 // The legend of false colours: beside the picture, and in pictures that are saved.
+import { difference_colour, difference_place, kDifferences, share_text } from "./difference.js";
 import { by_id, shape } from "./dom.js";
 import { colour_text, palette_colour, scale_ticks, share_of } from "./scale.js";
 import { round_number } from "./words.js";
@@ -19,6 +20,37 @@ function gradient() {
             }),
         );
     return made;
+}
+
+/** Draw the legend of differences, or hide it. */
+export function show_difference_legend(shown) {
+    by_id("difference-legend").hidden = !shown;
+    if (!shown) return;
+    const svg = by_id("difference-bar"),
+        height = svg.clientHeight || 200;
+    const colours = shape("linearGradient", {
+        id: "difference-colours",
+        x1: 0,
+        y1: 1,
+        x2: 0,
+        y2: 0,
+    });
+    for (let k = 0; k <= kSteps; ++k)
+        colours.append(
+            shape("stop", {
+                offset: k / kSteps,
+                "stop-color": colour_text(difference_colour((2 * k) / kSteps - 1)),
+            }),
+        );
+    const bar = { x: 0.5, y: 0.5, width: kWidth, height: height - 1, rx: 2 };
+    svg.replaceChildren(colours, shape("rect", { ...bar, fill: "url(#difference-colours)" }));
+    for (const share of kDifferences) {
+        const y = height - ((difference_place(1, 1 + share) + 1) / 2) * (height - 1) - 0.5;
+        svg.append(
+            shape("line", { x1: kWidth, x2: kWidth + 5, y1: y, y2: y, class: "tick" }),
+            shape("text", { x: kWidth + 10, y, "dominant-baseline": "central" }, share_text(share)),
+        );
+    }
 }
 
 /** Draw the legend beside the picture, or hide it. */

@@ -1,6 +1,7 @@
 // Puts the page together: makes its parts and passes events between them.
 import { AddressBar } from "./address_bar.js";
 import { Camera } from "./camera.js";
+import { Comparison } from "./comparison.js";
 import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
 import { Glare } from "./glare.js";
@@ -15,11 +16,13 @@ import { Navigator } from "./navigator.js";
 import { cover, notice, show_failures, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
 import { close_panel, is_open, start_panels } from "./panels.js";
+import { panel_messages } from "./panel_messages.js";
 import { PathPanel } from "./path_panel.js";
 import { PlanPanel } from "./plan_panel.js";
 import { Roles } from "./roles.js";
 import { picture_size, scaled_into, Screen } from "./screen.js";
 import { Session } from "./session.js";
+import { Sides } from "./sides.js";
 import { show_phase, start_figures } from "./status.js";
 import { StickMark } from "./stick.js";
 import { keep_scene_item, scene_item, session_id } from "./store.js";
@@ -49,14 +52,20 @@ const screen = new Screen(picture, { drawn, skipped, failed });
 const asked = new URL(location).searchParams;
 const plain = asked.has("plain"); // show frames as they come
 const camera = new Camera(by_id("camera"), picture, !plain, asked.has("refine"));
+const sides = new Sides(
+    panel_messages(() => ({
+        ...{ session, counters, measuring, materials, lamps, time, commands },
+        open_panels,
+    })),
+);
 const session = new Session(session_id(), camera.available, screen, {
+    ...sides.handlers("A", ["probes", "material", "edited", "lights", "time"]),
     connected: () => cover("Connected. Waiting for the scene…"),
     lost,
     welcome,
     loaded: scene_loaded,
     picked: (message) => measuring.picked(message),
     mean: (message) => measuring.mean(message),
-    probes: (message) => measuring.probes(message),
     role: (message) => roles.update(message),
     loading: ({ text, share }) => {
         isolux.outdate("the scene is read again");
@@ -73,15 +82,6 @@ const session = new Session(session_id(), camera.available, screen, {
         counters.last_isolux = message;
         isolux.answer(message);
     },
-    material: (message) => {
-        counters.last_material = message;
-        materials.answer(message);
-    },
-    edited: (message) => {
-        counters.last_edited = message;
-        materials.take(message);
-        if (!session.driving) commands.follow_light("a material is changed");
-    },
     state: server_state,
     view: (message) => {
         session.watch(message);
@@ -89,16 +89,6 @@ const session = new Session(session_id(), camera.available, screen, {
     },
     display: (message) => {
         if (!session.driving) take_display(message);
-    },
-    lights: (message) => {
-        if (session.driving && lamps.touched) return;
-        lamps.take(message);
-        commands.follow_light("a lamp is dimmed");
-    },
-    time: (message) => {
-        counters.last_time = message;
-        time.take(message);
-        commands.follow_light("the time is another one");
     },
     refused: ({ text, id, view }) => {
         if (id !== undefined && (plan.refused(id) || isolux.refused(id))) return;
@@ -126,12 +116,13 @@ const light = new LightPanel({
         display_number = (display_number + 1) & 255;
         tell_display();
         if (screen.want(display_number, display)) camera.recoloured();
+        comparison.want(display_number, display);
         show_legend(display);
     },
     settings: (settings) => session.send({ type: "settings", ...settings }),
 });
 const lamps = new LampPanel({
-    lights: (message) => session.send(message),
+    lights: (message) => comparison.send(message),
     kept: (presets) => keep_scene_item(scene, "lamps", presets),
     may_drive: () => session.driving,
     changed: () => {
@@ -140,15 +131,15 @@ const lamps = new LampPanel({
     },
 });
 const materials = new MaterialPanel({
-    ask: (x, y) => session.ask("material", { x, y, ...measuring.view_shown() }),
-    edits: (fields) => session.ask("edits", fields),
+    ask: (x, y) => comparison.ask("material", { x, y, ...measuring.view_shown() }),
+    edits: (fields) => comparison.ask("edits", fields),
     may_drive: () => session.driving,
     indirect: () => light.settings.ambient !== "off",
-    settled: () => counters.state.phase === "done",
+    settled: () => comparison.panel_state.phase === "done",
     changed: () => commands.follow_light("a material is changed"),
 });
 const time = new TimePanel({
-    time: (message) => session.send(message),
+    time: (message) => comparison.send(message),
     may_drive: () => session.driving,
     changed: () => {
         counters.time = time.time;
@@ -156,6 +147,21 @@ const time = new TimePanel({
     frames: () => counters.frames,
     ambient: () => light.settings.ambient,
 });
+const comparison = new Comparison({
+    ...{ session, sides, counters, plain, refine: asked.has("refine") },
+    panels: [time, lamps, materials],
+    display: () => ({ number: display_number, display: light.display }),
+    picked: (message) => measuring.picked(message),
+    changed: () => {
+        draw_camera();
+        redraw();
+    },
+    switched: () => {
+        show_panel_buttons();
+        measuring.tell_probes();
+    },
+});
+measuring.sides = comparison;
 const roles = new Roles({
     take: () => session.send({ type: "take" }),
     hand: (to) => session.send({ type: "hand", to }),
@@ -190,8 +196,9 @@ const commands = start_commands({
     lamps,
     materials,
     time,
+    comparison,
     picture,
-    painted: () => (draw_camera() ? by_id("camera") : picture),
+    painted: () => comparison.painted(draw_camera() ? by_id("camera") : picture),
     home: () => views.scene_views[0]?.view || home,
     scene: () => scene,
 });
@@ -214,9 +221,18 @@ new Input(picture, navigator, new StickMark(by_id("stick")), {
 const under = new UnderPointer(picture, {
     wanted: () =>
         reading.pick === null &&
-        (light.display.mode === "false" || is_open("light") || is_open("measure")),
-    luminance: () => (camera.draws || awaiting_picture ? null : screen.luminance),
+        (light.display.mode === "false" ||
+            comparison.shows_difference ||
+            is_open("light") ||
+            is_open("measure")),
+    luminance: (x) => comparison.luminance_at(x, luminance()),
+    before: () => (comparison.shows_difference ? luminance() : null),
 });
+
+/** Of A's picture; null where it is not known. */
+function luminance() {
+    return camera.draws || awaiting_picture ? null : screen.luminance;
+}
 
 /** The picture's size for this window [pixels]. */
 const size_now = () => picture_size(innerWidth, innerHeight, devicePixelRatio, max_size);
@@ -277,6 +293,7 @@ function take_display(display, settings) {
     light.take(display, settings);
     display_number = display?.number ?? 0;
     if (screen.want(display_number, light.display)) camera.recoloured();
+    comparison.want(display_number, light.display);
     show_legend(light.display);
 }
 
@@ -301,9 +318,8 @@ function scene_loaded(message) {
     show_failures([]);
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
-    open_lamps(message.lights ?? []);
-    materials.outdate();
-    open_time(message.time);
+    comparison.place = message.beside ?? null;
+    sides.take("A", { ...message, type: "loaded" });
     plan.forget();
     cover("Drawing the first picture…");
     if (!navigator.view && views.scene_views.length > 0) {
@@ -314,20 +330,25 @@ function scene_loaded(message) {
     measuring.tell_probes();
 }
 
-/** The scene's light groups; what was dimmed of them before stays so. */
-function open_lamps(names) {
-    document.querySelector("#dock [data-panel=lamps]").hidden = names.length === 0;
-    if (names.length === 0 && is_open("lamps")) close_panel();
-    lamps.open(names);
-    if (session.driving) lamps.tell();
+/** The scene's light groups, and where a generator writes its sky; what was dimmed, and the time that was chosen, stay so. */
+function open_panels({ lights = [], time: place }) {
+    lamps.open(lights);
+    time.open(place);
+    materials.outdate();
+    show_panel_buttons();
+    if (!session.driving) return;
+    lamps.tell();
+    time.tell();
 }
 
-/** Where a generator writes the scene's sky; the time that was chosen stays. */
-function open_time(place) {
-    document.querySelector("#dock [data-panel=time]").hidden = !place;
-    if (!place && is_open("time")) close_panel();
-    time.open(place);
-    if (session.driving) time.tell();
+function show_panel_buttons() {
+    for (const [name, is_there] of Object.entries({
+        lamps: lamps.lamps.length > 0,
+        time: time.is_there,
+    })) {
+        document.querySelector(`#dock [data-panel=${name}]`).hidden = !is_there;
+        if (!is_there && is_open(name)) close_panel();
+    }
 }
 
 /** The eye returns to where the newest frame was seen from, lest the same view is sent again. */
@@ -356,6 +377,7 @@ function lost(reason, wait) {
 
 function role_changed(driving) {
     session.drive(driving);
+    if (!driving) comparison.end("somebody else drives");
     lamps.drive();
     materials.drive();
     time.drive();
@@ -368,9 +390,8 @@ function role_changed(driving) {
 function server_state(message) {
     counters.state = message;
     show_phase(message);
-    time.follow(message);
     measuring.follow_light();
-    materials.follow_light();
+    sides.take("A", message);
 }
 
 // Frames -----------------------------------------------------------------------------------------
@@ -428,7 +449,8 @@ function draw_camera() {
     const size = session.driving ? most : scaled_into(most, picture);
     const own = session.driving && navigator.view;
     const view = own ? fit_view(own, size.width, size.height) : session.seen;
-    session.shown = camera.draw(view, size) ? view : session.frame_view;
+    session.shown = camera.draw(view, size, comparison.part_of_a) ? view : session.frame_view;
+    comparison.draw(view, size);
     return camera.draws;
 }
 

@@ -64,6 +64,22 @@ export class MaterialPanel {
         this.show_();
     }
 
+    /**
+     * Show another side of a comparison.
+     * @param other  what was returned when it was shown last; null: nothing is known of it yet
+     * @returns what was shown
+     */
+    swap(other) {
+        if (this.waiting_) this.tell();
+        this.choose(false);
+        const { edits, touched, sent_, message_, refused_, problem_, follows_ } = this;
+        const unknown = { touched: false, sent_: null, message_: null, refused_: [], problem_: "" };
+        Object.assign(this, other ?? { ...unknown, edits: new Edits(), follows_: false });
+        this.request_ = 0;
+        this.show_();
+        return { edits, touched, sent_, message_, refused_, problem_, follows_ };
+    }
+
     /** The scene is read again: numbers may be others. */
     outdate() {
         this.message_ = null;

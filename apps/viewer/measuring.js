@@ -24,6 +24,7 @@ export class Measuring {
         this.counters_ = counters;
         this.changed_ = changed;
         this.scene_ = null;
+        this.sides = { session_at: () => session, panel_session: session, side_at: () => "" }; ///< see Comparison
         this.asked_ = new Map(); // by request number, of picks without an answer yet: their places, or what takes the answer
         this.drag = null; ///< corners of the area that is being drawn [CSS pixels]
         this.measurements = new Measurements((pins) => this.keep_(pins));
@@ -50,7 +51,7 @@ export class Measuring {
         if (!this.session_.connection.connected) return;
         if (then) this.asked_.clear();
         const question = { x, y, ...this.view_shown() };
-        this.asked_.set(this.session_.ask("pick", question), then ?? [x, y]);
+        this.asked_.set(this.sides.session_at(x).ask("pick", question), then ?? [x, y]);
     }
 
     /** What is seen at a place is so in the view on the screen, which may be another than the newest one: {view}, or {}. */
@@ -65,7 +66,11 @@ export class Measuring {
         this.asked_.delete(message.id);
         if (typeof at === "function") return at(message);
         this.counters_.last_pick = message;
-        this.reading.show({ ...message, at });
+        this.reading.show({
+            ...message,
+            at,
+            side: this.sides.open ? this.sides.side_at(at[0]) : "",
+        });
         this.changed_();
     }
 
@@ -119,7 +124,8 @@ export class Measuring {
     tell_probes() {
         if (!this.session_.driving) return;
         const pin = ({ id, position, normal }) => ({ id, position, normal });
-        this.session_.send({ type: "probes", probes: this.measurements.probes.map(pin) });
+        const message = { type: "probes", probes: this.measurements.probes.map(pin) };
+        this.sides.panel_session.send(message);
     }
 
     settled_() {

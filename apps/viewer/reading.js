@@ -33,7 +33,7 @@ export class Reading {
         const value = element(
             "p",
             { className: "value", textContent: quantity(pick.luminance) },
-            element("small", { textContent: "cd/m²" }),
+            element("small", { textContent: pick.side ? `cd/m² · ${pick.side}` : "cd/m²" }),
         );
         const head = element(
             "header",

@@ -163,14 +163,27 @@ export class Reprojection {
         gl.depthFunc(gl.LESS);
     }
 
-    /** Draw what `view` shows, width x height pixels. */
-    draw(view, width, height) {
+    forget() {
+        this.frames_ = [];
+    }
+
+    /** Give the graphics memory back. */
+    end() {
+        this.forget();
+        this.gl_.getExtension("WEBGL_lose_context")?.loseContext();
+    }
+
+    /** Draw what `view` shows, width x height pixels; of these the part between two shares of the width. */
+    draw(view, width, height, [from, to]) {
         const { gl_: gl, canvas } = this;
         if (canvas.width !== width || canvas.height !== height) {
             canvas.width = width;
             canvas.height = height;
         }
         gl.viewport(0, 0, width, height);
+        const left = Math.floor(from * width);
+        gl.enable(gl.SCISSOR_TEST);
+        gl.scissor(left, 0, Math.ceil(to * width) - left, height);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         this.test_depth_();
         // What frames know, the newest first; what the newest guesses; the sheet.
@@ -186,6 +199,7 @@ export class Reprojection {
         gl.bindVertexArray(newest.sheet_array);
         gl.drawElements(gl.TRIANGLES, newest.corner_count, gl.UNSIGNED_INT, 0);
         gl.bindVertexArray(null);
+        gl.disable(gl.SCISSOR_TEST);
     }
 
     /** @param layers  {own, guesses, down}: of what the frame knows and of what it guesses; whether the picture has its first row below */

@@ -31,7 +31,7 @@ export const download_text = (text, name) =>
  * @param caption  lines of text, which are written under the picture
  */
 export function picture_blob(canvas, display, caption = []) {
-    const zoom = canvas.width / canvas.clientWidth;
+    const zoom = canvas.width / innerWidth;
     const source =
         display.mode === "false" || caption.length > 0 ? captioned(canvas, caption, zoom) : canvas;
     if (display.mode === "false")

@@ -20,6 +20,11 @@ export class Screen {
         this.newest_complete_ = null;
     }
 
+    /** Nothing more is shown. */
+    end() {
+        this.decoder.end();
+    }
+
     /** See Recolour. */
     want(number, display) {
         return this.recolour_.want(number, display);

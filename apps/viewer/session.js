@@ -5,6 +5,7 @@ import { FrameTimes } from "./prediction.js";
 import { fit_view } from "./view.js";
 import { widened } from "./warp.js";
 
+const kBeside = 2 ** 31; // numbers of requests about the scene beside are above this
 const kRemembered = 600; // how many sent views are remembered for frames that show them
 
 export class Session {
@@ -13,8 +14,9 @@ export class Session {
      * @param depth   whether frames shall tell how far away what they show is
      * @param screen  shows frames; its owner hands them to drawn() and skipped()
      * @param on      a function for each message type: welcome, loaded, picked, ..., and connected(), lost(reason, wait)
+     * @param beside  whether it is about the scene that the driver sees beside the walk's: its view is told as to who watches
      */
-    constructor(id, depth, screen, on) {
+    constructor(id, depth, screen, on, beside = false) {
         this.latency = new Latency();
         this.times = new FrameTimes();
         this.view = null; ///< the newest view that was sent, fitted to the window
@@ -25,12 +27,14 @@ export class Session {
         this.seen = null; ///< for a page that watches: what the driver saw when the newest frame came; null when it is not known
         this.told_ = null; // for a page that watches: the newest `view` message {view, seen}
         this.driving = false;
-        this.request_ = 0;
+        this.request_ = beside ? kBeside : 0;
         this.sent_ = new Map(); // what was sent as each view, by id: {view, walk, epoch}
         this.connection = new Connection(socket_address(location.href), {
             open: () => {
                 const hello = { type: "hello", session: id, luminance: true };
-                this.send(depth ? { ...hello, depth } : hello);
+                if (depth) hello.depth = true;
+                if (beside) hello.beside = true;
+                this.send(hello);
                 on.connected();
             },
             message: (message) => on[message.type]?.(message),

@@ -22,6 +22,7 @@ export class TimePanel {
         this.waiting_ = false; // for the screen's next refresh, to send the newest time
         this.rest_ = 0;
         this.sent_ = ""; // the newest message
+        this.place_ = undefined; // of the newest `loaded`
         by_id("time-sky").replaceChildren(
             ...kSkies.map(([value, text]) => new Option(text, value)),
         );
@@ -41,30 +42,65 @@ export class TimePanel {
         by_id("time-reset").addEventListener("click", () => this.reset());
     }
 
+    /**
+     * Show another side of a comparison.
+     * @param other  what was returned when it was shown last; null: nothing is known of it yet
+     * @returns what was shown
+     */
+    swap(other) {
+        this.play(false);
+        clearTimeout(this.rest_);
+        if (this.waiting_) this.tell();
+        const { place_, file, time, touched, told, sent_ } = this;
+        const unknown = { file: null, time: null, touched: false, told: null, sent_: "" };
+        Object.assign(this, other ?? { ...unknown, place_: undefined });
+        this.show_place_();
+        this.show_told_();
+        this.show_();
+        return { place_, file, time, touched, told, sent_ };
+    }
+
     /** @param place  of `loaded`: {time, solar, types, latitude, longitude, refused}; missing: no generator writes a sky */
     open(place) {
         this.play(false);
-        const refused = place?.refused ?? "";
-        this.file = place && !refused ? place.time : null;
+        this.place_ = place;
+        this.file = place && !place.refused ? place.time : null;
         this.told = null;
         if (!this.file) this.time = null;
         else if (!this.touched || !this.on_.may_drive()) this.time = { ...this.file };
+        this.show_place_();
+        this.show_();
+    }
+
+    /** Whether a generator writes the scene's sky. */
+    get is_there() {
+        return Boolean(this.place_);
+    }
+
+    show_place_() {
+        const place = this.place_,
+            refused = place?.refused ?? "";
         by_id("time-hint").hidden = !refused;
         by_id("time-hint").textContent = refused ? `The time cannot be changed: ${refused}` : "";
         by_id("time-tools").hidden = !this.file;
         by_id("time-types").hidden = !place?.types;
         by_id("time-clock-kind").textContent = place?.solar ? "Hour, solar time" : "Hour";
-        this.show_();
     }
 
     /** Take what the server shows from now on. */
     take(message) {
         this.told = message;
-        by_id("time-problem").textContent = message.problem ?? "";
-        by_id("time-problem").hidden = !message.problem;
+        this.show_told_();
         if (this.file && !(this.touched && this.on_.may_drive()))
             this.time = { ...(message.time ?? this.file) };
         this.show_();
+    }
+
+    show_told_() {
+        const problem = this.told?.problem ?? "";
+        by_id("time-problem").textContent = problem;
+        by_id("time-problem").hidden = !problem;
+        if (!this.told) by_id("time-state").textContent = "";
     }
 
     /** Say the server which time it is, if that is for this page to say. */

@@ -1,4 +1,5 @@
 // The luminance under the pointer, from what came with the newest frame: no question to the server.
+import { share_text } from "./difference.js";
 import { by_id } from "./dom.js";
 import { rough } from "./words.js";
 
@@ -7,7 +8,8 @@ const kBeside = 16; // distance from the pointer [CSS pixels]
 export class UnderPointer {
     /**
      * @param surface  the picture's element
-     * @param ask  {wanted(): bool, luminance(): Luminance or null of what the screen shows, null while it shows anything else}
+     * @param ask  {wanted(): bool, luminance(x): Luminance or null of what the screen shows at x, 0..1 from the left, null while it
+     *     shows anything else; before(): the same of what a difference is shown from, null where none is}
      */
     constructor(surface, ask) {
         this.mark_ = by_id("under");
@@ -26,11 +28,16 @@ export class UnderPointer {
 
     /** The pointer, or what is under it, may have changed. */
     show() {
-        const seen = this.at_ && this.ask_.wanted() ? this.ask_.luminance() : null;
+        const seen =
+            this.at_ && this.ask_.wanted() ? this.ask_.luminance(this.at_[0] / innerWidth) : null;
         this.mark_.hidden = seen === null;
         if (!seen) return;
         const [x, y] = this.at_;
-        this.mark_.textContent = `≈ ${rough(seen.at(x / innerWidth, y / innerHeight))} cd/m²`;
+        const place = [x / innerWidth, y / innerHeight];
+        const now = seen.at(...place),
+            before = this.ask_.before()?.at(...place);
+        const change = before === undefined ? "" : ` (${share_text(now / before - 1)})`;
+        this.mark_.textContent = `≈ ${rough(now)} cd/m²${change}`;
         const { offsetWidth: width, offsetHeight: height } = this.mark_;
         const left = x + kBeside + width > innerWidth ? x - kBeside - width : x + kBeside;
         const top = y + kBeside + height > innerHeight ? y - kBeside - height : y + kBeside;

@@ -18,6 +18,39 @@ ClientInbox::ClientInbox(WelcomeReply welcome) : welcome_(std::move(welcome)) {
     inbox_.wish.settings = welcome_.settings;
 }
 
+ClientInbox::ClientInbox(WelcomeReply welcome, WalkWish start)
+    : follows_(true), welcome_(std::move(welcome)) {
+    inbox_.wish = std::move(start);
+}
+
+void ClientInbox::follow(const WalkWish& lead) {
+    const std::lock_guard lock(mutex_);
+    inbox_.wish.view = lead.view;
+    inbox_.wish.display = lead.display;
+    inbox_.wish.settings = lead.settings;
+}
+
+WalkWish ClientInbox::wish() const {
+    const std::lock_guard lock(mutex_);
+    return inbox_.wish;
+}
+
+bool ClientInbox::is_here(ClientId client) const {
+    const std::lock_guard lock(mutex_);
+    return driver_lock_.is_here(client);
+}
+
+bool ClientInbox::is_driver(const std::string& session) const {
+    const std::lock_guard lock(mutex_);
+    return driver_lock_.drives(session);
+}
+
+void ClientInbox::wake() {
+    const std::lock_guard lock(mutex_);
+    has_news_ = true;
+    news_.notify_one();
+}
+
 InboxContents ClientInbox::pop(std::chrono::milliseconds longest) {
     std::unique_lock lock(mutex_);
     news_.wait_for(lock, longest, [&] { return has_news_; });
@@ -57,7 +90,7 @@ void ClientInbox::tell_all(const std::string& text) {
 
 void ClientInbox::tell_watchers(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    send_to_others(driver_lock_.driver(), text);
+    send_to_others(follows_ ? std::nullopt : driver_lock_.driver(), text);
 }
 
 void ClientInbox::refuse(const InboxContents& contents, const std::string& why) {
@@ -67,6 +100,11 @@ void ClientInbox::refuse(const InboxContents& contents, const std::string& why) 
             reply({503, "text/plain; charset=utf-8", why + '\n', {}});
     for (const WalkQuestion& question : contents.questions)
         tell(question.client, walk_text(RefusedReply{why, question.id()}));
+}
+
+void ClientInbox::close_all(const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    for (const ClientId client : driver_lock_.clients()) sender_->close(client, why);
 }
 
 void ClientInbox::set_views(const View& home, std::vector<NamedView> views) {
@@ -104,17 +142,17 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
     const bool drives = driver_lock_.drives(client);
     std::visit(Overloaded{[&](const HelloRequest& hello) { greet(client, hello); },
                           [&](const ViewRequest& view) {
-                              if (!drives) return;
+                              if (!drives || follows_) return;
                               wish.view = view;
                               driver_lock_.remember(client, view.seen.value_or(view.view));
                           },
                           [&](const DisplayRequest& display) {
-                              if (!drives) return;
+                              if (!drives || follows_) return;
                               wish.display = display;
                               send_to_others(client, walk_text(DisplayReply{display}));
                           },
                           [&](const SettingsRequest& settings) {
-                              if (drives) wish.settings = settings;
+                              if (drives && !follows_) wish.settings = settings;
                           },
                           [&](const LightsRequest& lights) {
                               if (!drives) return;
@@ -126,6 +164,9 @@ void ClientInbox::accept(ClientId client, const WalkRequest& request) {
                           },
                           [&](const TimeRequest& time) {
                               if (drives) wish.time = time;
+                          },
+                          [&](const DifferenceRequest& difference) {
+                              if (drives && follows_) wish.difference = difference.shown;
                           },
                           [&](const ProbesRequest& pins) {
                               if (!drives) return;

@@ -24,6 +24,7 @@ struct WalkWish {
     EditsRequest edits;
     TimeRequest time;
     std::vector<ProbePlace> probes;
+    bool difference = false;  ///< of a scene beside the walk's: see DifferenceRequest
 };
 
 /// What one client asks.
@@ -63,6 +64,10 @@ class ClientInbox final : public WebHandler {
   public:
     /// @param welcome  what newcomers are told, but for what is theirs
     explicit ClientInbox(WelcomeReply welcome);
+    /// Of a scene beside another one: what is seen, and in which colours, is not for its clients to
+    /// say but follows that one (follow()), and all of them are told it as watchers are.
+    /// @param start  what is wished for at first
+    ClientInbox(WelcomeReply welcome, WalkWish start);
 
     /// Before the server runs; it must outlive the inbox's use.
     void attach(WebSender& sender) { sender_ = &sender; }
@@ -70,6 +75,8 @@ class ClientInbox final : public WebHandler {
     // For the drawing thread.
     /// Waits for something, so long at most.
     [[nodiscard]] InboxContents pop(std::chrono::milliseconds longest);
+    /// Before pop(): what is seen and in which colours, where that follows another walk.
+    void follow(const WalkWish& lead);
     /// Only the acknowledgements.
     [[nodiscard]] std::vector<WalkAck> pop_acks();
     /// What becomes of the scene: all are told, and those who come later.
@@ -84,9 +91,19 @@ class ClientInbox final : public WebHandler {
     }
     /// Who asks, or waits for a file, is told why there is none.
     void refuse(const InboxContents& contents, const std::string& why);
+    /// End the connections.
+    void close_all(const std::string& why);
     /// What newcomers are told of the scene.
     /// @param home  to go on from after it was read again, or until somebody asks for another view
     void set_views(const View& home, std::vector<NamedView> views);
+
+    // For both.
+    [[nodiscard]] WalkWish wish() const;
+    [[nodiscard]] bool is_here(ClientId client) const;
+    /// Whether who drives has said this session.
+    [[nodiscard]] bool is_driver(const std::string& session) const;
+    /// Let pop() return.
+    void wake();
 
     // For the server's.
     void opened(ClientId client) override;
@@ -110,6 +127,7 @@ class ClientInbox final : public WebHandler {
     mutable std::mutex mutex_;
     std::condition_variable news_;
     bool has_news_ = false;
+    bool follows_ = false;  ///< see the constructor
     InboxContents inbox_;
     DriverLock driver_lock_;
     WelcomeReply welcome_;

@@ -31,8 +31,7 @@ constexpr double kRelitShare = 0.25;                  // of the width and of the
 constexpr double kAtRest = 0.12, kWholeSketch = 0.5;  // of a step [s]: so long a new view may wait
 constexpr std::chrono::milliseconds kStateInterval{250}, kProbeInterval{500};
 constexpr std::chrono::seconds kAdaptationTime{2};  // until exposure has settled, about
-constexpr std::chrono::milliseconds kIdle{100};
-constexpr std::chrono::milliseconds kHeld{200};  // without a new view: it rests
+constexpr std::chrono::milliseconds kHeld{200};     // without a new view: it rests
 
 double eye_height_of(const Scene& scene, const View& view) {
     const std::optional<double> height =
@@ -63,6 +62,7 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       session_(&session),
       model_(session.compiled().model()),
       states_(model_, session.compiled().library()),
+      scene_state_(options_.start.state),
       client_inbox_(client_inbox),
       screen_(screen),
       threads_(executor.concurrency()),
@@ -74,10 +74,14 @@ RenderLoop::RenderLoop(RenderLoopOptions options, const SceneSession& session, c
       isolux_(session.tracer(), executor, warnings, groups_),
       survey_(std::in_place, session.scene(), session.tracer().options().back_faces_visible),
       task_runner_(executor),
-      eye_height_(eye_height_of(session.scene(), home)) {}
+      eye_height_(eye_height_of(session.scene(), home)),
+      edits_(options_.start.edits) {
+    wish_.time = options_.start.time;
+    wish_.edits = options_.start.edits_asked;
+}
 
-void RenderLoop::step(const StopFlag& stop) {
-    answer(client_inbox_.pop(patience()));
+void RenderLoop::step(const StopFlag& stop, std::chrono::milliseconds longest) {
+    answer(client_inbox_.pop(std::min(patience(), longest)));
     if (!wish_.view || stop.requested()) return;
     const Clock::time_point begin = Clock::now();
     draw(stop);
@@ -96,12 +100,20 @@ void RenderLoop::step(const StopFlag& stop) {
 }
 
 std::chrono::milliseconds RenderLoop::patience() const {
-    if (!wish_.view) return kIdle;
+    if (!wish_.view) return kMoment;
     if (has_work() || !plan_questions_.empty() || isolux_.is_asked())
         return std::chrono::milliseconds(0);
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        std::min(screen_.next_chance(), Clock::now() + kIdle) - Clock::now());
+        std::min(screen_.next_chance(), Clock::now() + kMoment) - Clock::now());
     return std::max(left, std::chrono::milliseconds(1));
+}
+
+WalkWish RenderLoop::seen() const {
+    WalkWish wish = wish_;
+    if (!wish.view || !view_) return wish;
+    wish.view->view = *view_;
+    wish.view->walk = false;
+    return wish;
 }
 
 /// A hand is on a dimmer: what is known is mixed anew, and what is better comes later.
@@ -135,7 +147,7 @@ void RenderLoop::answer(const InboxContents& inbox) {
     if (!inbox.joined.empty()) told_.reset();
     if (!inbox.want_depth.empty() || !inbox.want_luminance.empty()) shown_ = false;
     const Clock::time_point now = Clock::now();
-    if (inbox.wish.display != wish_.display) {
+    if (inbox.wish.display != wish_.display || inbox.wish.difference != wish_.difference) {
         shown_ = false;
         moved_ = now;
     }
@@ -301,11 +313,12 @@ RenderLoop::Clock::duration RenderLoop::progressive_interval(Clock::time_point n
 /// takes a while beside it.
 double RenderLoop::budget() const {
     constexpr double kShortest = 0.001, kLeastShare = 1.0 / 3, kEdited = 0.06;
-    if (edited_) return kEdited;  // most of the picture is there
+    if (edited_) return share_ * kEdited;  // most of the picture is there
     const bool whole_sketch = sketches_ > 0 && small_sketches_ == 0;
-    if (!wish_.view->moving && !is_dimming()) return whole_sketch ? kWholeSketch : kAtRest;
+    if (!wish_.view->moving && !is_dimming())
+        return share_ * (whole_sketch ? kWholeSketch : kAtRest);
     const double seconds =
-        moving_size_.periods(wish_.view->width, wish_.view->height) / options_.rate;
+        share_ * moving_size_.periods(wish_.view->width, wish_.view->height) / options_.rate;
     return std::max({seconds - aside_seconds_, kLeastShare * seconds, kShortest});
 }
 
@@ -349,7 +362,7 @@ void RenderLoop::note_size(Size size, double budget) {
 
 /// Not where nothing is new: neither pixels nor their colours.
 void RenderLoop::show(Clock::time_point now) {
-    if (shown_ && now - moved_ > kAdaptationTime) return;
+    if (shown_ && now - moved_ > kAdaptationTime && !screen_.is_outdated()) return;
     const ShownView view{wish_.view->id, view_->position,
                          live_.picture().phase != WalkPhase::moving,
                          live_.picture().phase == WalkPhase::done};

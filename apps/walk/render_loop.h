@@ -24,6 +24,14 @@
 
 namespace lightwalk {
 
+/// What a walk begins with that is not as its scene was read.
+struct WalkStart {
+    SceneState state;
+    CheckedEdits edits;
+    TimeRequest time;          ///< that are shown by the state
+    EditsRequest edits_asked;  ///< the same
+};
+
 struct RenderLoopOptions {
     double rate = 30;      ///< frames while the view moves [1/s]
     int edge_samples = 8;  ///< rays a pixel at an edge gets at rest
@@ -33,6 +41,7 @@ struct RenderLoopOptions {
     /// it has from then on. Throws InputError, and leaves all as it was. None: it cannot be
     /// changed.
     std::function<const SceneSession&(const ModelChange& change)> change = {};
+    WalkStart start = {};  ///< what the session shows of its model
 };
 
 /// Draws until it is told to stop. For one thread.
@@ -44,9 +53,24 @@ class RenderLoop {
                LiveFrames& frames, Executor& executor, WarningSink& warnings,
                ClientInbox& client_inbox, WalkScreen& screen);
 
+    static constexpr std::chrono::milliseconds kMoment{100};
     /// Answer what has come, and draw the next picture, if there is one to draw; otherwise wait for
     /// a moment.
-    void step(const StopFlag& stop);
+    /// @param longest  of that moment
+    void step(const StopFlag& stop, std::chrono::milliseconds longest = kMoment);
+    /// How long a step may wait for something to do.
+    [[nodiscard]] std::chrono::milliseconds patience() const;
+    /// Another loop draws in turn with this one, which has that share of the time from now on.
+    void share_time(double share) { share_ = share; }
+
+    /// What is wished for, and seen: where the eye keeps its height it is there already.
+    [[nodiscard]] WalkWish seen() const;
+    /// What another walk begins with that goes on from here.
+    [[nodiscard]] WalkStart present() const {
+        return {scene_state_, edits_, wish_.time, wish_.edits};
+    }
+    /// The newest picture; null where it is not of what is seen.
+    [[nodiscard]] const LivePicture* picture() const { return drawn_ ? &live_.picture() : nullptr; }
 
     /// Show another state of the scene from the next frame on: views, camera and questions stay,
     /// nothing is read. False: it cannot be, and all is as it was; change_problem() says why.
@@ -106,7 +130,6 @@ class RenderLoop {
     [[nodiscard]] double budget() const;
     /// Between two pictures of a view that rests.
     [[nodiscard]] Clock::duration progressive_interval(Clock::time_point now) const;
-    [[nodiscard]] std::chrono::milliseconds patience() const;
 
     RenderLoopOptions options_;
     LiveFrames& frames_;
@@ -142,6 +165,7 @@ class RenderLoop {
     Clock::time_point moved_, shown_at_, measured_at_, dimmed_at_;
     bool dimmed_ = false;  ///< since a picture was shown
     MovingSize moving_size_;
+    double share_ = 1;          ///< see share_time
     double aside_seconds_ = 0;  ///< beside the steps of a moving view's frame, of late
     Pace pace_;
 };

@@ -8,9 +8,11 @@
 #include "apps/interrupt.h"
 #include "apps/render_command.h"
 #include "apps/session/render_backend.h"
+#include "apps/walk/comparison.h"
 #include "apps/walk/pages.h"
 #include "apps/walk/render_loop.h"
 #include "apps/walk/scene_changer.h"
+#include "apps/walk/walk_reception.h"
 #include "io/files/watched_files.h"
 #include "io/formats/words.h"
 #include "io/net/web_rules.h"
@@ -71,8 +73,9 @@ class Page {
                                  command.common.request.options.threads)),
           inbox(welcome(command)),
           screen(*executor),
-          server_(server_options(*command.serve), viewer_pages(), inbox) {
-        inbox.attach(server_);
+          reception(inbox),
+          server_(server_options(*command.serve), viewer_pages(), reception) {
+        reception.attach(server_);
         thread_ = std::thread([this] { run_server(); });
     }
     ~Page() {
@@ -95,6 +98,7 @@ class Page {
     const std::unique_ptr<Executor> executor;
     ClientInbox inbox;
     WalkScreen screen;
+    WalkReception reception;
 
   private:
     void run_server() {
@@ -234,6 +238,22 @@ class WalkRun final : CommandRun {
         renderer.run([&] { draw(page, *files, renderer); });
     }
 
+    /// Of a scene beside the walk's.
+    [[nodiscard]] ComparisonOptions comparison_options(const View& home) {
+        ComparisonOptions options;
+        options.loop = {command_.serve->page.fps, command_.serve->edge_samples,
+                        command_.common.request.history};
+        options.request = task();
+        options.home = home;
+        options.scene = command_.serve->beside;
+        std::string_view rest = options.scene;
+        std::vector<std::string>& files = options.request.source.files;
+        if (!rest.empty()) files.clear();
+        for (std::string_view file = take_word(rest); !file.empty(); file = take_word(rest))
+            files.emplace_back(file);
+        return options;
+    }
+
     /// Draw until the scene's files change.
     void draw(Page& page, WatchedFiles& files, Renderer& renderer) {
         const SceneSession& session = renderer.backend().session();
@@ -252,12 +272,24 @@ class WalkRun final : CommandRun {
                         *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
         loaded.time = loop.time_place();
+        std::optional<Comparison> comparison;
+        loaded.beside.emplace();
+        if (ranks() == nullptr) {
+            loaded.beside->scene = command_.serve->beside;
+            comparison.emplace(
+                comparison_options(home), page.reception, welcome(command_), loop, page.screen,
+                [&renderer]() -> const SceneSession& { return renderer.backend().session(); },
+                *page.executor, warnings());
+        } else {
+            loaded.beside->refused = "many processes draw this walk, and one state of its scene";
+            page.reception.close(loaded.beside->refused);
+        }
         if (const auto& groups = renderer.backend().frames().light_groups())
             loaded.lights = groups->names;
         page.inbox.announce(walk_text(loaded));
         auto looked = std::chrono::steady_clock::now();
         while (page.goes_on()) {
-            loop.step(interrupt_flag());
+            comparison ? comparison->step(interrupt_flag()) : loop.step(interrupt_flag());
             const auto now = std::chrono::steady_clock::now();
             if (now - looked < kLookAtFiles) continue;
             looked = now;

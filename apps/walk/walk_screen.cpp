@@ -1,11 +1,14 @@
 #include "apps/walk/walk_screen.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <string_view>
 
+#include "core/math/xyz.h"
 #include "io/net/walk_frame.h"
+#include "io/picture/difference_colour.h"
 
 namespace lightwalk {
 namespace {
@@ -76,13 +79,24 @@ void WalkScreen::measure_depth(const LivePicture& picture, const View& view, dou
         depth_.forget();
 }
 
+void WalkScreen::adapt(const LivePicture& picture, Time now) {
+    ++pictures_;
+    if (lead_ != nullptr && lead_->brightness_) {
+        followed_ = lead_->pictures_;
+        eye_ = lead_->eye_;
+        brightness_ = lead_->brightness_;
+    } else {
+        brightness_.emplace(picture.radiance, kLookedAt);
+        eye_.look_at(*brightness_, std::chrono::duration<double>(now - last_look_).count());
+    }
+    last_look_ = now;
+}
+
 void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
                       const ShownView& view, Time now) {
     if (picture.width != width_ || picture.height != height_) cut(picture.width, picture.height);
-    const BrightnessHistogram brightness(picture.radiance, kLookedAt);
-    eye_.look_at(brightness, std::chrono::duration<double>(now - last_look_).count());
-    last_look_ = now;
-    const Display display(request.settings, eye_, brightness);
+    adapt(picture, now);
+    const Display display(request.settings, eye_, *brightness_);
     exposure_ = static_cast<float>(display.exposure());
     display_ = request.number;
     view_ = view;
@@ -95,7 +109,7 @@ void WalkScreen::show(const LivePicture& picture, const DisplayRequest& request,
         if (measured) luminance_.measure(picture.radiance, pieces_[i].area);
     });
     if (measured)
-        luminance_.finish(static_cast<float>(display.white()));
+        luminance_.finish(difference_ != nullptr ? 0 : static_cast<float>(display.white()));
     else
         luminance_.forget();  // for who comes later it would be that of an earlier picture
     contents_[luminance_index()] = luminance_.content();
@@ -121,6 +135,24 @@ double WalkScreen::most_moving_pixels() const {
     return most;
 }
 
+/// One row of an area. Pictures of views in motion may be of different sizes.
+void WalkScreen::show_difference(const LivePicture& base, const LivePicture& picture,
+                                 const PixelRectangle& area, int y, std::span<std::uint8_t> row) {
+    const auto place = [](int at, int side, int other_side) {
+        constexpr std::int64_t kTwice = 2;
+        return static_cast<std::size_t>((kTwice * at + 1) * other_side / (kTwice * side));
+    };
+    const std::size_t below = place(y, picture.height, base.height);
+    const Rgb* const before = &base.radiance[below * static_cast<std::size_t>(base.width)];
+    const Rgb* const now =
+        &picture.radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width)];
+    for (int x = area.x0; x < area.x1; ++x) {
+        const std::array<std::uint8_t, 3> colour = difference_colour(
+            brightness(before[place(x, picture.width, base.width)]), brightness(now[x]));
+        std::ranges::copy(colour, &row[3 * static_cast<std::size_t>(x - area.x0)]);
+    }
+}
+
 /// A piece that shows the same as before need not be compressed, nor sent, again.
 void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display& display,
                         int quality) {
@@ -131,7 +163,10 @@ void WalkScreen::colour(Piece& piece, const LivePicture& picture, const Display&
         const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                                   static_cast<std::size_t>(area.x0);
         const std::span<std::uint8_t> row = std::span(bytes_).subspan(3 * first, 3 * width);
-        display.show(std::span(picture.radiance).subspan(first, width), row);
+        if (difference_ != nullptr)
+            show_difference(*difference_, picture, area, y, row);
+        else
+            display.show(std::span(picture.radiance).subspan(first, width), row);
         const std::string_view text(reinterpret_cast<const char*>(row.data()), row.size());
         content = content * 0x9E3779B97F4A7C15U + std::hash<std::string_view>{}(text);
     }

@@ -48,6 +48,18 @@ class WalkScreen {
     }
     /// How many pixels a frame of a view in motion may have, that no client waits for long for it.
     [[nodiscard]] double most_moving_pixels() const;
+    /// The colours of the pictures to come are those of another screen, so that both can be
+    /// compared; null: its own.
+    /// @param lead        must outlive this, or its being followed
+    /// @param difference  from this picture is shown in place of colours; null: it is not
+    void follow(const WalkScreen* lead, const LivePicture* difference) {
+        lead_ = lead;
+        difference_ = difference;
+    }
+    /// Whether the screen that it follows has shown another picture since this one has.
+    [[nodiscard]] bool is_outdated() const {
+        return lead_ != nullptr && followed_ != lead_->pictures_;
+    }
     /// Before show(): how far away what the picture shows is, for the pages that want to know.
     /// @param eye_height  see DepthPiece
     void measure_depth(const LivePicture& picture, const View& view, double eye_height);
@@ -75,8 +87,11 @@ class WalkScreen {
 
     void cut(int width, int height);
     [[nodiscard]] std::size_t how_many(bool Client::*want) const;
+    void adapt(const LivePicture& picture, Time now);
     void colour(Piece& piece, const LivePicture& picture, const Display& display, int quality);
     [[nodiscard]] int moving_quality() const;
+    static void show_difference(const LivePicture& base, const LivePicture& picture,
+                                const PixelRectangle& area, int y, std::span<std::uint8_t> row);
     void compress(std::span<const std::size_t> pieces);
     // Beside the picture's pieces.
     [[nodiscard]] std::size_t depth_index() const { return pieces_.size(); }
@@ -107,6 +122,10 @@ class WalkScreen {
     std::vector<std::uint8_t> bytes_;      ///< r, g, b of the picture
     ShownView view_;
     Adaptation eye_;
+    std::optional<BrightnessHistogram> brightness_;  ///< of the picture; nothing: there is none
+    const WalkScreen* lead_ = nullptr;               ///< see follow()
+    const LivePicture* difference_ = nullptr;        ///< see follow()
+    std::uint64_t pictures_ = 0, followed_ = 0;      ///< that it, and its lead, has shown
     Time last_look_{};
     float exposure_ = 1;
     std::uint8_t display_ = 0;  ///< number of the settings that the colours are after

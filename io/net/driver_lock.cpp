@@ -14,8 +14,7 @@ bool DriverLock::join(ClientId client, const std::string& session) {
         sessions_.push_back({session, std::nullopt});
     }
     // Who returns before the old connection is known to be lost is still the same.
-    const Member* driving = driver_ ? member(*driver_) : nullptr;
-    if (driving == nullptr || driving->session == session) driver_ = client;
+    if (!driver_ || drives(session)) driver_ = client;
     return true;
 }
 
@@ -34,6 +33,11 @@ bool DriverLock::hand(ClientId from, ClientId to) {
     if (driver_ != from || !is_here(to)) return false;
     driver_ = to;
     return true;
+}
+
+bool DriverLock::drives(const std::string& session) const {
+    const Member* driving = driver_ ? member(*driver_) : nullptr;
+    return driving != nullptr && driving->session == session;
 }
 
 bool DriverLock::is_here(ClientId client) const {

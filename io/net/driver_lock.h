@@ -28,6 +28,8 @@ class DriverLock {
 
     [[nodiscard]] std::optional<ClientId> driver() const { return driver_; }
     [[nodiscard]] bool drives(ClientId client) const { return driver_ == client; }
+    /// Whether the driver's `hello` had this session.
+    [[nodiscard]] bool drives(const std::string& session) const;
     [[nodiscard]] bool is_here(ClientId client) const;
     /// All clients, in the order in which they joined.
     [[nodiscard]] std::vector<ClientId> clients() const;

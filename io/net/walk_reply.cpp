@@ -140,6 +140,9 @@ std::string walk_text(const LoadedReply& reply) {
         {"type", "loaded"}, {"views", to_json(reply.views)}, {"eye_height", reply.eye_height}};
     if (!reply.lights.empty()) object["lights"] = reply.lights;
     if (reply.time) object["time"] = to_json(*reply.time);
+    if (reply.beside)
+        object["beside"] = reply.beside->refused.empty() ? Json{{"scene", reply.beside->scene}}
+                                                         : Json{{"refused", reply.beside->refused}};
     return text_of(object);
 }
 

@@ -48,11 +48,17 @@ struct TimePlace {
     double latitude = 0, longitude = 0;  ///< to the north, to the east [deg]
     std::string refused;                 ///< why the time cannot be changed; "": it can
 };
+/// Another scene, or state of the scene, beside it.
+struct BesidePlace {
+    std::string scene;    ///< its files; "": it begins as what the walk shows
+    std::string refused;  ///< why there can be none; "": there can
+};
 struct LoadedReply {
     std::vector<NamedView> views;
     double eye_height = 1.6;          ///< [m]
     std::vector<std::string> lights;  ///< names of the light groups that may be dimmed; empty: none
-    std::optional<TimePlace> time = std::nullopt;  ///< nothing: no generator has written a sky
+    std::optional<TimePlace> time = std::nullopt;      ///< nothing: no generator has written a sky
+    std::optional<BesidePlace> beside = std::nullopt;  ///< nothing: this is beside another one
 };
 /// `lights`: to watchers and newcomers, what the driver has set.
 struct LightsReply {

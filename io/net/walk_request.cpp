@@ -142,7 +142,7 @@ HelloRequest read_hello(const Json& object) {
     const auto wants = [&](const char* name) {
         return object.contains(name) && truth(object, name);
     };
-    return {session, wants("depth"), wants("luminance")};
+    return {session, wants("depth"), wants("luminance"), wants("beside")};
 }
 
 ViewRequest read_view_request(const Json& object, WalkSizeLimit limit) {
@@ -342,6 +342,7 @@ WalkRequest parse_walk_request(std::string_view text, WalkSizeLimit limit) {
     if (type == "isolux") return read_isolux(object);
     if (type == "material") return read_material(object);
     if (type == "edits") return read_edits(object);
+    if (type == "difference") return DifferenceRequest{truth(object, "shown")};
     if (type == "take") return TakeRequest{};
     if (type == "hand") return HandRequest{identity(object, "to")};
     throw InputError("unknown type of message \"" + type.substr(0, 32) + "\"");

@@ -27,6 +27,7 @@ struct HelloRequest {
     std::string session;     ///< 16 to 64 hex digits
     bool depth = false;      ///< frames shall have the depth of their pixels, see depth_patches.h
     bool luminance = false;  ///< and their luminance, see luminance_plane.h
+    bool beside = false;     ///< who drives wants the scene beside the walk's, by this connection
 };
 /// `view`: the view that the page wants to see.
 struct ViewRequest {
@@ -125,6 +126,10 @@ struct EditsRequest {
     std::vector<MaterialEdit> materials;  ///< at most kMostEdits; each definition once
     friend bool operator==(const EditsRequest&, const EditsRequest&) = default;
 };
+/// `difference`: of a scene beside the walk's, whether its frames show how it differs from that.
+struct DifferenceRequest {
+    bool shown = false;
+};
 /// `take`: a watcher asks to drive.
 struct TakeRequest {};
 /// `hand`: the driver makes another client the driver.
@@ -135,8 +140,8 @@ struct HandRequest {
 using WalkRequest =
     std::variant<HelloRequest, ViewRequest, AckRequest, DisplayRequest, SettingsRequest,
                  LightsRequest, TimeRequest, PickRequest, MeanRequest, ProbesRequest, GlareRequest,
-                 PlanRequest, IsoluxRequest, MaterialRequest, EditsRequest, TakeRequest,
-                 HandRequest>;
+                 PlanRequest, IsoluxRequest, MaterialRequest, EditsRequest, DifferenceRequest,
+                 TakeRequest, HandRequest>;
 
 /// The largest picture that a server draws [pixels].
 struct WalkSizeLimit {

@@ -94,6 +94,9 @@ class WebSender {
     virtual void send_text(ClientId client, std::string text) = 0;
     /// The bytes are shared, not copied, as one frame is sent to many clients.
     virtual void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) = 0;
+    /// Disconnect a client, after the texts in its queue and a `bye` with the reason; frames in its
+    /// queue are dropped.
+    virtual void close(ClientId client, std::string reason) = 0;
 };
 
 /// Listens from construction on; serves in run().
@@ -120,9 +123,7 @@ class WebServer final : public WebSender {
     void stop(std::string reason = "the server ends");
     void send_text(ClientId client, std::string text) override;
     void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) override;
-    /// Disconnect a client, after the texts in its queue and a `bye` with the reason; frames in its
-    /// queue are dropped.
-    void close(ClientId client, std::string reason);
+    void close(ClientId client, std::string reason) override;
 
   private:
     class Core;

@@ -5,6 +5,7 @@
     viewer_test.py fake NPM PICTURES
     viewer_test.py page PROGRAM NPM PICTURES
     viewer_test.py time PROGRAM NPM PICTURES
+    viewer_test.py compare PROGRAM NPM PICTURES
 
 fake: the page against a server that draws a room without a renderer, and misbehaves when it is told to. NPM is a folder with node_modules;
 PICTURES gets a screenshot of each step, or of those that fail. Exit status 77: what is needed is not there.
@@ -82,6 +83,31 @@ def time(node, program, npm, pictures):
     return 1 if wrong else 0
 
 
+def compare(node, program, npm, pictures):
+    """Whether the page reads of each of two states side by side what `lightwalk trace` finds in the scene that is so."""
+    if lacking(npm, "playwright-core"):
+        return 77
+    with Server(program, ["-ab", "0", "-av", ".1", ".1", ".1", "--edge-samples", "1"], SUNLIT.format("14.3")) as server:
+        status = subprocess.run([node, VIEWER / "compare_page_test.mjs", "--address", server.address, "--npm", npm, "--pictures", pictures]).returncode
+    if status:
+        return status
+    wrong = 0
+    for read in json.loads((pathlib.Path(pictures) / "compared.json").read_text()):
+        way = [place - eye for place, eye in zip(read["position"], read["eye"])]
+        rays = {"illuminance": (["-I"], read["position"] + read["normal"]), "luminance": ([], read["eye"] + way)}
+        for what, (more, ray) in rays.items():
+            with tempfile.TemporaryDirectory() as folder:
+                scene = pathlib.Path(folder) / "scene.rad"
+                scene.write_text(SUNLIT.format(read["hour"]).replace(".5 .5 .5", " ".join(map(str, read["colour"]))))
+                options = "-h -ab 0 -av .1 .1 .1 -dt .05 -dc .5 -ds .25 -dr 1"  # the walk's
+                traced = subprocess.run([program, "trace", *options.split(), *more, scene], input=" ".join(map(str, ray)) + "\n", text=True,
+                                        stdout=subprocess.PIPE, check=True).stdout
+            value = 179 * sum(float(value) * weight for value, weight in zip(traced.split(), (0.265106, 0.670106, 0.064788)))
+            print(f"compare: {read['side']} at {read['hour']}: {what} {read[what]:.2f}, trace finds {value:.2f}")
+            wrong += abs(read[what] / value - 1) > 0.01
+    return 1 if wrong else 0
+
+
 def isolux(program, scene, files):
     """Trace the points that the page has saved, and compare with its table."""
     told = [float(line.split(",")[3]) for line in (files / "isolux.csv").read_text().splitlines()[1:]]
@@ -141,4 +167,4 @@ if __name__ == "__main__":
     if not node:
         print("skipped: there is no Node.js")
         sys.exit(77)
-    sys.exit({"modules": modules, "fake": fake, "page": page, "time": time}[sys.argv[1]](node, *sys.argv[2:]))
+    sys.exit({"modules": modules, "fake": fake, "page": page, "time": time, "compare": compare}[sys.argv[1]](node, *sys.argv[2:]))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """`lightwalk walk` as browsers see it, by scripted clients. One name runs one of them; none, all:
 
-    walk_server_test.py PROGRAM [rest|light|dimmed|changed|roles|mended|rad_file|returning|slow|abuse|ranks ...]
+    walk_server_test.py PROGRAM [rest|light|dimmed|changed|roles|mended|rad_file|returning|slow|abuse|beside|ranks ...]
 """
 import base64, math, os, pathlib, random, shutil, signal, socket, struct, subprocess, sys, tempfile, time, urllib.error, urllib.request, zlib
 
@@ -65,10 +65,10 @@ class Server:
 
 
 class Client:
-    def __init__(self, port, session="0123456789abcdef"):
+    def __init__(self, port, session="0123456789abcdef", **more):
         self.socket = WebSocket("127.0.0.1", port, timeout=PATIENCE)
         self.ident, self.messages = 0, []
-        self.socket.send({"type": "hello", "session": session})
+        self.socket.send({"type": "hello", "session": session, **more})
 
     def look(self, **changes):
         self.ident += 1
@@ -373,6 +373,53 @@ def abuse(program):
             one.close()
 
 
+def refused_beside(server, session="0123456789abcdef"):
+    """Why the scene beside the walk's is refused."""
+    client = Client(server.port, session, beside=True)
+    reason = client.told("bye")["reason"]
+    client.socket.close()
+    return reason
+
+
+def beside(program):
+    """Who drives sees a second state of the scene, which goes with them; whatever its connection says, the walk goes on as it was."""
+    chance = random.Random(2)
+    with Server(program, ["--edge-samples", "1"]) as server:
+        driver, watcher = Client(server.port), Client(server.port, "f" * 16)
+        driver.enter()
+        assert driver.messages and any(m.get("beside") == {"scene": ""} for m in driver.messages), driver.messages
+        assert "who drives" in refused_beside(server, "f" * 16)
+        memory = []
+        for round_ in range(24):
+            other = Client(server.port, beside=True)
+            other.told("loaded")
+            other.frame()
+            if round_ == 0:
+                assert "already" in refused_beside(server)
+            for _ in range(chance.randrange(12)):
+                other.socket.send(chance.choice([
+                    {"type": "view", "id": 1, "view": VIEW, "width": 4096, "height": 4096, "moving": True, "walk": True},
+                    {"type": "take"}, {"type": "hand", "to": 1}, {"type": "difference", "shown": True}, {"type": "glare", "id": 3},
+                    {"type": "time", "time": {"month": 2, "day": 31, "hour": 1, "sky": ""}, "moving": False},
+                    {"type": "edits", "id": 4, "materials": [{"name": "grey", "definition": 0, "kind": "plastic", "reals": [chance.random()] * 3 + [0, 0]}]},
+                    {"type": "edits", "id": 5, "materials": [{"name": "none", "definition": 9, "kind": "glass", "reals": [-1]}]},
+                    {"type": "isolux", "id": 6, "position": VIEW["position"], "height": 0.75}]))
+            if round_ % 3 == 0:
+                other.socket.send("garbage")
+            other.socket.close()
+            driver.look(direction=[0.01 * round_, 1, 0])
+            driver.frame(driver.ident)
+            memory.append(int(pathlib.Path(f"/proc/{server.process.pid}/statm").read_text().split()[1]))
+        assert max(memory[12:]) < 1.5 * max(memory[:12]), memory
+        other = Client(server.port, beside=True)
+        other.frame()
+        driver.socket.close()
+        assert "who drives" in other.told("bye")["reason"]
+        watcher.socket.send({"type": "take"})
+        watcher.look()
+        watcher.frame()
+
+
 def ranks(program):
     """Many ranks walk as one process does, in every split. Where one is killed all end, and the client is told."""
     if not shutil.which("mpirun"):
@@ -396,6 +443,7 @@ def ranks(program):
     with Server(program, ["--variant", "ranks"], launcher=[*mpirun, "3"]) as server:
         client = Client(server.port)
         client.enter()
+        assert "many processes" in refused_beside(server)
         client.ident += 1
         client.socket.send({"type": "isolux", "id": client.ident, "position": VIEW["position"], "height": 0.75})
         assert client.told("isolux", id=client.ident, done=1)["columns"] > 0
@@ -410,7 +458,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, dimmed, changed, roles, mended, rad_file, returning, slow, abuse, ranks)}
+CASES = {case.__name__: case for case in (rest, light, dimmed, changed, roles, mended, rad_file, returning, slow, abuse, beside, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

@@ -20,6 +20,7 @@ import {
     strip_piece,
 } from "./fake_frames.mjs";
 import { plan_message } from "./fake_plan.mjs";
+import { FakeBeside } from "./fake_beside.mjs";
 import { isolux_messages } from "./fake_isolux.mjs";
 import { edited_message, material_message } from "./fake_materials.mjs";
 import { direction_at, look } from "./fake_scene.mjs";
@@ -67,6 +68,7 @@ const kViews = [
 
 const kLoaded = {
     type: "loaded",
+    beside: { scene: "" },
     views: kViews,
     eye_height: kEyeHeight,
     lights: ["sun", "sky", "desk lamp"],
@@ -164,6 +166,10 @@ function answer(socket, message) {
         driving = driver === client.id;
     const answers = {
         hello: () => {
+            if (message.beside) {
+                clients.delete(socket);
+                return beside.open(socket, message, driver !== null, display);
+            }
             client.depth = message.depth === true;
             client.luminance = message.luminance === true;
             greet(socket, client, message.session);
@@ -346,7 +352,11 @@ function next_frame(socket, client) {
     socket.send(frame_bytes(++client.frame, wish, view.position, flags, pieces, display));
 }
 
-setInterval(() => [...clients].forEach(([socket, client]) => next_frame(socket, client)), 8);
+const beside = new FakeBeside(jpeg, kLoaded, edited_message);
+setInterval(() => {
+    [...clients].forEach(([socket, client]) => next_frame(socket, client));
+    if (wish && !dumb) beside.next_frame(present_view(), wish, display);
+}, 8);
 setInterval(() => {
     const [client] = clients.values();
     if (!client || !wish || failing) return;
@@ -383,7 +393,12 @@ const pranks = {
         tell_all({ type: "loading", text: "Reading room.rad again", share: 0.4 });
         setTimeout(() => tell_all(kLoaded), 300);
     },
-    drop: () => [...clients.keys()].forEach((socket) => socket.terminate()),
+    drop: () => {
+        [...clients.keys()].forEach((socket) => socket.terminate());
+        beside.socket?.terminate();
+    },
+    alone: () => tell_all({ ...kLoaded, beside: { refused: "many processes draw this walk" } }),
+    drop_beside: () => beside.socket?.terminate(),
     dumb: () => (dumb = true),
     speak: () => (dumb = false),
     refuse: () =>
@@ -399,6 +414,7 @@ async function serve(request, response) {
         pranks[pathname.slice(6)]?.();
         return response.end(String(plans));
     }
+    if (pathname === "/beside") return response.end(JSON.stringify(beside.told));
     if (pathname === "/save/picture.hdr")
         return setTimeout(
             () => response.end("#?RADIANCE\nVIEW= -vtv\nFORMAT=32-bit_rle_rgbe\n\n"),
@@ -431,9 +447,11 @@ new WebSocketServer({ server, path: "/walk" }).on("connection", (socket) => {
     clients.set(socket, client);
     socket.on("message", (data) => {
         if (args.log) console.log(String(data).slice(0, 300));
-        answer(socket, JSON.parse(String(data)));
+        if (beside.socket === socket) beside.answer(JSON.parse(String(data)));
+        else answer(socket, JSON.parse(String(data)));
     });
     socket.on("close", () => {
+        if (beside.close(socket)) return;
         clients.delete(socket);
         if (driver === client.id) driver = null;
         tell_roles();

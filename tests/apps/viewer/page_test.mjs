@@ -16,6 +16,7 @@ import { fit_view, locate } from "../../../apps/viewer/view.js";
 import { parse_views } from "../../../apps/viewer/view_text.js";
 import { access_steps } from "./page_access.mjs";
 import { colour_steps } from "./page_colours.mjs";
+import { compare_steps } from "./page_compare.mjs";
 import {
     gone,
     heading,
@@ -440,6 +441,8 @@ const steps = {
         await page.goto(address);
         await shown(page);
     },
+
+    ...compare_steps(address, args.npm, prank),
 
     ...access_steps(address, args.npm),
 };

@@ -20,6 +20,7 @@ class RecordedClients final : public WebSender {
     void send_binary(ClientId client, std::shared_ptr<const std::string> bytes) override {
         frames[client].push_back(std::move(bytes));
     }
+    void close(ClientId client, std::string reason) override { closed[client] = std::move(reason); }
     /// Whether a client was sent a message of a type, or one that holds `words` as well.
     [[nodiscard]] bool got(ClientId client, const std::string& type,
                            std::string_view words = {}) const {
@@ -37,6 +38,7 @@ class RecordedClients final : public WebSender {
     }
 
     std::map<ClientId, std::vector<std::string>> texts;
+    std::map<ClientId, std::string> closed;  ///< why
     std::map<ClientId, std::vector<std::shared_ptr<const std::string>>> frames;
 };
 

@@ -266,3 +266,51 @@ TEST_CASE(
     show(5, 8);
     CHECK(frame_pieces(all.last(kWatching)) == 8);
 }
+
+TEST_CASE("walk screen: one that follows another has its exposure, whatever its own picture is") {
+    Screen lead, all;
+    lead.fixed.settings.automatic = all.fixed.settings.automatic = true;
+    CHECK_FALSE(all.screen.is_outdated());
+    lead.show(picture_of(0.5f), 1);
+    lead.send();
+    all.screen.follow(&lead.screen, nullptr);
+    CHECK(all.screen.is_outdated());
+    all.show(picture_of(0.01f), 1);
+    all.send();
+    CHECK_FALSE(all.screen.is_outdated());
+    const auto exposure = [](Screen& of) { return number_at<float>(of.last(kDriving), 20); };
+    CHECK(exposure(all) == exposure(lead));
+    lead.show(picture_of(0.25f), 1);
+    CHECK(all.screen.is_outdated());
+    all.screen.follow(nullptr, nullptr);
+    CHECK_FALSE(all.screen.is_outdated());
+}
+
+TEST_CASE("walk screen: a difference is that of luminances, at the same place of the picture") {
+    // Whatever a picture shows, its difference from itself is the same.
+    const auto bytes_of = [](const LivePicture& before, const LivePicture& now) {
+        Screen lead, all;
+        lead.show(before, 1);
+        all.screen.follow(&lead.screen, &before);
+        all.show(now, 1);
+        all.send();
+        return all.last(kDriving).substr(48);  // without the header, which has the exposure
+    };
+    const LivePicture grey = picture_of(0.5f), dark = picture_of(0.03f);
+    CHECK(bytes_of(grey, grey) == bytes_of(dark, dark));
+    CHECK(bytes_of(grey, dark) != bytes_of(grey, grey));
+    CHECK(bytes_of(dark, picture_of(0.06f)) == bytes_of(grey, picture_of(1)));
+    // Also from a smaller picture, as moving views have.
+    LivePicture halves = grey, small = grey;
+    small.width = 40;
+    small.height = 20;
+    small.radiance.resize(800);
+    for (int y = 0; y < kScreenHeight; ++y)
+        for (int x = 0; x < kScreenWidth / 2; ++x)
+            halves.radiance[static_cast<std::size_t>(y) * kScreenWidth +
+                            static_cast<std::size_t>(x)] = Rgb::grey(0.1f);
+    for (int y = 0; y < 20; ++y)
+        for (int x = 0; x < 20; ++x)
+            small.radiance[static_cast<std::size_t>(y * 40 + x)] = Rgb::grey(0.1f);
+    CHECK(bytes_of(small, halves) == bytes_of(grey, grey));
+}

@@ -27,9 +27,13 @@ TEST_CASE("driver lock: the first drives, others watch, until it leaves or hands
     CHECK_FALSE(lock.acquire(kTwo));
     CHECK_FALSE(lock.hand(kTwo, kTwo));
     CHECK_FALSE(lock.hand(kOne, kThree));
+    CHECK(lock.drives("a"));
     CHECK(lock.hand(kOne, kTwo));
     CHECK(lock.drives(kTwo));
+    CHECK(lock.drives("b"));
+    CHECK_FALSE(lock.drives("a"));
     lock.leave(kTwo);
+    CHECK_FALSE(lock.drives("b"));
     CHECK_FALSE(lock.driver());
     CHECK_FALSE(lock.acquire(kThree));
     CHECK(lock.acquire(kOne));

@@ -84,6 +84,10 @@ TEST_CASE("walk reply: each is the text that the format has for it") {
          R"({"type": "loaded", "views": [], "eye_height": 1.5})");
     same(walk_text(LoadedReply{{}, 1.5, {"sun", "desk"}}),
          R"({"type": "loaded", "views": [], "eye_height": 1.5, "lights": ["sun", "desk"]})");
+    same(walk_text(LoadedReply{{}, 1.5, {}, {}, BesidePlace{"b.rad", ""}}),
+         R"({"type": "loaded", "views": [], "eye_height": 1.5, "beside": {"scene": "b.rad"}})");
+    same(walk_text(LoadedReply{{}, 1.5, {}, {}, BesidePlace{"", "no"}}),
+         R"({"type": "loaded", "views": [], "eye_height": 1.5, "beside": {"refused": "no"}})");
     same(walk_text(LightsReply{{{{"desk", 0.5, {1, 0.5f, 0.25f}}}}}),
          R"({"type": "lights", "levels": [{"name": "desk", "level": 0.5,
              "rgb": [1.0, 0.5, 0.25]}]})");

@@ -41,6 +41,7 @@ const std::vector<std::string> kSound{
     R"({"type":"isolux","id":8,"position":[1,2,1.6],"height":0.75})",
     R"({"type":"material","id":9,"x":0.5,"y":0.25})",
     R"({"type":"time","time":{"month":9,"day":21,"hour":14.3,"sky":"+s"},"moving":true})",
+    R"({"type":"difference","shown":true})",
 };
 
 /// Fields of these messages that need not be there.
@@ -115,6 +116,11 @@ TEST_CASE("walk request: each message is read as it stands") {
     (void)read<TakeRequest>(sound(9));
     CHECK(read<HandRequest>(sound(10)).to == 2);
     CHECK(read<PlanRequest>(sound(13)).id == 6);
+    CHECK_FALSE(read<HelloRequest>(sound(0)).beside);
+    hello["beside"] = true;
+    CHECK(read<HelloRequest>(hello).beside);
+    CHECK(refusal(0, "/beside", 1) != "accepted");
+    CHECK(read<DifferenceRequest>(sound(18)).shown);
 }
 
 TEST_CASE("walk request: what may be missing may, what is not known is ignored") {
