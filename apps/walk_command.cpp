@@ -199,7 +199,10 @@ std::vector<OptionRow> serve_option_rows(ServeCommand& serve) {
         {"--edge-samples N", &serve.edge_samples,
          "rays that a pixel at an edge gets when the view rests; 1: the picture of `lightwalk "
          "render`",
-         With{.least = 1, .most = 255}}};
+         With{.least = 1, .most = 255}},
+        {"--watch WHEN", choice(serve.watch, {{"on", true}, {"off", false}}),
+         "whether files of the scene that are edited are read again, beside the frames: what has "
+         "not changed stays. On ranks the walk begins anew"}};
 }
 
 void resolve_walk(WalkCommand& walk, const View& view, FileSource& files) {

@@ -3,6 +3,7 @@ import { AddressBar } from "./address_bar.js";
 import { Camera } from "./camera.js";
 import { make_counters } from "./counters.js";
 import { by_id } from "./dom.js";
+import { followed_text } from "./followed.js";
 import { Glare } from "./glare.js";
 import { Input } from "./input.js";
 import { IsoluxPanel } from "./isolux_panel.js";
@@ -12,7 +13,7 @@ import { LightPanel } from "./light_panel.js";
 import { MaterialPanel } from "./material_panel.js";
 import { Measuring } from "./measuring.js";
 import { Navigator } from "./navigator.js";
-import { cover, notice, show_failures, uncover } from "./notices.js";
+import { cover, notice, show_failures, show_troubles, uncover } from "./notices.js";
 import { Overlay } from "./overlay.js";
 import { close_panel, is_open, start_panels } from "./panels.js";
 import { PathPanel } from "./path_panel.js";
@@ -64,6 +65,7 @@ const session = new Session(session_id(), camera.available, screen, {
         cover(text || "Reading the scene…", share);
     },
     failed: scene_failed,
+    followed: files_followed,
     glare: (message) => {
         counters.last_glare = message;
         glare.answer(message);
@@ -299,6 +301,7 @@ function scene_loaded(message) {
     awaiting_picture = true;
     counters.ready = false;
     show_failures([]);
+    show_troubles([]);
     if (message.views) views.set_scene_views(message.views);
     navigator.set_eye_height(message.eye_height);
     open_lamps(message.lights ?? []);
@@ -312,6 +315,21 @@ function scene_loaded(message) {
     }
     navigator.touch();
     measuring.tell_probes();
+}
+
+/** The scene's files were edited: it is as they have it now, or they have errors. */
+function files_followed(message) {
+    counters.last_followed = message;
+    const { problems = [], files = [] } = message;
+    show_troubles(problems);
+    if (problems.length > 0) return;
+    open_lamps(message.lights ?? []);
+    open_time(message.time);
+    materials.outdate();
+    plan.forget();
+    isolux.outdate("the scene's files are edited");
+    commands.follow_light("the scene's files are edited");
+    if (files.length > 0) notice(followed_text(message));
 }
 
 /** The scene's light groups; what was dimmed of them before stays so. */

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <set>
 #include <thread>
 
 #include "apps/command_run.h"
@@ -11,6 +12,7 @@
 #include "apps/walk/pages.h"
 #include "apps/walk/render_loop.h"
 #include "apps/walk/scene_changer.h"
+#include "apps/walk/scene_follower.h"
 #include "io/files/watched_files.h"
 #include "io/formats/words.h"
 #include "io/net/web_rules.h"
@@ -228,14 +230,22 @@ class WalkRun final : CommandRun {
         if (ranks() != nullptr) (void)ranks()->tell(load);
         RendererRequest request = task();
         request.files = files;
-        request.when_read = [&] { announce("building the scene", 0.5); };
+        std::set<std::string> texts;
+        request.when_read = [&] {
+            announce("building the scene", 0.5);
+            for (const auto& [path, state] : files->recorded()) texts.insert(path);
+        };
         Renderer renderer = open_renderer(ranks(), request);
         renderer.backend().session().warn_of_darkness();
-        renderer.run([&] { draw(page, *files, renderer); });
+        renderer.run([&] {
+            LoadedFiles read{request.source, request.options.warn,
+                             renderer.backend().session().shared_compiled(), files, texts};
+            draw(page, std::move(read), renderer);
+        });
     }
 
     /// Draw until the scene's files change.
-    void draw(Page& page, WatchedFiles& files, Renderer& renderer) {
+    void draw(Page& page, LoadedFiles read, Renderer& renderer) {
         const SceneSession& session = renderer.backend().session();
         LoadedReply loaded;
         loaded.views = command_.serve->page.views;
@@ -247,7 +257,10 @@ class WalkRun final : CommandRun {
         RenderLoopOptions options{command_.serve->page.fps, command_.serve->edge_samples,
                                   command_.common.request.history,
                                   ranks() != nullptr ? ranks()->size() : 1};
-        if (ranks() == nullptr) options.change = scene_changer(renderer.backend());
+        if (ranks() == nullptr) {
+            options.change = scene_changer(renderer.backend());
+            options.replace = scene_replacer(renderer.backend());
+        }
         RenderLoop loop(std::move(options), session, home, renderer.backend().frames(),
                         *page.executor, warnings(), page.inbox, page.screen);
         loaded.eye_height = loop.eye_height();
@@ -255,6 +268,18 @@ class WalkRun final : CommandRun {
         if (const auto& groups = renderer.backend().frames().light_groups())
             loaded.lights = groups->names;
         page.inbox.announce(walk_text(loaded));
+        if (!command_.serve->watch) {
+            while (page.goes_on()) loop.step(interrupt_flag());
+        } else if (ranks() != nullptr || reads_standard_input()) {
+            draw_until_change(page, *read.files, loop);
+        } else {
+            SceneFollower follower(std::move(read));
+            draw_and_follow(page, follower, loop, loaded);
+        }
+    }
+
+    /// Where the scene cannot be read again beside the frames.
+    static void draw_until_change(Page& page, const WatchedFiles& files, RenderLoop& loop) {
         auto looked = std::chrono::steady_clock::now();
         while (page.goes_on()) {
             loop.step(interrupt_flag());
@@ -263,6 +288,38 @@ class WalkRun final : CommandRun {
             looked = now;
             if (files.have_changed()) return;
         }
+    }
+
+    /// Until the file changes that says what the scene is, and how it is rendered.
+    /// @param loaded  what the page was told of the scene
+    static void draw_and_follow(Page& page, SceneFollower& follower, RenderLoop& loop,
+                                LoadedReply loaded) {
+        while (page.goes_on()) {
+            loop.step(interrupt_flag());
+            const std::optional<SceneNews> news = follower.take();
+            if (!news) continue;
+            if (news->command_changed) return;
+            FollowedReply reply;
+            if (news->scene)
+                reply = loop.follow(*news);
+            else
+                reply.problems = news->problems;
+            const bool follows = news->scene && reply.problems.empty();
+            follower.settle(follows);
+            if (follows) {
+                loaded.lights = reply.lights;
+                loaded.time = reply.time;
+            }
+            for (const std::string& problem : reply.problems)
+                std::fprintf(stderr, "%s\n", problem.c_str());
+            page.inbox.announce_files(walk_text(reply), !reply.problems.empty(),
+                                      follows ? walk_text(loaded) : std::string());
+        }
+    }
+
+    [[nodiscard]] bool reads_standard_input() const {
+        return std::ranges::find(command_.common.request.source.files, "-") !=
+               command_.common.request.source.files.end();
     }
 
     /// After a scene that cannot be read. What comes meanwhile is of no use any more.

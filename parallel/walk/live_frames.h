@@ -61,9 +61,9 @@ class LiveFrames {
         return mixed();
     }
 
-    /// The scene is another one from here on: of the same surfaces, under other modifiers and
-    /// sources. Frames keep their size and their light, and the points of the frames before are
-    /// outdated. The tracers of before are not used any more.
+    /// The scene is another one from here on: of other modifiers, sources or surfaces. Frames keep
+    /// their size and their light, and the points of the frames before are outdated. The tracers of
+    /// before are not used any more.
     /// @param direct, indirect  as they were given to the constructor
     /// @param groups            null: they are not kept
     void change(const Tracer& direct, const Tracer* indirect,
