@@ -21,6 +21,8 @@ FollowedReply followed_reply(const SceneNews& news) {
     return reply;
 }
 
+constexpr double kMostKept = 0.5;  // of the points: the next picture takes little time
+
 bool is_as_read(const SceneState& state) {
     return !state.time && state.replaced.empty();
 }
@@ -52,7 +54,7 @@ FollowedReply RenderLoop::follow(const SceneNews& news) {
                                                           news.scene->warnings());
         std::optional<ShownMaterials> outdated;
         if (edits.sound == edits_.sound && state.time == scene_state_.time)
-            outdated = outdated_points(session_->scene(), model_, shown->scene(), news,
+            outdated = outdated_points(session_->tracer(), model_, shown->scene(), news,
                                        view_ ? view_->position : Vec3{});
         frames_.outdate_only(outdated);
         take_session(options_.replace(shown));
@@ -64,8 +66,8 @@ FollowedReply RenderLoop::follow(const SceneNews& news) {
         if (outdated) {
             small_sketches_ = sketches_ = 0;
             relit_ = false;
-            edited_ = true;
             reply.kept = frames_.kept_points();
+            edited_ = reply.kept > kMostKept;
         }
     } catch (const InputError& error) {
         frames_.outdate_only(std::nullopt);

@@ -5,6 +5,7 @@
 #include "apps/walk/material_edits.h"
 #include "core/geometry/bounds.h"
 #include "core/geometry/surface_shapes.h"
+#include "core/light/light_sources.h"
 
 namespace lightwalk {
 namespace {
@@ -49,11 +50,24 @@ bool add_boxes(const Model& model, const std::vector<std::size_t>& surfaces, con
     return true;
 }
 
+/// Nothing: there are too many to be looked at for each point.
+std::optional<std::vector<ShadowSource>> shadow_sources(const LightSources& lights) {
+    constexpr std::size_t kMost = 256;
+    if (lights.sampled().size() > kMost) return std::nullopt;
+    std::vector<ShadowSource> sources;
+    for (const std::int32_t i : lights.sampled()) {
+        const LightSource& light = lights[i];
+        sources.push_back({light.center, static_cast<double>(light.radius), light.is_distant()});
+    }
+    return sources;
+}
+
 }  // namespace
 
-std::optional<ShownMaterials> outdated_points(const Scene& before, const Model& loaded,
+std::optional<ShownMaterials> outdated_points(const Tracer& tracer, const Model& loaded,
                                               const Scene& after, const SceneNews& news,
                                               const Vec3& eye) {
+    const Scene& before = tracer.scene();
     const ModelDifference& difference = news.difference;
     if (news.all_differs || !difference.modifiers_in_place || !difference.keys_kept ||
         difference.sources > 0)
@@ -71,7 +85,10 @@ std::optional<ShownMaterials> outdated_points(const Scene& before, const Model& 
         !add_boxes(now, difference.come, after, boxes))
         return std::nullopt;
     ShownMaterials outdated(before, with);
-    if (!boxes.empty()) outdated.add_places(ChangedPlaces(boxes, eye));
+    if (boxes.empty()) return outdated;
+    const std::optional<std::vector<ShadowSource>> sources = shadow_sources(tracer.lights());
+    if (!sources) return std::nullopt;
+    outdated.add_places(ChangedPlaces(boxes, eye, *sources));
     return outdated;
 }
 

@@ -1,7 +1,10 @@
 #include "apps/walk/scene_follower.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <utility>
 
@@ -39,6 +42,16 @@ bool may_name(std::string_view argument, const std::filesystem::path& path) {
     return !name.empty() && name.stem() == path.stem();
 }
 
+/// Whether all that is read of a file is the text of a scene. Of luminaires' files, object files
+/// and glTF files there are data beside it.
+bool is_text_alone(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    constexpr std::array<const char*, 7> kOthers{".ies", ".ldt",  ".obj", ".mtl",
+                                                 ".glb", ".gltf", ".bin"};
+    return std::ranges::find(kOthers, extension) == kOthers.end();
+}
+
 /// Adds the modifiers to the difference that may use a file which is no scene text.
 /// @return  false: it is used otherwise, by surfaces or nobody knows
 bool add_users(const Model& model, const std::string& file, std::vector<std::size_t>& users) {
@@ -56,6 +69,25 @@ bool add_users(const Model& model, const std::string& file, std::vector<std::siz
     for (std::size_t i = 0; i < model.modifiers.size(); ++i)
         if (names_it(model.modifiers[i].strings)) users.push_back(i);
     return users.size() > before;
+}
+
+/// Memory that the system has for those who ask [bytes]; nothing where it does not say.
+std::optional<std::uint64_t> free_memory() {
+    constexpr std::uint64_t kKilo = 1024;
+    std::ifstream file("/proc/meminfo");
+    std::string name, unit;
+    for (std::uint64_t amount = 0; file >> name >> amount; std::getline(file, unit))
+        if (name == "MemAvailable:") return kKilo * amount;
+    return std::nullopt;
+}
+
+/// Whether another scene of the size of this one would hardly find room beside it.
+bool is_larger_than_free(const Scene& scene) {
+    const SceneMemory memory = scene.memory();
+    const std::uint64_t own =
+        memory.surfaces + memory.shapes + memory.meshes + memory.search.tree + memory.search.tables;
+    const std::optional<std::uint64_t> room = free_memory();
+    return room && 2 * own > *room;  // building takes more than what is built
 }
 
 }  // namespace
@@ -119,7 +151,7 @@ std::shared_ptr<CompiledScene> SceneFollower::read(const std::shared_ptr<Watched
     bool others = false;
     std::vector<std::size_t> users;
     for (const std::string& file : news.files) {
-        if (loaded_.texts.contains(file)) continue;
+        if (loaded_.texts.contains(file) && is_text_alone(file)) continue;
         others = true;
         if (!add_users(scene->model(), file, users)) news.all_differs = true;
     }
@@ -146,12 +178,14 @@ void SceneFollower::read_anew() {
     const FileStates before = watch_->now();
     SceneNews news;
     news.files = changed_files(loaded_states_, before);
-    news.command_changed = std::ranges::any_of(
-        news.files, [](const std::string& file) { return is_rad_file_name(file); });
+    news.begins_anew = is_larger_than_free(loaded_.scene->scene()) ||
+                       std::ranges::any_of(news.files, [](const std::string& file) {
+                           return is_rad_file_name(file);
+                       });
     LoadedFiles next = loaded_;
     next.files = files;
     try {
-        if (!news.command_changed) news.scene = next.scene = read(files, news, next);
+        if (!news.begins_anew) news.scene = next.scene = read(files, news, next);
     } catch (const InputError& error) {
         news.problems = lines_of(error.what());
     } catch (const std::bad_alloc&) {
@@ -161,8 +195,7 @@ void SceneFollower::read_anew() {
     failed_ = !news.problems.empty();
     if (!news.scene) files->record(before);
     watch_ = files;
-    if (news.scene || failed_ || mended || news.command_changed)
-        tell(std::move(news), std::move(next));
+    if (news.scene || failed_ || mended || news.begins_anew) tell(std::move(news), std::move(next));
 }
 
 void SceneFollower::tell(SceneNews news, LoadedFiles next) {

@@ -26,7 +26,9 @@ struct SceneNews {
     ModelDifference difference;
     bool all_differs = false;  ///< whatever the difference says, as in a file that is placed
     std::vector<std::string> problems;  ///< why it cannot be read, "file:line: ..."
-    bool command_changed = false;       ///< a file is another one that says how to render
+    /// The walk has to begin anew: a file is another one that says how to render, or there is no
+    /// memory for two of its scenes.
+    bool begins_anew = false;
 };
 
 /// A scene as it was loaded, with what has to be known to read it again.
@@ -35,7 +37,7 @@ struct LoadedFiles {
     TakeWarning warn;
     std::shared_ptr<const CompiledScene> scene;  ///< after compile()
     std::shared_ptr<WatchedFiles> files;         ///< that it was read from
-    std::set<std::string> texts;  ///< those of them that describe it; others are its pictures, ...
+    std::set<std::string> texts;  ///< those of them that describe it; others are pictures and such
 };
 
 /// Looks at the files twice a second, on a thread of its own, which reads them when they have

@@ -290,7 +290,7 @@ class WalkRun final : CommandRun {
         }
     }
 
-    /// Until the file changes that says what the scene is, and how it is rendered.
+    /// Until the walk has to begin anew.
     /// @param loaded  what the page was told of the scene
     static void draw_and_follow(Page& page, SceneFollower& follower, RenderLoop& loop,
                                 LoadedReply loaded) {
@@ -298,7 +298,7 @@ class WalkRun final : CommandRun {
             loop.step(interrupt_flag());
             const std::optional<SceneNews> news = follower.take();
             if (!news) continue;
-            if (news->command_changed) return;
+            if (news->begins_anew) return;
             FollowedReply reply;
             if (news->scene)
                 reply = loop.follow(*news);

@@ -1,18 +1,31 @@
 #include "core/cloud/changed_places.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "core/geometry/bounds.h"
 
 namespace lightwalk {
 namespace {
 
-/// So far around its box a surface's light and shadow are looked for, as a share of its diagonal.
+/// So far around its box a surface's light is looked for, as a share of its diagonal.
 constexpr double kAround = 0.5;
+
+/// Whether the way from one place to another one meets a box.
+bool is_between(const Bounds& box, const Vec3& from, const Vec3& to) {
+    const Vec3 way = to - from;
+    const double distance = length(way);
+    if (!(distance > 0)) return true;
+    const std::optional<double> entered = entry(box, from, way * (1 / distance));
+    return entered && *entered < distance;
+}
 
 }  // namespace
 
-ChangedPlaces::ChangedPlaces(const std::vector<Bounds>& surfaces, const Vec3& eye) : eye_(eye) {
+ChangedPlaces::ChangedPlaces(const std::vector<Bounds>& surfaces, const Vec3& eye,
+                             std::vector<ShadowSource> sources)
+    : eye_(eye), sources_(std::move(sources)) {
     for (const Bounds& box : outline_of(surfaces)) {
         const double margin = kAround * length(box.upper - box.lower);
         places_.push_back({box, grown(box, margin)});
@@ -22,12 +35,19 @@ ChangedPlaces::ChangedPlaces(const std::vector<Bounds>& surfaces, const Vec3& ey
 }
 
 bool ChangedPlaces::touches(const Place& place, const Vec3& point) const {
-    if (contains(place.around, point)) return true;
-    const Vec3 way = point - eye_;
-    const double distance = length(way);
-    if (!(distance > 0)) return true;
-    const std::optional<double> entered = entry(place.surfaces, eye_, way * (1 / distance));
-    return entered && *entered < distance;
+    return contains(place.around, point) || is_between(place.surfaces, eye_, point) ||
+           std::ranges::any_of(
+               sources_, [&](const ShadowSource& source) { return shades(place, point, source); });
+}
+
+/// In the shadow of the box, or next to it: past it less is seen of a source, whose rays to the
+/// point are as far apart there as that is from the point.
+bool ChangedPlaces::shades(const Place& place, const Vec3& point, const ShadowSource& source) {
+    if (source.distant) return entry(place.surfaces, point, source.place).has_value();
+    const Vec3 middle = 0.5 * (place.surfaces.lower + place.surfaces.upper);
+    const double far = length(source.place - point);
+    const double share = far > 0 ? std::min(length(middle - point) / far, 1.0) : 1;
+    return is_between(grown(place.surfaces, source.radius * share), point, source.place);
 }
 
 bool ChangedPlaces::may_touch(const CloudPoint& point) const {

@@ -7,14 +7,23 @@
 
 namespace lightwalk {
 
+/// Where light comes from that casts shadows.
+struct ShadowSource {
+    Vec3 place;            ///< its middle [m]; a distant one's unit direction
+    double radius = 0;     ///< of a sphere around it, where it is not distant [m]
+    bool distant = false;  ///< at infinity
+};
+
 /// Boxes around surfaces that were there before or are there now. Points in them, or near them,
-/// where shadows and light fall from surface to surface, and those that the eye sees past them may
-/// show what is not there any more, and so may all that mirrors show.
+/// where light falls from surface to surface, those that the eye sees past them, and those in their
+/// shadows may show what is not there any more, and so may all that mirrors show.
 class ChangedPlaces {
   public:
     /// @param surfaces  boxes around the surfaces, of which none is empty
     /// @param eye       of the next frame
-    ChangedPlaces(const std::vector<Bounds>& surfaces, const Vec3& eye);
+    /// @param sources   whose shadows are sharp enough to be seen
+    ChangedPlaces(const std::vector<Bounds>& surfaces, const Vec3& eye,
+                  std::vector<ShadowSource> sources);
 
     [[nodiscard]] bool may_touch(const CloudPoint& point) const;
 
@@ -23,10 +32,13 @@ class ChangedPlaces {
         Bounds surfaces, around;
     };
     [[nodiscard]] bool touches(const Place& place, const Vec3& point) const;
+    [[nodiscard]] static bool shades(const Place& place, const Vec3& point,
+                                     const ShadowSource& source);
 
     Place all_;
     std::vector<Place> places_;
     Vec3 eye_;
+    std::vector<ShadowSource> sources_;
 };
 
 }  // namespace lightwalk

@@ -389,7 +389,7 @@ def ranks(program):
         server.process = subprocess.Popen(["sleep", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # to end
 
 
-CASES = {case.__name__: case for case in (rest, light, dimmed, roles, mended, rad_file, returning, slow, abuse, ranks)}
+CASES = {case.__name__: case for case in (rest, light, dimmed, roles, mended, followed, rad_file, returning, slow, abuse, ranks)}
 
 if __name__ == "__main__":
     for name in sys.argv[2:] or CASES:

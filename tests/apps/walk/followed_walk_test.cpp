@@ -241,3 +241,24 @@ TEST_CASE("followed walk: function files, included ones and those of generators 
     CHECK(&news.scene->scene().geometry() != &loaded.scene->scene().geometry());
     follower.settle(true);
 }
+
+TEST_CASE("followed walk: an object file is another one, though the scene names it as before") {
+    const TemporaryFolder folder;
+    const auto roof = [](const std::string& height) {
+        return "usemtl grey\nv 0 0 0\nv 4 0 0\nv 0 4 " + height + "\nf 1 2 3\n";
+    };
+    folder.write("roof.obj", roof("1"));
+    const std::string path =
+        folder.write("room.rad",
+                     "void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 9 9 9\n"
+                     "!xform " +
+                         folder.path("roof.obj") + "\nlamp sphere bulb 0 0 4 0 0 4 .2\n");
+    SceneFollower follower(load(path));
+    folder.write("roof.obj", roof("7.5"));
+    const SceneNews news = news_of(follower);
+    CHECK(news.problems.empty());
+    CHECK(news.all_differs);
+    REQUIRE(news.scene);
+    CHECK(news.scene->scene().geometry().bounds().upper.z == doctest::Approx(7.5).epsilon(1e-3));
+    follower.settle(true);
+}
