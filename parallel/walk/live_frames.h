@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/cloud/shown_materials.h"
@@ -70,7 +71,7 @@ class LiveFrames {
                 const std::shared_ptr<const LightGroups>& groups, WarningSink& warnings);
 
     /// The next change() outdates only the points that may show these; nothing: all.
-    void outdate_only(std::optional<ShownMaterials> materials) { outdated_ = materials; }
+    void outdate_only(std::optional<ShownMaterials> materials) { outdated_ = std::move(materials); }
     /// Share of the points that the last change() has kept.
     [[nodiscard]] double kept_points() const { return kept_; }
 

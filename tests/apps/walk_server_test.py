@@ -264,6 +264,21 @@ def followed(program):
         client.until(lambda m: isinstance(m, Frame) and m.view == client.ident and m.finished)
         picked = client.ask("pick", "picked", x=0.67, y=0.52)
         assert abs(picked["luminance"] - 716) < 0.02 * 716, picked
+    with Server(program, ["--edge-samples", "1"]) as server:
+        client = Client(server.port)
+        client.enter()
+        # A material; then a surface moves, and one comes before all others.
+        red, dot = ROOM.replace(".5 .5 .5", ".6 .2 .1"), "grey sphere dot 0 0 4 2 3 .2 .2\n"
+        for scene in (red, red.replace("-1 2 .7 .7", "-1 2.3 .7 .7").replace("grey polygon floor", dot + "grey polygon floor")):
+            server.scene.write_text(scene)
+            assert client.told("followed")["problems"] == []
+            client.look(direction=[0.1, 1, 0])
+            client.look()
+            client.until(lambda m: isinstance(m, Frame) and m.view == client.ident and m.finished)
+            saved = server.get("/save/picture.hdr")
+            rendered = subprocess.run([program, "render", "-ps", "1", "-pa", "0", "-x", str(SIZE[0]), "-y", str(SIZE[1]), *WORDS.split(), server.scene],
+                                      stdout=subprocess.PIPE, check=True).stdout
+            assert saved.split(b"\n\n", 1)[1] == rendered.split(b"\n\n", 1)[1], "the pictures differ"
     with Server(program, ["--watch", "off"]) as server:
         client = Client(server.port)
         client.enter()

@@ -22,10 +22,10 @@ namespace {
 std::string house(const std::string& ball = "-1 2 .7 .7", const std::string& colour = ".5 .5 .5",
                   const std::string& more = {}) {
     return "void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid plastic paint 0 0 5 " + colour +
-           " 0 0\nvoid light lamp 0 0 3 40 40 40\n" + R"(
+           " 0 0\nvoid light lamp 0 0 3 40 40 40\n" + more + R"(
 grey polygon floor 0 0 12  -4 -6 0  4 -6 0  4 6 0  -4 6 0
 grey polygon back 0 0 12  -4 6 0  4 6 0  4 6 3  -4 6 3
-)" + more + "paint sphere ball 0 0 4 " +
+paint sphere ball 0 0 4 )" +
            ball + R"(
 grey sphere cup 0 0 4 2.5 4 .3 .3
 lamp polygon panel 0 0 12  -1 -1 2.99  -1 1 2.99  1 1 2.99  1 -1 2.99
