@@ -50,14 +50,20 @@ bool add_boxes(const Model& model, const std::vector<std::size_t>& surfaces, con
     return true;
 }
 
-/// Nothing: there are too many to be looked at for each point.
+/// Nothing: there are too many to be looked at for each point. Half shadows of large ones are those
+/// of some places on them.
 std::optional<std::vector<ShadowSource>> shadow_sources(const LightSources& lights) {
-    constexpr std::size_t kMost = 256;
+    constexpr std::size_t kMost = 256, kMostLarge = 48;
+    constexpr double kOut = 0.7;  // of the half axes
     if (lights.sampled().size() > kMost) return std::nullopt;
     std::vector<ShadowSource> sources;
     for (const std::int32_t i : lights.sampled()) {
         const LightSource& light = lights[i];
-        sources.push_back({light.center, static_cast<double>(light.radius), light.is_distant()});
+        sources.push_back({light.center, light.is_distant()});
+        if (light.is_distant() || lights.sampled().size() > kMostLarge) continue;
+        for (const Vec3& axis : {light.u, light.v})
+            for (const double out : {kOut, -kOut})
+                sources.push_back({light.center + out * axis, false});
     }
     return sources;
 }

@@ -9,8 +9,9 @@
 namespace lightwalk {
 namespace {
 
-/// So far around its box a surface's light is looked for, as a share of its diagonal.
-constexpr double kAround = 0.5;
+/// What is so far from a surface's box gets light by way of it, as a share of its diagonal. Farther
+/// away that is little, and is there once the view rests.
+constexpr double kAround = 0.1;
 
 /// Whether the way from one place to another one meets a box.
 bool is_between(const Bounds& box, const Vec3& from, const Vec3& to) {
@@ -40,14 +41,9 @@ bool ChangedPlaces::touches(const Place& place, const Vec3& point) const {
                sources_, [&](const ShadowSource& source) { return shades(place, point, source); });
 }
 
-/// In the shadow of the box, or next to it: past it less is seen of a source, whose rays to the
-/// point are as far apart there as that is from the point.
 bool ChangedPlaces::shades(const Place& place, const Vec3& point, const ShadowSource& source) {
     if (source.distant) return entry(place.surfaces, point, source.place).has_value();
-    const Vec3 middle = 0.5 * (place.surfaces.lower + place.surfaces.upper);
-    const double far = length(source.place - point);
-    const double share = far > 0 ? std::min(length(middle - point) / far, 1.0) : 1;
-    return is_between(grown(place.surfaces, source.radius * share), point, source.place);
+    return is_between(place.surfaces, point, source.place);
 }
 
 bool ChangedPlaces::may_touch(const CloudPoint& point) const {

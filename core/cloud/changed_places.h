@@ -7,10 +7,9 @@
 
 namespace lightwalk {
 
-/// Where light comes from that casts shadows.
+/// A place where light comes from that casts shadows: one of several of a large lamp.
 struct ShadowSource {
-    Vec3 place;            ///< its middle [m]; a distant one's unit direction
-    double radius = 0;     ///< of a sphere around it, where it is not distant [m]
+    Vec3 place;            ///< [m]; a distant one's unit direction
     bool distant = false;  ///< at infinity
 };
 
@@ -21,7 +20,7 @@ class ChangedPlaces {
   public:
     /// @param surfaces  boxes around the surfaces, of which none is empty
     /// @param eye       of the next frame
-    /// @param sources   whose shadows are sharp enough to be seen
+    /// @param sources   whose shadows count
     ChangedPlaces(const std::vector<Bounds>& surfaces, const Vec3& eye,
                   std::vector<ShadowSource> sources);
 
